@@ -1,0 +1,158 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::console::Format;
+
+/// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
+/// recorded or live hands.
+#[derive(Debug, Parser)]
+#[command(name = "vitriol", version, propagate_version = true)]
+#[command(after_help = "Exit codes: 0 done, 1 failed, 2 bad scene, track or \
+                        argument, 3 no device or runtime.")]
+pub struct Cli {
+    /// Print one JSON object on standard output and nothing else there
+    #[arg(long, global = true)]
+    pub json: bool,
+
+    /// Say more on standard error; twice for debugging
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+impl Cli {
+    /// The form of the result on standard output.
+    pub fn format(&self) -> Format {
+        if self.json {
+            Format::Json
+        } else {
+            Format::Text
+        }
+    }
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Replay a recorded pour and make its film and report
+    Replay(ReplayArgs),
+    /// Convert, list or look into pose tracks
+    Track(TrackArgs),
+    /// List the scenes, each with its scale and what it models
+    Scenes,
+    /// Measure the time of each pass, with the density error beside it
+    Bench(BenchArgs),
+    /// Look for devices, driver and OpenXR runtime; name what is missing
+    Doctor,
+}
+
+/// Points on the trade of speed for accuracy: substeps, iterations and number
+/// of particles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum PresetName {
+    /// Fewest particles and iterations
+    Fast,
+    /// The default
+    #[default]
+    Balanced,
+    /// Smallest error, however long it takes
+    Reference,
+}
+
+impl PresetName {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Balanced => "balanced",
+            Self::Reference => "reference",
+        }
+    }
+}
+
+/// Arguments of `vitriol replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// A built-in track's name (see `vitriol track --list`) or an MCAP file
+    pub track: String,
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file; without
+    /// it the scene that the track names
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
+    /// Simulated seconds; without it the whole track
+    #[arg(long, value_name = "S", value_parser = positive_seconds)]
+    pub seconds: Option<f64>,
+    /// Seed of the particles' initial jitter
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+    /// Folder for film and report, which may be new; without it
+    /// out/TRACK-NUMBER
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Make the report without a film
+    #[arg(long)]
+    pub no_video: bool,
+}
+
+/// Arguments of `vitriol track`.
+#[derive(Debug, Args)]
+#[command(arg_required_else_help = true)]
+pub struct TrackArgs {
+    /// Keyframes (TOML) to convert with -o; or a track, by name or file, to
+    /// look into
+    #[arg(required_unless_present = "list")]
+    pub input: Option<String>,
+    /// Write the track of these keyframes to this new MCAP file
+    #[arg(short, long, value_name = "FILE", requires = "input")]
+    pub output: Option<PathBuf>,
+    /// List the built-in tracks
+    #[arg(long, conflicts_with_all = ["input", "output"])]
+    pub list: bool,
+}
+
+/// Arguments of `vitriol bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// A built-in scene's name or a TOML file
+    #[arg(long, value_name = "SCENE", conflicts_with = "paper")]
+    pub scene: Option<String>,
+    /// Table 2 of the paper: its rows as far as they exist, beside its times
+    #[arg(long)]
+    pub paper: bool,
+    /// Frames to measure, after as many as it takes to warm up
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: u32,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+fn positive_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
+        _ => Err("give a number of seconds above 0, such as 2.5".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

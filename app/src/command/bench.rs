@@ -1,0 +1,210 @@
+//! `vitriol bench`: the time of each pass and in total, with the density error
+//! of the run beside it: a time without its error counts for nothing.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use crate::cli::BenchArgs;
+use crate::console::{Format, emit};
+use crate::failure::Failure;
+use crate::report::DeviceStatement;
+use crate::report::units::{grouped, percent};
+
+/// What `vitriol bench` measured.
+#[derive(Debug, Clone, Serialize)]
+pub struct Bench {
+    /// The device.
+    pub device: DeviceStatement,
+    /// Frames measured in each row.
+    pub frames: u32,
+    /// One row for each scene.
+    pub rows: Vec<Row>,
+}
+
+/// One scene's times.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// The scene.
+    pub scene: String,
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Boundary particles; 0 where the boundary is not of particles.
+    pub solid_particles: u64,
+    /// Substeps in a frame.
+    pub substeps: u32,
+    /// Iterations in a substep.
+    pub iterations: u32,
+    /// Mean of |ρ/ρ₀ − 1| at the end of the run.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same.
+    pub density_error_p99: f64,
+    /// All passes of a frame together.
+    pub total: Timing,
+    /// Each pass, summed over a frame.
+    pub passes: Vec<PassRow>,
+    /// The paper's row, where Table 2 has one.
+    pub paper: Option<PaperRow>,
+}
+
+/// One pass in a frame.
+#[derive(Debug, Clone, Serialize)]
+pub struct PassRow {
+    /// Label of the pass.
+    pub name: String,
+    /// Dispatches in a frame.
+    pub dispatches: u32,
+    /// Bytes read and written in a frame, at least: each binding once.
+    pub bytes: u64,
+    /// Its time in a frame.
+    #[serde(flatten)]
+    pub time: Timing,
+}
+
+/// Median and 95th percentile, ms.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Timing {
+    /// Median over frames, ms.
+    pub median_ms: f64,
+    /// 95th percentile over frames, ms.
+    pub p95_ms: f64,
+}
+
+impl Timing {
+    /// Of times in ms, one a frame; NaN where there is none. The percentile
+    /// is the nearest rank, so it is always a time that was measured.
+    pub fn of(times: &[f64]) -> Self {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let rank = |share: f64| {
+            let rank = (share * sorted.len() as f64).ceil() as usize;
+            let time = sorted.get(rank.saturating_sub(1));
+            time.copied().unwrap_or(f64::NAN)
+        };
+        Self {
+            median_ms: rank(0.5),
+            p95_ms: rank(0.95),
+        }
+    }
+}
+
+/// A column of the paper's Table 2 (its card, 3 substeps × 2 iterations),
+/// without rendering.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PaperRow {
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Solid particles.
+    pub solid_particles: u64,
+    /// "Solve fluid", ms.
+    pub fluid_ms: f64,
+    /// "Solve boiling", ms.
+    pub boiling_ms: f64,
+    /// "Solve flasks", ms.
+    pub flasks_ms: f64,
+}
+
+/// Table 2 of the paper, by the names of the scenes here.
+pub const TABLE_2: [(&str, PaperRow); 4] = [
+    ("moving-flask", paper(10_925, 51_158, 3.014, 0.0, 0.027)),
+    ("single-dilution", paper(13_894, 48_044, 2.667, 0.380, 0.024)),
+    ("triple-dilution", paper(39_888, 60_632, 6.973, 1.003, 0.058)),
+    ("tomato-soup", paper(14_880, 2_341, 2.58, 0.379, 0.025)),
+];
+
+const fn paper(fluid: u64, solid: u64, fluid_ms: f64, boiling_ms: f64, flasks_ms: f64) -> PaperRow {
+    PaperRow {
+        fluid_particles: fluid,
+        solid_particles: solid,
+        fluid_ms,
+        boiling_ms,
+        flasks_ms,
+    }
+}
+
+/// Runs `vitriol bench`; `measure` does the measuring.
+///
+/// # Errors
+/// What `measure` fails with, or [`Failure::Other`] where standard output
+/// cannot be written.
+pub fn run(
+    args: &BenchArgs,
+    format: Format,
+    measure: impl FnOnce(&BenchArgs) -> Result<Bench, Failure>,
+) -> Result<(), Failure> {
+    emit(format, &measure(args)?, describe)
+}
+
+fn describe(bench: &Bench) -> String {
+    let mut text = format!(
+        "{}, {}, {} frames\n",
+        bench.device.name, bench.device.driver, bench.frames
+    );
+    for row in &bench.rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "\n{}: {} fluid and {} boundary particles, {} × {}\n\
+             density error: mean {}, 99th percentile {}\n\
+             {:<28} {:>10} {:>10} {:>10} {:>10}",
+            row.scene,
+            grouped(row.fluid_particles),
+            grouped(row.solid_particles),
+            row.substeps,
+            row.iterations,
+            percent(row.density_error_mean),
+            percent(row.density_error_p99),
+            "pass",
+            "median ms",
+            "95 % ms",
+            "dispatches",
+            "MB"
+        );
+        for pass in &row.passes {
+            let _ = writeln!(
+                text,
+                "{:<28} {:>10.3} {:>10.3} {:>10} {:>10.2}",
+                pass.name,
+                pass.time.median_ms,
+                pass.time.p95_ms,
+                pass.dispatches,
+                pass.bytes as f64 * 1e-6
+            );
+        }
+        let _ = writeln!(
+            text,
+            "{:<28} {:>10.3} {:>10.3}",
+            "total", row.total.median_ms, row.total.p95_ms
+        );
+        if let Some(paper) = &row.paper {
+            let _ = writeln!(
+                text,
+                "{:<28} {:>10.3}   (fluid {}, boiling {}, flasks {}; {} fluid and {} solid \
+                 particles)",
+                "the paper",
+                paper.fluid_ms + paper.boiling_ms + paper.flasks_ms,
+                paper.fluid_ms,
+                paper.boiling_ms,
+                paper.flasks_ms,
+                grouped(paper.fluid_particles),
+                grouped(paper.solid_particles)
+            );
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_measured_times() {
+        let times: Vec<f64> = (1..=100).rev().map(f64::from).collect();
+        let timing = Timing::of(&times);
+        assert_eq!((timing.median_ms, timing.p95_ms), (50.0, 95.0));
+        let timing = Timing::of(&[3.0]);
+        assert_eq!((timing.median_ms, timing.p95_ms), (3.0, 3.0));
+        assert!(Timing::of(&[]).median_ms.is_nan());
+    }
+}

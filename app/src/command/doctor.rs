@@ -1,0 +1,180 @@
+//! `vitriol doctor`: what this machine has, and for what is missing a sentence
+//! with the remedy.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_xr::probe::{self, Probe};
+
+use crate::console::{Format, emit};
+use crate::failure::Failure;
+
+#[derive(Debug, Serialize)]
+struct Findings {
+    /// A device is there that can replay a track.
+    can_replay: bool,
+    /// A headset's runtime is there too.
+    can_enter_vr: bool,
+    devices: Vec<Device>,
+    openxr: OpenXr,
+    /// What is missing, each in a sentence with its remedy.
+    missing: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Device {
+    index: usize,
+    name: String,
+    driver: String,
+    vulkan: String,
+    kind: String,
+    usable: bool,
+    /// Required things that it lacks.
+    missing: Vec<String>,
+    /// Optional things that it lacks, with what is done instead.
+    missing_optional: Vec<String>,
+    extensions: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct OpenXr {
+    loader: bool,
+    manifest: Option<String>,
+    runtime: Option<String>,
+    extensions: Vec<Extension>,
+}
+
+#[derive(Debug, Serialize)]
+struct Extension {
+    name: &'static str,
+    present: bool,
+}
+
+/// Runs `vitriol doctor`. A thing that is missing is a finding and not a
+/// failure.
+///
+/// # Errors
+/// [`Failure::Other`] where standard output cannot be written.
+pub fn run(format: Format) -> Result<(), Failure> {
+    emit(format, &look(), describe)
+}
+
+fn look() -> Findings {
+    let mut missing = Vec::new();
+    let devices = match vitriol_gpu::list_devices() {
+        Ok(devices) => devices,
+        Err(error) => {
+            missing.push(sentence(&error.to_string()));
+            Vec::new()
+        }
+    };
+    let devices: Vec<Device> = devices
+        .into_iter()
+        .map(|device| Device {
+            index: device.index,
+            name: device.name,
+            driver: device.driver,
+            vulkan: device.api,
+            kind: format!("{:?}", device.kind)
+                .to_lowercase()
+                .replace('_', " "),
+            usable: device.missing.is_empty(),
+            missing: device.missing,
+            missing_optional: device.missing_optional,
+            extensions: device.extensions,
+        })
+        .collect();
+    let can_replay = devices.iter().any(|device| device.usable);
+    if !can_replay && !devices.is_empty() {
+        missing.push(
+            "None of the devices can be used: update their drivers, or install the software \
+             driver (Debian: package mesa-vulkan-drivers)."
+                .to_owned(),
+        );
+    }
+    let Probe {
+        loader,
+        manifest,
+        runtime,
+        extensions,
+        missing: missing_of_openxr,
+    } = probe::probe();
+    let can_enter_vr = can_replay && missing_of_openxr.is_empty();
+    missing.extend(missing_of_openxr);
+    Findings {
+        can_replay,
+        can_enter_vr,
+        devices,
+        openxr: OpenXr {
+            loader,
+            manifest: manifest.map(|path| path.display().to_string()),
+            runtime,
+            extensions: extensions
+                .into_iter()
+                .map(|(name, present)| Extension { name, present })
+                .collect(),
+        },
+        missing,
+    }
+}
+
+fn describe(findings: &Findings) -> String {
+    let mut text = String::new();
+    for device in &findings.devices {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{} device {}: {} ({}), Vulkan {}, {}",
+            mark(device.usable),
+            device.index,
+            device.name,
+            device.kind,
+            device.vulkan,
+            device.driver
+        );
+        for lack in &device.missing {
+            let _ = writeln!(text, "      lacks {lack}");
+        }
+        for lack in &device.missing_optional {
+            let _ = writeln!(text, "      without {lack}");
+        }
+    }
+    let openxr = &findings.openxr;
+    let _ = writeln!(text, "{} OpenXR loader", mark(openxr.loader));
+    let _ = writeln!(
+        text,
+        "{} OpenXR runtime: {}",
+        mark(openxr.runtime.is_some()),
+        openxr.runtime.as_deref().unwrap_or("none answers")
+    );
+    for extension in &openxr.extensions {
+        let _ = writeln!(text, "      {} {}", mark(extension.present), extension.name);
+    }
+    if !findings.missing.is_empty() {
+        text.push_str("\nMissing:\n");
+        for lack in &findings.missing {
+            let _ = writeln!(text, "- {lack}");
+        }
+    }
+    text.push_str(match (findings.can_replay, findings.can_enter_vr) {
+        (true, true) => "\nTracks can be replayed and a headset can be used.\n",
+        (true, false) => "\nTracks can be replayed; a headset cannot be used yet.\n",
+        (false, _) => "\nNothing can be replayed yet.\n",
+    });
+    text
+}
+
+fn mark(there: bool) -> &'static str {
+    if there { "[ok]" } else { "[--]" }
+}
+
+/// An error's message as a sentence of its own.
+fn sentence(message: &str) -> String {
+    let mut letters = message.chars();
+    let first = letters.next().map(char::to_uppercase);
+    format!(
+        "{}{}.",
+        first.into_iter().flatten().collect::<String>(),
+        letters.as_str()
+    )
+}

@@ -1,0 +1,26 @@
+//! The subcommands, one file each.
+
+pub mod bench;
+pub mod doctor;
+pub mod replay;
+pub mod scenes;
+pub mod track;
+
+use crate::cli::{Cli, Command};
+use crate::experiment;
+use crate::failure::Failure;
+
+/// Runs the subcommand that was asked for.
+///
+/// # Errors
+/// What the subcommand fails with; nothing is on standard output then.
+pub fn run(cli: &Cli) -> Result<(), Failure> {
+    let format = cli.format();
+    match &cli.command {
+        Command::Replay(args) => replay::run(args, format, experiment::prepare),
+        Command::Bench(args) => bench::run(args, format, experiment::measure),
+        Command::Track(args) => track::run(args, format),
+        Command::Scenes => scenes::run(format),
+        Command::Doctor => doctor::run(format),
+    }
+}

@@ -1,0 +1,241 @@
+//! `vitriol replay`: a track through the simulation to film and report.
+
+use std::path::Path;
+
+use serde::Serialize;
+use vitriol_sim::scene::Scene;
+use vitriol_xr::track::{Track, TrackSource};
+
+use crate::cli::ReplayArgs;
+use crate::command::track;
+use crate::console::{Format, emit};
+use crate::failure::{Blame, Failure};
+use crate::film::Film;
+use crate::output::{FILM, OutDir, OutputError, REPORT_HTML, REPORT_JSON};
+use crate::recorder::{FILM_FPS, FILM_SIZE, Recorder, Recording};
+use crate::replay::{self, Experiment, Outcome, Span};
+use crate::report::units::{grouped, mass, percent, three_digits, with_unit};
+use crate::report::{FilmStatement, Report, SceneStatement, SolverStatement};
+use crate::statement;
+
+/// What `vitriol replay --json` prints: the report without its time series, and
+/// where things are.
+#[derive(Debug, Serialize)]
+struct Replayed {
+    #[serde(flatten)]
+    report: Report,
+    report_json: String,
+    report_html: String,
+}
+
+/// Runs `vitriol replay`. `prepare` makes the experiment of the arguments and
+/// the scene, which has its preset already.
+///
+/// # Errors
+/// [`Failure::Input`] for bad track, scene or folder, [`Failure::NoDevice`],
+/// [`Failure::Other`]; no report, film or new folder is left then.
+pub fn run(
+    args: &ReplayArgs,
+    format: Format,
+    prepare: impl FnOnce(&ReplayArgs, &Scene) -> Result<Box<dyn Experiment>, Failure>,
+) -> Result<(), Failure> {
+    let track = track::load(&args.track)?;
+    let name = scene_of(args, &track)?;
+    let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
+    let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
+    let mut experiment = prepare(args, &scene)?;
+    let seconds = args.seconds.unwrap_or_else(|| track.duration());
+    let span = Span::covering(seconds, scene.scale.frame_time);
+
+    let film = if args.no_video {
+        None
+    } else {
+        let (width, height) = FILM_SIZE;
+        Some(Film::create(&out.join(FILM), width, height, FILM_FPS).other()?)
+    };
+    let mut recorder = Recorder::new(span, film);
+    replay::run(
+        &mut TrackSource::new(track),
+        experiment.as_mut(),
+        span,
+        &mut recorder,
+    )?;
+    let recording = recorder.finish()?;
+    if let Some((film, _)) = &recording.film {
+        out.adopt(film.clone());
+    }
+    let statements = (
+        statement::of_scene(&name, &scene),
+        statement::of_solver(&scene),
+    );
+    let report = assemble(args, span, statements, experiment.outcome()?, recording);
+    write(&mut out, &report)?;
+
+    let replayed = Replayed {
+        report: report.without_series(),
+        report_json: out.join(REPORT_JSON).display().to_string(),
+        report_html: out.join(REPORT_HTML).display().to_string(),
+    };
+    let folder = out.path().to_owned();
+    out.complete();
+    emit(format, &replayed, |done| describe(done, &folder))
+}
+
+fn scene_of(args: &ReplayArgs, track: &Track) -> Result<String, Failure> {
+    match &args.scene {
+        Some(scene) => Ok(scene.clone()),
+        None if track.metadata.scene.is_empty() => Err(format!(
+            "{}: the track names no scene; give one with --scene (see `vitriol scenes`)",
+            args.track
+        ))
+        .input(),
+        None => Ok(track.metadata.scene.clone()),
+    }
+}
+
+/// The track's name without folder and ending, for the output folder's name.
+fn stem(track: &str) -> String {
+    let stem = Path::new(track).file_stem();
+    stem.map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn assemble(
+    args: &ReplayArgs,
+    span: Span,
+    (scene, solver): (SceneStatement, SolverStatement),
+    outcome: Outcome,
+    recording: Recording,
+) -> Report {
+    let samples = recording.samples;
+    let count = samples.len().max(1) as f64;
+    let (width, height) = FILM_SIZE;
+    Report {
+        program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
+        command: command_line(args),
+        track: args.track.clone(),
+        preset: args.preset.name().into(),
+        seed: args.seed,
+        fluid_particles: outcome.fluid_particles,
+        lost_particles: outcome.lost_particles,
+        nan_particles: outcome.nan_particles,
+        density_error_mean: samples.iter().map(|s| s.density_error_mean).sum::<f64>() / count,
+        density_error_p99: samples
+            .iter()
+            .map(|s| s.density_error_p99)
+            .fold(0.0, f64::max),
+        frames: span.steps,
+        simulated_s: span.seconds(),
+        wall_s: recording.wall.as_secs_f64(),
+        state_hash: format!("{:016x}", outcome.state_hash),
+        mass_kg: samples
+            .last()
+            .map(|s| s.mass_kg.clone())
+            .unwrap_or_default(),
+        film: recording.film.map(|(_, frames)| FilmStatement {
+            path: FILM.into(),
+            width,
+            height,
+            fps: FILM_FPS,
+            frames,
+        }),
+        device: outcome.device,
+        scene,
+        solver,
+        counters: outcome.counters,
+        series: samples,
+    }
+}
+
+/// The command line that makes the run again; without `--out`, since that
+/// folder is taken now.
+fn command_line(args: &ReplayArgs) -> String {
+    let mut line = format!("vitriol replay {}", quoted(&args.track));
+    if let Some(scene) = &args.scene {
+        line += &format!(" --scene {}", quoted(scene));
+    }
+    line += &format!(" --preset {} --seed {}", args.preset.name(), args.seed);
+    if let Some(seconds) = args.seconds {
+        line += &format!(" --seconds {seconds}");
+    }
+    if let Some(device) = &args.device {
+        line += &format!(" --device {}", quoted(device));
+    }
+    if args.no_video {
+        line += " --no-video";
+    }
+    line
+}
+
+/// An argument as a POSIX shell takes it.
+fn quoted(argument: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=+,@%".contains(c);
+    if !argument.is_empty() && argument.chars().all(plain) {
+        argument.to_owned()
+    } else {
+        format!("'{}'", argument.replace('\'', r"'\''"))
+    }
+}
+
+/// Writes the page first and the numbers last: a folder with `report.json` is
+/// a whole run.
+fn write(out: &mut OutDir, report: &Report) -> Result<(), Failure> {
+    let json = serde_json::to_vec_pretty(report).other()?;
+    out.write(REPORT_HTML, report.to_html().as_bytes())
+        .and_then(|()| out.write(REPORT_JSON, &json))
+        .map_err(blame)
+}
+
+fn describe(done: &Replayed, out: &Path) -> String {
+    let report = &done.report;
+    let unit = mass(report.mass_kg.total());
+    let places: Vec<String> = report
+        .mass_kg
+        .places()
+        .map(|(place, kg)| format!("{place} {}", with_unit(kg, unit)))
+        .collect();
+    let mut lines = vec![
+        format!(
+            "{} particles, {} s simulated in {} s on {}",
+            grouped(report.fluid_particles),
+            three_digits(report.simulated_s),
+            three_digits(report.wall_s),
+            report.device.name
+        ),
+        format!(
+            "density error: mean {}, 99th percentile {}; lost {}, not finite {}",
+            percent(report.density_error_mean),
+            percent(report.density_error_p99),
+            report.lost_particles,
+            report.nan_particles
+        ),
+        format!("at the end: {}", places.join(", ")),
+        format!("state {}", report.state_hash),
+        String::new(),
+    ];
+    if let Some(film) = &report.film {
+        lines.push(format!("film    {}", out.join(&film.path).display()));
+    }
+    lines.push(format!("report  {}", done.report_html));
+    lines.push(format!("numbers {}", done.report_json));
+    lines.join("\n")
+}
+
+fn blame(error: OutputError) -> Failure {
+    if error.is_input() {
+        Failure::Input(error.into())
+    } else {
+        Failure::Other(error.into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_survive_a_shell() {
+        assert_eq!(quoted("two-flasks"), "two-flasks");
+        assert_eq!(quoted("my tracks/a'b"), r"'my tracks/a'\''b'");
+        assert_eq!(quoted(""), "''");
+    }
+}

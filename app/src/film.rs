@@ -1,0 +1,281 @@
+//! The film of a run: H.264 in MP4, the one pair that every browser plays
+//! without a plug-in.
+//!
+//! Encoding runs on a thread of its own, fed through a short bounded channel,
+//! so that the next frame is simulated and drawn while this one is encoded; a
+//! slow encoder holds the producer back instead of filling the memory.
+//!
+//! Colours: pictures come as sRGB-encoded RGBA and are converted to 4:2:0 with
+//! the BT.601 matrix in limited range. That matrix, sRGB's primaries (those of
+//! BT.709) and sRGB's transfer curve are written into the stream (H.264
+//! Annex E), so that no player has to guess the matrix from the frame's size.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+use muxide::api::{Muxer, MuxerBuilder, MuxerError, VideoCodec};
+use openh264::OpenH264API;
+use openh264::encoder::{
+    ColorPrimaries, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod,
+    MatrixCoefficients, RateControlMode, TransferCharacteristics, VuiConfig,
+};
+use openh264::formats::{RgbaSliceU8, YUVBuffer};
+
+use crate::output::Staged;
+
+/// Frames that may wait for the encoder: enough to even out a slow key frame,
+/// few enough (2 MB each at 960×540) not to matter.
+const QUEUED_FRAMES: usize = 4;
+
+/// A key frame at least every two seconds, so that seeking stays quick.
+const SECONDS_BETWEEN_KEY_FRAMES: u32 = 2;
+
+/// What can go wrong with a film.
+#[derive(Debug, thiserror::Error)]
+pub enum FilmError {
+    /// The frame size is not one that 4:2:0 and the encoder can hold.
+    #[error(
+        "a film of {width}x{height} cannot be made: both sides must be even, from 16 to 3840 x 2160"
+    )]
+    Size {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+    },
+    /// The frame rate is zero or more than a film can use.
+    #[error("a film at {fps} frames a second cannot be made: choose 1 to 120")]
+    Rate {
+        /// Frame rate asked for, Hz.
+        fps: u32,
+    },
+    /// A frame's bytes do not match the film's size.
+    #[error("a frame of {got} bytes was given where {expected} (RGBA, 4 bytes a pixel) are needed")]
+    FrameLength {
+        /// Bytes given.
+        got: usize,
+        /// Bytes that width × height × 4 asks for.
+        expected: usize,
+    },
+    /// The film would have no frame at all, which no player opens.
+    #[error("the film has no frame: run for at least one frame or give --no-video")]
+    Empty,
+    /// The H.264 encoder refused.
+    #[error("the H.264 encoder failed")]
+    Encode(#[from] openh264::Error),
+    /// The MP4 writer refused.
+    #[error("the film could not be put into its MP4 file")]
+    Mux(#[from] MuxerError),
+    /// The file could not be made, written or put in its place.
+    #[error("the film {path} could not be written; is there room and permission?")]
+    Write {
+        /// The film's path.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The encoder thread ended early without saying why.
+    #[error("the film's encoder stopped unexpectedly; run again with --no-video to do without it")]
+    Stopped,
+}
+
+/// A film being written.
+///
+/// It appears under its name only when [`Film::finish`] has succeeded; dropped
+/// before that, it leaves nothing behind.
+#[derive(Debug)]
+pub struct Film {
+    frame_bytes: usize,
+    frames: Option<SyncSender<Vec<u8>>>,
+    spent: Receiver<Vec<u8>>,
+    encoder: Option<JoinHandle<Result<Staged, FilmError>>>,
+}
+
+impl Film {
+    /// Begins a film of `width` × `height` pixels at `fps` frames a second,
+    /// which will be found at `path`.
+    ///
+    /// # Errors
+    /// [`FilmError::Size`], [`FilmError::Rate`], or [`FilmError::Write`] where
+    /// the folder does not take a file.
+    pub fn create(path: &Path, width: u32, height: u32, fps: u32) -> Result<Self, FilmError> {
+        let (long, short) = (width.max(height), width.min(height));
+        if !width.is_multiple_of(2)
+            || !height.is_multiple_of(2)
+            || short < 16
+            || long > 3840
+            || short > 2160
+        {
+            return Err(FilmError::Size { width, height });
+        }
+        if !(1..=120).contains(&fps) {
+            return Err(FilmError::Rate { fps });
+        }
+        let staged = Staged::create(path).map_err(|source| FilmError::Write {
+            path: path.to_owned(),
+            source,
+        })?;
+        let (frames, queue) = sync_channel(QUEUED_FRAMES);
+        let (give_back, spent) = sync_channel(QUEUED_FRAMES + 1);
+        let shape = Shape { width, height, fps };
+        let encoder = std::thread::Builder::new()
+            .name("film".into())
+            .spawn(move || shape.encode(staged, &queue, &give_back))
+            .map_err(|source| FilmError::Write {
+                path: path.to_owned(),
+                source,
+            })?;
+        Ok(Self {
+            frame_bytes: width as usize * height as usize * 4,
+            frames: Some(frames),
+            spent,
+            encoder: Some(encoder),
+        })
+    }
+
+    /// Adds one frame: rows from the top, sRGB-encoded R, G, B, A bytes; alpha
+    /// is ignored. Returns as soon as the frame is queued.
+    ///
+    /// # Errors
+    /// [`FilmError::FrameLength`], or what stopped the encoder.
+    pub fn push_rgba(&mut self, rgba: &[u8]) -> Result<(), FilmError> {
+        if rgba.len() != self.frame_bytes {
+            return Err(FilmError::FrameLength {
+                got: rgba.len(),
+                expected: self.frame_bytes,
+            });
+        }
+        let mut frame = self.spent.try_recv().unwrap_or_default();
+        frame.clear();
+        frame.extend_from_slice(rgba);
+        match &self.frames {
+            Some(frames) if frames.send(frame).is_ok() => Ok(()),
+            _ => Err(self.why_stopped()),
+        }
+    }
+
+    /// Encodes what is queued and puts the film in its place.
+    ///
+    /// # Errors
+    /// [`FilmError::Empty`] without a frame, else what the encoder, the muxer
+    /// or the file system said; also where a film of that name has appeared
+    /// meanwhile, which is kept.
+    pub fn finish(mut self) -> Result<PathBuf, FilmError> {
+        self.frames = None;
+        let staged = match self.encoder.take().map(JoinHandle::join) {
+            Some(Ok(result)) => result?,
+            _ => return Err(FilmError::Stopped),
+        };
+        let path = staged.path().to_owned();
+        staged.keep().map_err(|source| FilmError::Write {
+            path: path.clone(),
+            source,
+        })?;
+        Ok(path)
+    }
+
+    fn why_stopped(&mut self) -> FilmError {
+        self.frames = None;
+        match self.encoder.take().map(JoinHandle::join) {
+            Some(Ok(Err(error))) => error,
+            _ => FilmError::Stopped,
+        }
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        self.frames = None;
+        // Waits for the encoder, so that its temporary file is gone when the
+        // film is; a panic there has nothing left to tell.
+        if let Some(encoder) = self.encoder.take() {
+            let _ = encoder.join();
+        }
+    }
+}
+
+/// The film's frame size in pixels and its rate in Hz.
+#[derive(Clone, Copy)]
+struct Shape {
+    width: u32,
+    height: u32,
+    fps: u32,
+}
+
+impl Shape {
+    fn encode(
+        self,
+        staged: Staged,
+        queue: &Receiver<Vec<u8>>,
+        give_back: &SyncSender<Vec<u8>>,
+    ) -> Result<Staged, FilmError> {
+        let mut encoder = Encoder::with_api_config(OpenH264API::from_source(), self.config())?;
+        let file = staged.try_clone().map_err(|source| FilmError::Write {
+            path: staged.path().to_owned(),
+            source,
+        })?;
+        let mut muxer: Muxer<BufWriter<File>> = MuxerBuilder::new(BufWriter::new(file))
+            .video(
+                VideoCodec::H264,
+                self.width,
+                self.height,
+                f64::from(self.fps),
+            )
+            .with_fast_start(true)
+            .build()?;
+        let size = (self.width as usize, self.height as usize);
+        let mut picture = YUVBuffer::new(size.0, size.1);
+        let mut coded = Vec::new();
+        let mut number = 0u32;
+        for frame in queue {
+            picture.read_rgba8(RgbaSliceU8::new(&frame, size));
+            // A full basket only means that one buffer more is freed.
+            let _ = give_back.try_send(frame);
+            let stream = encoder.encode(&picture)?;
+            coded.clear();
+            stream.write_vec(&mut coded);
+            let key = matches!(stream.frame_type(), FrameType::IDR);
+            let seconds = f64::from(number) / f64::from(self.fps);
+            muxer.write_video(seconds, &coded, key)?;
+            number += 1;
+        }
+        if number == 0 {
+            return Err(FilmError::Empty);
+        }
+        muxer.finish_in_place()?;
+        let flushed = muxer.into_writer().into_inner();
+        match flushed {
+            Ok(_) => Ok(staged),
+            Err(error) => Err(FilmError::Write {
+                path: staged.path().to_owned(),
+                source: error.into_error(),
+            }),
+        }
+    }
+
+    fn config(self) -> EncoderConfig {
+        EncoderConfig::new()
+            .max_frame_rate(FrameRate::from_hz(self.fps as f32))
+            // Constant quantiser (OpenH264's 26): a file has no line to keep
+            // within, so a splash may cost more bits than still water, and it
+            // stays as sharp.
+            .rate_control_mode(RateControlMode::Off)
+            // A skipped frame would come back as an empty one and shift all
+            // that follow.
+            .skip_frames(false)
+            .intra_frame_period(IntraFramePeriod::from_num_frames(
+                self.fps * SECONDS_BETWEEN_KEY_FRAMES,
+            ))
+            // The other core belongs to the simulation.
+            .num_threads(1)
+            .vui(
+                VuiConfig::bt601()
+                    .color_primaries(ColorPrimaries::Bt709)
+                    .transfer_characteristics(TransferCharacteristics::Srgb)
+                    .matrix_coefficients(MatrixCoefficients::Smpte170M),
+            )
+    }
+}

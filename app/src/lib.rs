@@ -1,0 +1,13 @@
+//! Vitriol, the program: the parts of the binary `vitriol`, open to its tests.
+
+pub mod cli;
+pub mod command;
+pub mod console;
+mod experiment;
+pub mod failure;
+pub mod film;
+pub mod output;
+pub mod recorder;
+pub mod replay;
+pub mod report;
+mod statement;

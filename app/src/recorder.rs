@@ -1,0 +1,130 @@
+//! What is kept of a run while it goes on: film, samples and progress.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::{Blame, Failure};
+use crate::film::Film;
+use crate::replay::{Experiment, Span};
+use crate::report::Sample;
+
+/// Frame rate of the film, Hz.
+pub const FILM_FPS: u32 = 30;
+/// Width and height of the film, pixels.
+pub const FILM_SIZE: (u32, u32) = (960, 540);
+
+/// Samples for each simulated second: enough to see a slosh (about 3 Hz in a
+/// beaker), few enough that waiting for the device does not count.
+const SAMPLES_PER_SECOND: f64 = 10.0;
+
+/// Takes film frames and samples at their times.
+#[derive(Debug)]
+pub struct Recorder {
+    span: Span,
+    film: Option<Film>,
+    film_frames: u64,
+    samples: Vec<Sample>,
+    bar: ProgressBar,
+    begin: Instant,
+}
+
+/// What a recorder kept.
+#[derive(Debug)]
+pub struct Recording {
+    /// The film's path and number of frames.
+    pub film: Option<(PathBuf, u64)>,
+    /// Samples over time; the first is of the start, the last of the end.
+    pub samples: Vec<Sample>,
+    /// Wall-clock time of the run, its film's included.
+    pub wall: Duration,
+}
+
+impl Recorder {
+    /// A recorder for a run of that span; its clock starts now.
+    pub fn new(span: Span, film: Option<Film>) -> Self {
+        Self {
+            span,
+            film,
+            film_frames: 0,
+            samples: Vec::new(),
+            bar: progress_bar(span.steps),
+            begin: Instant::now(),
+        }
+    }
+
+    /// Takes what is due after `done` steps.
+    ///
+    /// # Errors
+    /// What experiment or film say.
+    pub fn observe(&mut self, done: u64, experiment: &mut dyn Experiment) -> Result<(), Failure> {
+        let time = done as f64 * self.span.frame_time;
+        let due = self.film_frames_due(done);
+        if let Some(film) = &mut self.film
+            && due > self.film_frames
+        {
+            let picture = experiment.picture()?;
+            // More than one where a step is longer than a film frame: the film
+            // keeps real time.
+            for _ in self.film_frames..due {
+                film.push_rgba(picture).other()?;
+            }
+            self.film_frames = due;
+        }
+        if done == self.span.steps || self.sample_due(done) {
+            self.samples.push(experiment.sample(time)?);
+        }
+        self.bar.set_position(done);
+        Ok(())
+    }
+
+    /// Ends the film and hands over what was kept.
+    ///
+    /// # Errors
+    /// What the film says.
+    pub fn finish(self) -> Result<Recording, Failure> {
+        let film = match self.film {
+            Some(film) => Some((film.finish().other()?, self.film_frames)),
+            None => None,
+        };
+        self.bar.finish_and_clear();
+        Ok(Recording {
+            film,
+            samples: self.samples,
+            wall: self.begin.elapsed(),
+        })
+    }
+
+    /// Film frames whose time has come after `done` steps: frame n shows the
+    /// first state at or after n / [`FILM_FPS`] s, and the film is as long as
+    /// the run.
+    fn film_frames_due(&self, done: u64) -> u64 {
+        let fps = f64::from(FILM_FPS);
+        let all = (self.span.seconds() * fps - 1e-6).ceil() as u64;
+        let now = (done as f64 * self.span.frame_time * fps + 1e-6).floor() as u64 + 1;
+        now.min(all)
+    }
+
+    fn sample_due(&self, done: u64) -> bool {
+        let number = |done: u64| {
+            (done as f64 * self.span.frame_time * SAMPLES_PER_SECOND + 1e-6).floor() as u64
+        };
+        done == 0 || number(done) > number(done - 1)
+    }
+}
+
+fn progress_bar(steps: u64) -> ProgressBar {
+    // Where nobody watches, a bar would only fill a log.
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(steps);
+    let template = "{bar:40} step {pos} of {len}, {eta} left";
+    // The template is ours; where it could not be read, the plain bar does.
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}

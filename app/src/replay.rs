@@ -1,0 +1,127 @@
+//! The one loop for replay and headset: poses in, simulation steps, pictures
+//! and samples out, on the simulation's own fixed clock.
+
+use vitriol_xr::{PoseFrame, PoseSource};
+
+use crate::failure::{Blame, Failure};
+use crate::recorder::Recorder;
+use crate::report::{Counters, DeviceStatement, Sample};
+
+/// What the loop drives: the simulated world, and the picture of it.
+pub trait Experiment {
+    /// Advances by one fixed step with what the user did at its time.
+    ///
+    /// # Errors
+    /// What device or solver say.
+    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure>;
+
+    /// Measures the state now, which is that at time `t` (s). Waits for the
+    /// device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn sample(&mut self, t: f64) -> Result<Sample, Failure>;
+
+    /// Draws the state now: rows from the top, sRGB-encoded RGBA bytes of the
+    /// film's size. Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn picture(&mut self) -> Result<&[u8], Failure>;
+
+    /// What came of it, and on what device.
+    ///
+    /// # Errors
+    /// What the device says while the final state is read.
+    fn outcome(&mut self) -> Result<Outcome, Failure>;
+}
+
+/// What an experiment states of itself at its end.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Fluid particles at the start.
+    pub fluid_particles: u64,
+    /// Particles that went through a wall or out of bounds.
+    pub lost_particles: u64,
+    /// Particles taken out because they turned non-finite.
+    pub nan_particles: u64,
+    /// Hash of the final state.
+    pub state_hash: u64,
+    /// Device and driver.
+    pub device: DeviceStatement,
+    /// What was counted.
+    pub counters: Counters,
+}
+
+/// How far a run goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Frame time Δt_f, s.
+    pub frame_time: f64,
+    /// Number of steps.
+    pub steps: u64,
+}
+
+impl Span {
+    /// As many whole steps as cover `seconds`.
+    pub fn covering(seconds: f64, frame_time: f64) -> Self {
+        // A millionth of a step is rounding, and no reason for one more.
+        let steps = (seconds / frame_time - 1e-6).ceil().max(1.0);
+        Self {
+            frame_time,
+            steps: steps as u64,
+        }
+    }
+
+    /// Simulated time, s.
+    pub fn seconds(self) -> f64 {
+        self.steps as f64 * self.frame_time
+    }
+}
+
+/// Runs an experiment with the poses of a source. Where the source ends before
+/// the span does, its last poses are held.
+///
+/// # Errors
+/// What source, experiment or film say.
+pub fn run(
+    source: &mut dyn PoseSource,
+    experiment: &mut dyn Experiment,
+    span: Span,
+    recorder: &mut Recorder,
+) -> Result<(), Failure> {
+    recorder.observe(0, experiment)?;
+    let mut held: Option<PoseFrame> = None;
+    for step in 0..span.steps {
+        let time = step as f64 * span.frame_time;
+        match source.next(step, time).other()? {
+            Some(frame) => held = Some(frame),
+            None => {
+                if let Some(frame) = &mut held {
+                    frame.step = step;
+                    // A switch acts once, not again in each held frame.
+                    frame.scenario.clear();
+                }
+            }
+        }
+        let Some(frame) = &held else {
+            return Err("the track has no pose at its start; record it again").input();
+        };
+        experiment.step(frame)?;
+        recorder.observe(step + 1, experiment)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_span_has_whole_steps() {
+        let steps = |seconds, frame_time| Span::covering(seconds, frame_time).steps;
+        assert_eq!(steps(8.0, 1.0 / 90.0), 720);
+        assert_eq!(steps(8.001, 1.0 / 90.0), 721);
+        assert_eq!(steps(1e-9, 1.0 / 90.0), 1);
+    }
+}

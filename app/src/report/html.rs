@@ -1,0 +1,284 @@
+//! `report.html`: one file that needs nothing but the film beside it.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::model::{Report, Sample};
+use super::plot::{CURVE_COLOURS, Curve, Plot, over_time};
+use super::units::{self, grouped, percent, three_digits, with_unit};
+
+const STYLE: &str = include_str!("report.css");
+const SCRIPT: &str = include_str!("report.js");
+
+impl Report {
+    /// The report as a web page. Every string in it is escaped.
+    pub fn to_html(&self) -> String {
+        let title = format!("{} · Vitriol", self.track);
+        html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (title) }
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    main {
+                        (self.header())
+                        (self.figures())
+                        (self.film())
+                        (self.whereabouts())
+                        (self.plots())
+                        (self.statements())
+                        (self.footer())
+                    }
+                    script { (PreEscaped(SCRIPT)) }
+                }
+            }
+        }
+        .into_string()
+    }
+
+    fn header(&self) -> Markup {
+        html! {
+            header {
+                p.kicker { "Vitriol · replay of a recorded pour" }
+                h1 { (self.track) }
+                p.lead {
+                    (grouped(self.fluid_particles)) " particles of "
+                    (with_unit(self.scene.d_m, units::length(self.scene.d_m)))
+                    " for " (three_digits(self.simulated_s)) " s, on " (self.device.name) "."
+                    @if self.lost_particles == 0 && self.nan_particles == 0 {
+                        " None was lost."
+                    }
+                }
+            }
+        }
+    }
+
+    fn figures(&self) -> Markup {
+        let pace = self.wall_s / self.simulated_s.max(f64::MIN_POSITIVE);
+        html! {
+            section.figures aria-label="Figures" {
+                (figure("density_error_mean", "Density error, mean",
+                    &percent(self.density_error_mean), "of rest density, over the run", false))
+                (figure("density_error_p99", "Density error, 99th percentile",
+                    &percent(self.density_error_p99), "worst moment of the run", false))
+                (figure("lost_particles", "Lost particles",
+                    &grouped(self.lost_particles), "through a wall or out of bounds",
+                    self.lost_particles > 0))
+                (figure("nan_particles", "Non-finite particles",
+                    &grouped(self.nan_particles), "taken out of the run",
+                    self.nan_particles > 0))
+                (figure("frames", "Frames",
+                    &grouped(self.frames), "of the simulation's fixed clock", false))
+                (figure("wall_s", "Time taken",
+                    &format!("{} s", three_digits(self.wall_s)),
+                    &format!("{} s for each simulated second", three_digits(pace)), false))
+            }
+        }
+    }
+
+    fn film(&self) -> Markup {
+        html! {
+            @if let Some(film) = &self.film {
+                section {
+                    h2 { "Film" }
+                    video src=(film.path) controls loop muted playsinline
+                        width=(film.width) height=(film.height) {}
+                    p.note {
+                        (film.width) " × " (film.height) ", " (film.fps) " Hz, "
+                        (grouped(film.frames))
+                        " frames. A click into a plot below goes to that moment."
+                    }
+                }
+            }
+        }
+    }
+
+    fn whereabouts(&self) -> Markup {
+        let total = self.mass_kg.total();
+        let unit = units::mass(total);
+        let share = |kg: f64| if total > 0.0 { kg / total } else { 0.0 };
+        html! {
+            section {
+                h2 { "Where it is at the end" }
+                div.bar role="img" aria-label="Shares of the mass by place" {
+                    @for (index, (_, kg)) in self.mass_kg.places().enumerate() {
+                        @if kg > 0.0 {
+                            span class=(colour_class(index))
+                                style=(format!("flex-grow:{:.5}", share(kg))) {}
+                        }
+                    }
+                }
+                table {
+                    thead { tr { th { "Place" } th.number { "Mass" } th.number { "Share" } } }
+                    tbody {
+                        @for (index, (place, kg)) in self.mass_kg.places().enumerate() {
+                            tr {
+                                th scope="row" { i class=(colour_class(index)) {} (place) }
+                                td.number { (with_unit(kg, unit)) }
+                                td.number { (format!("{:.1} %", share(kg) * 100.0)) }
+                            }
+                        }
+                    }
+                    tfoot {
+                        tr { th scope="row" { "All" } td.number { (with_unit(total, unit)) } td {} }
+                    }
+                }
+            }
+        }
+    }
+
+    fn plots(&self) -> Markup {
+        let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| Curve {
+            label: label.into(),
+            points: self.series.iter().map(|s| (s.t_s, value(s))).collect(),
+        };
+        let largest = |value: &dyn Fn(&Sample) -> f64| {
+            let values = self.series.iter().map(value);
+            values.filter(|v| v.is_finite()).fold(0.0, f64::max)
+        };
+        let energy = units::energy(largest(&|s| s.kinetic_energy_j));
+        let mass = units::mass(largest(&|s| s.mass_kg.total()));
+        let places: Vec<Curve> = self
+            .mass_kg
+            .places()
+            .enumerate()
+            .map(|(index, (place, _))| {
+                curve(place, &|s| {
+                    s.mass_kg.places().nth(index).map_or(f64::NAN, |p| p.1) * mass.factor
+                })
+            })
+            .collect();
+        html! {
+            section {
+                h2 { "Over time" }
+                div.plots {
+                    (plot("Density error", "%", &[
+                        curve("mean", &|s| s.density_error_mean * 100.0),
+                        curve("99th percentile", &|s| s.density_error_p99 * 100.0),
+                    ]))
+                    (plot("Kinetic energy", energy.symbol, &[
+                        curve("kinetic energy", &|s| s.kinetic_energy_j * energy.factor),
+                    ]))
+                    (plot("Mass by place", mass.symbol, &places))
+                    (plot("Neighbour list rebuilt", "times since the start", &[
+                        curve("rebuilds", &|s| s.neighbour_rebuilds as f64),
+                    ]))
+                }
+            }
+        }
+    }
+
+    fn statements(&self) -> Markup {
+        let scene = &self.scene;
+        let solver = &self.solver;
+        let models = if scene.models.is_empty() {
+            "incompressible flow only".to_owned()
+        } else {
+            scene.models.join(", ")
+        };
+        let scale = if scene.length_scale == 1.0 {
+            "1 (real size)".to_owned()
+        } else {
+            three_digits(scene.length_scale)
+        };
+        html! {
+            section.statements {
+                div {
+                    h2 { "Scene and solver" }
+                    table { tbody {
+                        (row("Scene", &scene.name))
+                        (row("Preset, seed", &format!("{}, {}", self.preset, self.seed)))
+                        (row("Particle diameter d", &with_unit(scene.d_m, units::length(scene.d_m))))
+                        (row("Support radius h/d", &three_digits(scene.h_over_d)))
+                        (row("Frame time Δt_f", &format!("{} ms", three_digits(scene.frame_time_s * 1e3))))
+                        (row("Substeps × iterations", &format!("{} × {}", solver.substeps, solver.iterations)))
+                        (row("Relaxation ω", &three_digits(solver.omega)))
+                        (row("Boundary", &solver.boundary))
+                        (row("Gravity g", &format!("{} m/s²", three_digits(scene.gravity_m_s2))))
+                        (row("Length scale", &scale))
+                        (row("Modelled", &models))
+                    } }
+                }
+                div {
+                    h2 { "Device" }
+                    table { tbody {
+                        (row("Name", &self.device.name))
+                        (row("Driver", &self.device.driver))
+                        (row("Vulkan", &self.device.api))
+                    } }
+                    h2 { "Counted" }
+                    table { tbody {
+                        (row("Substeps", &grouped(self.counters.substeps)))
+                        (row("Neighbour list rebuilt", &grouped(self.counters.neighbour_rebuilds)))
+                        @for (name, times) in &self.counters.limiters {
+                            (row(&format!("Limiter: {name}"), &grouped(*times)))
+                        }
+                    } }
+                    @if self.counters.limiters.values().all(|times| *times == 0) {
+                        p.note { "No limiter acted." }
+                    }
+                }
+            }
+        }
+    }
+
+    fn footer(&self) -> Markup {
+        html! {
+            footer {
+                p { "Made by " (self.program) " with" }
+                pre { code { (self.command) } }
+                p { "Hash of the final state " code { (self.state_hash) } ". All numbers: "
+                    a href=(crate::output::REPORT_JSON) { (crate::output::REPORT_JSON) } "." }
+            }
+        }
+    }
+}
+
+fn figure(key: &str, name: &str, value: &str, note: &str, bad: bool) -> Markup {
+    html! {
+        div.figure.bad[bad] {
+            p.name { (name) }
+            p.value data-key=(key) { (value) }
+            p.note { (note) }
+        }
+    }
+}
+
+fn row(name: &str, value: &str) -> Markup {
+    html! { tr { th scope="row" { (name) } td { (value) } } }
+}
+
+fn colour_class(index: usize) -> String {
+    format!("c{}", index % CURVE_COLOURS.len())
+}
+
+fn plot(title: &str, unit: &str, curves: &[Curve]) -> Markup {
+    let drawn = over_time(curves);
+    html! {
+        figure.plot {
+            figcaption {
+                strong { (title) } " " span.unit { (unit) }
+                @if curves.len() > 1 {
+                    ul.legend {
+                        @for (index, curve) in curves.iter().enumerate() {
+                            li { i class=(colour_class(index)) {} (curve.label) }
+                        }
+                    }
+                }
+            }
+            @match drawn {
+                Some(Plot { svg, span, time }) => {
+                    div.canvas data-left=(span.0) data-right=(span.1)
+                        data-from=(time.0) data-to=(time.1) {
+                        (PreEscaped(svg))
+                    }
+                }
+                None => p.note { "Nothing was sampled." }
+            }
+        }
+    }
+}

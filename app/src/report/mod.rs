@@ -1,0 +1,11 @@
+//! The report of a run: `report.json` for programs, `report.html` for people.
+
+mod html;
+mod model;
+mod plot;
+pub mod units;
+
+pub use model::{
+    Counters, DeviceStatement, FilmStatement, MassByPlace, Report, Sample, SceneStatement,
+    SolverStatement,
+};

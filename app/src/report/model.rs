@@ -1,0 +1,184 @@
+//! What a report holds. Field names are the keys of `report.json`.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// The report of one run. SI units throughout.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Program and version, such as `vitriol 0.1.0`.
+    pub program: String,
+    /// The command line that makes this run again.
+    pub command: String,
+    /// The track: a built-in name or a file's path.
+    pub track: String,
+    /// Preset: `fast`, `balanced` or `reference`.
+    pub preset: String,
+    /// Seed of the initial jitter.
+    pub seed: u64,
+    /// Fluid particles at the start.
+    pub fluid_particles: u64,
+    /// Particles that went through a wall or left the scene's bounds.
+    pub lost_particles: u64,
+    /// Particles that turned non-finite and were taken out.
+    pub nan_particles: u64,
+    /// Mean of |ρ/ρ₀ − 1| over particles with a full neighbourhood, averaged
+    /// over the run's samples; 0.01 is one per cent.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same, the largest of the run's samples.
+    pub density_error_p99: f64,
+    /// Simulated frames (steps of Δt_f).
+    pub frames: u64,
+    /// Simulated time, s.
+    pub simulated_s: f64,
+    /// Time the run took by the wall clock, s, without set-up.
+    pub wall_s: f64,
+    /// Hash of the final state, hexadecimal: same track, scene, preset, seed
+    /// and device give the same.
+    pub state_hash: String,
+    /// What is where at the end, kg.
+    pub mass_kg: MassByPlace,
+    /// The film, where one was made.
+    pub film: Option<FilmStatement>,
+    /// The device that ran it.
+    pub device: DeviceStatement,
+    /// The scene's scale and content.
+    pub scene: SceneStatement,
+    /// The solver's settings.
+    pub solver: SolverStatement,
+    /// What was counted.
+    pub counters: Counters,
+    /// The run over time. Empty in what `vitriol replay --json` prints, whole
+    /// in `report.json`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub series: Vec<Sample>,
+}
+
+/// Fluid mass by place, kg.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct MassByPlace {
+    /// Inside each flask, by the flask's name.
+    pub flasks: BTreeMap<String, f64>,
+    /// On the table, outside all flasks.
+    pub table: f64,
+    /// On the floor.
+    pub floor: f64,
+    /// Neither: in the stream, or flying.
+    pub air: f64,
+}
+
+impl MassByPlace {
+    /// All of it, kg.
+    pub fn total(&self) -> f64 {
+        self.flasks.values().sum::<f64>() + self.table + self.floor + self.air
+    }
+
+    /// Each place with its mass, flasks first.
+    pub fn places(&self) -> impl Iterator<Item = (&str, f64)> {
+        let flasks = self.flasks.iter().map(|(name, kg)| (name.as_str(), *kg));
+        flasks.chain([
+            ("table", self.table),
+            ("floor", self.floor),
+            ("air", self.air),
+        ])
+    }
+}
+
+/// The film of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FilmStatement {
+    /// Path, relative to the report's folder.
+    pub path: String,
+    /// Frame width, pixels.
+    pub width: u32,
+    /// Frame height, pixels.
+    pub height: u32,
+    /// Frame rate, Hz.
+    pub fps: u32,
+    /// Frames in the film.
+    pub frames: u64,
+}
+
+/// The device and driver of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DeviceStatement {
+    /// The device's name.
+    pub name: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// Vulkan API version.
+    pub api: String,
+}
+
+/// What every scene states of its scale, and what it models.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SceneStatement {
+    /// Built-in name or file's path.
+    pub name: String,
+    /// Particle diameter d, m.
+    pub d_m: f64,
+    /// Support radius over particle diameter, h/d.
+    pub h_over_d: f64,
+    /// Frame time Δt_f, s.
+    pub frame_time_s: f64,
+    /// Gravity g, m/s².
+    pub gravity_m_s2: f64,
+    /// Metres of the laboratory for a metre of the scene: 1 is real size.
+    pub length_scale: f64,
+    /// What is modelled beyond incompressible flow, such as `cohesion`.
+    pub models: Vec<String>,
+}
+
+/// The solver's settings in this run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SolverStatement {
+    /// Substeps in a frame.
+    pub substeps: u32,
+    /// Solver iterations in a substep.
+    pub iterations: u32,
+    /// Relaxation factor ω.
+    pub omega: f64,
+    /// Boundary handling: `map` or `particles`.
+    pub boundary: String,
+}
+
+/// What was counted over a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Counters {
+    /// Substeps done.
+    pub substeps: u64,
+    /// Times that the neighbour list was rebuilt.
+    pub neighbour_rebuilds: u64,
+    /// How often each limiter acted, by its name.
+    pub limiters: BTreeMap<String, u64>,
+}
+
+/// The state at one moment of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Simulated time, s.
+    pub t_s: f64,
+    /// Mean of |ρ/ρ₀ − 1| over particles with a full neighbourhood.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same.
+    pub density_error_p99: f64,
+    /// Kinetic energy, J.
+    pub kinetic_energy_j: f64,
+    /// What is where, kg.
+    pub mass_kg: MassByPlace,
+    /// Rebuilds of the neighbour list since the start.
+    pub neighbour_rebuilds: u64,
+}
+
+impl Report {
+    /// The report without its time series, as `vitriol replay --json` prints
+    /// it.
+    #[must_use]
+    pub fn without_series(&self) -> Self {
+        Self {
+            series: Vec::new(),
+            ..self.clone()
+        }
+    }
+}

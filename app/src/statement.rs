@@ -1,0 +1,54 @@
+//! What a scene states of itself, in the report's terms.
+
+use vitriol_sim::scene::{Boundary, Feature, Preset, Scene};
+
+use crate::cli::PresetName;
+use crate::report::{SceneStatement, SolverStatement};
+
+impl From<PresetName> for Preset {
+    fn from(name: PresetName) -> Self {
+        match name {
+            PresetName::Fast => Self::Fast,
+            PresetName::Balanced => Self::Balanced,
+            PresetName::Reference => Self::Reference,
+        }
+    }
+}
+
+/// The scale of a scene and what it models; `name` is how it was asked for.
+pub fn of_scene(name: &str, scene: &Scene) -> SceneStatement {
+    SceneStatement {
+        name: name.to_owned(),
+        d_m: scene.scale.spacing,
+        h_over_d: scene.scale.support_ratio,
+        frame_time_s: scene.scale.frame_time,
+        gravity_m_s2: scene.scale.gravity,
+        length_scale: scene.scale.length_scale,
+        models: scene.model.iter().map(|f| feature(*f).into()).collect(),
+    }
+}
+
+/// The solver's settings in a scene, as its preset left them.
+pub fn of_solver(scene: &Scene) -> SolverStatement {
+    SolverStatement {
+        substeps: scene.solver.substeps,
+        iterations: scene.solver.iterations,
+        omega: scene.solver.omega,
+        boundary: match scene.solver.boundary {
+            Boundary::Map => "map",
+            Boundary::Particles => "particles",
+        }
+        .into(),
+    }
+}
+
+/// A feature by its name in scene files.
+fn feature(feature: Feature) -> &'static str {
+    match feature {
+        Feature::Heat => "heat",
+        Feature::Dilution => "dilution",
+        Feature::Boiling => "boiling",
+        Feature::Cohesion => "cohesion",
+        Feature::Vorticity => "vorticity",
+    }
+}

@@ -1,0 +1,189 @@
+//! The binary from outside: exit codes, one message, pure JSON.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_vitriol"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// Fails with that code, one line on standard error that holds `parts`, and
+/// nothing on standard output.
+fn refuses(folder: &Path, arguments: &[&str], code: i32, parts: &[&str]) {
+    for json in [false, true] {
+        let mut arguments = arguments.to_vec();
+        if json {
+            arguments.push("--json");
+        }
+        let output = vitriol(folder, &arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+        for part in parts {
+            assert!(message.contains(part), "{arguments:?}: {message}");
+        }
+        for noise in ["panicked", "Error {", "Some(", "source:"] {
+            assert!(!message.contains(noise), "{arguments:?}: {message}");
+        }
+    }
+}
+
+/// Succeeds, and standard output is one JSON object and nothing else.
+fn object(folder: &Path, arguments: &[&str]) -> serde_json::Value {
+    let mut arguments = arguments.to_vec();
+    arguments.push("--json");
+    let output = vitriol(folder, &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let value: serde_json::Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    assert!(value.is_object(), "{value}");
+    value
+}
+
+#[test]
+fn help_names_every_subcommand_and_its_options() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = |arguments: &[&str]| {
+        let output = vitriol(folder.path(), arguments);
+        assert!(output.status.success(), "{arguments:?}");
+        text(&output.stdout).to_owned()
+    };
+    let all = help(&["--help"]);
+    for (command, options) in [
+        (
+            "replay",
+            &[
+                "--scene",
+                "--preset",
+                "--seconds",
+                "--seed",
+                "--device",
+                "--out",
+                "--no-video",
+            ][..],
+        ),
+        ("track", &["--output", "--list"]),
+        ("scenes", &[]),
+        ("bench", &["--scene", "--paper", "--frames", "--device"]),
+        ("doctor", &[]),
+    ] {
+        assert!(all.contains(command), "{all}");
+        let own = help(&[command, "--help"]);
+        for option in options.iter().chain(&["--json"]) {
+            assert!(own.contains(option), "{command}: {own}");
+        }
+    }
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refuses = |arguments: &[&str], parts: &[&str]| refuses(folder.path(), arguments, 2, parts);
+    refuses(&[], &["Usage"]);
+    refuses(&["pour"], &["pour"]);
+    refuses(&["replay"], &["TRACK"]);
+    refuses(&["replay", "x", "--preset", "best"], &["best", "balanced"]);
+    for seconds in [
+        "--seconds=0",
+        "--seconds=-1",
+        "--seconds=nan",
+        "--seconds=inf",
+    ] {
+        refuses(&["replay", "x", seconds], &["above 0"]);
+    }
+    refuses(&["replay", "x", "--seed=-1"], &["--seed"]);
+    refuses(&["replay", "nowhere.mcap"], &["nowhere.mcap", "two-flasks"]);
+    refuses(&["bench", "--frames", "0"], &["--frames"]);
+    refuses(&["bench", "--paper", "--scene", "x"], &["--paper"]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn keyframes_become_a_track_and_are_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let keyframes = "name = \"wave\"\nscene = \"two-flasks\"\nduration = 1.0\n\
+        [[head]]\nt = 0.0\nposition = [0.0, 1.2, 0.0]\n";
+    fs::write(here.join("wave.toml"), keyframes).unwrap();
+    let done = object(here, &["track", "wave.toml", "-o", "wave.mcap"]);
+    let info = object(here, &["track", "wave.mcap"]);
+    assert_eq!(info["frames"], done["frames"]);
+    assert_eq!(info["scene"], "two-flasks");
+    assert_eq!(info["recovered"], false);
+    assert!(
+        (info["duration_s"].as_f64().unwrap() - 1.0).abs() < 1.0 / 90.0,
+        "{info}"
+    );
+
+    let before = fs::read(here.join("wave.mcap")).unwrap();
+    refuses(
+        here,
+        &["track", "wave.toml", "-o", "wave.mcap"],
+        2,
+        &["wave.mcap", "exists"],
+    );
+    assert_eq!(fs::read(here.join("wave.mcap")).unwrap(), before);
+
+    fs::write(
+        here.join("typo.toml"),
+        keyframes.replace("duration", "durration"),
+    )
+    .unwrap();
+    refuses(
+        here,
+        &["track", "typo.toml", "-o", "typo.mcap"],
+        2,
+        &["typo.toml", "duration"],
+    );
+    fs::write(here.join("cut.mcap"), &before[..40]).unwrap();
+    refuses(here, &["track", "cut.mcap"], 2, &["cut.mcap"]);
+    refuses(here, &["replay", "cut.mcap"], 2, &["cut.mcap"]);
+    assert!(!here.join("typo.mcap").exists() && !here.join("out").exists());
+}
+
+#[test]
+fn built_in_tracks_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = object(folder.path(), &["track", "--list"]);
+    let tracks = list["tracks"].as_array().unwrap();
+    let two_flasks = tracks.iter().find(|t| t["track"] == "two-flasks").unwrap();
+    assert!(two_flasks["duration_s"].as_f64().unwrap() >= 8.0, "{list}");
+    assert!(tracks.len() >= 3);
+}
+
+#[test]
+fn doctor_says_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = object(folder.path(), &["doctor"]);
+    let devices = found["devices"].as_array().unwrap();
+    let usable = devices.iter().any(|device| device["usable"] == true);
+    assert_eq!(found["can_replay"], usable);
+    let missing = found["missing"].as_array().unwrap();
+    if found["can_enter_vr"] == false {
+        assert!(!missing.is_empty(), "{found}");
+    }
+    for lack in missing {
+        assert!(lack.as_str().unwrap().ends_with('.'), "a sentence: {lack}");
+    }
+
+    // A runtime that is named but not there.
+    let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+        .args(["doctor", "--json"])
+        .env("XR_RUNTIME_JSON", "/nowhere/runtime.json")
+        .output()
+        .unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found["openxr"]["runtime"], serde_json::Value::Null);
+    assert_eq!(found["can_enter_vr"], false);
+    let missing = found["missing"].to_string();
+    assert!(missing.contains("XR_RUNTIME_JSON") || missing.contains("libopenxr-loader1"));
+}

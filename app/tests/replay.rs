@@ -1,0 +1,247 @@
+//! From a track to film and report, with an experiment whose answers are known:
+//! what the loop, the recorder and the report make of them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use vitriol::cli::{Cli, Command};
+use vitriol::command::replay::run;
+use vitriol::console::Format;
+use vitriol::failure::{Blame, Failure};
+use vitriol::replay::{Experiment, Outcome};
+use vitriol::report::{Counters, DeviceStatement, MassByPlace, Report, Sample};
+use vitriol_tests::browser::{self, Look};
+use vitriol_xr::PoseFrame;
+
+/// Pours 200 g from one flask into another along a smooth curve; every number
+/// is a formula of the step.
+struct Toy {
+    steps: u64,
+    fails_at: u64,
+    picture: Vec<u8>,
+}
+
+/// A name that breaks a page which does not escape it.
+const FLASK: &str = "beaker <script>alert(1)</script>";
+
+impl Toy {
+    fn new(fails_at: u64) -> Self {
+        Self {
+            steps: 0,
+            fails_at,
+            picture: Vec::new(),
+        }
+    }
+}
+
+impl Experiment for Toy {
+    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure> {
+        assert_eq!(frame.step, self.steps, "steps come in order, none twice");
+        self.steps += 1;
+        if self.steps == self.fails_at {
+            return Err("the device was lost").other();
+        }
+        Ok(())
+    }
+
+    fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
+        let poured = 0.2 * (t / 4.0).clamp(0.0, 1.0).powi(2);
+        let spilled = 0.05 * poured;
+        Ok(Sample {
+            t_s: t,
+            density_error_mean: 0.012 + 0.004 * (3.0 * t).sin(),
+            density_error_p99: 0.041 + 0.009 * (3.0 * t).sin(),
+            kinetic_energy_j: 0.02 * t * (-t / 2.0).exp(),
+            mass_kg: MassByPlace {
+                flasks: BTreeMap::from([
+                    ("erlenmeyer".into(), 0.217 - poured),
+                    (FLASK.into(), poured - spilled),
+                ]),
+                table: 0.8 * spilled,
+                floor: 0.0,
+                air: 0.2 * spilled,
+            },
+            neighbour_rebuilds: (t * 40.0) as u64,
+        })
+    }
+
+    fn picture(&mut self) -> Result<&[u8], Failure> {
+        let shade = (self.steps % 256) as u8;
+        self.picture = [shade, 90, 160, 255].repeat(960 * 540);
+        Ok(&self.picture)
+    }
+
+    fn outcome(&mut self) -> Result<Outcome, Failure> {
+        Ok(Outcome {
+            fluid_particles: 13_894,
+            lost_particles: 0,
+            nan_particles: 0,
+            state_hash: 0xfeed_f00d,
+            device: DeviceStatement {
+                name: "Toy & Sons".into(),
+                driver: "none".into(),
+                api: "1.3.0".into(),
+            },
+            counters: Counters {
+                substeps: self.steps * 4,
+                neighbour_rebuilds: 320,
+                limiters: BTreeMap::from([("v_max".into(), 0), ("max neighbours".into(), 3)]),
+            },
+        })
+    }
+}
+
+/// What `vitriol replay two-flasks --out OUT …` does, with the toy.
+fn replay(out: &Path, more: &[&str], fails_at: u64) -> Result<(), Failure> {
+    let out = out.to_str().unwrap();
+    let arguments = ["vitriol", "replay", "two-flasks", "--out", out];
+    let arguments = arguments.iter().chain(more);
+    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
+        panic!("replay is parsed as another command");
+    };
+    run(&args, Format::Json, |_, scene| {
+        assert_eq!(scene.name, "two-flasks", "the scene that the track names");
+        Ok(Box::new(Toy::new(fails_at)))
+    })
+}
+
+fn report_of(out: &Path) -> Report {
+    serde_json::from_slice(&fs::read(out.join("report.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn numbers_come_through() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("new/out");
+    // A tenth of a frame over two seconds: one step more.
+    replay(&out, &["--seconds", "2.001", "--no-video"], u64::MAX).unwrap();
+    let report = report_of(&out);
+    assert_eq!(report.frames, 181);
+    assert!((report.simulated_s - 181.0 / 90.0).abs() < 1e-12);
+    assert_eq!(report.state_hash, "00000000feedf00d");
+    assert!(report.film.is_none());
+    assert_eq!(
+        report.command,
+        "vitriol replay two-flasks --preset balanced --seed 1 --seconds 2.001 --no-video"
+    );
+    // 0.0, 0.1, … 2.0 s and the end.
+    assert_eq!(report.series.len(), 22);
+    assert!((report.series[7].t_s - 0.7).abs() < 1e-12);
+    let last = report.series.last().unwrap();
+    assert!((last.t_s - report.simulated_s).abs() < 1e-12);
+    assert_eq!(report.mass_kg, last.mass_kg);
+    let worst = report.series.iter().map(|s| s.density_error_p99);
+    assert_eq!(report.density_error_p99, worst.fold(0.0, f64::max));
+    assert!((report.mass_kg.total() - 0.217).abs() < 1e-12);
+}
+
+#[test]
+fn an_earlier_run_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = ["--seconds", "0.1", "--no-video"];
+    replay(folder.path(), &more, u64::MAX).unwrap();
+    let before = fs::read(folder.path().join("report.json")).unwrap();
+    let refused = replay(folder.path(), &more, u64::MAX).unwrap_err();
+    assert_eq!(refused.exit_code(), 2);
+    let message = refused.to_string();
+    assert!(
+        message.contains("--out") && message.contains("report.json"),
+        "{message}"
+    );
+    assert_eq!(fs::read(folder.path().join("report.json")).unwrap(), before);
+}
+
+#[test]
+fn a_failed_run_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let failure = replay(&out, &["--seconds", "1"], 50).unwrap_err();
+    assert_eq!(failure.to_string(), "the device was lost");
+    assert_eq!(failure.exit_code(), 1);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn the_report_reads_in_a_browser() {
+    let folder = tempfile::tempdir().unwrap();
+    replay(folder.path(), &[], u64::MAX).unwrap();
+    let report = report_of(folder.path());
+    let film = report.film.clone().unwrap();
+    assert_eq!(
+        film.frames,
+        (report.simulated_s * 30.0 - 1e-6).ceil() as u64
+    );
+
+    fs::write(
+        folder.path().join("reader.html"),
+        r#"<!doctype html><iframe src="report.html" width="1100" height="900"></iframe><script>
+        const frame = document.querySelector("iframe");
+        frame.onload = async () => {
+          const page = frame.contentDocument;
+          const film = page.querySelector("video");
+          if (film.readyState < 1) await new Promise((done) => (film.onloadedmetadata = done));
+          const seeked = new Promise((done) => (film.onseeked = done));
+          const canvas = page.querySelector(".canvas");
+          const box = canvas.querySelector("svg").getBoundingClientRect();
+          const { left, right } = canvas.dataset;
+          const middle = (Number(left) + Number(right)) / 2;
+          const x = box.left + (middle / canvas.querySelector("svg").viewBox.baseVal.width) * box.width;
+          canvas.dispatchEvent(new MouseEvent("click", { clientX: x, clientY: box.top + 50, bubbles: true }));
+          await seeked;
+          const marks = [...page.querySelectorAll("line.now")];
+          console.log("TOLD " + JSON.stringify({
+            text: page.body.innerText,
+            values: Object.fromEntries([...page.querySelectorAll("[data-key]")].map((e) => [e.dataset.key, e.textContent])),
+            plots: page.querySelectorAll(".canvas svg").length,
+            duration: film.duration,
+            at: film.currentTime,
+            marks: marks.map((mark) => Number(mark.getAttribute("x1")) - middle),
+            wide: page.documentElement.scrollWidth - page.documentElement.clientWidth,
+          }));
+        };
+        </script>"#,
+    )
+    .unwrap();
+    let Some(visit) = browser::visit(&folder.path().join("reader.html")) else {
+        return;
+    };
+    assert!(visit.console.is_empty(), "{:?}", visit.console);
+    let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
+    let value = |key: &str| told["values"][key].as_str().unwrap();
+    assert_eq!(value("lost_particles"), "0");
+    let mean = format!("{:.2} %", report.density_error_mean * 100.0);
+    assert_eq!(value("density_error_mean"), mean);
+    assert_eq!(told["plots"], 4);
+    assert_eq!(told["wide"], 0, "nothing sticks out sideways");
+    let duration = told["duration"].as_f64().unwrap();
+    assert!((duration - film.frames as f64 / 30.0).abs() < 2e-3);
+    // A click in a plot's middle is the run's middle, up to a pixel.
+    let at = told["at"].as_f64().unwrap();
+    assert!((at - report.simulated_s / 2.0).abs() < 0.03, "{at}");
+    for mark in told["marks"].as_array().unwrap() {
+        assert!(mark.as_f64().unwrap().abs() < 3.0, "{told}");
+    }
+    let text = told["text"].as_str().unwrap();
+    for part in [
+        FLASK,
+        "Toy & Sons",
+        "2.50 mm",
+        "Limiter: max neighbours",
+        "00000000feedf00d",
+        &report.command,
+    ] {
+        assert!(text.contains(part), "{part} is missing in {text}");
+    }
+
+    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
+        let page = folder.path().join("report.html");
+        for (look, name) in [(Look::Light, "light.png"), (Look::Dark, "dark.png")] {
+            let picture = Path::new(&keep).join(name);
+            browser::photograph(&page, (1200, 2700), look, &picture).unwrap();
+        }
+        let picture = Path::new(&keep).join("narrow.png");
+        browser::photograph(&page, (500, 3600), Look::Light, &picture).unwrap();
+    }
+}

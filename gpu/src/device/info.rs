@@ -1,0 +1,220 @@
+//! What the opened device is and offers.
+
+use std::ffi::{CStr, CString};
+
+use ash::vk;
+
+use super::provider::has;
+
+/// Properties of the opened device.
+#[derive(Clone, Debug)]
+pub struct DeviceInfo {
+    /// Device name.
+    pub name: String,
+    /// Driver name and version in the driver's own words.
+    pub driver: String,
+    /// Vulkan version of the device, such as "1.3.230".
+    pub api: String,
+    /// Discrete, integrated, CPU and so on.
+    pub kind: vk::PhysicalDeviceType,
+    /// Limits that buffers and dispatches must keep.
+    pub limits: BindingLimits,
+    /// Invocations per subgroup.
+    pub subgroup_size: u32,
+    /// Nanoseconds per timestamp tick; zero where the device has none.
+    pub timestamp_period: f32,
+    /// Views of one multiview pass at most.
+    pub max_views: u32,
+    /// Optional features that are on.
+    pub features: EnabledFeatures,
+    /// Whether `QueueKind::Async` is a queue of its own.
+    pub second_queue: bool,
+}
+
+/// Limits that buffers and dispatches must keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BindingLimits {
+    /// Bytes of one storage buffer binding.
+    pub storage_bytes: u64,
+    /// Bytes of one uniform buffer binding.
+    pub uniform_bytes: u64,
+    /// Bytes of immediates (push constants).
+    pub immediate_bytes: u32,
+    /// Workgroups of one dispatch, per dimension.
+    pub workgroups: [u32; 3],
+    /// Bindings of one pipeline (push descriptors).
+    pub bindings: u32,
+    /// Bytes of workgroup memory.
+    pub workgroup_bytes: u32,
+    /// Width and height of an image.
+    pub image_extent: u32,
+    /// Layers of an image.
+    pub image_layers: u32,
+}
+
+/// Optional features, each on where the device has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EnabledFeatures {
+    /// `Recorder::conditional` works (VK_EXT_conditional_rendering).
+    pub conditional: bool,
+    /// `enable f16` in WGSL, in 16-bit storage too.
+    pub float16: bool,
+    /// Fragment shaders may write storage buffers.
+    pub fragment_stores: bool,
+    /// Colour targets of one pipeline may blend differently.
+    pub independent_blend: bool,
+    /// SPIR-V's Vulkan memory model.
+    pub memory_model: bool,
+    /// Subgroup operations in compute (arithmetic, ballot and shuffle).
+    pub subgroups: bool,
+}
+
+/// The driver's own words and numbers about one physical device.
+pub(crate) struct Properties {
+    pub(crate) name: String,
+    pub(crate) driver: String,
+    pub(crate) api_version: u32,
+    pub(crate) kind: vk::PhysicalDeviceType,
+    pub(crate) limits: BindingLimits,
+    pub(crate) subgroup_size: u32,
+    pub(crate) timestamp_period: f32,
+    pub(crate) max_views: u32,
+    pub(crate) extensions: Vec<CString>,
+    pub(crate) features: EnabledFeatures,
+    /// Required things that are not there.
+    pub(crate) missing: Vec<String>,
+}
+
+/// "1.3.230".
+pub(crate) fn version_text(version: u32) -> String {
+    format!(
+        "{}.{}.{}",
+        vk::api_version_major(version),
+        vk::api_version_minor(version),
+        vk::api_version_patch(version)
+    )
+}
+
+/// A fixed character array up to its terminator.
+fn text(result: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
+    result.map_or_else(
+        |_| String::from("?"),
+        |text| text.to_string_lossy().into_owned(),
+    )
+}
+
+/// Asks the driver about `physical`.
+pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Properties {
+    let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
+    let mut v12 = vk::PhysicalDeviceVulkan12Properties::default();
+    let mut push = vk::PhysicalDevicePushDescriptorPropertiesKHR::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default()
+        .push_next(&mut v11)
+        .push_next(&mut v12)
+        .push_next(&mut push);
+    // SAFETY: `physical` is a device of `instance`; structures that an older
+    // device does not know are skipped by it and stay zero.
+    unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
+    let core = properties.properties;
+    let extensions = device_extensions(instance, physical);
+    let (features, mut missing) = query_features(instance, physical, &extensions, &v11);
+    if core.api_version < vk::API_VERSION_1_3 {
+        missing.insert(
+            0,
+            format!("Vulkan 1.3 (it has {})", version_text(core.api_version)),
+        );
+    }
+    let driver_name = text(v12.driver_name_as_c_str());
+    let driver_info = text(v12.driver_info_as_c_str());
+    Properties {
+        name: text(core.device_name_as_c_str()),
+        driver: format!("{driver_name} {driver_info}").trim().to_owned(),
+        api_version: core.api_version,
+        kind: core.device_type,
+        limits: BindingLimits {
+            storage_bytes: u64::from(core.limits.max_storage_buffer_range),
+            uniform_bytes: u64::from(core.limits.max_uniform_buffer_range),
+            immediate_bytes: core.limits.max_push_constants_size,
+            workgroups: core.limits.max_compute_work_group_count,
+            bindings: push.max_push_descriptors,
+            workgroup_bytes: core.limits.max_compute_shared_memory_size,
+            image_extent: core.limits.max_image_dimension2_d,
+            image_layers: core.limits.max_image_array_layers,
+        },
+        subgroup_size: v11.subgroup_size,
+        timestamp_period: if core.limits.timestamp_compute_and_graphics == vk::TRUE {
+            core.limits.timestamp_period
+        } else {
+            0.0
+        },
+        max_views: v11.max_multiview_view_count,
+        extensions,
+        features,
+        missing,
+    }
+}
+
+fn device_extensions(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<CString> {
+    // SAFETY: `physical` is a device of `instance`.
+    unsafe { instance.enumerate_device_extension_properties(physical) }
+        .unwrap_or_default()
+        .iter()
+        .filter_map(|extension| extension.extension_name_as_c_str().ok())
+        .map(CStr::to_owned)
+        .collect()
+}
+
+/// Optional features that are there, and required ones that are not.
+fn query_features(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    extensions: &[CString],
+    v11_properties: &vk::PhysicalDeviceVulkan11Properties<'_>,
+) -> (EnabledFeatures, Vec<String>) {
+    let mut v11 = vk::PhysicalDeviceVulkan11Features::default();
+    let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
+    let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
+    let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
+    let mut features = vk::PhysicalDeviceFeatures2::default()
+        .push_next(&mut v11)
+        .push_next(&mut v12)
+        .push_next(&mut v13)
+        .push_next(&mut conditional);
+    // SAFETY: as for the properties in `query`.
+    unsafe { instance.get_physical_device_features2(physical, &mut features) };
+    let core = features.features;
+
+    let mut missing = Vec::new();
+    for (there, name) in [
+        (v11.multiview, "multiview"),
+        (v12.timeline_semaphore, "timelineSemaphore"),
+        (v13.dynamic_rendering, "dynamicRendering"),
+        (v13.synchronization2, "synchronization2"),
+    ] {
+        if there != vk::TRUE {
+            missing.push(format!("the feature {name}"));
+        }
+    }
+    if !has(extensions, ash::khr::push_descriptor::NAME) {
+        missing.push("the extension VK_KHR_push_descriptor".to_owned());
+    }
+    let subgroup_operations = vk::SubgroupFeatureFlags::ARITHMETIC
+        | vk::SubgroupFeatureFlags::BALLOT
+        | vk::SubgroupFeatureFlags::SHUFFLE;
+    let enabled = EnabledFeatures {
+        conditional: has(extensions, ash::ext::conditional_rendering::NAME)
+            && conditional.conditional_rendering == vk::TRUE,
+        float16: v12.shader_float16 == vk::TRUE && v11.storage_buffer16_bit_access == vk::TRUE,
+        fragment_stores: core.fragment_stores_and_atomics == vk::TRUE,
+        independent_blend: core.independent_blend == vk::TRUE,
+        memory_model: v12.vulkan_memory_model == vk::TRUE
+            && v12.vulkan_memory_model_device_scope == vk::TRUE,
+        subgroups: v11_properties
+            .subgroup_supported_operations
+            .contains(subgroup_operations)
+            && v11_properties
+                .subgroup_supported_stages
+                .contains(vk::ShaderStageFlags::COMPUTE),
+    };
+    (enabled, missing)
+}

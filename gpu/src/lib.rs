@@ -1,0 +1,64 @@
+//! Vulkan for Vitriol: device, memory, pipelines, queues and a pass recorder.
+//!
+//! A pass is one expression that names its pipeline, what it reads, what it
+//! writes and its size; barriers, debug labels, timestamps and the "last pass
+//! reached" marker follow from it:
+//!
+//! ```no_run
+//! # use vitriol_gpu::*;
+//! # fn f(compiled: &vitriol_shaders::Compiled) -> Result<(), GpuError> {
+//! let gpu = Gpu::open(&mut PlainLoader::default(), &Options::default())?;
+//! let lambda_pass = ComputePipeline::new(&gpu, compiled)?;
+//! let position = Buffer::storage(&gpu, "position", 16 * 1024)?;
+//! let lambda = Buffer::storage(&gpu, "lambda", 4 * 1024)?;
+//! let mut rec = gpu.recorder(QueueKind::Main)?;
+//! rec.pass(&lambda_pass)
+//!     .read("position", &position)
+//!     .write("lambda", &lambda)
+//!     .invocations(1024)?;
+//! gpu.submit(rec)?.wait()?;
+//! # Ok(()) }
+//! ```
+//!
+//! `sim`, `render` and `xr` share one device and none of them owns it; that is
+//! why this crate lies beneath all three. Instance and device are created
+//! through [`Provider`], so an OpenXR runtime can create them instead of the
+//! plain loader.
+//!
+//! Rules that hold everywhere:
+//! - Device requirements are Vulkan 1.3 (dynamic rendering, synchronization2,
+//!   timeline semaphores, multiview) and `VK_KHR_push_descriptor`.
+//! - A handle ([`Buffer`], [`Image`], pipelines) is a cheap clone; what a
+//!   recorder uses lives until the device has finished with it.
+//! - Between submissions on one queue everything is ordered; between queues
+//!   only what [`Gpu::submit_after`] orders.
+//! - Nothing here panics on what user, file or driver can cause.
+// Vulkan is an unsafe interface; every block states why its call is valid.
+#![allow(unsafe_code)]
+
+mod barrier;
+mod device;
+mod error;
+mod memory;
+mod pipeline;
+mod recorder;
+
+pub use ash;
+pub use ash::vk;
+
+pub use device::{
+    BindingLimits, Candidate, DeviceHandles, DeviceInfo, DeviceRequest, DeviceSummary,
+    EnabledFeatures, Gpu, InstanceRequest, Options, PlainLoader, Provider, QueueKind, QueueRequest,
+    Ticket, list_devices,
+};
+pub use error::GpuError;
+pub use memory::{
+    Address, Buffer, Filter, Image, ImageDesc, Sampler, SamplerDesc, bytes_of_elements,
+};
+pub use pipeline::{
+    Blend, ColourFormat, ComputePipeline, Cull, DepthFormat, RasterDesc, RasterPipeline, Topology,
+};
+pub use recorder::{
+    ColourTarget, CopyRegion, DepthTarget, Draw, Load, Pass, PassTiming, Raster, RasterTarget,
+    Readback, Recorder,
+};

@@ -1,0 +1,320 @@
+//! Buffers.
+
+use std::sync::Arc;
+
+use ash::vk;
+use bytemuck::{AnyBitPattern, NoUninit};
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+
+use super::{allocate, free, next_id};
+use crate::device::Core;
+use crate::{Gpu, GpuError};
+
+/// A buffer on the device; cheap to clone.
+///
+/// Its contents are undefined until something is written. Its memory lives
+/// until the last clone is gone and the device has finished every submission
+/// that uses it.
+#[derive(Clone)]
+pub struct Buffer {
+    pub(crate) inner: Arc<BufferInner>,
+}
+
+pub(crate) struct BufferInner {
+    pub(crate) id: u64,
+    pub(crate) handle: vk::Buffer,
+    pub(crate) label: String,
+    pub(crate) bytes: u64,
+    pub(crate) usage: vk::BufferUsageFlags,
+    /// Made for the host's eyes; what the driver maps besides is not offered,
+    /// lest a program work on one device only.
+    pub(crate) is_host: bool,
+    allocation: Allocation,
+    core: Arc<Core>,
+}
+
+/// Bytes of `count` elements of `T`, for a buffer's size.
+pub const fn bytes_of_elements<T>(count: usize) -> u64 {
+    size_of::<T>() as u64 * count as u64
+}
+
+impl Buffer {
+    /// A device-local buffer of at least `bytes` bytes (rounded up to a
+    /// multiple of 4, and to 16 at least, so that an empty one can be bound)
+    /// that compute and raster passes read and write, that copies reach, and
+    /// that can hold indirect arguments, a condition or indices.
+    ///
+    /// # Errors
+    /// [`GpuError::BufferTooLarge`] over `maxStorageBufferRange`,
+    /// [`GpuError::OutOfMemory`].
+    pub fn storage(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+        let core = &gpu.inner.core;
+        let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::INDIRECT_BUFFER
+            | vk::BufferUsageFlags::INDEX_BUFFER;
+        if core.info.features.conditional {
+            usage |= vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT;
+        }
+        let limit = core.info.limits.storage_bytes;
+        Self::checked(gpu, label, bytes, usage, limit)
+    }
+
+    /// A device-local uniform buffer.
+    ///
+    /// # Errors
+    /// [`GpuError::BufferTooLarge`] over `maxUniformBufferRange`,
+    /// [`GpuError::OutOfMemory`].
+    pub fn uniform(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+        let limit = gpu.inner.core.info.limits.uniform_bytes;
+        Self::checked(
+            gpu,
+            label,
+            bytes,
+            vk::BufferUsageFlags::UNIFORM_BUFFER,
+            limit,
+        )
+    }
+
+    /// A host-visible buffer that the host writes and copies read; for data
+    /// that is sent again and again. One-off data goes through
+    /// `Recorder::upload`.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
+    pub fn staging(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+        Self::new(
+            &gpu.inner.core,
+            label,
+            bytes,
+            vk::BufferUsageFlags::empty(),
+            MemoryLocation::CpuToGpu,
+        )
+    }
+
+    /// A host-visible buffer that copies write and the host reads; for results
+    /// that come every frame. One-off results come through
+    /// `Recorder::read_back`.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
+    pub fn readback(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+        Self::new(
+            &gpu.inner.core,
+            label,
+            bytes,
+            vk::BufferUsageFlags::empty(),
+            MemoryLocation::GpuToCpu,
+        )
+    }
+
+    fn checked(
+        gpu: &Gpu,
+        label: &str,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+        limit: u64,
+    ) -> Result<Self, GpuError> {
+        if bytes > limit {
+            return Err(GpuError::BufferTooLarge {
+                label: label.to_owned(),
+                bytes,
+                limit,
+            });
+        }
+        Self::new(
+            &gpu.inner.core,
+            label,
+            bytes,
+            usage,
+            MemoryLocation::GpuOnly,
+        )
+    }
+
+    pub(crate) fn new(
+        core: &Arc<Core>,
+        label: &str,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryLocation,
+    ) -> Result<Self, GpuError> {
+        let bytes = bytes.next_multiple_of(4).max(16);
+        let usage = usage | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        let (sharing, families) = core.sharing();
+        let create = vk::BufferCreateInfo::default()
+            .size(bytes)
+            .usage(usage)
+            .sharing_mode(sharing)
+            .queue_family_indices(families);
+        // SAFETY: the device is alive; size and usage are valid.
+        let handle = unsafe { core.device.create_buffer(&create, None) }
+            .map_err(GpuError::vulkan("vkCreateBuffer"))?;
+        // SAFETY: `handle` was just made.
+        let requirements = unsafe { core.device.get_buffer_memory_requirements(handle) };
+        let bound = allocate(core, label, requirements, location, true).and_then(|allocation| {
+            // SAFETY: the memory is of this device, large enough and not used
+            // by anything else; the buffer has none yet.
+            unsafe {
+                core.device
+                    .bind_buffer_memory(handle, allocation.memory(), allocation.offset())
+            }
+            .map_err(GpuError::vulkan("vkBindBufferMemory"))
+            .map(|()| allocation)
+        });
+        let allocation = match bound {
+            Ok(allocation) => allocation,
+            Err(error) => {
+                // SAFETY: nothing uses the buffer.
+                unsafe { core.device.destroy_buffer(handle, None) };
+                return Err(error);
+            }
+        };
+        core.name(handle, label);
+        Ok(Self {
+            inner: Arc::new(BufferInner {
+                id: next_id(),
+                handle,
+                label: label.to_owned(),
+                bytes,
+                usage,
+                is_host: location != MemoryLocation::GpuOnly,
+                allocation,
+                core: core.clone(),
+            }),
+        })
+    }
+
+    /// Size in bytes, as rounded up at its making.
+    pub fn bytes(&self) -> u64 {
+        self.inner.bytes
+    }
+
+    /// Label given at its making.
+    pub fn label(&self) -> &str {
+        &self.inner.label
+    }
+
+    /// Raw handle, for a library that shares the device.
+    pub fn handle(&self) -> vk::Buffer {
+        self.inner.handle
+    }
+
+    /// Whether `other` is the same buffer.
+    pub fn is(&self, other: &Self) -> bool {
+        self.inner.id == other.inner.id
+    }
+
+    /// Writes a staging buffer from its start. The caller sees to it that no
+    /// unfinished submission reads it.
+    ///
+    /// # Errors
+    /// [`GpuError::NotHostVisible`], [`GpuError::OutOfRange`].
+    pub fn write_host<T: NoUninit>(&self, data: &[T]) -> Result<(), GpuError> {
+        self.inner.write_at(0, bytemuck::cast_slice(data))
+    }
+
+    /// Reads the first `count` elements of a readback buffer. The caller sees
+    /// to it that the submission that wrote it has finished.
+    ///
+    /// # Errors
+    /// [`GpuError::NotHostVisible`], [`GpuError::OutOfRange`].
+    pub fn read_host<T: AnyBitPattern>(&self, count: usize) -> Result<Vec<T>, GpuError> {
+        self.inner.read_at(0, count)
+    }
+}
+
+impl BufferInner {
+    /// Whether `bytes` bytes from `offset` are inside.
+    pub(crate) fn check(&self, offset: u64, bytes: u64) -> Result<(), GpuError> {
+        match offset.checked_add(bytes) {
+            Some(end) if end <= self.bytes => Ok(()),
+            _ => Err(GpuError::OutOfRange {
+                label: self.label.clone(),
+                offset,
+                bytes,
+                size: self.bytes,
+            }),
+        }
+    }
+
+    /// As [`Self::check`], at multiples of 4.
+    pub(crate) fn check_word(&self, offset: u64, bytes: u64) -> Result<(), GpuError> {
+        if offset.is_multiple_of(4) && bytes.is_multiple_of(4) {
+            return self.check(offset, bytes);
+        }
+        Err(GpuError::OutOfRange {
+            label: self.label.clone(),
+            offset,
+            bytes,
+            size: self.bytes,
+        })
+    }
+
+    pub(crate) fn check_usage(&self, usage: vk::BufferUsageFlags) -> Result<(), GpuError> {
+        if self.usage.contains(usage) {
+            return Ok(());
+        }
+        Err(GpuError::WrongBuffer {
+            label: self.label.clone(),
+            usage,
+        })
+    }
+
+    /// Whether indirect arguments of `bytes` bytes can lie at `offset`.
+    pub(crate) fn check_indirect(&self, offset: u64, bytes: u64) -> Result<(), GpuError> {
+        self.check_usage(vk::BufferUsageFlags::INDIRECT_BUFFER)?;
+        self.check_word(offset, bytes)
+    }
+
+    fn mapped(&self) -> Result<*mut u8, GpuError> {
+        self.allocation
+            .mapped_ptr()
+            .filter(|_| self.is_host)
+            .map(|pointer| pointer.as_ptr().cast())
+            .ok_or_else(|| GpuError::NotHostVisible {
+                label: self.label.clone(),
+            })
+    }
+
+    pub(crate) fn write_at(&self, offset: u64, data: &[u8]) -> Result<(), GpuError> {
+        self.check(offset, data.len() as u64)?;
+        let start = self.mapped()?;
+        // SAFETY: the range is inside the mapping (checked above), which lives
+        // as long as the buffer and is coherent. Raw bytes are copied, so a
+        // device that reads meanwhile gives torn data, not undefined behaviour.
+        unsafe {
+            std::ptr::copy_nonoverlapping(data.as_ptr(), start.add(offset as usize), data.len());
+        }
+        Ok(())
+    }
+
+    pub(crate) fn read_at<T: AnyBitPattern>(
+        &self,
+        offset: u64,
+        count: usize,
+    ) -> Result<Vec<T>, GpuError> {
+        let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
+        self.check(offset, bytes)?;
+        let start = self.mapped()?;
+        let mut out = vec![T::zeroed(); count];
+        // SAFETY: the range is inside the mapping, `out` has as many bytes, and
+        // every bit pattern is a `T`.
+        unsafe {
+            std::ptr::copy_nonoverlapping(
+                start.add(offset as usize),
+                out.as_mut_ptr().cast::<u8>(),
+                bytes as usize,
+            );
+        }
+        Ok(out)
+    }
+}
+
+impl Drop for BufferInner {
+    fn drop(&mut self) {
+        // SAFETY: recorders and submissions hold clones until the device has
+        // finished; this was the last.
+        unsafe { self.core.device.destroy_buffer(self.handle, None) };
+        free(&self.core, &mut self.allocation);
+    }
+}

@@ -1,0 +1,59 @@
+//! Staging memory of one submission, handed out front to back.
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use crate::device::Core;
+use crate::{Buffer, GpuError};
+
+/// Large enough for the small uploads of a frame.
+const CHUNK_BYTES: u64 = 1 << 20;
+
+#[derive(Default)]
+pub(crate) struct Arena {
+    chunk: Option<Buffer>,
+    used: u64,
+}
+
+impl Arena {
+    /// A place that holds `data`: a staging buffer and an offset in it. What
+    /// does not fit the chunk gets a buffer of its own, which the caller's
+    /// submission frees.
+    pub(crate) fn place(
+        &mut self,
+        core: &Arc<Core>,
+        data: &[u8],
+    ) -> Result<(Buffer, u64), GpuError> {
+        let bytes = data.len() as u64;
+        if bytes > CHUNK_BYTES - self.used {
+            let buffer = staging(core, bytes)?;
+            buffer.inner.write_at(0, data)?;
+            return Ok((buffer, 0));
+        }
+        let chunk = match &self.chunk {
+            Some(chunk) => chunk.clone(),
+            None => self.chunk.insert(staging(core, CHUNK_BYTES)?).clone(),
+        };
+        let offset = self.used;
+        chunk.inner.write_at(offset, data)?;
+        // 16: offsets of copies are multiples of 4, and of image texels.
+        self.used = (offset + bytes).next_multiple_of(16).min(CHUNK_BYTES);
+        Ok((chunk, offset))
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.used = 0;
+    }
+}
+
+fn staging(core: &Arc<Core>, bytes: u64) -> Result<Buffer, GpuError> {
+    Buffer::new(
+        core,
+        "staging",
+        bytes,
+        vk::BufferUsageFlags::empty(),
+        MemoryLocation::CpuToGpu,
+    )
+}

@@ -1,0 +1,207 @@
+//! What one submission needs on the host, recycled when the device has
+//! finished: command pool, resource tracking, staging memory, queries.
+
+use std::any::Any;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::arena::Arena;
+use super::draw::DrawCommand;
+use super::timing::{Markers, Names, Queries};
+use crate::GpuError;
+use crate::barrier::{Planner, Scope, Use};
+use crate::device::{Core, Options, Submission};
+use crate::memory::{BufferInner, ImageInner};
+use crate::pipeline::DescriptorData;
+use crate::{Buffer, Image};
+
+/// An image and the layout that it has at this point of the recording.
+pub(crate) struct ImageState {
+    pub(crate) image: Arc<ImageInner>,
+    pub(crate) slot: u32,
+    pub(crate) layout: vk::ImageLayout,
+}
+
+/// One image's part in the pass being recorded.
+#[derive(Clone, Copy)]
+pub(crate) struct ImageUse {
+    /// Index into [`Storage::images`].
+    pub(crate) index: usize,
+    pub(crate) layout: vk::ImageLayout,
+    pub(crate) scope: Scope,
+    /// The pass overwrites all of it.
+    pub(crate) discard: bool,
+}
+
+pub(crate) struct Storage {
+    pub(crate) core: Arc<Core>,
+    pool: vk::CommandPool,
+    pub(crate) cmd: vk::CommandBuffer,
+    pub(crate) submission: Arc<Submission>,
+    /// Keeps what the commands use.
+    retained: Vec<Arc<dyn Any + Send + Sync>>,
+    pub(crate) planner: Planner,
+    slots: HashMap<u64, u32>,
+    pub(crate) images: Vec<ImageState>,
+    image_indices: HashMap<u64, usize>,
+    /// Of the pass being recorded.
+    pub(crate) uses: Vec<Use>,
+    pub(crate) image_uses: Vec<ImageUse>,
+    pub(crate) descriptors: Vec<DescriptorData>,
+    pub(crate) constants: Vec<u8>,
+    pub(crate) draws: Vec<DrawCommand>,
+    pub(crate) image_barriers: Vec<vk::ImageMemoryBarrier2<'static>>,
+    /// Zero-terminated copy of a label.
+    pub(crate) label: Vec<u8>,
+    pub(crate) arena: Arena,
+    pub(crate) names: Names,
+    pub(crate) queries: Option<Queries>,
+    pub(crate) markers: Option<Markers>,
+    pub(crate) bound: vk::Pipeline,
+    pub(crate) in_condition: bool,
+    /// Something was copied to where the host reads.
+    pub(crate) host_reads: bool,
+}
+
+// SAFETY: the raw pointers in `image_barriers` are null (`p_next`), and the
+// handles are used under `&mut self` only.
+unsafe impl Send for Storage {}
+
+impl Storage {
+    pub(crate) fn new(core: &Arc<Core>, family: u32, options: &Options) -> Result<Self, GpuError> {
+        let create = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(family);
+        // SAFETY: the device is alive and was made with this family.
+        let pool = unsafe { core.device.create_command_pool(&create, None) }
+            .map_err(GpuError::vulkan("vkCreateCommandPool"))?;
+        let mut storage = Self {
+            core: core.clone(),
+            pool,
+            cmd: vk::CommandBuffer::null(),
+            submission: Submission::new(0),
+            retained: Vec::new(),
+            planner: Planner::default(),
+            slots: HashMap::new(),
+            images: Vec::new(),
+            image_indices: HashMap::new(),
+            uses: Vec::new(),
+            image_uses: Vec::new(),
+            descriptors: Vec::new(),
+            constants: Vec::new(),
+            draws: Vec::new(),
+            image_barriers: Vec::new(),
+            label: Vec::new(),
+            arena: Arena::default(),
+            names: Names::default(),
+            queries: None,
+            markers: None,
+            bound: vk::Pipeline::null(),
+            in_condition: false,
+            host_reads: false,
+        };
+        let allocate = vk::CommandBufferAllocateInfo::default()
+            .command_pool(pool)
+            .level(vk::CommandBufferLevel::PRIMARY)
+            .command_buffer_count(1);
+        // SAFETY: the pool was just made.
+        let buffers = unsafe { core.device.allocate_command_buffers(&allocate) }
+            .map_err(GpuError::vulkan("vkAllocateCommandBuffers"))?;
+        storage.cmd = buffers.first().copied().unwrap_or_default();
+        if options.timestamps && core.info.timestamp_period > 0.0 {
+            storage.queries = Some(Queries::default());
+        }
+        if options.markers {
+            storage.markers = Some(Markers::new(core)?);
+        }
+        Ok(storage)
+    }
+
+    /// The slot of a buffer; holds the buffer from its first use on.
+    pub(crate) fn buffer_slot(&mut self, buffer: &Buffer) -> u32 {
+        let inner: &Arc<BufferInner> = &buffer.inner;
+        if let Some(slot) = self.slots.get(&inner.id) {
+            return *slot;
+        }
+        let slot = self.planner.add();
+        self.slots.insert(inner.id, slot);
+        self.retained.push(inner.clone());
+        slot
+    }
+
+    /// The index in [`Storage::images`]; holds the image from its first use on.
+    pub(crate) fn image_index(&mut self, image: &Image) -> usize {
+        let inner = &image.inner;
+        if let Some(index) = self.image_indices.get(&inner.id) {
+            return *index;
+        }
+        let index = self.images.len();
+        self.images.push(ImageState {
+            image: inner.clone(),
+            slot: self.planner.add(),
+            layout: inner.home,
+        });
+        self.image_indices.insert(inner.id, index);
+        index
+    }
+
+    pub(crate) fn retain(&mut self, object: Arc<dyn Any + Send + Sync>) {
+        self.retained.push(object);
+    }
+
+    /// Forgets the pass being recorded.
+    pub(crate) fn clear_pass(&mut self) {
+        self.uses.clear();
+        self.image_uses.clear();
+        self.descriptors.clear();
+        self.constants.clear();
+        self.draws.clear();
+    }
+
+    /// The device has finished: reads the times, lets everything go, and makes
+    /// ready for the next recording.
+    pub(crate) fn recycle(&mut self, timestamp_mask: u64) -> Result<(), GpuError> {
+        if let Some(queries) = &mut self.queries {
+            let timings = queries.read(&self.core, &self.names, timestamp_mask)?;
+            // A second reader finds the same; the first one stays.
+            let _ = self.submission.timings.set(timings);
+        }
+        if let Some(markers) = &mut self.markers {
+            markers.clear(self.names.len())?;
+        }
+        self.clear_pass();
+        self.retained.clear();
+        self.planner.clear();
+        self.slots.clear();
+        self.images.clear();
+        self.image_indices.clear();
+        self.arena.clear();
+        self.names.clear();
+        // SAFETY: the device has finished the pool's command buffer.
+        unsafe {
+            self.core
+                .device
+                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+        }
+        .map_err(GpuError::vulkan("vkResetCommandPool"))
+    }
+
+    /// Label of the last pass whose marker was written.
+    pub(crate) fn last_marked(&self) -> Option<String> {
+        let reached = self.markers.as_ref()?.reached(self.names.len())?;
+        Some(self.names.get(reached).to_owned())
+    }
+}
+
+impl Drop for Storage {
+    fn drop(&mut self) {
+        // SAFETY: either the commands were never submitted, or the device has
+        // finished them.
+        unsafe { self.core.device.destroy_command_pool(self.pool, None) };
+        if let Some(queries) = &mut self.queries {
+            queries.destroy(&self.core);
+        }
+    }
+}

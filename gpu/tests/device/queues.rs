@@ -1,0 +1,70 @@
+//! The second queue, or the main one in its place.
+
+use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, RasterTarget};
+
+use crate::common::{DOUBLE, assert_silent, compile, open};
+
+#[test]
+fn a_ticket_orders_the_queues() {
+    let gpu = open();
+    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
+    let count = 200_000_u32;
+    let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 4 * u64::from(count)).unwrap());
+    gpu.write(&a, &vec![0_u32; count as usize]).unwrap();
+    let mut last = None;
+    for _ in 0..4 {
+        for (kind, from, to) in [(QueueKind::Async, &a, &b), (QueueKind::Main, &b, &a)] {
+            let mut rec = gpu.recorder(kind).unwrap();
+            rec.pass(&double)
+                .read("source", from)
+                .write("target_", to)
+                .invocations(count)
+                .unwrap();
+            let after: Vec<_> = last.iter().collect();
+            last = Some(gpu.submit_after(rec, &after).unwrap());
+        }
+    }
+    last.unwrap().wait().unwrap();
+    assert!(gpu.read::<u32>(&a).unwrap().iter().all(|x| *x == 255));
+    assert_silent(&gpu);
+}
+
+#[test]
+fn the_async_queue_refuses_raster() {
+    let gpu = open();
+    let mut rec = gpu.recorder(QueueKind::Async).unwrap();
+    let target = RasterTarget {
+        label: "picture",
+        colours: &[],
+        depth: None,
+        view_mask: 0,
+    };
+    let error = rec.raster(&target, |_| Ok(())).unwrap_err();
+    assert!(error.to_string().contains("QueueKind::Main"), "{error}");
+}
+
+#[test]
+fn recorders_of_several_threads() {
+    let gpu = open();
+    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
+    std::thread::scope(|scope| {
+        for start in 0..4_u32 {
+            let (gpu, double) = (&gpu, &double);
+            scope.spawn(move || {
+                let [a, b] = ["a", "b"].map(|l| Buffer::storage(gpu, l, 256).unwrap());
+                gpu.write(&a, &[start; 64]).unwrap();
+                for _ in 0..8 {
+                    let mut rec = gpu.recorder(QueueKind::Async).unwrap();
+                    rec.pass(double)
+                        .read("source", &a)
+                        .write("target_", &b)
+                        .invocations(64)
+                        .unwrap();
+                    gpu.submit(rec).unwrap().wait().unwrap();
+                    assert_eq!(gpu.read::<u32>(&b).unwrap(), [2 * start + 1; 64]);
+                }
+            });
+        }
+    });
+    assert_silent(&gpu);
+}

@@ -1,0 +1,41 @@
+//! What drawing can fail with.
+
+use vitriol_gpu::GpuError;
+use vitriol_shaders::ShaderError;
+
+/// Why a picture was not drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device or its memory.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A shader.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    /// The renderer was asked for a number of views that it has not.
+    #[error("{views} views asked for; a renderer has one (a film) or two (a headset)")]
+    ViewCount {
+        /// Views asked for.
+        views: u32,
+    },
+    /// A frame brings another number of something than the scene or target has.
+    #[error("the frame has {given} {what}, the renderer {wanted}; give as many, in the same order")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// How many the frame has.
+        given: usize,
+        /// How many were set up.
+        wanted: usize,
+    },
+    /// More particles than the buffers hold.
+    #[error("{count} particles asked for, but \"{buffer}\" holds {held}; pass the solver's count")]
+    TooManyParticles {
+        /// Particles asked for.
+        count: u32,
+        /// The shorter buffer's label.
+        buffer: String,
+        /// What it holds.
+        held: u64,
+    },
+}

@@ -1,0 +1,41 @@
+//! The picture: particles, glass, bench and daylight, for one eye or two.
+//!
+//! A [`Renderer`] owns its images and pipelines and reads the solver's buffers
+//! where they lie. One structure serves mono and stereo: the images have a
+//! layer a view, each pass draws all of them (multiview), and mono is a view
+//! count of one.
+//!
+//! ```no_run
+//! # use vitriol_render::*;
+//! # fn film(gpu: &vitriol_gpu::Gpu, library: &vitriol_shaders::Library, scene: &SceneDesc,
+//! #     frame: &FrameDesc) -> Result<Vec<u8>, RenderError> {
+//! let mut renderer = Renderer::new(gpu, library, &RenderDesc::film([960, 540]))?;
+//! renderer.set_scene(scene)?;
+//! let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
+//! renderer.record(&mut rec, frame)?;
+//! let picture = renderer.read_back(&mut rec)?;
+//! let ticket = gpu.submit(rec)?;
+//! // Meanwhile the next frame is recorded and submitted.
+//! ticket.wait()?;
+//! picture.first_view()
+//! # }
+//! ```
+//!
+//! The liquid is drawn by one pass of sphere impostors in `Renderer::record`,
+//! before the bench and the glass; a surface renderer takes that pass's place
+//! and leaves the rest, which asks only for colour and reversed depth.
+
+pub mod camera;
+pub mod colour_map;
+mod error;
+mod frame;
+mod mesh;
+mod pipelines;
+mod renderer;
+mod scene;
+
+pub use camera::{Fov, View};
+pub use error::RenderError;
+pub use frame::{ColourBy, FrameDesc, ParticleSource};
+pub use renderer::{PictureReadback, RenderDesc, Renderer};
+pub use scene::{BoxDesc, SceneDesc, VesselDesc};

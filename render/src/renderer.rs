@@ -1,0 +1,249 @@
+//! Draws a frame: particles and solid things first, the glass over them.
+
+use glam::Mat4;
+use vitriol_gpu::{
+    Buffer, ColourTarget, DepthTarget, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
+    RasterTarget, Readback, Recorder, bytes_of_elements, vk,
+};
+use vitriol_shaders::{Library, ShaderId, layout};
+
+use crate::RenderError;
+use crate::frame::{ColourBy, FrameDesc, ParticleSource};
+use crate::pipelines::{DEPTH_FORMAT, Pipelines};
+use crate::scene::{Scene, SceneDesc};
+
+/// Where there is nothing: the walls' own colour, roughly. Linear.
+const BACKGROUND: [f32; 4] = [0.38, 0.37, 0.35, 1.0];
+
+/// Size, views and format of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderDesc {
+    /// Width and height of each view, pixels.
+    pub extent: [u32; 2],
+    /// 1 (a film) or 2 (a headset's eyes).
+    pub views: u32,
+    /// Format of the colour image. One of sRGB, which encodes what the shaders
+    /// write.
+    pub format: vk::Format,
+}
+
+impl RenderDesc {
+    /// One view of `extent` in 8-bit sRGB: a film.
+    pub const fn film(extent: [u32; 2]) -> Self {
+        Self {
+            extent,
+            views: 1,
+            format: vk::Format::R8G8B8A8_SRGB,
+        }
+    }
+}
+
+/// Draws frames into its own layered colour and depth images, a layer a view.
+///
+/// It records into the caller's recorder, so the picture comes after whatever
+/// solver passes were recorded or submitted before it on that queue, and reads
+/// the solver's buffers where they are.
+pub struct Renderer {
+    gpu: Gpu,
+    desc: RenderDesc,
+    pipelines: Pipelines,
+    scene: Scene,
+    frame: Buffer,
+    colour: Image,
+    depth: Image,
+}
+
+impl Renderer {
+    /// A renderer of an empty scene, its shaders from `library`.
+    ///
+    /// # Errors
+    /// [`RenderError::ViewCount`]; [`RenderError::Gpu`] where the device
+    /// cannot have the images, [`RenderError::Shader`].
+    pub fn new(gpu: &Gpu, library: &Library, desc: &RenderDesc) -> Result<Self, RenderError> {
+        if !(1..=2).contains(&desc.views) {
+            return Err(RenderError::ViewCount { views: desc.views });
+        }
+        let image = |label, format, usage| {
+            let desc = ImageDesc {
+                extent: desc.extent,
+                layers: desc.views,
+                format,
+                usage,
+            };
+            Image::new(gpu, label, desc)
+        };
+        Ok(Self {
+            gpu: gpu.clone(),
+            desc: *desc,
+            pipelines: Pipelines::new(gpu, library, desc.format, view_mask(desc.views))?,
+            scene: Scene::new(gpu, &SceneDesc::default())?,
+            frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
+            colour: image(
+                "picture",
+                desc.format,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            )?,
+            depth: image(
+                "picture depth",
+                DEPTH_FORMAT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            )?,
+        })
+    }
+
+    /// Takes up what changed of this crate's shaders; `changed` is what
+    /// [`Library::changed`] returned. On an error the old pipelines stay.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`], [`RenderError::Gpu`].
+    pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
+        if Pipelines::uses(changed) {
+            let mask = view_mask(self.desc.views);
+            self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
+        }
+        Ok(())
+    }
+
+    /// Replaces the scene: builds and uploads its meshes, and waits for that.
+    ///
+    /// # Errors
+    /// [`RenderError::Gpu`] out of memory or on device loss.
+    pub fn set_scene(&mut self, desc: &SceneDesc) -> Result<(), RenderError> {
+        self.scene = Scene::new(&self.gpu, desc)?;
+        Ok(())
+    }
+
+    /// The colour image, a layer a view.
+    pub fn image(&self) -> &Image {
+        &self.colour
+    }
+
+    /// The depth image (reversed, see [`crate::camera`]), a layer a view:
+    /// particles and solid things, without the glass.
+    pub fn depth(&self) -> &Image {
+        &self.depth
+    }
+
+    /// Records the picture of one frame.
+    ///
+    /// # Errors
+    /// [`RenderError::Count`] and [`RenderError::TooManyParticles`] where the
+    /// frame does not fit; [`RenderError::Gpu`].
+    pub fn record(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
+        frame.check(&self.scene, self.desc.views)?;
+        rec.upload(&self.frame, &[frame.uniforms(&self.scene)])?;
+        let target = RasterTarget {
+            label: "picture",
+            colours: &[ColourTarget {
+                image: &self.colour,
+                load: Load::Clear(BACKGROUND),
+            }],
+            depth: Some(DepthTarget {
+                image: &self.depth,
+                load: Load::Clear(0.0),
+            }),
+            view_mask: view_mask(self.desc.views),
+        };
+        rec.raster(&target, |raster| {
+            if let Some(particles) = &frame.particles {
+                self.draw_particles(raster, particles, frame.colour_by)?;
+            }
+            self.draw_surfaces(raster)?;
+            // Blending is right only from far to near. A vessel's own far wall
+            // comes first; vessels that hide each other are close enough to
+            // clear that their order does not show.
+            for pipeline in [&self.pipelines.glass_far, &self.pipelines.glass_near] {
+                self.draw_glass(raster, pipeline, frame)?;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    }
+
+    fn draw_particles(
+        &self,
+        raster: &mut Raster<'_>,
+        particles: &ParticleSource<'_>,
+        colour_by: ColourBy,
+    ) -> Result<(), vitriol_gpu::GpuError> {
+        let ColourBy::Speed(range) = colour_by;
+        raster
+            .draw(&self.pipelines.particles)
+            .uniform("frame", &self.frame)
+            .read("positions", particles.positions)
+            .read("velocities", particles.velocities)
+            .constants(&layout::ParticleDraw {
+                radius: particles.radius,
+                inverse_range: range.max(f32::MIN_POSITIVE).recip(),
+            })
+            .vertices(3 * particles.count)
+    }
+
+    fn draw_surfaces(&self, raster: &mut Raster<'_>) -> Result<(), vitriol_gpu::GpuError> {
+        let Some(mesh) = &self.scene.surfaces else {
+            return Ok(());
+        };
+        raster
+            .draw(&self.pipelines.surfaces)
+            .uniform("frame", &self.frame)
+            .read("vertices", &mesh.vertices)
+            .indexed(&mesh.indices, mesh.index_count, 1)
+    }
+
+    fn draw_glass(
+        &self,
+        raster: &mut Raster<'_>,
+        pipeline: &RasterPipeline,
+        frame: &FrameDesc<'_>,
+    ) -> Result<(), vitriol_gpu::GpuError> {
+        for (vessel, stage_from_vessel) in self.scene.vessels.iter().zip(frame.vessels) {
+            raster
+                .draw(pipeline)
+                .uniform("frame", &self.frame)
+                .read("vertices", &vessel.mesh.vertices)
+                .constants(&layout::VesselDraw {
+                    stage_from_vessel: Mat4::from(*stage_from_vessel).to_cols_array_2d(),
+                })
+                .indexed(&vessel.mesh.indices, vessel.mesh.index_count, 1)?;
+        }
+        Ok(())
+    }
+
+    /// Records the copy of the picture to the host, after
+    /// [`Renderer::record`]. The bytes can be fetched when the submission has
+    /// finished; a film encodes them while the next frame is simulated.
+    ///
+    /// # Errors
+    /// [`RenderError::Gpu`] out of memory, or for a format that cannot be read
+    /// back.
+    pub fn read_back(&self, rec: &mut Recorder) -> Result<PictureReadback, RenderError> {
+        Ok(PictureReadback {
+            readback: rec.read_back_image(&self.colour)?,
+            views: self.desc.views as usize,
+        })
+    }
+}
+
+/// A picture on its way to the host.
+pub struct PictureReadback {
+    readback: Readback,
+    views: usize,
+}
+
+impl PictureReadback {
+    /// The first view, row by row from the top, without padding, four bytes a
+    /// pixel in the format's order (RGBA for a film).
+    ///
+    /// # Errors
+    /// [`RenderError::Gpu`] before the submission has finished.
+    pub fn first_view(&self) -> Result<Vec<u8>, RenderError> {
+        let mut bytes = self.readback.get::<u8>()?;
+        bytes.truncate(bytes.len() / self.views);
+        Ok(bytes)
+    }
+}
+
+/// A bit per view.
+fn view_mask(views: u32) -> u32 {
+    (1 << views) - 1
+}

@@ -1,0 +1,164 @@
+//! What stands in the room, and its meshes on the device.
+
+use glam::{Vec2, Vec3};
+use vitriol_gpu::{Buffer, Gpu, Recorder, bytes_of_elements};
+
+use crate::RenderError;
+use crate::mesh::{Material, Mesh};
+
+/// A vessel's glass, in the vessel's frame (+Y along its axis).
+#[derive(Clone, Debug, PartialEq)]
+pub struct VesselDesc {
+    /// The surface that the liquid touches: points (r, y), metres, from the
+    /// axis up to the rim.
+    pub inner: Vec<[f64; 2]>,
+    /// The outer surface: points (r, y), metres, from the axis up to the rim.
+    pub outer: Vec<[f64; 2]>,
+}
+
+impl VesselDesc {
+    /// The wall as a closed surface of revolution.
+    fn mesh(&self) -> Mesh {
+        let outline: Vec<Vec2> = self
+            .outer
+            .iter()
+            .chain(self.inner.iter().rev())
+            .map(|&[r, y]| Vec2::new(r as f32, y as f32))
+            .collect();
+        let mut mesh = Mesh::default();
+        mesh.add_revolution(&outline, Material::Glass);
+        mesh
+    }
+
+    /// Largest radius, lowest and highest point.
+    fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds {
+            radius: 0.0,
+            bottom: f32::INFINITY,
+            top: f32::NEG_INFINITY,
+        };
+        for &[r, y] in &self.outer {
+            bounds.radius = bounds.radius.max(r as f32);
+            bounds.bottom = bounds.bottom.min(y as f32);
+            bounds.top = bounds.top.max(y as f32);
+        }
+        bounds
+    }
+}
+
+/// The cylinder that a vessel fits in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) radius: f32,
+    pub(crate) bottom: f32,
+    pub(crate) top: f32,
+}
+
+/// A box along the stage's axes, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxDesc {
+    /// Corner of the least coordinates.
+    pub min: Vec3,
+    /// Corner of the greatest coordinates.
+    pub max: Vec3,
+}
+
+/// What does not change from frame to frame, in the scene's unit (metres, or
+/// what the frame's `length_scale` makes of it).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneDesc {
+    /// Glass, in the order of the frame's poses.
+    pub vessels: Vec<VesselDesc>,
+    /// The bench.
+    pub table: Option<BoxDesc>,
+    /// The room, seen from within: floor, walls and ceiling.
+    pub room: Option<BoxDesc>,
+}
+
+impl SceneDesc {
+    /// A bench and a room about a user who stands at the origin and looks
+    /// along −Z; the bench's top is at `table_top`, metres. For vessels drawn
+    /// at `length_scale` metres per unit of the simulation, all is in that
+    /// unit.
+    pub fn laboratory(vessels: Vec<VesselDesc>, table_top: f32, length_scale: f32) -> Self {
+        let box_of = |min: [f32; 3], max: [f32; 3]| {
+            Some(BoxDesc {
+                min: Vec3::from(min) / length_scale,
+                max: Vec3::from(max) / length_scale,
+            })
+        };
+        Self {
+            vessels,
+            table: box_of([-0.8, table_top - 0.04, -0.78], [0.8, table_top, -0.12]),
+            room: box_of([-2.4, 0.0, -1.7], [2.4, 2.7, 2.4]),
+        }
+    }
+}
+
+/// A mesh on the device.
+pub(crate) struct DeviceMesh {
+    pub(crate) vertices: Buffer,
+    pub(crate) indices: Buffer,
+    pub(crate) index_count: u32,
+}
+
+impl DeviceMesh {
+    fn new(gpu: &Gpu, rec: &mut Recorder, label: &str, mesh: &Mesh) -> Result<Self, RenderError> {
+        let buffer =
+            |name: &str, bytes: u64| Buffer::storage(gpu, &format!("{label} {name}"), bytes);
+        let uploaded = Self {
+            vertices: buffer("vertices", size_of_val(&mesh.vertices[..]) as u64)?,
+            indices: buffer("indices", bytes_of_elements::<u32>(mesh.indices.len()))?,
+            index_count: mesh.indices.len() as u32,
+        };
+        rec.upload(&uploaded.vertices, &mesh.vertices)?;
+        rec.upload(&uploaded.indices, &mesh.indices)?;
+        Ok(uploaded)
+    }
+}
+
+/// A vessel on the device.
+pub(crate) struct Vessel {
+    pub(crate) mesh: DeviceMesh,
+    pub(crate) bounds: Bounds,
+}
+
+/// The scene on the device.
+pub(crate) struct Scene {
+    /// Bench and room, if there is either.
+    pub(crate) surfaces: Option<DeviceMesh>,
+    pub(crate) vessels: Vec<Vessel>,
+}
+
+impl Scene {
+    /// Uploads the meshes and waits for it; a scene is set once.
+    pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<Self, RenderError> {
+        let mut surfaces = Mesh::default();
+        if let Some(table) = desc.table {
+            surfaces.add_box(table.min, table.max, Material::Table);
+        }
+        if let Some(room) = desc.room {
+            surfaces.add_room(room.min, room.max);
+        }
+        let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
+        let scene = Self {
+            surfaces: if surfaces.indices.is_empty() {
+                None
+            } else {
+                Some(DeviceMesh::new(gpu, &mut rec, "surfaces", &surfaces)?)
+            },
+            vessels: desc
+                .vessels
+                .iter()
+                .map(|vessel| {
+                    Ok(Vessel {
+                        mesh: DeviceMesh::new(gpu, &mut rec, "vessel", &vessel.mesh())?,
+                        bounds: vessel.bounds(),
+                    })
+                })
+                .collect::<Result<_, RenderError>>()?,
+        };
+        gpu.submit(rec)?.wait()?;
+        Ok(scene)
+    }
+}

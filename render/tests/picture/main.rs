@@ -1,0 +1,6 @@
+//! The picture as a whole, on a device with the validation layer.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod rig;
+mod scene;
+mod spheres;

@@ -1,0 +1,202 @@
+//! A device with the validation layer, and spheres drawn by plain ray casting
+//! in f64 to compare with.
+
+use glam::{DVec3, Vec3};
+use vitriol_gpu::{Buffer, Gpu, Options, PlainLoader, QueueKind};
+use vitriol_render::camera::NEAR;
+use vitriol_render::{ColourBy, FrameDesc, ParticleSource, RenderDesc, Renderer, SceneDesc, View};
+use vitriol_shaders::Library;
+
+/// What a frame left on the device: a layer a view.
+pub struct Picture {
+    /// sRGB, four bytes a pixel.
+    pub colour: Vec<Vec<u8>>,
+    /// Reversed depth.
+    pub depth: Vec<Vec<f32>>,
+}
+
+pub struct Rig {
+    pub gpu: Gpu,
+    pub renderer: Renderer,
+    pub extent: [u32; 2],
+}
+
+impl Rig {
+    pub fn new(extent: [u32; 2], views: u32) -> Self {
+        let options = Options {
+            validation: true,
+            ..Options::default()
+        };
+        let gpu = Gpu::open(&mut PlainLoader::default(), &options).unwrap();
+        let desc = RenderDesc {
+            views,
+            ..RenderDesc::film(extent)
+        };
+        let renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
+        Self {
+            gpu,
+            renderer,
+            extent,
+        }
+    }
+
+    pub fn set_scene(&mut self, scene: &SceneDesc) {
+        self.renderer.set_scene(scene).unwrap();
+    }
+
+    pub fn buffer(&self, label: &str, data: &[[f32; 4]]) -> Buffer {
+        let buffer = Buffer::storage(&self.gpu, label, size_of_val(data) as u64).unwrap();
+        self.gpu.write(&buffer, data).unwrap();
+        buffer
+    }
+
+    /// Draws a frame; a message of the validation layer fails the test.
+    pub fn draw(&self, frame: &FrameDesc<'_>) -> Picture {
+        let mut rec = self.gpu.recorder(QueueKind::Main).unwrap();
+        self.renderer.record(&mut rec, frame).unwrap();
+        let first_view = self.renderer.read_back(&mut rec).unwrap();
+        let colour = rec.read_back_image(self.renderer.image()).unwrap();
+        let depth = rec.read_back_image(self.renderer.depth()).unwrap();
+        self.gpu.submit(rec).unwrap().wait().unwrap();
+        let messages = self.gpu.take_validation_messages();
+        assert!(messages.is_empty(), "{messages:#?}");
+        let pixels = (self.extent[0] * self.extent[1]) as usize;
+        let layers = |bytes: Vec<u8>| bytes.chunks(4 * pixels).map(<[u8]>::to_vec).collect();
+        let colour: Vec<_> = layers(colour.get().unwrap());
+        assert_eq!(first_view.first_view().unwrap(), colour[0]);
+        Picture {
+            colour,
+            depth: depth
+                .get::<f32>()
+                .unwrap()
+                .chunks(pixels)
+                .map(<[f32]>::to_vec)
+                .collect(),
+        }
+    }
+
+    /// Draws particles at rest of one radius.
+    pub fn draw_spheres(&self, views: &[View], positions: &[[f32; 4]], radius: f32) -> Picture {
+        let velocities = vec![[0.0; 4]; positions.len()];
+        let positions_buffer = self.buffer("positions", positions);
+        let velocities_buffer = self.buffer("velocities", &velocities);
+        self.draw(&FrameDesc {
+            particles: Some(ParticleSource {
+                positions: &positions_buffer,
+                velocities: &velocities_buffer,
+                count: positions.len() as u32,
+                radius,
+            }),
+            ..without_particles(views)
+        })
+    }
+
+    /// What `draw_spheres` should leave in one view.
+    pub fn reference(&self, view: &View, positions: &[[f32; 4]], radius: f32) -> Reference {
+        let [width, height] = self.extent;
+        let mut depth = Vec::new();
+        let mut facing = Vec::new();
+        let eye = view.stage_from_eye.translation.as_dvec3();
+        let centres: Vec<DVec3> = positions
+            .iter()
+            .map(|p| Vec3::from_slice(p).as_dvec3() - eye)
+            .collect();
+        for y in 0..height {
+            for x in 0..width {
+                let ray = ray(view, self.extent, x, y);
+                let axis = ray.dot(view.stage_from_eye.matrix3.z_axis.as_dvec3());
+                let mut nearest = (0.0, 0.0);
+                for centre in &centres {
+                    if let Some((t, cosine)) = enter(*centre, f64::from(radius), ray) {
+                        let depth = f64::from(NEAR) / (t * -axis);
+                        if depth > nearest.0 {
+                            nearest = (depth, cosine);
+                        }
+                    }
+                }
+                depth.push(nearest.0);
+                facing.push(nearest.1);
+            }
+        }
+        Reference { depth, facing }
+    }
+}
+
+/// A frame of an empty scene at real size.
+pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
+    FrameDesc {
+        views,
+        vessels: &[],
+        particles: None,
+        colour_by: ColourBy::Speed(1.0),
+        length_scale: 1.0,
+    }
+}
+
+/// Unit vector from the eye through a pixel's centre, in the stage.
+pub fn ray(view: &View, extent: [u32; 2], x: u32, y: u32) -> DVec3 {
+    let slope = |from: f32, to: f32, pixel: u32, count: u32| {
+        let (from, to) = (f64::from(from).tan(), f64::from(to).tan());
+        from + (to - from) * (f64::from(pixel) + 0.5) / f64::from(count)
+    };
+    let fov = view.fov;
+    let in_eye = DVec3::new(
+        slope(fov.left, fov.right, x, extent[0]),
+        slope(fov.up, fov.down, y, extent[1]),
+        -1.0,
+    );
+    (view.stage_from_eye.matrix3.as_dmat3() * in_eye).normalize()
+}
+
+/// Where a ray from the origin enters a sphere, as distance, and the cosine
+/// between ray and normal there. None from within.
+fn enter(centre: DVec3, radius: f64, ray: DVec3) -> Option<(f64, f64)> {
+    let along = centre.dot(ray);
+    let miss_squared = centre.length_squared() - along * along;
+    let inside = radius * radius - miss_squared;
+    if inside < 0.0 || along < 0.0 || centre.length_squared() <= radius * radius {
+        return None;
+    }
+    Some((along - inside.sqrt(), inside.sqrt() / radius))
+}
+
+pub struct Reference {
+    /// Reversed depth, 0 where there is nothing.
+    pub depth: Vec<f64>,
+    /// Cosine between view ray and normal of what is seen.
+    pub facing: Vec<f64>,
+}
+
+impl Reference {
+    /// Compares a view with this: silhouettes to a pixel, and depth to
+    /// `tolerance` (relative) where the surface faces the eye by more than
+    /// 0.2: at a silhouette depth is as steep as it is sensitive to rounding.
+    /// Gives the number of pixels whose depth was compared.
+    pub fn compare(&self, drawn: &[f32], extent: [u32; 2], tolerance: f64) -> usize {
+        let [width, height] = extent.map(|size| size as i32);
+        let mut compared = 0;
+        for y in 0..height {
+            for x in 0..width {
+                let index = (y * width + x) as usize;
+                let (wanted, got) = (self.depth[index], f64::from(drawn[index]));
+                let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
+                let mut neighbours = around
+                    .filter(|(x, y)| (0..width).contains(x) && (0..height).contains(y))
+                    .map(|(x, y)| (y * width + x) as usize);
+                if (wanted > 0.0) != (got > 0.0) {
+                    assert!(
+                        neighbours.any(|other| (self.depth[other] > 0.0) != (wanted > 0.0)),
+                        "({x}, {y}): depth {got}, expected {wanted}, not at a silhouette"
+                    );
+                } else if neighbours.all(|other| self.facing[other] > 0.2) {
+                    assert!(
+                        (got / wanted - 1.0).abs() < tolerance,
+                        "({x}, {y}): depth {got}, expected {wanted}"
+                    );
+                    compared += 1;
+                }
+            }
+        }
+        compared
+    }
+}

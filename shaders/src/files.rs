@@ -1,0 +1,34 @@
+//! Where the WGSL files are.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The folders under `wgsl`: what is only included, the solver's shaders, the renderer's.
+pub const FOLDERS: [&str; 3] = ["common", "sim", "render"];
+
+/// The WGSL files under `root`: path relative to it (with forward slashes) and full path, sorted.
+/// A folder that does not exist is empty.
+///
+/// # Errors
+/// What reading a folder that exists may fail with.
+pub fn list(root: &Path) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut files = Vec::new();
+    for folder in FOLDERS {
+        let entries = match std::fs::read_dir(root.join(folder)) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            Err(error) => return Err(error),
+        };
+        for entry in entries {
+            let path = entry?.path();
+            if path.extension().is_none_or(|extension| extension != "wgsl") {
+                continue;
+            }
+            if let Some(name) = path.file_name().and_then(|name| name.to_str()) {
+                files.push((format!("{folder}/{name}"), path));
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,153 @@
+//! What an entry point really uses, read from the validated module.
+
+use naga::valid::ModuleInfo;
+use naga::{AddressSpace, ImageClass, Module, StorageAccess, TypeInner};
+
+pub use naga::{ImageDimension, StorageFormat};
+
+/// The pipeline stage of an entry point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// `@vertex`
+    Vertex,
+    /// `@fragment`
+    Fragment,
+    /// `@compute`
+    Compute,
+}
+
+/// A resource that an entry point uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// `@group`, Vulkan's descriptor set.
+    pub group: u32,
+    /// `@binding` in that group.
+    pub binding: u32,
+    /// The variable's name in WGSL.
+    pub name: String,
+    /// What is to be bound.
+    pub kind: BindingKind,
+}
+
+/// The kind of resource that a binding takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BindingKind {
+    /// A storage buffer.
+    Storage {
+        /// Whether it is declared `var<storage, read_write>` (the declaration counts, not
+        /// whether a write is reached).
+        writable: bool,
+    },
+    /// A uniform buffer.
+    Uniform {
+        /// Its size in bytes.
+        bytes: u32,
+    },
+    /// An image that is sampled or loaded from.
+    SampledImage {
+        /// 1D, 2D, 3D or cube.
+        dimension: ImageDimension,
+        /// Whether it has layers.
+        arrayed: bool,
+        /// Whether it has several samples a texel.
+        multisampled: bool,
+        /// Whether it is a depth texture.
+        depth: bool,
+    },
+    /// An image that is loaded from and stored to without a sampler.
+    StorageImage {
+        /// 1D, 2D or 3D.
+        dimension: ImageDimension,
+        /// Whether it has layers.
+        arrayed: bool,
+        /// Format of a texel.
+        format: StorageFormat,
+        /// Whether it is declared `read` or `read_write`.
+        readable: bool,
+        /// Whether it is declared `write` or `read_write`.
+        writable: bool,
+    },
+    /// A sampler.
+    Sampler {
+        /// Whether it compares with a reference value.
+        comparison: bool,
+    },
+}
+
+/// The bindings that the module's only entry point uses, by group and binding, and the size in
+/// bytes of its `var<immediate>` (0 without one).
+///
+/// # Errors
+/// The name of a variable whose kind no Vulkan binding here stands for (arrays of bindings).
+pub fn bindings(module: &Module, info: &ModuleInfo) -> Result<(Vec<Binding>, u32), String> {
+    let used = info.get_entry_point(0);
+    let mut bindings = Vec::new();
+    let mut immediate_bytes = 0;
+    for (handle, variable) in module.global_variables.iter() {
+        if used[handle].is_empty() {
+            continue;
+        }
+        let inner = &module.types[variable.ty].inner;
+        if variable.space == AddressSpace::Immediate {
+            immediate_bytes = inner.size(module.to_ctx());
+        }
+        let Some(place) = &variable.binding else {
+            continue;
+        };
+        let name = variable.name.clone().unwrap_or_default();
+        let Some(kind) = kind(module, variable.space, inner) else {
+            return Err(name);
+        };
+        bindings.push(Binding {
+            group: place.group,
+            binding: place.binding,
+            name,
+            kind,
+        });
+    }
+    bindings.sort_by_key(|binding| (binding.group, binding.binding));
+    Ok((bindings, immediate_bytes))
+}
+
+fn kind(module: &Module, space: AddressSpace, inner: &TypeInner) -> Option<BindingKind> {
+    match (space, inner) {
+        (_, TypeInner::BindingArray { .. }) => None,
+        (AddressSpace::Storage { access }, _) => Some(BindingKind::Storage {
+            writable: access.contains(StorageAccess::STORE),
+        }),
+        (AddressSpace::Uniform, _) => Some(BindingKind::Uniform {
+            bytes: inner.size(module.to_ctx()),
+        }),
+        (_, &TypeInner::Sampler { comparison }) => Some(BindingKind::Sampler { comparison }),
+        (
+            _,
+            &TypeInner::Image {
+                dim: dimension,
+                arrayed,
+                class,
+            },
+        ) => match class {
+            ImageClass::Sampled { multi, .. } => Some(BindingKind::SampledImage {
+                dimension,
+                arrayed,
+                multisampled: multi,
+                depth: false,
+            }),
+            ImageClass::Depth { multi } => Some(BindingKind::SampledImage {
+                dimension,
+                arrayed,
+                multisampled: multi,
+                depth: true,
+            }),
+            ImageClass::Storage { format, access } => Some(BindingKind::StorageImage {
+                dimension,
+                arrayed,
+                format,
+                readable: access.contains(StorageAccess::LOAD),
+                writable: access.contains(StorageAccess::STORE),
+            }),
+            ImageClass::External => None,
+        },
+        _ => None,
+    }
+}

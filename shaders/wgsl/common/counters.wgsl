@@ -1,0 +1,16 @@
+// Events that are counted and reported. Integer sums do not depend on order.
+
+struct Counters {
+    /// Times the neighbour list was rebuilt.
+    rebuilds: atomic<u32>,
+    /// Particles whose list was full.
+    list_overflows: atomic<u32>,
+    /// Corrections cut so that a particle stays within its list's margin.
+    list_limited: atomic<u32>,
+    /// Speeds cut to the maximum.
+    speed_limited: atomic<u32>,
+    /// Flask constraints generated.
+    flask_constraints: atomic<u32>,
+    /// Particles taken out because they turned non-finite.
+    removed: atomic<u32>,
+}

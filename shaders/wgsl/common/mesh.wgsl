@@ -1,0 +1,12 @@
+//! Vertices of a mesh, which the vertex shader fetches by index.
+
+struct MeshVertex {
+    /// In the mesh's own frame, in the scene's unit.
+    position: vec3<f32>,
+    /// 0 table, 1 floor, 2 wall, 3 glass.
+    material: u32,
+    /// Unit length, out of the solid.
+    normal: vec3<f32>,
+}
+
+@group(0) @binding(1) var<storage, read> vertices: array<MeshVertex>;

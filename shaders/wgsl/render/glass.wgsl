@@ -1,0 +1,57 @@
+//! A vessel's glass, blended over the finished picture: first the faces that look away from the
+//! eye, then those that look at it.
+
+//!include common/frame.wgsl
+//!include common/mesh.wgsl
+//!include common/daylight.wgsl
+
+struct VesselDraw {
+    /// From the vessel's frame; rigid.
+    stage_from_vessel: mat4x4<f32>,
+}
+
+var<immediate> vessel: VesselDraw;
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) from_eye: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> Varyings {
+    let corner = vertices[index];
+    let position = vessel.stage_from_vessel * vec4<f32>(corner.position, 1.0);
+    return Varyings(
+        frame.views[eye].clip_from_stage * position,
+        position.xyz - frame.views[eye].eye,
+        (vessel.stage_from_vessel * vec4<f32>(corner.normal, 0.0)).xyz,
+    );
+}
+
+/// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
+const NORMAL_REFLECTANCE = 0.036;
+/// What one wall seen at right angles takes from the light; a slanting path takes more.
+const WALL_ABSORPTION = 0.018;
+/// Light that the wall's inside scatters to the eye: the greenish edge of clear glass.
+const EDGE = vec3<f32>(0.16, 0.21, 0.20);
+
+/// Colour premultiplied by its opacity.
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let to_eye = -normalize(in.from_eye);
+    let outward = normalize(in.normal);
+    let normal = select(-outward, outward, dot(outward, to_eye) > 0.0);
+    let facing = dot(normal, to_eye);
+    let rest = 1.0 - facing;
+    let rest_squared = rest * rest;
+    let reflectance =
+        NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest_squared * rest_squared * rest;
+    let mirrored = surroundings(reflect(-to_eye, normal));
+    let absorbed = 1.0 - exp(-WALL_ABSORPTION / max(facing, 0.05));
+    // The rays that miss the eye are missing mostly at the edges, which look dark.
+    let opacity = reflectance + (1.0 - reflectance) * absorbed;
+    let light = reflectance * mirrored + (1.0 - reflectance) * absorbed * EDGE;
+    // Tone mapping bends, so it is for the colour as if opaque; the opacity goes on after.
+    return vec4<f32>(display(light / opacity) * opacity, opacity);
+}

@@ -1,0 +1,30 @@
+// The density of each particle as a fraction of the rest density, for reports.
+//!include common/particle.wgsl
+//!include common/kernel.wgsl
+//!include common/step.wgsl
+//!include common/boundary.wgsl
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> list_counts: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read_write> density: array<f32>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x;
+    if (i >= COUNT) { return; }
+    let x = position[i].xyz;
+    let tag = tags[i].x;
+    if (tag == REMOVED) {
+        density[i] = 0.0;
+        return;
+    }
+    var sum = spline(0.0);
+    let count = list_counts[i];
+    for (var k = 0u; k < count; k++) {
+        let offset = x - position[list[k * COUNT + i]].xyz;
+        sum += spline(sqrt(dot(offset, offset)) / SUPPORT);
+    }
+    density[i] = sum * weight_scale() + boundary_volume(tag, x, step.after).w;
+}

@@ -1,0 +1,116 @@
+// Line 10: the neighbours within support radius plus margin, by ascending
+// index, strided so that neighbouring invocations read neighbouring words.
+// Pairs that glass separates are left out here, once, and not in each pass.
+//!include common/particle.wgsl
+//!include common/kernel.wgsl
+//!include common/step.wgsl
+//!include common/grid.wgsl
+//!include common/vessel.wgsl
+//!include common/counters.wgsl
+
+override LOADS: bool = false;
+
+@group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> sorted_position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> sorted_velocity: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> sorted_tags: array<vec2<u32>>;
+@group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
+@group(0) @binding(6) var<storage, read_write> trial: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> position: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> tags: array<vec2<u32>>;
+@group(0) @binding(10) var<storage, read_write> list_origin: array<vec4<f32>>;
+@group(0) @binding(11) var<storage, read_write> list_counts: array<u32>;
+@group(0) @binding(12) var<storage, read_write> list: array<u32>;
+@group(0) @binding(13) var<storage, read_write> counters: Counters;
+@group(0) @binding(14) var<storage, read> sorted_push: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read_write> wall_push: array<vec4<f32>>;
+
+fn start_of(cell: u32) -> u32 {
+    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
+    return block_sums[cell / SCAN_BLOCK] + cell_starts[cell];
+}
+
+/// Whether two particles of different membership see each other past the glass.
+fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
+    var seen = true;
+    if (FLASKS > 0u) {
+        if (a != NOBODYS) {
+            let pose = poses[step.after + a - 1u];
+            seen = visible_from(a - 1u, flask_from_stage(pose, x_a), flask_from_stage(pose, x_b));
+        }
+        if (b != NOBODYS) {
+            let pose = poses[step.after + b - 1u];
+            seen = seen && visible_from(b - 1u, flask_from_stage(pose, x_b), flask_from_stage(pose, x_a));
+        }
+    }
+    return seen;
+}
+
+var<private> found: u32;
+var<private> coincident: bool;
+
+fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32) {
+    for (var j = first; j < end; j++) {
+        let other = sorted_trial[j].xyz;
+        let offset = x - other;
+        let distance = dot(offset, offset);
+        if (distance < CELL * CELL && j != i) {
+            let theirs = sorted_tags[j].x;
+            if (theirs == membership || visible(membership, x, theirs, other)) {
+                if (found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
+                found++;
+                coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
+            }
+        }
+    }
+}
+
+/// A direction from a particle's identity: apart, but the same at each replay.
+fn apart(identity: u32) -> vec3<f32> {
+    var bits = identity * 747796405u + 2891336453u;
+    bits = ((bits >> ((bits >> 28u) + 4u)) ^ bits) * 277803737u;
+    let d = vec3<f32>(f32(bits & 1023u), f32((bits >> 10u) & 1023u), f32((bits >> 20u) & 1023u)) / 512.0 - 0.999;
+    return d / length(d);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x;
+    if (i >= COUNT) { return; }
+    let tag = sorted_tags[i];
+    var x = sorted_trial[i].xyz;
+    found = 0u;
+    coincident = false;
+    if (tag.x != REMOVED) {
+        let cell = cell_of(x);
+        let wraps = (1 << CELL_BITS_X) - 1;
+        let column = cell.x & wraps;
+        for (var dz = -1; dz <= 1; dz++) {
+            for (var dy = -1; dy <= 1; dy++) {
+                let row = cell_index(vec3<i32>(0, cell.y + dy, cell.z + dz));
+                if (column > 0 && column < wraps) {
+                    search(i, x, tag.x, start_of(row + u32(column - 1)), start_of(row + u32(column + 2)));
+                } else {
+                    for (var dx = -1; dx <= 1; dx++) {
+                        let at = row + u32((column + dx) & wraps);
+                        search(i, x, tag.x, start_of(at), start_of(at + 1u));
+                    }
+                }
+            }
+        }
+        // Kernel gradients vanish at distance zero; particles in one place
+        // would stay together for ever.
+        if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
+        if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
+    }
+    list_counts[i] = min(found, LIST_CAPACITY);
+    trial[i] = vec4<f32>(x, 0.0);
+    list_origin[i] = vec4<f32>(x, 0.0);
+    position[i] = sorted_position[i];
+    velocity[i] = sorted_velocity[i];
+    tags[i] = tag;
+    if (LOADS) { wall_push[i] = sorted_push[i]; }
+    if (i == 0u) { atomicAdd(&counters.rebuilds, 1u); }
+}

@@ -1,0 +1,62 @@
+// What the liquid did to each flask in a frame: impulse and angular impulse
+// about the flask's origin, by workgroup; the host adds the workgroups up.
+//!include common/particle.wgsl
+//!include common/kernel.wgsl
+//!include common/step.wgsl
+//!include common/vessel.wgsl
+
+/// Mass of a particle, kg.
+override MASS: f32 = 1.0;
+
+struct LiquidLoad {
+    /// Impulse, N s; w: number of particles in the flask.
+    impulse: vec4<f32>,
+    /// Angular impulse about the flask's origin, N m s.
+    angular: vec4<f32>,
+    /// Sum of the particles' offsets from the flask's origin, m, stage axes.
+    offsets: vec4<f32>,
+}
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> wall_push: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> loads: array<LiquidLoad>;
+
+var<workgroup> impulses: array<vec4<f32>, 256>;
+var<workgroup> angulars: array<vec4<f32>, 256>;
+var<workgroup> offsets: array<vec4<f32>, 256>;
+
+@compute @workgroup_size(256)
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>,
+        @builtin(local_invocation_index) local: u32) {
+    let i = id.x;
+    var tag = NOBODYS;
+    var impulse = vec3<f32>(0.0);
+    var x = vec3<f32>(0.0);
+    if (i < COUNT) {
+        tag = tags[i].x;
+        impulse = wall_push[i].xyz * (-MASS / step.time);
+        x = position[i].xyz;
+    }
+    for (var k = 0u; k < FLASKS; k++) {
+        let mine = tag == k + 1u;
+        let arm = x - poses[step.after + k].position.xyz;
+        let none = vec4<f32>(0.0);
+        impulses[local] = select(none, vec4<f32>(impulse, 1.0), mine);
+        angulars[local] = select(none, vec4<f32>(cross(arm, impulse), 0.0), mine);
+        offsets[local] = select(none, vec4<f32>(arm, 0.0), mine);
+        workgroupBarrier();
+        for (var reach = 128u; reach > 0u; reach >>= 1u) {
+            if (local < reach) {
+                impulses[local] += impulses[local + reach];
+                angulars[local] += angulars[local + reach];
+                offsets[local] += offsets[local + reach];
+            }
+            workgroupBarrier();
+        }
+        if (local == 0u) {
+            loads[group.x * FLASKS + k] = LiquidLoad(impulses[0], angulars[0], offsets[0]);
+        }
+        workgroupBarrier();
+    }
+}

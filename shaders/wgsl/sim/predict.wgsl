@@ -1,0 +1,19 @@
+// Line 16 at a frame's start; within a frame the viscosity pass ends with it.
+//!include common/particle.wgsl
+//!include common/kernel.wgsl
+//!include common/step.wgsl
+//!include common/vessel.wgsl
+//!include common/ground.wgsl
+//!include common/predict.wgsl
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x;
+    if (i >= COUNT) { return; }
+    if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
+    predict(i, position[i].xyz, velocity[i].xyz, tags[i].x, step.before, step.after);
+}

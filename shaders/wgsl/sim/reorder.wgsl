@@ -1,0 +1,45 @@
+// Line 11: all of a particle's state to its place by cell, and within a cell
+// by its former index, so that the order (and so every sum) repeats.
+//!include common/particle.wgsl
+//!include common/grid.wgsl
+
+override LOADS: bool = false;
+
+@group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
+@group(0) @binding(6) var<storage, read> cell_items: array<u32>;
+@group(0) @binding(7) var<storage, read_write> sorted_trial: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> sorted_position: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> sorted_velocity: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> sorted_tags: array<vec2<u32>>;
+@group(0) @binding(11) var<storage, read> wall_push: array<vec4<f32>>;
+@group(0) @binding(12) var<storage, read_write> sorted_push: array<vec4<f32>>;
+
+/// Index of the first particle of a cell; of the end of the table after the last.
+fn start_of(cell: u32) -> u32 {
+    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
+    return block_sums[cell / SCAN_BLOCK] + cell_starts[cell];
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x;
+    if (i >= COUNT) { return; }
+    let x = trial[i];
+    let cell = cell_index(cell_of(x.xyz));
+    let start = start_of(cell);
+    let end = start_of(cell + 1u);
+    var to = start;
+    for (var k = start; k < end; k++) {
+        to += select(0u, 1u, cell_items[k] < i);
+    }
+    sorted_trial[to] = x;
+    sorted_position[to] = position[i];
+    sorted_velocity[to] = velocity[i];
+    sorted_tags[to] = tags[i];
+    if (LOADS) { sorted_push[to] = wall_push[i]; }
+}

@@ -1,0 +1,129 @@
+//! What a hand grips, holds and lets go.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::{Hand, reach};
+use crate::pose::Pose;
+
+/// Farthest distance (m, at real size) from the grip point to a flask's surface
+/// at which a closing hand takes hold of it.
+///
+/// The OpenXR grip pose lies at the palm's centre (specification, "Standard
+/// pose identifiers"); 5 cm is about half the breadth of a hand (84 mm, median
+/// of adults: NASA-STD-3000, anthropometry), so what the palm comes this near
+/// lies under the fingers.
+pub const GRIP_REACH: f32 = 0.05;
+/// The squeeze at which an open hand closes. Our choice; between it and
+/// [`GRIP_OPENS`] nothing changes, so that a finger that trembles on a
+/// threshold does not let a flask fall.
+pub const GRIP_CLOSES: f32 = 0.6;
+/// The squeeze below which a closed hand opens.
+pub const GRIP_OPENS: f32 = 0.4;
+/// Highest speed (m/s, at real size) that a flask keeps when it is let go. An
+/// adult throws a small ball at 20 m/s or more but a flask in a laboratory
+/// never; above lies a tracker's leap, which must not become a missile.
+pub const RELEASE_SPEED_MAX: f32 = 10.0;
+/// Highest spin (rad/s) that a flask keeps when it is let go: five turns a
+/// second, beyond what a wrist reaches with a flask in the hand.
+pub const RELEASE_SPIN_MAX: f32 = 31.4;
+
+/// A hand's memory from one step to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct GripState {
+    closed: bool,
+    held: Option<Held>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Held {
+    flask: usize,
+    grip_from_flask: Pose,
+    stage_from_flask: Pose,
+}
+
+/// A flask as a hand sees it.
+pub(super) struct Grippable<'a> {
+    pub outline: &'a [[f32; 2]],
+    pub stage_from_flask: Pose,
+    pub fixed: bool,
+}
+
+/// Advances both hands by a step: they open, close, take and follow.
+///
+/// A hand takes hold only in the step in which it closes, so that a fist that
+/// passes by snatches nothing; and of a flask that the other hand holds it
+/// takes over. If both close on one flask in the same step, the second has it.
+pub(super) fn advance(
+    grips: &mut [GripState; 2],
+    hands: &[Hand; 2],
+    flasks: &[Grippable<'_>],
+    reach: f32,
+) {
+    for index in 0..hands.len() {
+        let hand = &hands[index];
+        if !hand.present || !hand.stage_from_grip.is_valid() {
+            continue;
+        }
+        let was_closed = grips[index].closed;
+        // Comparisons with NaN are false: a squeeze that is no number changes nothing.
+        if hand.squeeze >= GRIP_CLOSES {
+            grips[index].closed = true;
+        } else if hand.squeeze < GRIP_OPENS {
+            grips[index] = GripState::default();
+        }
+        if grips[index].closed && !was_closed {
+            grips[index].held = nearest(hand.stage_from_grip, flasks, reach);
+            if let (Some(taken), Some(other)) = (grips[index].held, grips[1 - index].held)
+                && taken.flask == other.flask
+            {
+                grips[1 - index].held = None;
+            }
+        }
+        if let Some(held) = &mut grips[index].held {
+            held.stage_from_flask = hand.stage_from_grip.compose(held.grip_from_flask);
+        }
+    }
+}
+
+fn nearest(stage_from_grip: Pose, flasks: &[Grippable<'_>], reach: f32) -> Option<Held> {
+    flasks
+        .iter()
+        .enumerate()
+        .filter(|(_, flask)| !flask.fixed)
+        .map(|(index, flask)| {
+            let grip = flask
+                .stage_from_flask
+                .inverse()
+                .transform_point(stage_from_grip.position);
+            let distance = reach::signed_distance(flask.outline, grip);
+            let held = Held {
+                flask: index,
+                grip_from_flask: stage_from_grip.inverse().compose(flask.stage_from_flask),
+                stage_from_flask: flask.stage_from_flask,
+            };
+            (distance, held)
+        })
+        .filter(|&(distance, _)| distance <= reach)
+        .min_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, held)| held)
+}
+
+/// The hand that holds `flask`, and the pose that it gives it.
+pub(super) fn holder(grips: &[GripState; 2], flask: usize) -> Option<(usize, Pose)> {
+    grips.iter().enumerate().find_map(|(hand, grip)| {
+        grip.held
+            .filter(|held| held.flask == flask)
+            .map(|held| (hand, held.stage_from_flask))
+    })
+}
+
+/// Linear velocity (m/s) of the point at `centre` (flask frame) and angular velocity
+/// (rad/s) that take `before` to `after` in `step` seconds, not limited.
+pub(super) fn velocity_between(before: Pose, after: Pose, centre: Vec3, step: f32) -> (Vec3, Vec3) {
+    let moved = after.transform_point(centre) - before.transform_point(centre);
+    let turned = (after.orientation * before.orientation.conjugate()).normalize();
+    // The shorter way round: q and −q are the same rotation.
+    let turned = if turned.w < 0.0 { -turned } else { turned };
+    (moved / step, turned.to_scaled_axis() / step)
+}

@@ -1,0 +1,27 @@
+//! Rigid bodies: flasks, the table and the floor, and the hands that grip them.
+//!
+//! rapier3d does the mechanics; this module says what a flask is to it (a
+//! solid of convex pieces with the inertia of a glass shell), what a
+//! hand does to it, and how the liquid's push acts on it. It knows nothing of
+//! particles, scenes or devices.
+//!
+//! A hand has no collider of its own. It acts by gripping alone: a solid hand
+//! would push a flask away in the very moment in which it reaches for it.
+
+mod build;
+mod coupling;
+mod grip;
+mod reach;
+mod rolling;
+mod shell;
+mod solid;
+mod spec;
+mod units;
+mod world;
+
+#[cfg(test)]
+mod tests;
+
+pub use grip::{GRIP_CLOSES, GRIP_OPENS, GRIP_REACH, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
+pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
+pub use world::{Bodies, Velocity};

@@ -1,0 +1,281 @@
+//! The world of bodies and its fixed step.
+
+use glam::Vec3;
+use rapier3d::prelude::{PhysicsWorld, RigidBody, RigidBodyType};
+use serde::{Deserialize, Serialize};
+
+use super::build::{self, Flask, SUBSTEPS};
+use super::coupling::{self, PastPoses};
+use super::grip::{self, GRIP_REACH, GripState, Grippable, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
+use super::rolling;
+use super::spec::{BodiesError, BodiesSpec, Hand, Load};
+use super::units::Units;
+use crate::pose::Pose;
+
+/// Speed (m/s, at real size) above which a held flask's motion is a leap of the
+/// tracker: it goes there, but what stands in between is not struck by it.
+const HELD_SPEED_MAX: f32 = 20.0;
+
+/// How a flask moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Velocity {
+    /// Of the flask's origin, the centre of its base (m/s), stage axes.
+    pub linear: Vec3,
+    /// Angular velocity (rad/s), stage axes.
+    pub angular: Vec3,
+}
+
+/// What of the world changes and is not rapier's.
+#[derive(Clone, Serialize, Deserialize)]
+struct State {
+    grips: [GripState; 2],
+    past: Vec<PastPoses>,
+}
+
+/// Flasks, table and floor under rapier, and the hands that grip the flasks.
+///
+/// Advanced by one simulation step at a time with that step's inputs; the same
+/// inputs give the same bits, on every platform (rapier's
+/// `enhanced-determinism`), and so does a world [restored](Bodies::restore)
+/// from a [snapshot](Bodies::snapshot).
+pub struct Bodies {
+    rapier: PhysicsWorld,
+    flasks: Vec<Flask>,
+    state: State,
+    poses: Vec<Pose>,
+    gravity: Vec3,
+    step: f32,
+    units: Units,
+    length_scale: f32,
+}
+
+impl Bodies {
+    /// Builds the world.
+    ///
+    /// # Errors
+    /// [`BodiesError::World`] and [`BodiesError::Flask`] name what is out of range.
+    pub fn new(spec: &BodiesSpec) -> Result<Self, BodiesError> {
+        let (rapier, flasks) = build::build(spec)?;
+        let poses: Vec<Pose> = spec
+            .flasks
+            .iter()
+            .map(|body| body.stage_from_flask)
+            .collect();
+        Ok(Self {
+            rapier,
+            flasks,
+            state: State {
+                grips: [GripState::default(); 2],
+                past: poses.iter().map(|&pose| [pose; 4]).collect(),
+            },
+            poses,
+            gravity: spec.gravity,
+            step: spec.step,
+            units: Units::new(spec.length_scale),
+            length_scale: spec.length_scale,
+        })
+    }
+
+    /// Advances by one simulation step.
+    ///
+    /// `loads` has one entry per flask, or fewer where the rest bear none; that
+    /// of a held or fixed flask is not looked at. A flask that is let go in
+    /// this step already falls in it.
+    pub fn step(&mut self, hands: &[Hand; 2], loads: &[Load]) {
+        self.advance_grips(hands);
+        for index in 0..self.flasks.len() {
+            let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
+            if self.holder(index).is_some() {
+                self.hold(index);
+            } else if !self.flasks[index].fixed {
+                self.free(index, &load);
+            }
+        }
+        for substep in 1..=SUBSTEPS {
+            self.move_held(substep as f32 / SUBSTEPS as f32);
+            self.rapier.step();
+        }
+        self.read_poses();
+    }
+
+    /// `stage_from_flask` of every flask after the last step.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// The velocity of a flask: of a held one by its last two poses. `None` where there
+    /// is no such flask.
+    pub fn velocity(&self, flask: usize) -> Option<Velocity> {
+        let body = self.body(flask)?;
+        if self.holder(flask).is_some() {
+            let past = &self.state.past[flask];
+            let (linear, angular) = grip::velocity_between(past[1], past[0], Vec3::ZERO, self.step);
+            return Some(Velocity { linear, angular });
+        }
+        Some(Velocity {
+            linear: self.units.to_si(body.velocity_at_point(body.translation())),
+            angular: body.angvel(),
+        })
+    }
+
+    /// The hand (index into the hands of [`step`](Self::step)) that holds a flask.
+    pub fn holder(&self, flask: usize) -> Option<usize> {
+        grip::holder(&self.state.grips, flask).map(|(hand, _)| hand)
+    }
+
+    /// The whole state as bytes, for [`restore`](Self::restore).
+    ///
+    /// # Errors
+    /// [`BodiesError::Snapshot`] where memory does not suffice.
+    pub fn snapshot(&self) -> Result<Vec<u8>, BodiesError> {
+        postcard::to_allocvec(&(&self.rapier, &self.state))
+            .map_err(|error| BodiesError::Snapshot(error.to_string()))
+    }
+
+    /// Takes up a snapshot of a world that was made from the same
+    /// [`BodiesSpec`]; the steps that follow have the bits that they would have
+    /// had without the interruption.
+    ///
+    /// # Errors
+    /// [`BodiesError::Snapshot`] or [`BodiesError::OtherWorld`]; the world is then as before.
+    pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), BodiesError> {
+        let (rapier, state): (PhysicsWorld, State) = postcard::from_bytes(snapshot)
+            .map_err(|error| BodiesError::Snapshot(error.to_string()))?;
+        let same = state.past.len() == self.flasks.len()
+            && self
+                .flasks
+                .iter()
+                .all(|flask| rapier.bodies.contains(flask.body));
+        if !same {
+            return Err(BodiesError::OtherWorld {
+                found: state.past.len(),
+                expected: self.flasks.len(),
+            });
+        }
+        self.poses = state.past.iter().map(|past| past[0]).collect();
+        self.rapier = rapier;
+        self.state = state;
+        Ok(())
+    }
+
+    fn body(&self, flask: usize) -> Option<&RigidBody> {
+        self.rapier.bodies.get(self.flasks.get(flask)?.body)
+    }
+
+    fn advance_grips(&mut self, hands: &[Hand; 2]) {
+        let grippable: Vec<Grippable<'_>> = self
+            .flasks
+            .iter()
+            .zip(&self.poses)
+            .map(|(flask, &stage_from_flask)| Grippable {
+                outline: &flask.outline,
+                stage_from_flask,
+                fixed: flask.fixed,
+            })
+            .collect();
+        let reach = GRIP_REACH * self.length_scale;
+        grip::advance(&mut self.state.grips, hands, &grippable, reach);
+    }
+
+    /// Makes a gripped flask the hand's, if it is not yet.
+    fn hold(&mut self, index: usize) {
+        if let Some(body) = self.rapier.bodies.get_mut(self.flasks[index].body)
+            && body.is_dynamic()
+        {
+            body.set_body_type(RigidBodyType::KinematicPositionBased, true);
+            body.reset_forces(false);
+            body.reset_torques(false);
+        }
+    }
+
+    /// Makes a flask free if a hand has just let it go, and lays its load on it.
+    fn free(&mut self, index: usize, load: &Load) {
+        let flask = &self.flasks[index];
+        let past = &self.state.past[index];
+        let units = self.units;
+        let loaded = coupling::loaded_mass(flask.glass, load);
+        let Some(body) = self.rapier.bodies.get_mut(flask.body) else {
+            return;
+        };
+        let (linear, angular) = if body.is_dynamic() {
+            // rapier's velocity is that of the centre of mass, which the liquid moves.
+            let centre = past[0].transform_point(loaded.local_com);
+            (body.velocity_at_point(units.vector(centre)), body.angvel())
+        } else {
+            body.set_body_type(RigidBodyType::Dynamic, true);
+            let (linear, angular) =
+                grip::velocity_between(past[1], past[0], loaded.local_com, self.step);
+            let linear = linear.clamp_length_max(RELEASE_SPEED_MAX * self.length_scale);
+            (
+                units.vector(linear),
+                angular.clamp_length_max(RELEASE_SPIN_MAX),
+            )
+        };
+        body.set_additional_mass_properties(units.mass_properties(loaded), true);
+        body.recompute_mass_properties_from_colliders(&self.rapier.colliders);
+        body.set_linvel(linear, true);
+        body.set_angvel(angular, true);
+
+        let push = coupling::push(
+            load,
+            past,
+            loaded.local_com,
+            self.gravity,
+            self.step,
+            self.length_scale,
+        );
+        body.reset_forces(false);
+        body.reset_torques(false);
+        body.add_force(units.vector(push.force), true);
+        body.add_torque(units.torque(push.torque), true);
+        self.slow_rolling(index);
+    }
+
+    fn slow_rolling(&mut self, index: usize) {
+        let flask = &self.flasks[index];
+        let Some(body) = self.rapier.bodies.get(flask.body) else {
+            return;
+        };
+        let torque = rolling::resistance(&self.rapier, body, flask.radius, self.step);
+        if let Some(body) = self.rapier.bodies.get_mut(flask.body) {
+            body.add_torque(torque, true);
+        }
+    }
+
+    /// Brings the held flasks to `fraction` of the way of this step.
+    fn move_held(&mut self, fraction: f32) {
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let Some((_, target)) = grip::holder(&self.state.grips, index) else {
+                continue;
+            };
+            let Some(body) = self.rapier.bodies.get_mut(flask.body) else {
+                continue;
+            };
+            let before = self.poses[index];
+            let (linear, _) = grip::velocity_between(before, target, Vec3::ZERO, self.step);
+            if linear.length() > HELD_SPEED_MAX * self.length_scale {
+                body.set_position(self.units.pose(target), true);
+            } else {
+                let pose = before.interpolate(target, fraction);
+                body.set_next_kinematic_position(self.units.pose(pose));
+            }
+        }
+    }
+
+    fn read_poses(&mut self) {
+        for (index, flask) in self.flasks.iter().enumerate() {
+            // A held flask is exactly where the hand has it, whatever rapier rounds it to.
+            let held = grip::holder(&self.state.grips, index).map(|(_, pose)| pose);
+            let pose = held.or_else(|| {
+                let body = self.rapier.bodies.get(flask.body)?;
+                (!flask.fixed).then(|| self.units.pose_to_si(body.translation(), *body.rotation()))
+            });
+            if let Some(pose) = pose {
+                self.poses[index] = pose;
+            }
+            let past = &mut self.state.past[index];
+            past.rotate_right(1);
+            past[0] = self.poses[index];
+        }
+    }
+}

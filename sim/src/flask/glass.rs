@@ -1,0 +1,199 @@
+//! Named vessels of real size.
+//!
+//! The standards give outer diameter and overall height; wall and base are
+//! taken as 2 mm throughout ([`WALL`]), within what they allow. Spouts,
+//! flanged rims and the cylinder's foot are left out: they are not
+//! axisymmetric or never wetted.
+
+use super::profile::{Profile, ProfileError};
+
+/// Wall thickness, metres.
+pub const WALL: f64 = 0.002;
+
+/// Density of borosilicate glass 3.3 (ISO 3585), kg/m³.
+pub const BOROSILICATE: f64 = 2230.0;
+
+/// Density of stainless steel 1.4301 (EN 10088-1), kg/m³.
+pub const STAINLESS_STEEL: f64 = 7900.0;
+
+/// A vessel that a scene can name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glass {
+    /// Name in scene files.
+    pub name: &'static str,
+    /// Where its size comes from.
+    pub source: &'static str,
+    /// Density of the wall, kg/m³.
+    pub density: f64,
+    shape: Shape,
+}
+
+/// Outer dimensions in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape {
+    Cylinder {
+        diameter: f64,
+        height: f64,
+    },
+    Conical {
+        diameter: f64,
+        neck: f64,
+        height: f64,
+    },
+    Round {
+        diameter: f64,
+        neck: f64,
+        height: f64,
+    },
+}
+
+const fn cylinder(name: &'static str, source: &'static str, diameter: f64, height: f64) -> Glass {
+    Glass {
+        name,
+        source,
+        density: BOROSILICATE,
+        shape: Shape::Cylinder { diameter, height },
+    }
+}
+
+/// All named vessels.
+pub const GLASSWARE: [Glass; 7] = [
+    cylinder("beaker-250", "ISO 3819, low form, 250 mL", 0.070, 0.095),
+    cylinder("beaker-400", "ISO 3819, low form, 400 mL", 0.080, 0.110),
+    cylinder("beaker-600", "ISO 3819, low form, 600 mL", 0.090, 0.125),
+    cylinder(
+        "cylinder-100",
+        "ISO 4788, tall form, 100 mL, without its foot",
+        0.030,
+        0.256,
+    ),
+    Glass {
+        name: "erlenmeyer-250",
+        source: "ISO 1773, conical flask, narrow neck, 250 mL",
+        density: BOROSILICATE,
+        shape: Shape::Conical {
+            diameter: 0.085,
+            neck: 0.034,
+            height: 0.145,
+        },
+    },
+    Glass {
+        name: "round-bottom-250",
+        source: "ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL",
+        density: BOROSILICATE,
+        shape: Shape::Round {
+            diameter: 0.085,
+            neck: 0.034,
+            height: 0.140,
+        },
+    },
+    Glass {
+        name: "pot-2l",
+        source: "a common cooking pot, 16 cm by 10 cm inside: our choice",
+        density: STAINLESS_STEEL,
+        shape: Shape::Cylinder {
+            diameter: 0.164,
+            height: 0.102,
+        },
+    },
+];
+
+/// The vessel of that name.
+pub fn find(name: &str) -> Option<&'static Glass> {
+    GLASSWARE.iter().find(|glass| glass.name == name)
+}
+
+impl Glass {
+    /// Its inner profile as (height, radius) points, metres, for
+    /// [`Profile::new`] with [`WALL`].
+    pub fn points(&self) -> Vec<[f64; 2]> {
+        match self.shape {
+            Shape::Cylinder { diameter, height } => {
+                let radius = 0.5 * diameter - WALL;
+                vec![[0.0, radius], [height - WALL, radius]]
+            }
+            Shape::Conical {
+                diameter,
+                neck,
+                height,
+            } => conical(0.5 * diameter - WALL, 0.5 * neck - WALL, height - WALL),
+            Shape::Round {
+                diameter,
+                neck,
+                height,
+            } => round(0.5 * diameter - WALL, 0.5 * neck - WALL, height - WALL),
+        }
+    }
+
+    /// The vessel `times` as large as it is.
+    ///
+    /// # Errors
+    /// [`ProfileError`] where `times` is not a positive number.
+    pub fn profile(&self, times: f64) -> Result<Profile, ProfileError> {
+        let points: Vec<_> = self
+            .points()
+            .into_iter()
+            .map(|point| point.map(|x| x * times))
+            .collect();
+        Profile::new(&points, WALL * times)
+    }
+}
+
+/// Rounded base edge, cone, neck of a quarter of the height.
+fn conical(body: f64, neck: f64, height: f64) -> Vec<[f64; 2]> {
+    let edge = 0.1 * body;
+    let mut points: Vec<_> = (0..=6)
+        .map(|i| f64::from(i) / 6.0 * std::f64::consts::FRAC_PI_2)
+        .map(|angle| {
+            [
+                edge * (1.0 - angle.cos()),
+                body - edge * (1.0 - angle.sin()),
+            ]
+        })
+        .collect();
+    points.extend([[0.75 * height, neck], [height, neck]]);
+    points
+}
+
+/// Sphere up to where it meets the neck, then the neck.
+fn round(body: f64, neck: f64, height: f64) -> Vec<[f64; 2]> {
+    const ARC: u32 = 64;
+    let top = std::f64::consts::PI - (neck / body).asin();
+    let mut points: Vec<_> = (0..=ARC)
+        .map(|i| f64::from(i) / f64::from(ARC) * top)
+        .map(|angle| [body * (1.0 - angle.cos()), body * angle.sin()])
+        .collect();
+    points.push([height, neck]);
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn holds_what_its_name_says() {
+        let nominal_ml = [250.0, 400.0, 600.0, 100.0, 250.0, 250.0, 2000.0];
+        for (glass, nominal) in GLASSWARE.iter().zip(nominal_ml) {
+            let capacity = glass.profile(1.0).unwrap().capacity() * 1e6;
+            // To the brim a vessel holds its nominal volume and up to 40 %
+            // more (the standards ask for at least 10 % on beakers).
+            assert!(
+                capacity > nominal && capacity < 1.4 * nominal,
+                "{}: {capacity}",
+                glass.name
+            );
+        }
+    }
+
+    #[test]
+    fn weighs_what_the_catalogues_say() {
+        // A 250 mL beaker weighs about 100 g, a 400 mL one 140 g.
+        for (name, mass) in [("beaker-250", 0.100), ("beaker-400", 0.135)] {
+            let glass = find(name).unwrap();
+            let own = glass.profile(1.0).unwrap().glass_volume() * glass.density;
+            assert!((own / mass - 1.0).abs() < 0.25, "{name}: {own} kg");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The simulation: scenes as data, vessels, the particle solver.
+
+pub mod bodies;
+pub mod fill;
+pub mod flask;
+pub mod kernel;
+pub mod parameters;
+pub mod pose;
+pub mod reference;
+pub mod scene;
+pub mod solver;

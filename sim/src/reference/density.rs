@@ -1,0 +1,119 @@
+//! The density constraint (Eqs 1 and 2; lines 18–21).
+//!
+//! In displacement form: λ has the unit m², and no mass or time appears. By
+//! x* ← x* + Σ_j (λ_i + λ_j)·V₀∇W_ij, λ/Δt² is −p/ρ.
+
+use super::neighbours::Neighbours;
+use super::surroundings::WallSum;
+use crate::kernel::Kernel;
+use glam::DVec3;
+
+/// Distance below which two particles coincide, fraction of h.
+const COINCIDENT: f64 = 1e-6;
+
+/// ρ_i/ρ₀ = V₀W(0) + Σ_j V₀W_ij + V_b (Eq. 1 with m = ρ₀V₀), the particle
+/// itself included: without it a liquid at rest would be compressed by a
+/// third.
+pub fn densities(
+    kernel: &Kernel,
+    volume: f64,
+    positions: &[DVec3],
+    neighbours: &Neighbours,
+    walls: &[WallSum],
+) -> Vec<f64> {
+    let density = |i: usize| {
+        let around: f64 = neighbours
+            .of(i)
+            .map(|j| kernel.w(positions[i].distance(positions[j])))
+            .sum();
+        volume * (kernel.w(0.0) + around) + walls[i].volume
+    };
+    (0..positions.len()).map(density).collect()
+}
+
+/// One iteration's multipliers from `densities` (ρ/ρ₀) and a =
+/// `gradient_sum`: λ ← min(0, λ − c_r·C/a + c_m·Δλ). `change` is Δλ, that of
+/// the iteration before on entry and this one's on return; both m².
+///
+/// Eq. 2 is an inequality, so a liquid pushes and never pulls: λ ≤ 0. It is
+/// the multiplier accumulated over the substep's iterations for which this
+/// holds, so an iteration may take back what one before it pushed too far.
+/// Plain PBF clamps C ≥ 0 in each iteration instead, which can only push.
+pub fn multipliers(
+    densities: &[f64],
+    gradient_sum: f64,
+    (momentum, residual): (f64, f64),
+    lambda: &mut [f64],
+    change: &mut [f64],
+) {
+    for ((density, lambda), change) in densities.iter().zip(lambda).zip(change) {
+        let constraint = density - 1.0;
+        let next = (*lambda - residual * constraint / gradient_sum + momentum * *change).min(0.0);
+        *change = next - *lambda;
+        *lambda = next;
+    }
+}
+
+/// Δx_i = Σ_j (Δλ_i + Δλ_j)·V₀∇W_ij + Δλ_i·∇V_b, metres.
+///
+/// The wall's term has Δλ_i once: it is the gradient of C_i, so that no work
+/// is created. Mirroring it (2 Δλ_i), as Akinci et al. 2012 do with the
+/// pressure, pumps energy into a column at rest (rms speed 0.055 m/s and
+/// growing, against 0.016 m/s and falling).
+pub fn displacements(
+    kernel: &Kernel,
+    volume: f64,
+    positions: &[DVec3],
+    ids: &[u32],
+    neighbours: &Neighbours,
+    walls: &[WallSum],
+    change: &[f64],
+) -> Vec<DVec3> {
+    let displacement = |i: usize| {
+        let by_liquid: DVec3 = neighbours
+            .of(i)
+            .map(|j| {
+                let gradient = gradient(kernel, positions[i] - positions[j], ids[i], ids[j]);
+                gradient * (volume * (change[i] + change[j]))
+            })
+            .sum();
+        by_liquid + walls[i].gradient * change[i]
+    };
+    (0..positions.len()).map(displacement).collect()
+}
+
+/// ∇_i W(x_ij), 1/m⁴.
+///
+/// Where two particles coincide it vanishes, and no density could ever part
+/// them. They get the kernel's steepest slope (at h/3) in a direction that
+/// is hashed from their ids, so that it is the same whenever it is asked for.
+fn gradient(kernel: &Kernel, apart: DVec3, id: u32, other: u32) -> DVec3 {
+    let distance = apart.length();
+    let support = kernel.support();
+    if distance < COINCIDENT * support {
+        hashed_direction(id, other) * kernel.dw(support / 3.0)
+    } else if distance < support {
+        apart * (kernel.dw(distance) / distance)
+    } else {
+        DVec3::ZERO
+    }
+}
+
+/// A unit vector, the opposite one when the ids are exchanged.
+pub fn hashed_direction(id: u32, other: u32) -> DVec3 {
+    let (low, high) = (id.min(other), id.max(other));
+    let bits = mix(mix(low) ^ high);
+    // Odd multiples of a half: never the zero vector.
+    let component = |shift: u32| f64::from(bits >> shift & 0x3ff) - 511.5;
+    let direction = DVec3::new(component(0), component(10), component(20)).normalize();
+    if id < other { direction } else { -direction }
+}
+
+/// MurmurHash3's 32-bit finaliser.
+fn mix(mut bits: u32) -> u32 {
+    bits ^= bits >> 16;
+    bits = bits.wrapping_mul(0x85eb_ca6b);
+    bits ^= bits >> 13;
+    bits = bits.wrapping_mul(0xc2b2_ae35);
+    bits ^ bits >> 16
+}

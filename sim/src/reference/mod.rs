@@ -1,0 +1,344 @@
+//! Algorithm 1 in f64 on the CPU, to be read beside the paper and compared
+//! with, pass by pass; nothing here is there for speed.
+//!
+//! What it leaves out of the paper's listing, and why: lines 6–8 predict the
+//! whole frame for a neighbour search that serves all substeps, which at
+//! real size is stale after one (a fall of 10 cm passes 4.7 h in 1/60 s), so
+//! neighbours are found in each substep; line 11 reorders particles for the
+//! cache.
+
+pub mod density;
+pub mod forces;
+pub mod measure;
+pub mod motion;
+pub mod neighbours;
+pub mod placement;
+mod scene;
+pub mod surroundings;
+pub mod viscosity;
+pub mod visibility;
+
+#[cfg(test)]
+mod tests;
+
+use crate::flask::Region;
+use crate::kernel::Kernel;
+use crate::parameters::Parameters;
+use crate::pose::Pose;
+use glam::DVec3;
+use measure::{DensityError, Masses};
+use neighbours::Neighbours;
+use placement::{Motion, Placement};
+use surroundings::Surroundings;
+use visibility::see_each_other;
+
+/// The liquid and what surrounds it. All per-particle vectors have one
+/// length; the solids' order is [`Surroundings::vessels`]'.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Parameters of Algorithm 1.
+    pub parameters: Parameters,
+    /// What is solid.
+    pub surroundings: Surroundings,
+    /// Number by which a particle is known however many are taken out.
+    pub ids: Vec<u32>,
+    /// x_i, stage, metres.
+    pub positions: Vec<DVec3>,
+    /// v_i, m/s.
+    pub velocities: Vec<DVec3>,
+    /// λ_i/Δt² of past substeps, low-passed: −p/ρ, m²/s².
+    pub carried: Vec<f64>,
+    /// Index of the flask that the particle is in.
+    pub membership: Vec<Option<usize>>,
+    /// Particles that turned non-finite and were taken out.
+    pub removed: usize,
+    motion: Vec<Motion>,
+}
+
+impl Reference {
+    /// Liquid at rest at `positions` (stage, metres) among flasks at `poses`
+    /// (`stage_from_flask`, one per vessel).
+    pub fn new(
+        parameters: Parameters,
+        surroundings: Surroundings,
+        positions: Vec<DVec3>,
+        poses: &[Pose],
+    ) -> Self {
+        let time = parameters.substep_time();
+        let motion: Vec<_> = poses
+            .iter()
+            .map(|&pose| Motion::of_substep(pose, pose, 0, 1, time))
+            .collect();
+        let membership = positions
+            .iter()
+            .map(|&position| flask_around(&surroundings, &motion, position))
+            .collect();
+        Self {
+            parameters,
+            surroundings,
+            ids: (0..positions.len() as u32).collect(),
+            velocities: vec![DVec3::ZERO; positions.len()],
+            carried: vec![0.0; positions.len()],
+            positions,
+            membership,
+            removed: 0,
+            motion,
+        }
+    }
+
+    /// A frame of Δt_f in which the flasks go from the poses `before` to
+    /// `after` (`stage_from_flask`, one per vessel each).
+    pub fn step(&mut self, before: &[Pose], after: &[Pose]) {
+        let count = self.parameters.substeps;
+        let time = self.parameters.substep_time(); // line 13
+        for substep in 0..count {
+            // line 14; lines 1–5 belong in here, see Motion::of_substep
+            self.motion = before
+                .iter()
+                .zip(after)
+                .map(|(&from, &to)| Motion::of_substep(from, to, substep, count, time))
+                .collect();
+            self.substep();
+        }
+    }
+
+    fn substep(&mut self) {
+        let predicted = self.predict(); // lines 15–17
+        let neighbours = self.neighbours(&predicted); // lines 9–12
+        let solved = self.solve(predicted, &neighbours); // lines 18–21
+        self.commit(&solved); // lines 22–25
+        self.smooth(&neighbours); // line 27
+        self.push(&neighbours); // line 28
+        self.take_out_non_finite();
+    }
+
+    /// Lines 15–17: x* of all particles.
+    pub fn predict(&self) -> Vec<DVec3> {
+        let gravity = DVec3::from_array(self.parameters.gravity);
+        motion::predict(
+            &self.surroundings,
+            &self.motion,
+            self.parameters.margin,
+            (self.parameters.substep_time(), gravity),
+            &self.positions,
+            &self.velocities,
+            &self.membership,
+        )
+    }
+
+    /// Line 10 at `positions`: everything within h and the list's margin,
+    /// since the iterations bring particles together.
+    pub fn neighbours(&self, positions: &[DVec3]) -> Neighbours {
+        let radius = self.parameters.support_radius * (1.0 + self.parameters.list_margin);
+        neighbours::find(positions, radius, |i, j| {
+            see_each_other(
+                &self.surroundings,
+                &self.motion,
+                (positions[i], self.membership[i]),
+                (positions[j], self.membership[j]),
+            )
+        })
+    }
+
+    /// Lines 18–21 from the prediction to the corrected x*.
+    fn solve(&mut self, predicted: Vec<DVec3>, neighbours: &Neighbours) -> Vec<DVec3> {
+        let per_area = self.parameters.substep_time().powi(2);
+        let mut at = predicted;
+        let mut lambda = vec![0.0; at.len()];
+        let mut change = vec![0.0; at.len()];
+        if self.parameters.carry > 0.0 {
+            lambda = self
+                .carried
+                .iter()
+                .map(|p| (p * per_area).min(0.0))
+                .collect();
+            change.clone_from(&lambda);
+            self.displace(&mut at, neighbours, &change);
+        }
+        let iterations = self.parameters.iterations;
+        for coefficients in self.parameters.relaxation.coefficients(iterations) {
+            let densities = self.densities(&at, neighbours);
+            let a = self.parameters.gradient_sum();
+            density::multipliers(&densities, a, coefficients, &mut lambda, &mut change); // line 19
+            self.displace(&mut at, neighbours, &change); // line 20
+        }
+        for (carried, lambda) in self.carried.iter_mut().zip(lambda) {
+            *carried += self.parameters.carry * (lambda / per_area - *carried);
+        }
+        at
+    }
+
+    /// ρ/ρ₀ at `positions`.
+    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
+        let walls = self
+            .surroundings
+            .sums(positions, &self.membership, &self.motion);
+        let volume = self.parameters.particle_volume();
+        density::densities(&self.kernel(), volume, positions, neighbours, &walls)
+    }
+
+    /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask.
+    pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
+        let walls = self.surroundings.sums(at, &self.membership, &self.motion);
+        let displacements = density::displacements(
+            &self.kernel(),
+            self.parameters.particle_volume(),
+            at,
+            &self.ids,
+            neighbours,
+            &walls,
+            change,
+        );
+        for (at, displacement) in at.iter_mut().zip(displacements) {
+            *at += displacement;
+        }
+    }
+
+    /// Lines 22–25: flask constraint, velocity and position from the
+    /// corrected x*.
+    pub fn commit(&mut self, solved: &[DVec3]) {
+        let limits = (self.parameters.substep_time(), self.parameters.max_speed);
+        for (i, &solved) in solved.iter().enumerate() {
+            let place = (self.positions[i], self.membership[i]);
+            let (place, velocity) = motion::commit(
+                &self.surroundings,
+                &self.motion,
+                self.parameters.margin,
+                limits,
+                place,
+                solved,
+            );
+            (self.positions[i], self.membership[i]) = place;
+            self.velocities[i] = velocity;
+        }
+    }
+
+    /// Line 27: XSPH. (Anti-viscosity is for boiling, which this does not model.)
+    pub fn smooth(&mut self, neighbours: &Neighbours) {
+        if self.parameters.viscosity == 0.0 {
+            return;
+        }
+        self.velocities = viscosity::xsph(
+            &self.surroundings,
+            &self.motion,
+            &self.kernel(),
+            (
+                self.parameters.particle_volume(),
+                self.parameters.substep_viscosity(),
+                self.parameters.max_speed,
+            ),
+            &self.positions,
+            &self.membership,
+            neighbours,
+            &self.velocities,
+        );
+    }
+
+    /// Line 28: internal forces, those that are not zero.
+    pub fn push(&mut self, neighbours: &Neighbours) {
+        let parameters = &self.parameters;
+        let (rest_density, support) = (parameters.rest_density, parameters.support_radius);
+        let mut accelerations = Vec::new();
+        if parameters.vorticity > 0.0 {
+            let volume = parameters.particle_volume();
+            let kernel = self.kernel();
+            let (positions, velocities) = (&self.positions, &self.velocities);
+            let vorticities = forces::vorticity(&kernel, volume, positions, velocities, neighbours);
+            let strength = (volume, parameters.vorticity);
+            let confinement =
+                forces::confinement(&kernel, strength, positions, &vorticities, neighbours);
+            accelerations.push(confinement);
+        }
+        if parameters.cohesion > 0.0 {
+            let gamma = forces::cohesion_strength(parameters.cohesion, rest_density, support);
+            let strength = gamma * parameters.particle_mass();
+            let cohesion = forces::cohesion(support, strength, &self.positions, neighbours);
+            accelerations.push(cohesion);
+        }
+        if parameters.adhesion > 0.0 {
+            let beta = forces::adhesion_strength(parameters.adhesion, rest_density, support);
+            let strength = beta * rest_density;
+            let adhesion = forces::adhesion(
+                &self.surroundings,
+                &self.motion,
+                strength,
+                &self.positions,
+                &self.membership,
+            );
+            accelerations.push(adhesion);
+        }
+        let time = parameters.substep_time();
+        for acceleration in accelerations {
+            for (velocity, acceleration) in self.velocities.iter_mut().zip(acceleration) {
+                *velocity += acceleration * time;
+            }
+        }
+    }
+
+    /// A particle that is no longer a number is taken out and counted. It
+    /// had no neighbours, so it has not spread.
+    fn take_out_non_finite(&mut self) {
+        let finite = |(x, v): (&DVec3, &DVec3)| x.is_finite() && v.is_finite();
+        let keep: Vec<bool> = self
+            .positions
+            .iter()
+            .zip(&self.velocities)
+            .map(finite)
+            .collect();
+        self.removed += keep.iter().filter(|&&keep| !keep).count();
+        retain(&mut self.ids, &keep);
+        retain(&mut self.positions, &keep);
+        retain(&mut self.velocities, &keep);
+        retain(&mut self.carried, &keep);
+        retain(&mut self.membership, &keep);
+    }
+
+    /// The kernel W of Eq. 1.
+    pub fn kernel(&self) -> Kernel {
+        Kernel::new(self.parameters.support_radius)
+    }
+
+    /// max(0, ρ/ρ₀ − 1) of the state.
+    pub fn density_error(&self) -> DensityError {
+        let neighbours = self.neighbours(&self.positions);
+        DensityError::of(&self.densities(&self.positions, &neighbours))
+    }
+
+    /// Σ ½mv², J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let squares: f64 = self.velocities.iter().map(|v| v.length_squared()).sum();
+        0.5 * self.parameters.particle_mass() * squares
+    }
+
+    /// Σ mv, kg·m/s.
+    pub fn momentum(&self) -> DVec3 {
+        self.velocities.iter().sum::<DVec3>() * self.parameters.particle_mass()
+    }
+
+    /// Mass in each flask and elsewhere.
+    pub fn masses(&self) -> Masses {
+        let flasks = self.surroundings.vessels.len();
+        Masses::of(&self.membership, flasks, self.parameters.particle_mass())
+    }
+
+    /// Where the flasks are.
+    pub fn placements(&self) -> Vec<Placement> {
+        self.motion.iter().map(|motion| motion.after).collect()
+    }
+}
+
+fn flask_around(surroundings: &Surroundings, motion: &[Motion], position: DVec3) -> Option<usize> {
+    surroundings
+        .vessels
+        .iter()
+        .zip(motion)
+        .position(|(vessel, motion)| {
+            let local = motion.after.to_flask(position);
+            Region::of(&vessel.profile, local) == Region::Inside
+        })
+}
+
+fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    values.retain(|_| keep.next().copied().unwrap_or(true));
+}

@@ -1,0 +1,87 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+//! Truth from outside: formulas, brute force, finite differences, and the
+//! flask's regions on their own.
+
+mod chaos;
+mod passes;
+mod rest;
+mod walls;
+
+use super::Reference;
+use super::surroundings::{Surroundings, Vessel};
+use crate::fill::fill;
+use crate::flask::Profile;
+use crate::parameters::{Parameters, Relaxation};
+use crate::pose::Pose;
+use glam::DVec3;
+
+/// Spacing of real glass, metres.
+const D: f64 = 0.0025;
+const H: f64 = 2.0 * D;
+
+/// Real size at 90 Hz × 8 × 4.
+fn parameters() -> Parameters {
+    Parameters {
+        spacing: D,
+        support_radius: H,
+        rest_density: 1000.0,
+        frame_time: 1.0 / 90.0,
+        substeps: 8,
+        iterations: 4,
+        relaxation: Relaxation::Chebyshev {
+            spectral_bound: 6.0,
+            reduction: 5.0,
+        },
+        carry: 0.0,
+        gravity: [0.0, -9.81, 0.0],
+        max_speed: 8.0,
+        viscosity: 0.02,
+        vorticity: 0.0,
+        cohesion: 0.0,
+        adhesion: 0.0,
+        list_margin: 0.15,
+        margin: 0.001 * H,
+    }
+}
+
+/// A glass 26 mm wide, of which 800 particles fill 24 mm.
+fn narrow_glass() -> Profile {
+    Profile::new(&[[0.0, 0.013], [0.06, 0.013]], 0.002).unwrap()
+}
+
+/// `count` particles at rest in the narrow glass at `pose`.
+fn glass_of_water(parameters: Parameters, count: usize, pose: Pose) -> Reference {
+    let profile = narrow_glass();
+    let positions = fill(&profile, pose, count, D, Some(1)).unwrap();
+    let vessels = vec![Vessel::with_maps(profile, H)];
+    let surroundings = Surroundings::new(vessels, None, None, H);
+    Reference::new(parameters, surroundings, positions, &[pose])
+}
+
+/// Liquid without anything around it.
+fn in_the_open(parameters: Parameters, positions: Vec<DVec3>) -> Reference {
+    let surroundings = Surroundings::new(Vec::new(), None, None, parameters.support_radius);
+    Reference::new(parameters, surroundings, positions, &[])
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014), as numbers in [0, 1).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A point of the cube of edge `size` around the origin.
+    fn point(&mut self, size: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| size * (self.number() - 0.5)))
+    }
+
+    fn points(&mut self, count: usize, size: f64) -> Vec<DVec3> {
+        (0..count).map(|_| self.point(size)).collect()
+    }
+}

@@ -1,0 +1,298 @@
+//! Each pass against its formula.
+
+use super::*;
+use crate::kernel::Kernel;
+use crate::reference::density::hashed_direction;
+use crate::reference::forces::{
+    HalfSpacePull, adhesion_kernel, adhesion_strength, cohesion_kernel, cohesion_strength,
+};
+use crate::reference::measure::DensityError;
+use crate::reference::neighbours::{find, find_by_brute_force};
+use crate::reference::placement::Motion;
+use crate::reference::{density, forces};
+use glam::{Quat, Vec3};
+use std::f64::consts::PI;
+
+#[test]
+fn neighbours_are_those_of_brute_force() {
+    let mut random = Random(5);
+    let origin = [
+        DVec3::ZERO,
+        DVec3::splat(-0.4),
+        DVec3::new(1e4, -1e4, 1e4),
+        DVec3::new(-3e-3, 1e-9, 2e-3),
+    ];
+    for origin in origin {
+        let cloud = random.points(600, 0.03);
+        let points: Vec<_> = cloud.into_iter().map(|p| p + origin).collect();
+        let odd_ones_out = |i: usize, j: usize| (i * j) % 7 != 1;
+        let found = find(&points, H, odd_ones_out);
+        assert_eq!(found, find_by_brute_force(&points, H, odd_ones_out));
+        let pairs: usize = (0..600).map(|i| found.of(i).count()).sum();
+        assert!(pairs > 1000, "{pairs}");
+    }
+}
+
+#[test]
+fn neighbours_survive_absurd_places() {
+    let points = [
+        DVec3::NAN,
+        DVec3::splat(f64::INFINITY),
+        DVec3::splat(1e300),
+        DVec3::ZERO,
+        DVec3::ZERO,
+    ];
+    let found = find(&points, H, |_, _| true);
+    let counts: Vec<_> = (0..5).map(|i| found.of(i).count()).collect();
+    assert_eq!(counts, [0, 0, 0, 1, 1]);
+}
+
+#[test]
+fn displacement_is_the_gradient_of_the_density() {
+    // λ at one particle alone moves all by λ·∂C_i/∂x_j, wall included.
+    let mut water = glass_of_water(parameters(), 300, Pose::IDENTITY);
+    let mut random = Random(2);
+    for x in &mut water.positions {
+        *x += random.point(0.3 * D);
+    }
+    let positions = water.positions.clone();
+    let neighbours = water.neighbours(&positions);
+    let lambda = -1e-9;
+    let wall_reach = |i: usize| {
+        water
+            .surroundings
+            .sums(&positions, &water.membership, &water.motion)[i]
+            .volume
+    };
+    let by_the_wall = (0..300).find(|&i| wall_reach(i) > 0.1).unwrap();
+    let free = (0..300).find(|&i| wall_reach(i) == 0.0).unwrap();
+    // The map is linear between nodes h/6 apart and its slope is another
+    // table: V''·h/12 with V'' ≤ 4/h². The wall's slope is 1 to 1.4.
+    for (i, tolerance) in [(free, 1e-6), (by_the_wall, 0.34)] {
+        let mut change = vec![0.0; 300];
+        change[i] = lambda;
+        let mut moved = positions.clone();
+        water.displace(&mut moved, &neighbours, &change);
+        for j in neighbours.of(i).chain([i]) {
+            for axis in 0..3 {
+                let eps = 1e-5 * H;
+                let density = |sign: f64| {
+                    let mut shifted = positions.clone();
+                    shifted[j][axis] += sign * eps;
+                    water.densities(&shifted, &neighbours)[i]
+                };
+                let slope = (density(1.0) - density(-1.0)) / (2.0 * eps);
+                let own = (moved[j] - positions[j])[axis] / lambda;
+                assert!(
+                    (own - slope).abs() < tolerance / H,
+                    "{i} {j}: {own} {slope}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn multipliers_take_back_but_never_pull() {
+    let (mut lambda, mut change) = (vec![0.0, 0.0, -1.0], vec![0.0; 3]);
+    density::multipliers(&[1.5, 0.5, 0.8], 0.5, (0.0, 0.25), &mut lambda, &mut change);
+    // −0.25·0.5/0.5; clamped; −1 + 0.25·0.2/0.5.
+    assert_eq!(lambda, [-0.25, 0.0, -0.9]);
+    let expected = [-0.25, 0.0, 0.1];
+    assert!(
+        change
+            .iter()
+            .zip(expected)
+            .all(|(a, b)| (a - b).abs() < 1e-15)
+    );
+    density::multipliers(&[1.0; 3], 0.5, (0.5, 0.25), &mut lambda, &mut change);
+    assert!((lambda[0] + 0.375).abs() < 1e-15 && (lambda[2] + 0.85).abs() < 1e-15);
+}
+
+#[test]
+fn gradient_sum_is_the_lattices() {
+    let p = parameters();
+    let mut water = in_the_open(p.clone(), Vec::new());
+    for x in -2..=2 {
+        for y in -2..=2 {
+            for z in -2..=2 {
+                water
+                    .positions
+                    .push(DVec3::new(x.into(), y.into(), z.into()) * D);
+            }
+        }
+    }
+    let kernel = Kernel::new(H);
+    let neighbours = find(&water.positions, H, |_, _| true);
+    let centre = 62;
+    let sum: f64 = neighbours
+        .of(centre)
+        .map(|j| (p.particle_volume() * kernel.dw(water.positions[j].length())).powi(2))
+        .sum();
+    assert!((sum / p.gradient_sum() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn hashed_directions_are_opposite_unit_vectors() {
+    let mut mean = DVec3::ZERO;
+    for i in 0..1000 {
+        let direction = hashed_direction(i, i + 1);
+        assert!((direction.length() - 1.0).abs() < 1e-12);
+        assert_eq!(hashed_direction(i + 1, i), -direction);
+        mean += direction / 1000.0;
+    }
+    // Standard error 0.03.
+    assert!(mean.length() < 0.1, "{mean}");
+}
+
+#[test]
+fn glass_moves_like_a_rigid_body() {
+    let (omega, velocity, time) = (3.0, Vec3::new(0.2, -0.1, 0.4), 1e-3);
+    let axis = Vec3::new(0.6, 0.0, 0.8);
+    let start = Quat::from_rotation_z(0.5);
+    let before = Pose::new(Vec3::new(1.0, 0.5, 0.2), start);
+    let turn = Quat::from_axis_angle(axis, omega * 4.0 * time);
+    let after = Pose::new(before.position + velocity * 4.0 * time, turn * start);
+    let motion = Motion::of_substep(before, after, 2, 4, f64::from(time));
+    let point = DVec3::new(1.1, 0.5, 0.3);
+    let spin = axis.as_dvec3() * f64::from(omega);
+    let arm = point - motion.after.position;
+    let expected = velocity.as_dvec3() + spin.cross(arm);
+    // ω²r·Δt/2 and the f32 poses' rounding over Δt.
+    let error = (motion.velocity_at(point) - expected).length();
+    assert!(error < 2e-3, "{error}");
+}
+
+#[test]
+fn viscosity_does_not_depend_on_substeps() {
+    let of = |substeps: u32| {
+        let p = Parameters {
+            substeps,
+            viscosity: 0.3,
+            ..parameters()
+        };
+        (1.0 - p.substep_viscosity()).powi(substeps as i32)
+    };
+    // (1 − μ)^(Δt_f/Δt_ref) = 0.7².
+    for substeps in [1, 3, 12] {
+        assert!((of(substeps) - 0.49).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn vorticity_of_a_rigid_rotation_is_twice_its_rate() {
+    let mut positions = Vec::new();
+    for i in 0..1000 {
+        positions.push(DVec3::new((i % 10).into(), (i / 10 % 10).into(), (i / 100).into()) * D);
+    }
+    let spin = DVec3::new(1.0, -2.0, 0.5);
+    let velocities: Vec<_> = positions.iter().map(|x| spin.cross(*x)).collect();
+    let neighbours = find(&positions, H, |_, _| true);
+    let kernel = Kernel::new(H);
+    let curl = forces::vorticity(&kernel, D.powi(3), &positions, &velocities, &neighbours);
+    // Σ V₀ ∇W⊗x over the lattice is −1 to within its second-order error.
+    assert!(
+        (curl[555] - 2.0 * spin).length() < 0.05 * spin.length(),
+        "{}",
+        curl[555]
+    );
+    let push = forces::confinement(&kernel, (D.powi(3), 1.0), &positions, &curl, &neighbours);
+    // Where |ω| does not vary there is nothing to confine.
+    assert!(push[555].length() < 1e-6, "{}", push[555]);
+    // It is ε·|ω| at most, and perpendicular to ω.
+    for (push, curl) in push.iter().zip(&curl) {
+        assert!(push.length() <= curl.length() && push.dot(*curl).abs() < 1e-9);
+    }
+}
+
+/// ∫ r⁴ f(r) dr over the support by the midpoint rule.
+fn fourth_moment(kernel: impl Fn(f64, f64) -> f64) -> f64 {
+    let n = 200_000;
+    let dr = H / f64::from(n);
+    let radii = (0..n).map(|i| (f64::from(i) + 0.5) * dr);
+    radii.map(|r| r.powi(4) * kernel(r, H) * dr).sum()
+}
+
+#[test]
+fn cohesion_makes_the_surface_tension_asked_for() {
+    for (kernel, strength) in [
+        (
+            cohesion_kernel as fn(f64, f64) -> f64,
+            cohesion_strength(0.072, 1000.0, H),
+        ),
+        (adhesion_kernel, adhesion_strength(0.072, 1000.0, H)),
+    ] {
+        // Fowler's formula with f = γm²C and n = ρ₀/m.
+        let tension = PI / 8.0 * 1e6 * strength * fourth_moment(kernel);
+        assert!((tension - 0.072).abs() < 1e-5, "{tension}");
+    }
+}
+
+#[test]
+fn half_space_pull_is_the_sum_over_a_wall() {
+    let pull = HalfSpacePull::new(H);
+    let step = H / 60.0;
+    for distance in [0.0, 0.3, 0.6, 0.9].map(|q| q * H) {
+        let mut sum = 0.0;
+        for (i, j, k) in
+            (-60..60).flat_map(|i| (-60..60).flat_map(move |j| (0..60).map(move |k| (i, j, k))))
+        {
+            let at = DVec3::new(f64::from(i) + 0.5, f64::from(j) + 0.5, f64::from(k) + 0.5) * step;
+            let at = at.with_z(at.z + distance);
+            sum += adhesion_kernel(at.length(), H) * at.z / at.length() * step.powi(3);
+        }
+        // The kernel's edges are as steep as a fourth root.
+        assert!(
+            (sum - pull.at(distance)).abs() < 0.02 * pull.at(0.0),
+            "{distance}"
+        );
+    }
+}
+
+#[test]
+fn cohesion_attracts_and_keeps_momentum() {
+    let p = Parameters {
+        cohesion: 0.072,
+        gravity: [0.0; 3],
+        ..parameters()
+    };
+    let mut pair = in_the_open(p, vec![DVec3::ZERO, DVec3::X * 0.7 * H]);
+    pair.step(&[], &[]);
+    assert!(pair.positions[1].x - pair.positions[0].x < 0.7 * H);
+    assert!(pair.momentum().length() < 1e-18);
+}
+
+#[test]
+fn adhesion_pulls_towards_the_glass() {
+    let p = Parameters {
+        adhesion: 0.072,
+        gravity: [0.0; 3],
+        ..parameters()
+    };
+    for x in [0.0095, 0.0155 + 0.003] {
+        let mut drop = glass_of_water(p.clone(), 1, Pose::IDENTITY);
+        drop.positions = vec![DVec3::new(x, 0.03, 0.0)];
+        drop.membership = vec![(x < 0.013).then_some(0)];
+        for _ in 0..3 {
+            drop.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
+        }
+        let moved = drop.positions[0].x - x;
+        assert!(
+            if x < 0.013 {
+                moved > 1e-5
+            } else {
+                moved < -1e-5
+            },
+            "{x}: {moved}"
+        );
+    }
+}
+
+#[test]
+fn percentile_is_by_rank() {
+    let densities: Vec<_> = (1..=200).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
+    let error = DensityError::of(&densities);
+    assert!((error.p99 - 0.198).abs() < 1e-12 && (error.mean - 0.1005).abs() < 1e-12);
+    assert_eq!(DensityError::of(&[0.5]), DensityError::default());
+    assert_eq!(DensityError::of(&[]), DensityError::default());
+}

@@ -1,0 +1,21 @@
+//! The scenes that come with the program.
+
+/// Name and text of each.
+pub(super) const BUILTIN: [(&str, &str); 7] = [
+    ("beaker", include_str!("../../scenes/beaker.toml")),
+    ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
+    (
+        "moving-flask",
+        include_str!("../../scenes/moving-flask.toml"),
+    ),
+    (
+        "single-dilution",
+        include_str!("../../scenes/single-dilution.toml"),
+    ),
+    (
+        "triple-dilution",
+        include_str!("../../scenes/triple-dilution.toml"),
+    ),
+    ("tomato-soup", include_str!("../../scenes/tomato-soup.toml")),
+    ("vr-dilution", include_str!("../../scenes/vr-dilution.toml")),
+];

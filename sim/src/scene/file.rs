@@ -1,0 +1,218 @@
+//! A scene file as it stands, before flasks and liquids are made of it.
+
+use super::error::Problem;
+use super::settings::{
+    ABSOLUTE_ZERO, Feature, Floor, PaperChemistry, PresetOverrides, Scale, SolverSettings,
+    TableTop, require,
+};
+use super::{Flask, Liquid};
+use crate::fill;
+use crate::flask::{Profile, glass};
+use crate::pose::Pose;
+use glam::{DQuat, DVec3, EulerRot};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneFile {
+    pub name: String,
+    pub description: String,
+    pub scale: Scale,
+    pub solver: SolverSettings,
+    pub model: Vec<Feature>,
+    pub paper: Option<PaperChemistry>,
+    #[serde(default)]
+    pub flask: Vec<FlaskEntry>,
+    #[serde(default)]
+    pub liquid: Vec<LiquidEntry>,
+    pub table: Option<TableTop>,
+    pub floor: Floor,
+    #[serde(default)]
+    pub preset: BTreeMap<super::Preset, PresetOverrides>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FlaskEntry {
+    name: String,
+    /// A name of [`glass`], made larger by 1/length_scale.
+    profile: Option<String>,
+    /// Or its own (height, radius) points, metres of the scene.
+    points: Option<Vec<[f64; 2]>>,
+    /// Wall of own points, metres of the scene.
+    wall: Option<f64>,
+    /// Density of the wall of own points, kg/m³.
+    density: Option<f64>,
+    position: [f64; 3],
+    /// Yaw about y, pitch about x, roll about z, degrees, in this order from
+    /// the stage to the flask.
+    #[serde(default)]
+    rotation: [f64; 3],
+    fixed: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LiquidEntry {
+    flask: String,
+    /// Volume as drawn, millilitres.
+    volume_ml: Option<f64>,
+    particles: Option<u32>,
+    /// Share of the particles that fit below the rim: 1 is brim-full.
+    fraction: Option<f64>,
+    temperature: f64,
+    acid_fraction: f64,
+}
+
+impl FlaskEntry {
+    pub fn build(self, index: usize, scale: &Scale) -> Result<Flask, Problem> {
+        let field = |name: &str| format!("flask[{index}].{name}");
+        if self.name.is_empty() {
+            return Err(Problem::new(field("name"), "empty; give the flask a name"));
+        }
+        let (profile, density) = match (&self.profile, &self.points) {
+            (Some(name), None) => named(name, &self, index, scale)?,
+            (None, Some(points)) => {
+                let Some(wall) = self.wall else {
+                    let problem = "missing; own points need the wall's thickness (metres)";
+                    return Err(Problem::new(field("wall"), problem));
+                };
+                let place = if wall > 0.0 { "points" } else { "wall" };
+                let profile = Profile::new(points, wall)
+                    .map_err(|error| Problem::new(field(place), error))?;
+                (profile, self.density.unwrap_or(glass::BOROSILICATE))
+            }
+            _ => {
+                let problem = "give either `profile` (a name) or `points` ([[height, radius], …])";
+                return Err(Problem::new(field("profile"), problem));
+            }
+        };
+        require(
+            &field("density"),
+            density,
+            density > 0.0,
+            "above zero (kg/m³)",
+        )?;
+        profile
+            .check_particle(scale.spacing)
+            .map_err(|error| Problem::new(field("points"), error))?;
+        for (name, values) in [("position", self.position), ("rotation", self.rotation)] {
+            for value in values {
+                require(&field(name), value, true, "a finite number")?;
+            }
+        }
+        let [yaw, pitch, roll] = self.rotation.map(f64::to_radians);
+        let orientation = DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll);
+        Ok(Flask {
+            mass: profile.glass_volume() * density,
+            name: self.name,
+            profile,
+            stage_from_flask: Pose::new(
+                DVec3::from_array(self.position).as_vec3(),
+                orientation.as_quat(),
+            ),
+            fixed: self.fixed,
+        })
+    }
+}
+
+fn named(
+    name: &str,
+    entry: &FlaskEntry,
+    index: usize,
+    scale: &Scale,
+) -> Result<(Profile, f64), Problem> {
+    let field = |name: &str| format!("flask[{index}].{name}");
+    for (key, present) in [
+        ("wall", entry.wall.is_some()),
+        ("density", entry.density.is_some()),
+    ] {
+        if present {
+            let problem = format!("{name:?} has its own; leave it out or give `points`");
+            return Err(Problem::new(field(key), problem));
+        }
+    }
+    let Some(glass) = glass::find(name) else {
+        let known: Vec<_> = glass::GLASSWARE.iter().map(|glass| glass.name).collect();
+        let problem = format!(
+            "no vessel is named {name:?}; known are {}",
+            known.join(", ")
+        );
+        return Err(Problem::new(field("profile"), problem));
+    };
+    let profile = glass
+        .profile(1.0 / scale.length_scale)
+        .map_err(|error| Problem::new(field("profile"), error))?;
+    Ok((profile, glass.density))
+}
+
+impl LiquidEntry {
+    pub fn build(self, index: usize, scale: &Scale, flasks: &[Flask]) -> Result<Liquid, Problem> {
+        let field = |name: &str| format!("liquid[{index}].{name}");
+        let Some(flask) = flasks.iter().position(|flask| flask.name == self.flask) else {
+            let names: Vec<_> = flasks.iter().map(|flask| flask.name.as_str()).collect();
+            let problem = format!(
+                "no flask is named {:?}; there are: {}",
+                self.flask,
+                names.join(", ")
+            );
+            return Err(Problem::new(field("flask"), problem));
+        };
+        let volume = match (self.volume_ml, self.particles, self.fraction) {
+            (Some(millilitres), None, None) => {
+                let must = "zero or more (mL as drawn)";
+                require(&field("volume_ml"), millilitres, millilitres >= 0.0, must)?;
+                millilitres * 1e-6 / scale.length_scale.powi(3)
+            }
+            (None, Some(count), None) => f64::from(count) * scale.spacing.powi(3),
+            (None, None, Some(fraction)) => {
+                let ok = (0.0..=1.0).contains(&fraction);
+                require(
+                    &field("fraction"),
+                    fraction,
+                    ok,
+                    "between 0 and 1 (1: to the brim)",
+                )?;
+                let sites = fill::sites(&flasks[flask].profile, scale.spacing);
+                let fitting: usize = sites.iter().map(Vec::len).sum();
+                (fraction * fitting as f64).floor() * scale.spacing.powi(3)
+            }
+            _ => {
+                let problem = "give exactly one of `volume_ml`, `particles` and `fraction`";
+                return Err(Problem::new(field("volume_ml"), problem));
+            }
+        };
+        let (kelvin, acid) = (self.temperature, self.acid_fraction);
+        require(
+            &field("temperature"),
+            kelvin,
+            kelvin > ABSOLUTE_ZERO,
+            "above −273.15 (°C)",
+        )?;
+        let ok = (0.0..=1.0).contains(&acid);
+        require(
+            &field("acid_fraction"),
+            acid,
+            ok,
+            "between 0 and 1 (mass of acid over all)",
+        )?;
+        Ok(Liquid {
+            flask,
+            volume,
+            temperature: kelvin,
+            acid_fraction: acid,
+        })
+    }
+}
+
+pub(super) fn check_table(table: &TableTop) -> Result<(), Problem> {
+    require("table.top", table.top, true, "a finite number (metres)")?;
+    for value in table.centre {
+        require("table.centre", value, true, "a finite number (metres)")?;
+    }
+    for value in table.size {
+        require("table.size", value, value > 0.0, "above zero (metres)")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,322 @@
+//! Scenes as data: a TOML file with vessels, liquids, what is modelled and
+//! with which parameters.
+
+mod builtin;
+mod error;
+mod file;
+mod overlap;
+mod settings;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::SceneError;
+pub use settings::{
+    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, Scale, SolverSettings, TableTop,
+};
+
+use crate::fill::{self, FillError};
+use crate::flask::Profile;
+use crate::flask::particles::{self, BoundaryParticle};
+use crate::pose::Pose;
+use error::Problem;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// How much accuracy is bought: substeps, iterations and particle number.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, Ord, PartialEq, PartialOrd, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Preset {
+    /// Cheapest.
+    Fast,
+    /// What the user holds in the headset.
+    Balanced,
+    /// Most accurate.
+    Reference,
+}
+
+/// A vessel of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flask {
+    /// Name that liquids and tracks refer to.
+    pub name: String,
+    /// Its shape, metres of the scene.
+    pub profile: Profile,
+    /// Mass of the empty vessel, kg.
+    pub mass: f64,
+    /// Where it stands at the start.
+    pub stage_from_flask: Pose,
+    /// Clamped to a stand.
+    pub fixed: bool,
+}
+
+/// A liquid in a flask at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Liquid {
+    /// Index of its flask.
+    pub flask: usize,
+    /// Volume, m³ of the scene.
+    pub volume: f64,
+    /// Temperature, °C.
+    pub temperature: f64,
+    /// Mass of acid over mass of liquid.
+    pub acid_fraction: f64,
+}
+
+/// A fluid particle at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartParticle {
+    /// Position in the stage, metres.
+    pub position: DVec3,
+    /// Index of the flask it is in.
+    pub flask: usize,
+    /// Temperature, °C.
+    pub temperature: f64,
+    /// Acid fraction.
+    pub acid_fraction: f64,
+}
+
+/// A scene, validated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name.
+    pub name: String,
+    /// What it shows, in a sentence or two, and what of it was chosen here.
+    pub description: String,
+    /// Scale, time and gravity.
+    pub scale: Scale,
+    /// Parameters of the solver.
+    pub solver: SolverSettings,
+    /// What is modelled, each once.
+    pub model: Vec<Feature>,
+    /// Table 1's parameters, where the model uses any.
+    pub paper: Option<PaperChemistry>,
+    /// Flasks, in the order that indices refer to.
+    pub flasks: Vec<Flask>,
+    /// Liquids, lower ones first where they share a flask.
+    pub liquids: Vec<Liquid>,
+    /// The table, if there is one.
+    pub table: Option<TableTop>,
+    /// The floor.
+    pub floor: Floor,
+    /// What each preset changes.
+    pub presets: BTreeMap<Preset, PresetOverrides>,
+}
+
+impl Scene {
+    /// The names of the scenes that come with the program.
+    pub fn builtin_names() -> Vec<&'static str> {
+        builtin::BUILTIN.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// A built-in scene by its name, or else the file at that path.
+    ///
+    /// # Errors
+    /// [`SceneError`] as for [`Scene::parse`], or `NotFound`.
+    pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
+        if let Some((name, text)) = builtin::BUILTIN
+            .iter()
+            .find(|(name, _)| *name == name_or_path)
+        {
+            return Self::parse(text, &format!("{name}.toml"));
+        }
+        let text = std::fs::read_to_string(Path::new(name_or_path)).map_err(|error| {
+            SceneError::NotFound {
+                name: name_or_path.to_owned(),
+                reason: error.to_string(),
+                known: Self::builtin_names().join(", "),
+            }
+        })?;
+        Self::parse(&text, name_or_path)
+    }
+
+    /// A scene from its TOML `text`; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// [`SceneError`] where the text is not TOML, a key is missing or
+    /// unknown, a value is out of its range, a flask is narrower than a
+    /// particle, flasks overlap or a liquid does not fit, under any of the
+    /// scene's presets.
+    pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
+        let raw: file::SceneFile = toml::from_str(text).map_err(|error| SceneError::Syntax {
+            file: file.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        Self::build(raw).map_err(|problem| problem.in_file(file))
+    }
+
+    /// The scene under a preset. Volumes stay, so the number of particles
+    /// follows the preset's spacing.
+    pub fn with_preset(&self, preset: Preset) -> Self {
+        let mut scene = self.clone();
+        if let Some(overrides) = self.presets.get(&preset) {
+            let PresetOverrides {
+                substeps,
+                iterations,
+                omega,
+                spacing,
+            } = *overrides;
+            scene.solver.substeps = substeps.unwrap_or(scene.solver.substeps);
+            scene.solver.iterations = iterations.unwrap_or(scene.solver.iterations);
+            scene.solver.omega = omega.unwrap_or(scene.solver.omega);
+            scene.scale.spacing = spacing.unwrap_or(scene.scale.spacing);
+        }
+        scene
+    }
+
+    /// Whether `feature` is modelled.
+    pub fn models(&self, feature: Feature) -> bool {
+        self.model.contains(&feature)
+    }
+
+    /// Fluid particles that represent `liquid`.
+    pub fn particle_count(&self, liquid: &Liquid) -> usize {
+        fill::count_for_volume(liquid.volume, self.scale.spacing)
+    }
+
+    /// The fluid at the start; the seed is [`fill::fill`]'s.
+    ///
+    /// # Errors
+    /// [`FillError`] where the spacing was changed since validation such that
+    /// a liquid no longer fits.
+    pub fn start(&self, seed: Option<u64>) -> Result<Vec<StartParticle>, FillError> {
+        let mut particles = Vec::new();
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let liquids = || self.liquids.iter().filter(|liquid| liquid.flask == index);
+            let count = liquids().map(|liquid| self.particle_count(liquid)).sum();
+            let d = self.scale.spacing;
+            let positions = fill::fill(&flask.profile, flask.stage_from_flask, count, d, seed)?;
+            let of = liquids()
+                .flat_map(|liquid| std::iter::repeat_n(liquid, self.particle_count(liquid)));
+            particles.extend(positions.into_iter().zip(of).map(|(position, liquid)| {
+                StartParticle {
+                    position,
+                    flask: index,
+                    temperature: liquid.temperature,
+                    acid_fraction: liquid.acid_fraction,
+                }
+            }));
+        }
+        Ok(particles)
+    }
+
+    /// The paper's boundary particles of each flask, in its frame.
+    pub fn boundary_particles(&self) -> Vec<Vec<BoundaryParticle>> {
+        let (spacing, support) = (self.scale.boundary_spacing(), self.scale.support());
+        self.flasks
+            .iter()
+            .map(|flask| particles::sample(&flask.profile, spacing, support))
+            .collect()
+    }
+
+    fn build(raw: file::SceneFile) -> Result<Self, Problem> {
+        raw.scale.check()?;
+        raw.solver.check()?;
+        if let Some(paper) = &raw.paper {
+            paper.check()?;
+        }
+        settings::check_features(&raw.model, &raw.solver, raw.paper.as_ref())?;
+        if let Some(table) = &raw.table {
+            file::check_table(table)?;
+        }
+        settings::require(
+            "floor.height",
+            raw.floor.height,
+            true,
+            "a finite number (metres)",
+        )?;
+        let scale = raw.scale;
+        let flasks = (0..)
+            .zip(raw.flask)
+            .map(|(index, entry)| entry.build(index, &scale))
+            .collect::<Result<Vec<_>, _>>()?;
+        check_flasks(&flasks)?;
+        let liquids = (0..)
+            .zip(raw.liquid)
+            .map(|(index, entry)| entry.build(index, &scale, &flasks))
+            .collect::<Result<Vec<_>, _>>()?;
+        let scene = Self {
+            name: raw.name,
+            description: raw.description,
+            scale,
+            solver: raw.solver,
+            model: raw.model,
+            paper: raw.paper,
+            flasks,
+            liquids,
+            table: raw.table,
+            floor: raw.floor,
+            presets: raw.preset,
+        };
+        scene.check_fill("liquid")?;
+        for (preset, overrides) in &scene.presets {
+            let changed = scene.with_preset(*preset);
+            let name = format!("{preset:?}").to_lowercase();
+            let within = |problem: Problem| {
+                Problem::new(format!("preset.{name}: {}", problem.field), problem.problem)
+            };
+            changed.scale.check().map_err(within)?;
+            changed.solver.check().map_err(within)?;
+            if let Some(spacing) = overrides.spacing {
+                let field = format!("preset.{name}.spacing");
+                for flask in &changed.flasks {
+                    let narrow = flask.profile.check_particle(spacing);
+                    narrow.map_err(|error| Problem::new(&field, error))?;
+                }
+                changed.check_fill(&field)?;
+            }
+        }
+        Ok(scene)
+    }
+
+    /// Whether each flask has room for its liquids.
+    fn check_fill(&self, field: &str) -> Result<(), Problem> {
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let of = || self.liquids.iter().filter(|liquid| liquid.flask == index);
+            let wanted: usize = of().map(|liquid| self.particle_count(liquid)).sum();
+            let spacing = self.scale.spacing;
+            let volume: f64 = of().map(|liquid| liquid.volume).sum();
+            let capacity = flask.profile.capacity();
+            // Before the lattice is walked: a volume that is absurd must not
+            // cost memory.
+            let sites = if volume > capacity {
+                fill::count_for_volume(capacity, spacing)
+            } else {
+                fill::sites(&flask.profile, spacing)
+                    .iter()
+                    .map(Vec::len)
+                    .sum()
+            };
+            if wanted > sites {
+                let error = FillError {
+                    wanted,
+                    sites,
+                    spacing,
+                };
+                return Err(Problem::new(
+                    field,
+                    format!("in flask {:?}: {error}", flask.name),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_flasks(flasks: &[Flask]) -> Result<(), Problem> {
+    for (j, b) in flasks.iter().enumerate() {
+        for (i, a) in flasks[..j].iter().enumerate() {
+            if a.name == b.name {
+                let problem = format!("{:?} is flask[{i}]'s name already; give another", b.name);
+                return Err(Problem::new(format!("flask[{j}].name"), problem));
+            }
+            if overlap::overlap(a, b) {
+                let problem = format!("overlaps flask[{i}] ({:?}); move them apart", a.name);
+                return Err(Problem::new(format!("flask[{j}].position"), problem));
+            }
+        }
+    }
+    Ok(())
+}

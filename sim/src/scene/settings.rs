@@ -1,0 +1,337 @@
+//! The parts of a scene that are plain numbers, as they stand in its file.
+
+use super::error::Problem;
+use serde::{Deserialize, Serialize};
+
+/// What decides whether the liquid stands up: PBF's stiffness at a given
+/// number of iterations is set by g·Δt_s²/d.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scale {
+    /// Particle spacing d, metres of the scene.
+    pub spacing: f64,
+    /// h/d.
+    pub support_ratio: f64,
+    /// Frame time Δt_f, seconds.
+    pub frame_time: f64,
+    /// Gravity, m/s², downwards.
+    pub gravity: f64,
+    /// Rest density ρ₀, kg/m³.
+    pub rest_density: f64,
+    /// Real metres per metre of the scene: 1 at real size; less where the
+    /// world is larger than what it shows and is drawn smaller.
+    pub length_scale: f64,
+    /// Spacing of boundary particles over d, where the boundary is of
+    /// particles.
+    pub boundary_spacing_ratio: f64,
+}
+
+impl Scale {
+    /// Support radius h, metres.
+    pub fn support(&self) -> f64 {
+        self.spacing * self.support_ratio
+    }
+
+    /// Particle mass ρ₀d³, kg.
+    pub fn particle_mass(&self) -> f64 {
+        self.rest_density * self.spacing.powi(3)
+    }
+
+    /// Spacing of boundary particles, metres.
+    pub fn boundary_spacing(&self) -> f64 {
+        self.spacing * self.boundary_spacing_ratio
+    }
+}
+
+/// What a wall is to the density sum.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Boundary {
+    /// The axisymmetric volume map.
+    Map,
+    /// The paper's boundary particles.
+    Particles,
+}
+
+/// Parameters of Algorithm 1.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SolverSettings {
+    /// n_steps: substeps a frame.
+    pub substeps: u32,
+    /// solverIterations: density iterations a substep.
+    pub iterations: u32,
+    /// ω: under-relaxation of line 20 (above 1: over-relaxation).
+    pub omega: f64,
+    /// v_max of line 24, m/s.
+    pub v_max: f64,
+    /// What walls are made of.
+    pub boundary: Boundary,
+    /// μ₀ of Eqs 16 and 17: share of the relative velocity that XSPH takes
+    /// away in one of the paper's substeps (1/180 s), 0 to 1.
+    pub viscosity: f64,
+    /// Strength ε of vorticity confinement, m/s (Macklin & Müller 2013,
+    /// Eq. 16); with the feature `vorticity`.
+    pub vorticity: Option<f64>,
+    /// Cohesion γ, N/m (Akinci et al. 2013); with the feature `cohesion`.
+    pub cohesion: Option<f64>,
+    /// Adhesion β to glass, N/m (Akinci et al. 2013); with the feature
+    /// `cohesion`.
+    pub adhesion: Option<f64>,
+}
+
+/// What a scene models beyond a fluid with viscosity. What is not named
+/// costs nothing.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Feature {
+    /// Temperature and its diffusion.
+    Heat,
+    /// Acid fraction, its diffusion and the heat of solution.
+    Dilution,
+    /// Anti-viscosity above the boiling point.
+    Boiling,
+    /// Cohesion between particles and adhesion to glass.
+    Cohesion,
+    /// Vorticity confinement.
+    Vorticity,
+}
+
+/// Parameters of the paper's chemistry, Table 1 (its μ₀ is
+/// [`SolverSettings::viscosity`]). A scene has those that its features use.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[allow(non_snake_case)]
+pub struct PaperChemistry {
+    /// Ambient temperature, °C; with `heat`.
+    pub T_a: Option<f64>,
+    /// Boiling point, °C; with `boiling`.
+    pub T_B: Option<f64>,
+    /// Heat generation coefficient, K/cal; with `dilution`.
+    pub k_d: Option<f64>,
+    /// Boiling intensity, dimensionless; with `boiling`.
+    pub k_v: Option<f64>,
+    /// Diffusion coefficient of temperature, m²/s of the scene; with
+    /// `dilution`.
+    pub D_T: Option<f64>,
+    /// Diffusion coefficient of concentration, m²/s of the scene; with
+    /// `dilution`.
+    pub D_c: Option<f64>,
+}
+
+/// What a preset changes; what it does not name stays as the scene has it.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PresetOverrides {
+    /// Substeps a frame.
+    pub substeps: Option<u32>,
+    /// Iterations a substep.
+    pub iterations: Option<u32>,
+    /// ω.
+    pub omega: Option<f64>,
+    /// Particle spacing d, metres; volumes of liquid stay, so the number of
+    /// particles follows.
+    pub spacing: Option<f64>,
+}
+
+/// The table in the file.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct TableTop {
+    /// Height of the upper surface, metres.
+    pub top: f64,
+    /// Centre (x, z), metres.
+    pub centre: [f64; 2],
+    /// Extent along x and z, metres.
+    pub size: [f64; 2],
+}
+
+/// The floor, a plane without end.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Floor {
+    /// Its height, metres.
+    pub height: f64,
+}
+
+/// Refuses `value` unless it is finite and `ok`.
+pub(super) fn require(field: &str, value: f64, ok: bool, must: &str) -> Result<(), Problem> {
+    if value.is_finite() && ok {
+        Ok(())
+    } else {
+        Err(Problem::new(field, format!("{value} is not {must}")))
+    }
+}
+
+impl Scale {
+    pub(super) fn check(&self) -> Result<(), Problem> {
+        let positive = |field: &str, value: f64, unit: &str| {
+            let must = format!("a finite number above zero ({unit})");
+            require(&format!("scale.{field}"), value, value > 0.0, &must)
+        };
+        positive("spacing", self.spacing, "metres")?;
+        positive("frame_time", self.frame_time, "seconds")?;
+        positive("rest_density", self.rest_density, "kg/m³")?;
+        positive("length_scale", self.length_scale, "real metres per metre")?;
+        let ratio = self.support_ratio;
+        let range = "between 1.2 and 3 (h/d)";
+        require(
+            "scale.support_ratio",
+            ratio,
+            (1.2..=3.0).contains(&ratio),
+            range,
+        )?;
+        let gravity = self.gravity;
+        let downwards = "zero or more (m/s², downwards)";
+        require("scale.gravity", gravity, gravity >= 0.0, downwards)?;
+        let ratio = self.boundary_spacing_ratio;
+        let range = "between 0.25 and 2 (over d)";
+        require(
+            "scale.boundary_spacing_ratio",
+            ratio,
+            (0.25..=2.0).contains(&ratio),
+            range,
+        )
+    }
+}
+
+impl SolverSettings {
+    pub(super) fn check(&self) -> Result<(), Problem> {
+        for (field, value) in [("substeps", self.substeps), ("iterations", self.iterations)] {
+            let ok = (1..=1000).contains(&value);
+            require(
+                &format!("solver.{field}"),
+                value.into(),
+                ok,
+                "between 1 and 1000",
+            )?;
+        }
+        let omega = self.omega;
+        require(
+            "solver.omega",
+            omega,
+            omega > 0.0 && omega < 2.0,
+            "above 0 and below 2",
+        )?;
+        require(
+            "solver.v_max",
+            self.v_max,
+            self.v_max > 0.0,
+            "above zero (m/s)",
+        )?;
+        let mu = self.viscosity;
+        require("solver.viscosity", mu, mu >= 0.0, "zero or more")?;
+        for (field, value) in [
+            ("vorticity", self.vorticity),
+            ("cohesion", self.cohesion),
+            ("adhesion", self.adhesion),
+        ] {
+            if let Some(value) = value {
+                require(
+                    &format!("solver.{field}"),
+                    value,
+                    value >= 0.0,
+                    "zero or more",
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PaperChemistry {
+    pub(super) fn check(&self) -> Result<(), Problem> {
+        for (field, value) in [("T_a", self.T_a), ("T_B", self.T_B)] {
+            if let Some(value) = value {
+                let must = "a temperature above −273.15 (°C)";
+                require(
+                    &format!("paper.{field}"),
+                    value,
+                    value > ABSOLUTE_ZERO,
+                    must,
+                )?;
+            }
+        }
+        for (field, value) in [
+            ("k_d", self.k_d),
+            ("k_v", self.k_v),
+            ("D_T", self.D_T),
+            ("D_c", self.D_c),
+        ] {
+            if let Some(value) = value {
+                require(
+                    &format!("paper.{field}"),
+                    value,
+                    value >= 0.0,
+                    "zero or more",
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Absolute zero, °C.
+pub(super) const ABSOLUTE_ZERO: f64 = -273.15;
+
+/// Each feature's parameters are there, and none whose feature is absent.
+pub(super) fn check_features(
+    model: &[Feature],
+    solver: &SolverSettings,
+    paper: Option<&PaperChemistry>,
+) -> Result<(), Problem> {
+    let get = |pick: fn(&PaperChemistry) -> Option<f64>| paper.and_then(pick).is_some();
+    let uses = [
+        (
+            "solver.vorticity",
+            Feature::Vorticity,
+            solver.vorticity.is_some(),
+        ),
+        (
+            "solver.cohesion",
+            Feature::Cohesion,
+            solver.cohesion.is_some(),
+        ),
+        (
+            "solver.adhesion",
+            Feature::Cohesion,
+            solver.adhesion.is_some(),
+        ),
+        ("paper.T_a", Feature::Heat, get(|p| p.T_a)),
+        ("paper.T_B", Feature::Boiling, get(|p| p.T_B)),
+        ("paper.k_v", Feature::Boiling, get(|p| p.k_v)),
+        ("paper.k_d", Feature::Dilution, get(|p| p.k_d)),
+        ("paper.D_T", Feature::Dilution, get(|p| p.D_T)),
+        ("paper.D_c", Feature::Dilution, get(|p| p.D_c)),
+    ];
+    for (field, feature, present) in uses {
+        let named = model.contains(&feature);
+        let name = format!("{feature:?}").to_lowercase();
+        if named && !present {
+            return Err(Problem::new(
+                field,
+                format!("missing; `model` names {name:?}, which needs it"),
+            ));
+        }
+        if !named && present {
+            let problem = format!("not used; name {name:?} in `model` or leave it out");
+            return Err(Problem::new(field, problem));
+        }
+    }
+    for (feature, needs) in [
+        (Feature::Dilution, Feature::Heat),
+        (Feature::Boiling, Feature::Heat),
+    ] {
+        if model.contains(&feature) && !model.contains(&needs) {
+            let problem = format!("{feature:?} needs {needs:?}; name it too").to_lowercase();
+            return Err(Problem::new("model", problem));
+        }
+    }
+    for (i, feature) in model.iter().enumerate() {
+        if model[..i].contains(feature) {
+            let problem = format!("names {feature:?} twice; once is enough").to_lowercase();
+            return Err(Problem::new(format!("model[{i}]"), problem));
+        }
+    }
+    Ok(())
+}

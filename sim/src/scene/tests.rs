@@ -1,0 +1,304 @@
+#![allow(clippy::unwrap_used, clippy::panic)]
+use super::*;
+
+/// Two flasks of water, small, that the cases below break in one place each.
+const GOOD: &str = r#"
+name = "good"
+description = "two flasks"
+model = []
+[scale]
+spacing = 0.005
+support_ratio = 2.0
+frame_time = 0.01
+gravity = 9.81
+rest_density = 1000.0
+length_scale = 1.0
+boundary_spacing_ratio = 0.5
+[solver]
+substeps = 3
+iterations = 2
+omega = 0.5
+v_max = 10.0
+boundary = "map"
+viscosity = 0.1
+[floor]
+height = 0.0
+[[flask]]
+name = "a"
+profile = "beaker-250"
+position = [0.0, 0.5, 0.0]
+fixed = false
+[[flask]]
+name = "b"
+points = [[0.0, 0.03], [0.08, 0.03]]
+wall = 0.002
+position = [0.2, 0.5, 0.0]
+rotation = [0.0, 0.0, 90.0]
+fixed = true
+[[liquid]]
+flask = "a"
+volume_ml = 100.0
+temperature = 20.0
+acid_fraction = 0.0
+"#;
+
+fn broken(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from} is not in the good scene");
+    Scene::parse(GOOD, "good.toml").unwrap();
+    let error = Scene::parse(&GOOD.replacen(from, to, 1), "bad.toml").unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn malformed_scenes_name_file_field_and_remedy() {
+    let cases = [
+        (
+            "spacing = 0.005\n",
+            "",
+            &["missing field `spacing`", "line 5"][..],
+        ),
+        (
+            "gravity",
+            "gravitas",
+            &["unknown field `gravitas`", "`gravity`", "line 9"],
+        ),
+        ("0.005", "nan", &["scale.spacing", "NaN", "above zero"]),
+        (
+            "0.005",
+            "-0.005",
+            &["scale.spacing", "-0.005", "above zero"],
+        ),
+        ("0.005", "\"wide\"", &["invalid type", "line 6"]),
+        ("omega = 0.5", "omega = 3.0", &["solver.omega", "below 2"]),
+        (
+            "substeps = 3",
+            "substeps = 0",
+            &["solver.substeps", "between 1"],
+        ),
+        (
+            "\"map\"",
+            "\"mop\"",
+            &["unknown variant `mop`", "`map`", "`particles`"],
+        ),
+        (
+            "model = []",
+            "model = [\"boiling\"]",
+            &["paper.T_B", "missing"],
+        ),
+        (
+            "viscosity = 0.1",
+            "viscosity = 0.1\nvorticity = 1.0",
+            &["solver.vorticity", "model"],
+        ),
+        (
+            "beaker-250",
+            "bucket",
+            &["flask[0].profile", "bucket", "beaker-250"],
+        ),
+        (
+            "[0.08, 0.03]",
+            "[0.08, 0.001]",
+            &["flask[1].points", "narrower than a particle"],
+        ),
+        (
+            "[0.08, 0.03]",
+            "[0.0, 0.03]",
+            &["flask[1].points", "list the points from the floor up"],
+        ),
+        ("[0.08, 0.03]", "[0.08, nan]", &["flask[1].points", "NaN"]),
+        (
+            "wall = 0.002",
+            "wall = -1.0",
+            &["flask[1].wall", "above zero"],
+        ),
+        ("wall = 0.002\n", "", &["flask[1].wall", "missing"]),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[0.06, 0.5, 0.0]",
+            &["flask[1].position", "overlaps", "move them apart"],
+        ),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[inf, 0.5, 0.0]",
+            &["flask[1].position", "inf"],
+        ),
+        (
+            "name = \"b\"",
+            "name = \"a\"",
+            &["flask[1].name", "give another"],
+        ),
+        (
+            "flask = \"a\"",
+            "flask = \"c\"",
+            &["liquid[0].flask", "no flask is named", "a, b"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "volume_ml = 400.0",
+            &["liquid", "fit below the rim"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "volume_ml = 1e30",
+            &["liquid", "fit below the rim"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "",
+            &["liquid[0].volume_ml", "exactly one"],
+        ),
+        (
+            "acid_fraction = 0.0",
+            "acid_fraction = 1.5",
+            &["liquid[0].acid_fraction", "between 0 and 1"],
+        ),
+        (
+            "[floor]",
+            "[preset.quick]\n[floor]",
+            &["unknown variant `quick`", "`fast`"],
+        ),
+        (
+            "[floor]",
+            "[preset.fast]\nspacing = 0.1\n[floor]",
+            &["preset.fast.spacing", "narrower"],
+        ),
+    ];
+    for (from, to, parts) in cases {
+        let message = broken(from, to);
+        assert!(message.starts_with("bad.toml: "), "{message}");
+        for part in parts {
+            assert!(
+                message.contains(part),
+                "{to:?}: {part:?} is not in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn missing_file_is_named_with_the_builtin_scenes() {
+    let message = Scene::load("nowhere.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("nowhere.toml") && message.contains("two-flasks"),
+        "{message}"
+    );
+}
+
+#[test]
+fn nested_flasks_do_not_overlap() {
+    let inside = GOOD
+        .replace("[0.08, 0.03]", "[0.08, 0.015]")
+        .replace("[0.0, 0.03]", "[0.0, 0.015]")
+        .replace("[0.2, 0.5, 0.0]", "[0.0, 0.502, 0.0]")
+        .replace("90.0]", "0.0]");
+    Scene::parse(&inside, "nested.toml").unwrap();
+    let through = inside.replace("[0.0, 0.502, 0.0]", "[0.0, 0.501, 0.0]");
+    assert!(Scene::parse(&through, "through.toml").is_err());
+}
+
+#[test]
+fn every_builtin_loads_and_states_its_scale() {
+    for name in Scene::builtin_names() {
+        let scene = Scene::load(name).unwrap();
+        assert_eq!(scene.name, name);
+        for preset in [Preset::Fast, Preset::Balanced, Preset::Reference] {
+            assert!(scene.presets.contains_key(&preset), "{name} {preset:?}");
+            let changed = scene.with_preset(preset);
+            let count: usize = changed
+                .liquids
+                .iter()
+                .map(|l| changed.particle_count(l))
+                .sum();
+            let start = changed.start(Some(1)).unwrap();
+            assert_eq!(start.len(), count);
+            assert!(name != "two-flasks" || count >= 8000, "{preset:?}: {count}");
+            for particle in start {
+                let flask = &changed.flasks[particle.flask];
+                let local = flask.stage_from_flask.inverse();
+                let p = local
+                    .transform_point(particle.position.as_vec3())
+                    .as_dvec3();
+                assert!(flask.profile.is_inside(p.x.hypot(p.z), p.y), "{name}: {p}");
+            }
+        }
+    }
+}
+
+/// Table 2: fluid particles within 1 %, solid ones within 10 %.
+#[test]
+fn paper_scenes_have_table_2s_particles() {
+    for (name, fluid, solid) in [
+        ("moving-flask", 10925, 51158),
+        ("single-dilution", 13894, 48044),
+        ("triple-dilution", 39888, 60632),
+        ("tomato-soup", 14880, 2341),
+    ] {
+        let scene = Scene::load(name).unwrap();
+        assert!((scene.scale.particle_mass() - 0.125).abs() < 1e-12);
+        let own_fluid = scene.start(None).unwrap().len();
+        let own_solid: usize = scene.boundary_particles().iter().map(Vec::len).sum();
+        let off = |own: usize, paper: usize| (own as f64 / paper as f64 - 1.0).abs();
+        assert!(off(own_fluid, fluid) < 0.01, "{name}: {own_fluid} fluid");
+        assert!(off(own_solid, solid) < 0.10, "{name}: {own_solid} solid");
+    }
+}
+
+/// Table 1, row by row.
+#[test]
+fn paper_scenes_have_table_1s_parameters() {
+    for name in ["single-dilution", "triple-dilution", "vr-dilution"] {
+        let scene = Scene::load(name).unwrap();
+        let p = scene.paper.unwrap();
+        let row = [p.T_a, p.T_B, p.k_d, p.k_v, p.D_T, p.D_c].map(Option::unwrap);
+        assert_eq!(row, [20.0, 100.0, 0.017, 1.0, 0.01, 0.007]);
+        assert_eq!(scene.solver.viscosity, 0.3);
+    }
+    let soup = Scene::load("tomato-soup").unwrap();
+    let p = soup.paper.unwrap();
+    assert_eq!((p.T_a, p.T_B, p.k_d), (Some(110.0), Some(100.0), None));
+    assert_eq!(soup.solver.viscosity, 0.3);
+}
+
+#[test]
+fn brim_full_is_every_site_and_no_more() {
+    let full = GOOD.replace("volume_ml = 100.0", "fraction = 1.0");
+    let scene = Scene::parse(&full, "full.toml").unwrap();
+    let sites: usize = fill::sites(&scene.flasks[0].profile, 0.005)
+        .iter()
+        .map(Vec::len)
+        .sum();
+    assert_eq!(scene.start(None).unwrap().len(), sites);
+}
+
+#[test]
+fn liquids_share_a_flask_from_the_bottom_up() {
+    let text = GOOD.to_owned()
+        + "[[liquid]]\nflask = \"a\"\nparticles = 300\ntemperature = 60.0\nacid_fraction = 0.5\n";
+    let start = Scene::parse(&text, "layers.toml")
+        .unwrap()
+        .start(None)
+        .unwrap();
+    assert_eq!(start.len(), 1100);
+    let top_of_water = start[..800]
+        .iter()
+        .map(|p| p.position.y)
+        .fold(0.0, f64::max);
+    assert!(
+        start[800..]
+            .iter()
+            .all(|p| p.temperature == 60.0 && p.acid_fraction == 0.5)
+    );
+    assert!(start[800..].iter().all(|p| p.position.y >= top_of_water));
+}
+
+#[test]
+fn presets_keep_the_volume() {
+    let text = GOOD.to_owned() + "[preset.reference]\nspacing = 0.004\niterations = 7\n";
+    let scene = Scene::parse(&text, "good.toml").unwrap();
+    let fine = scene.with_preset(Preset::Reference);
+    assert_eq!(scene.start(None).unwrap().len(), 800);
+    // 100 mL / (4 mm)³ = 1562.5.
+    assert!((1562..=1563).contains(&fine.start(None).unwrap().len()));
+    assert_eq!((fine.solver.iterations, fine.solver.substeps), (7, 3));
+    assert_eq!(scene.with_preset(Preset::Fast), scene);
+}

@@ -1,0 +1,112 @@
+//! The particles' state and the solver's scratch memory. A particle's place in
+//! every array is the same; it changes when the list is rebuilt.
+
+use super::pipelines::Grid;
+use vitriol_gpu::{Buffer, Gpu, GpuError};
+
+/// Threads of the load pass's workgroups.
+pub(super) const LOAD_GROUP: u32 = 256;
+
+/// Device memory, named as in the shaders.
+pub(super) struct Buffers {
+    // State: what a snapshot holds.
+    pub(super) position: Buffer,
+    /// w: the carried multiplier.
+    pub(super) velocity: Buffer,
+    /// (membership, identity).
+    pub(super) tags: Buffer,
+    pub(super) list_origin: Buffer,
+    pub(super) list_counts: Buffer,
+    pub(super) list: Buffer,
+    pub(super) counters: Buffer,
+    // Scratch of one substep.
+    pub(super) trial: Buffer,
+    pub(super) solved: Buffer,
+    pub(super) boundary: Buffer,
+    pub(super) multiplier: Buffer,
+    pub(super) new_velocity: Buffer,
+    // Scratch of a rebuild. The sorted copies of what is dead at that moment
+    // share its memory: `solved` and `new_velocity` are written only later.
+    pub(super) sorted_position: Buffer,
+    pub(super) sorted_tags: Buffer,
+    pub(super) sorted_push: Buffer,
+    pub(super) cell_counts: Buffer,
+    pub(super) cell_starts: Buffer,
+    pub(super) block_sums: Buffer,
+    pub(super) cell_items: Buffer,
+    pub(super) list_args: Buffer,
+    // Coupling with the rigid bodies.
+    pub(super) poses: Buffer,
+    pub(super) wall_push: Buffer,
+    pub(super) loads: Buffer,
+    // Reports.
+    pub(super) density: Buffer,
+}
+
+/// Substeps for whose poses there is room.
+const MAX_SUBSTEPS: u64 = 64;
+
+impl Buffers {
+    pub(super) fn new(
+        gpu: &Gpu,
+        count: u32,
+        grid: &Grid,
+        flasks: usize,
+        loads: bool,
+    ) -> Result<Self, GpuError> {
+        let n = u64::from(count);
+        let words = |label, number: u64| Buffer::storage(gpu, label, 4 * number);
+        let pushed = if loads { n } else { 0 };
+        let groups = u64::from(count.div_ceil(LOAD_GROUP));
+        Ok(Self {
+            position: words("position", 4 * n)?,
+            velocity: words("velocity", 4 * n)?,
+            tags: words("tags", 2 * n)?,
+            list_origin: words("list_origin", 4 * n)?,
+            list_counts: words("list_counts", n)?,
+            list: words("list", n * u64::from(grid.list_capacity))?,
+            counters: words("counters", 6)?,
+            trial: words("trial", 4 * n)?,
+            solved: words("solved", 4 * n)?,
+            boundary: words("boundary", 4 * n)?,
+            multiplier: words("multiplier", n)?,
+            new_velocity: words("new_velocity", 4 * n)?,
+            sorted_position: words("sorted_position", 4 * n)?,
+            sorted_tags: words("sorted_tags", 2 * n)?,
+            sorted_push: words("sorted_push", 4 * pushed)?,
+            cell_counts: words("cell_counts", u64::from(grid.cells()))?,
+            cell_starts: words("cell_starts", u64::from(grid.cells()))?,
+            block_sums: words("block_sums", u64::from(grid.blocks()))?,
+            cell_items: words("cell_items", n)?,
+            list_args: words("list_args", 8)?,
+            poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks as u64)?,
+            wall_push: words("wall_push", 4 * pushed)?,
+            loads: words("loads", if loads { 12 * groups * flasks as u64 } else { 0 })?,
+            density: words("density", n)?,
+        })
+    }
+
+    pub(super) fn bytes_per_particle(&self, count: u32) -> u64 {
+        let all = [
+            &self.position,
+            &self.velocity,
+            &self.tags,
+            &self.list_origin,
+            &self.list_counts,
+            &self.list,
+            &self.trial,
+            &self.solved,
+            &self.boundary,
+            &self.multiplier,
+            &self.new_velocity,
+            &self.sorted_position,
+            &self.sorted_tags,
+            &self.sorted_push,
+            &self.cell_items,
+            &self.wall_push,
+            &self.density,
+        ];
+        let bytes: u64 = all.iter().map(|buffer| buffer.bytes()).sum();
+        bytes / u64::from(count.max(1))
+    }
+}

@@ -1,0 +1,339 @@
+//! The simulation loop, Algorithm 1, as passes.
+
+use super::buffers::LOAD_GROUP;
+use super::vessels::flask_pose;
+use super::{Solver, SolverError};
+use crate::pose::Pose;
+use vitriol_gpu::{ComputePipeline, Pass, Readback, Recorder};
+use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
+
+/// What a frame leaves to be read once the device is done with it.
+pub struct FrameRecord {
+    loads: Option<Readback>,
+    flasks: usize,
+}
+
+impl FrameRecord {
+    /// The liquid's load on each flask, summed up over the device's workgroups
+    /// in their order, so that the bits repeat. Empty where none was asked for.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] before the frame is done.
+    pub fn loads(&self) -> Result<Vec<LiquidLoad>, SolverError> {
+        let Some(readback) = &self.loads else {
+            return Ok(Vec::new());
+        };
+        let mut sums = vec![LiquidLoad::default(); self.flasks];
+        for group in readback.get::<LiquidLoad>()?.chunks_exact(self.flasks) {
+            for (sum, part) in sums.iter_mut().zip(group) {
+                for axis in 0..4 {
+                    sum.impulse[axis] += part.impulse[axis];
+                    sum.angular[axis] += part.angular[axis];
+                    sum.offsets[axis] += part.offsets[axis];
+                }
+            }
+        }
+        Ok(sums)
+    }
+}
+
+impl Solver {
+    /// Records one frame of Δt_f, in which the flasks go from the poses
+    /// `before` to those `after` (stage_from_flask, in the scene's order).
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn record(
+        &self,
+        rec: &mut Recorder,
+        before: &[Pose],
+        after: &[Pose],
+    ) -> Result<FrameRecord, SolverError> {
+        let substeps = self.parameters.substeps;
+        if self.count == 0 {
+            return Ok(self.nothing());
+        }
+        self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
+        self.predict(rec)?; // lines 6 to 8, and 16 of the first substep
+        for n in 0..substeps {
+            let step = self.step(n);
+            self.find_neighbours(rec, &step)?; // lines 9 to 12
+            self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
+            self.apply_viscosity(rec, &step, n + 1 == substeps)?; // 27; 16 of the next
+        }
+        self.sum_loads(rec)
+    }
+
+    /// Records a pass that writes each particle's density over the rest
+    /// density, and its copy to the host (one f32 a particle).
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn record_density(&self, rec: &mut Recorder) -> Result<Readback, SolverError> {
+        let b = &self.buffers;
+        self.boundary(rec.pass(&self.pipelines.density))
+            .read("position", &b.position)
+            .read("tags", &b.tags)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .write("density", &b.density)
+            .constants(&self.step(self.parameters.substeps - 1))
+            .invocations(self.count)?;
+        Ok(rec.read_back(&b.density)?)
+    }
+
+    /// Poses at the frame's start and at each substep's end. Interpolated:
+    /// moved a whole frame at once, the glass would leave the liquid behind.
+    fn move_flasks(
+        &self,
+        rec: &mut Recorder,
+        before: &[Pose],
+        after: &[Pose],
+    ) -> Result<(), SolverError> {
+        if self.flasks == 0 {
+            return Ok(());
+        }
+        let substeps = self.parameters.substeps;
+        let poses: Vec<FlaskPose> = (0..=substeps)
+            .flat_map(|n| {
+                let fraction = n as f32 / substeps as f32;
+                let pair = before.iter().zip(after);
+                pair.map(move |(&from, &to)| flask_pose(from.interpolate(to, fraction)))
+            })
+            .collect();
+        Ok(rec.upload(&self.buffers.poses, &poses)?)
+    }
+
+    fn predict(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        let b = &self.buffers;
+        self.prediction(rec.pass(&self.pipelines.predict))
+            .read("position", &b.position)
+            .read("velocity", &b.velocity)
+            .read("tags", &b.tags)
+            .constants(&self.step(0))
+            .invocations(self.count)?;
+        Ok(())
+    }
+
+    /// Counting sort by cell, reordering and list, all with no workgroups
+    /// while the list of an earlier substep serves.
+    fn find_neighbours(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let (b, p) = (&self.buffers, &self.pipelines);
+        const PARTICLES: u64 = 0;
+        const CELLS: u64 = 16;
+        rec.pass(&p.cell_count)
+            .read("trial", &b.trial)
+            .write("cell_counts", &b.cell_counts)
+            .indirect(&b.list_args, PARTICLES)?;
+        rec.pass(&p.cell_scan)
+            .read("cell_counts", &b.cell_counts)
+            .write("cell_starts", &b.cell_starts)
+            .write("block_sums", &b.block_sums)
+            .indirect(&b.list_args, CELLS)?;
+        rec.pass(&p.block_scan)
+            .write("block_sums", &b.block_sums)
+            .workgroups([1, 1, 1])?;
+        rec.pass(&p.cell_scatter)
+            .read("trial", &b.trial)
+            .read("cell_starts", &b.cell_starts)
+            .read("block_sums", &b.block_sums)
+            .write("cell_counts", &b.cell_counts)
+            .write("cell_items", &b.cell_items)
+            .indirect(&b.list_args, PARTICLES)?;
+        rec.pass(&p.reorder)
+            .read("trial", &b.trial)
+            .read("position", &b.position)
+            .read("velocity", &b.velocity)
+            .read("tags", &b.tags)
+            .read("wall_push", &b.wall_push)
+            .read("cell_starts", &b.cell_starts)
+            .read("block_sums", &b.block_sums)
+            .read("cell_items", &b.cell_items)
+            .write("sorted_trial", &b.solved)
+            .write("sorted_position", &b.sorted_position)
+            .write("sorted_velocity", &b.new_velocity)
+            .write("sorted_tags", &b.sorted_tags)
+            .write("sorted_push", &b.sorted_push)
+            .indirect(&b.list_args, PARTICLES)?;
+        self.vessels(rec.pass(&p.list))
+            .read("sorted_trial", &b.solved)
+            .read("sorted_position", &b.sorted_position)
+            .read("sorted_velocity", &b.new_velocity)
+            .read("sorted_tags", &b.sorted_tags)
+            .read("sorted_push", &b.sorted_push)
+            .read("cell_starts", &b.cell_starts)
+            .read("block_sums", &b.block_sums)
+            .write("trial", &b.trial)
+            .write("position", &b.position)
+            .write("velocity", &b.velocity)
+            .write("tags", &b.tags)
+            .write("wall_push", &b.wall_push)
+            .write("list_origin", &b.list_origin)
+            .write("list_counts", &b.list_counts)
+            .write("list", &b.list)
+            .write("counters", &b.counters)
+            .constants(step)
+            .indirect(&b.list_args, PARTICLES)?;
+        Ok(())
+    }
+
+    /// Lines 18 to 21; the last displacement commits (lines 22 to 25).
+    fn solve_density(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let p = &self.pipelines;
+        if self.parameters.carry > 0.0 {
+            self.find_multipliers(rec, &p.carried, step)?;
+            self.displace(rec, &p.displacement, step)?;
+        }
+        let gradient_sum = self.parameters.gradient_sum();
+        let last = self.coefficients.len() - 1;
+        for (iteration, &(momentum, residual)) in self.coefficients.iter().enumerate() {
+            let step = Step {
+                momentum: momentum as f32,
+                residual: (residual / gradient_sum) as f32,
+                ..*step
+            };
+            let multiplier = if iteration == 0 {
+                &p.first_multiplier
+            } else {
+                &p.multiplier
+            };
+            self.find_multipliers(rec, multiplier, &step)?;
+            let displacement = if iteration == last {
+                &p.commit
+            } else {
+                &p.displacement
+            };
+            self.displace(rec, displacement, &step)?;
+        }
+        Ok(())
+    }
+
+    fn find_multipliers(
+        &self,
+        rec: &mut Recorder,
+        pass: &ComputePipeline,
+        step: &Step,
+    ) -> Result<(), SolverError> {
+        let b = &self.buffers;
+        self.boundary(rec.pass(pass))
+            .read("trial", &b.trial)
+            .read("tags", &b.tags)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .read("velocity", &b.velocity)
+            .write("multiplier", &b.multiplier)
+            .write("solved", &b.solved)
+            .write("boundary", &b.boundary)
+            .write("list_args", &b.list_args)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    fn displace(
+        &self,
+        rec: &mut Recorder,
+        pass: &ComputePipeline,
+        step: &Step,
+    ) -> Result<(), SolverError> {
+        let b = &self.buffers;
+        self.vessels(rec.pass(pass))
+            .read("solved", &b.solved)
+            .read("boundary", &b.boundary)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .write("trial", &b.trial)
+            .write("wall_push", &b.wall_push)
+            .read("multiplier", &b.multiplier)
+            .read("velocity", &b.velocity)
+            .write("position", &b.position)
+            .write("tags", &b.tags)
+            .write("new_velocity", &b.new_velocity)
+            .read("list_origin", &b.list_origin)
+            .write("counters", &b.counters)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    fn apply_viscosity(
+        &self,
+        rec: &mut Recorder,
+        step: &Step,
+        last: bool,
+    ) -> Result<(), SolverError> {
+        let (b, p) = (&self.buffers, &self.pipelines);
+        let pass = if last { &p.last_viscosity } else { &p.viscosity };
+        self.prediction(rec.pass(pass))
+            .read("position", &b.position)
+            .read("new_velocity", &b.new_velocity)
+            .read("tags", &b.tags)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .read("boundary", &b.boundary)
+            .write("velocity", &b.velocity)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    fn sum_loads(&self, rec: &mut Recorder) -> Result<FrameRecord, SolverError> {
+        if !self.loads || self.flasks == 0 {
+            return Ok(self.nothing());
+        }
+        let b = &self.buffers;
+        self.vessels(rec.pass(&self.pipelines.load))
+            .read("position", &b.position)
+            .read("tags", &b.tags)
+            .read("wall_push", &b.wall_push)
+            .write("loads", &b.loads)
+            .constants(&self.step(self.parameters.substeps - 1))
+            .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;
+        Ok(FrameRecord {
+            loads: Some(rec.read_back(&b.loads)?),
+            flasks: self.flasks,
+        })
+    }
+
+    fn nothing(&self) -> FrameRecord {
+        FrameRecord {
+            loads: None,
+            flasks: self.flasks,
+        }
+    }
+
+    /// Constants of substep `n`.
+    fn step(&self, n: u32) -> Step {
+        let flasks = self.flasks as u32;
+        Step {
+            time: self.parameters.substep_time() as f32,
+            viscosity: self.parameters.substep_viscosity() as f32,
+            carry: self.parameters.carry as f32,
+            before: n * flasks,
+            after: (n + 1) * flasks,
+            next: (n + 2) * flasks,
+            ..Step::default()
+        }
+    }
+
+    fn vessels<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+        let v = &self.vessels;
+        pass.read("flasks", &v.flasks)
+            .read("poses", &self.buffers.poses)
+            .read("radii", &v.radii)
+            .read("maps", &v.maps)
+    }
+
+    fn boundary<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+        self.vessels(pass).read("plane", &self.vessels.plane)
+    }
+
+    fn prediction<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+        let b = &self.buffers;
+        self.vessels(pass)
+            .write("list_args", &b.list_args)
+            .read("list_origin", &b.list_origin)
+            .write("wall_push", &b.wall_push)
+            .write("trial", &b.trial)
+    }
+}

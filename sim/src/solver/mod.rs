@@ -1,0 +1,156 @@
+//! Algorithm 1 on the GPU.
+//!
+//! [`frame`] is the loop itself. Each pass is a file of the same name in the
+//! shaders' folder `sim/`; `reference/` is the same mathematics in f64.
+//!
+//! Few passes, since a dispatch with its barrier costs as much as the work of
+//! a small scene: two over neighbours per iteration (multipliers,
+//! displacements), one for viscosity. The last displacement pass also commits
+//! (lines 23 to 25), the viscosity pass also predicts the next substep
+//! (line 16). The neighbour list is rebuilt when a particle has used up its
+//! margin; the GPU decides, by the sizes of six indirect dispatches.
+
+mod buffers;
+mod counters;
+mod error;
+mod frame;
+mod pipelines;
+mod state;
+mod vessels;
+
+pub use counters::Counters;
+pub use error::SolverError;
+pub use frame::FrameRecord;
+pub use state::SolverState;
+pub use vessels::Ground;
+
+use crate::flask::Profile;
+use crate::parameters::Parameters;
+use buffers::Buffers;
+use glam::DVec3;
+use pipelines::{Grid, Pipelines};
+use vessels::Vessels;
+use vitriol_gpu::{Buffer, Gpu, vk};
+use vitriol_shaders::Library;
+
+/// A fluid particle at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Position in the stage, metres.
+    pub position: DVec3,
+    /// Velocity, m/s.
+    pub velocity: DVec3,
+    /// Index of the flask it is in.
+    pub flask: Option<usize>,
+}
+
+/// What the solver is made of, beside its parameters.
+#[derive(Clone, Debug)]
+pub struct SolverSpec<'a> {
+    /// Parameters of Algorithm 1.
+    pub parameters: Parameters,
+    /// Shapes of the flasks, in the order of their poses.
+    pub flasks: &'a [Profile],
+    /// Table and floor.
+    pub ground: Ground,
+    /// The fluid.
+    pub particles: &'a [Particle],
+    /// Whether the liquid's push on the flasks is summed up each frame.
+    pub loads: bool,
+    /// Invocations that share a particle: 1, 2, 4 or 8; `None` lets the
+    /// device and the number of particles decide.
+    pub lanes: Option<u32>,
+}
+
+/// The particles of a scene on a device, and what moves them.
+pub struct Solver {
+    gpu: Gpu,
+    parameters: Parameters,
+    coefficients: Vec<(f64, f64)>,
+    count: u32,
+    flasks: usize,
+    grid: Grid,
+    lanes: u32,
+    loads: bool,
+    buffers: Buffers,
+    vessels: Vessels,
+    pipelines: Pipelines,
+}
+
+impl Solver {
+    /// Compiles the passes that the scene needs and puts its particles on the
+    /// device.
+    ///
+    /// # Errors
+    /// [`SolverError`] where a shader or the device refuses.
+    pub fn new(gpu: &Gpu, library: &Library, spec: &SolverSpec<'_>) -> Result<Self, SolverError> {
+        let count = u32::try_from(spec.particles.len())
+            .map_err(|_| SolverError::TooManyParticles(spec.particles.len()))?;
+        let grid = Grid::new(&spec.parameters, count);
+        let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
+        let vessels = Vessels::new(gpu, &spec.parameters, spec.flasks, &spec.ground)?;
+        let buffers = Buffers::new(gpu, count, &grid, spec.flasks.len(), spec.loads)?;
+        let pipelines = Pipelines::new(gpu, library, spec, count, &grid, lanes)?;
+        let solver = Self {
+            gpu: gpu.clone(),
+            coefficients: spec
+                .parameters
+                .relaxation
+                .coefficients(spec.parameters.iterations),
+            parameters: spec.parameters.clone(),
+            count,
+            flasks: spec.flasks.len(),
+            grid,
+            lanes,
+            loads: spec.loads,
+            buffers,
+            vessels,
+            pipelines,
+        };
+        solver.restore(&SolverState::start(spec.particles, &solver.grid))?;
+        Ok(solver)
+    }
+
+    /// Number of particles, those taken out included.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Parameters it runs with.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Positions as `array<vec4<f32>>`, stage frame, metres; w is −1 for a
+    /// particle that was taken out. For the renderer, in place.
+    pub fn positions(&self) -> &Buffer {
+        &self.buffers.position
+    }
+
+    /// Velocities as `array<vec4<f32>>`, m/s, in the order of the positions;
+    /// w is no velocity.
+    pub fn velocities(&self) -> &Buffer {
+        &self.buffers.velocity
+    }
+
+    /// Bytes of device memory that a particle takes.
+    pub fn bytes_per_particle(&self) -> u64 {
+        self.buffers.bytes_per_particle(self.count)
+    }
+}
+
+/// On a GPU with more units than a small scene has particles, several
+/// invocations share a particle's neighbours and the latency of fetching
+/// them; a software driver has no idle units.
+fn lanes_for(gpu: &Gpu, count: u32) -> u32 {
+    let info = gpu.info();
+    if info.kind == vk::PhysicalDeviceType::CPU || !info.features.subgroups {
+        1
+    } else if count <= 32_768 {
+        8
+    } else if count <= 131_072 {
+        4
+    } else {
+        1
+    }
+}

@@ -1,0 +1,190 @@
+//! The passes, specialised for what the scene asks for.
+
+use super::vessels::PLANE_ENTRIES;
+use super::{SolverError, SolverSpec};
+use crate::parameters::Parameters;
+use vitriol_gpu::{ComputePipeline, Gpu};
+use vitriol_shaders::{Library, ShaderId, sim};
+
+/// Cells that one workgroup scans, as in `common/grid.wgsl`.
+const SCAN_BLOCK: u32 = 1024;
+
+/// Neighbours a list has room for, over those of an undisturbed lattice: the
+/// liquid may be a third too dense before a neighbour is left out.
+const LIST_HEADROOM: f64 = 1.35;
+
+/// Part of the list's margin that a prediction may use up; the rest is left
+/// for the substep's corrections.
+const MARGIN_FOR_PREDICTION: f64 = 0.4;
+
+/// The neighbour search: cell size, table and list.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid {
+    /// Edge of a cell, metres.
+    pub cell: f64,
+    /// Logarithms of the cells in x, y and z.
+    pub bits: [u32; 3],
+    /// Rows of the neighbour list.
+    pub list_capacity: u32,
+}
+
+impl Grid {
+    /// As many cells as particles: a cell of one support radius holds eight
+    /// at h/d = 2, so most of the table is empty and distant cells rarely meet.
+    pub fn new(parameters: &Parameters, count: u32) -> Self {
+        let cell = parameters.support_radius * (1.0 + parameters.list_margin);
+        let sphere = 4.0 / 3.0 * std::f64::consts::PI * (cell / parameters.spacing).powi(3);
+        let total = count.max(SCAN_BLOCK).next_power_of_two().ilog2();
+        Self {
+            cell,
+            bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
+            list_capacity: (sphere * LIST_HEADROOM / 8.0).ceil() as u32 * 8,
+        }
+    }
+
+    /// Cells in the table.
+    pub fn cells(&self) -> u32 {
+        1 << self.bits.iter().sum::<u32>()
+    }
+
+    /// Workgroups that scan them.
+    pub fn blocks(&self) -> u32 {
+        self.cells() / SCAN_BLOCK
+    }
+}
+
+/// Compiled passes; names as in `frame`.
+pub(super) struct Pipelines {
+    pub(super) predict: ComputePipeline,
+    pub(super) cell_count: ComputePipeline,
+    pub(super) cell_scan: ComputePipeline,
+    pub(super) block_scan: ComputePipeline,
+    pub(super) cell_scatter: ComputePipeline,
+    pub(super) reorder: ComputePipeline,
+    pub(super) list: ComputePipeline,
+    pub(super) carried: ComputePipeline,
+    pub(super) first_multiplier: ComputePipeline,
+    pub(super) multiplier: ComputePipeline,
+    pub(super) displacement: ComputePipeline,
+    pub(super) commit: ComputePipeline,
+    pub(super) viscosity: ComputePipeline,
+    pub(super) last_viscosity: ComputePipeline,
+    pub(super) load: ComputePipeline,
+    pub(super) density: ComputePipeline,
+}
+
+impl Pipelines {
+    pub(super) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        spec: &SolverSpec<'_>,
+        count: u32,
+        grid: &Grid,
+        lanes: u32,
+    ) -> Result<Self, SolverError> {
+        let constants = Constants::new(spec, count, grid, lanes);
+        let carry = flag(spec.parameters.carry > 0.0);
+        let first = [("FIRST", 1.0), ("CARRY", carry)];
+        let clear_first = [("FIRST", 1.0), ("CLEAR_LIST_ARGS", 1.0)];
+        let make = |shader, extra: &[(&'static str, f64)]| {
+            let own = constants.of(library, shader, extra)?;
+            let compiled = library.compile(&shader, "main", &own)?;
+            Ok::<_, SolverError>(ComputePipeline::new(gpu, &compiled)?)
+        };
+        Ok(Self {
+            predict: make(sim::PREDICT, &[])?,
+            cell_count: make(sim::CELL_COUNT, &[])?,
+            cell_scan: make(sim::CELL_SCAN, &[])?,
+            block_scan: make(sim::BLOCK_SCAN, &[])?,
+            cell_scatter: make(sim::CELL_SCATTER, &[])?,
+            reorder: make(sim::REORDER, &[])?,
+            list: make(sim::LIST, &[])?,
+            carried: make(
+                sim::MULTIPLIER,
+                &[("APPLY_CARRIED", 1.0), ("CLEAR_LIST_ARGS", 1.0)],
+            )?,
+            first_multiplier: make(
+                sim::MULTIPLIER,
+                if carry > 0.0 { &first } else { &clear_first },
+            )?,
+            multiplier: make(sim::MULTIPLIER, &[])?,
+            displacement: make(sim::DISPLACEMENT, &[])?,
+            commit: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
+            viscosity: make(sim::VISCOSITY, &[("PREDICT", 1.0)])?,
+            last_viscosity: make(sim::VISCOSITY, &[])?,
+            load: make(sim::LOAD, &[])?,
+            density: make(sim::DENSITY, &[])?,
+        })
+    }
+}
+
+fn flag(on: bool) -> f64 {
+    f64::from(u8::from(on))
+}
+
+/// Values of the override constants, of which each shader has some.
+struct Constants(Vec<(&'static str, f64)>);
+
+impl Constants {
+    fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid, lanes: u32) -> Self {
+        let p = &spec.parameters;
+        let margin = grid.cell - p.support_radius;
+        let mut all = vec![
+            ("COUNT", f64::from(count)),
+            ("LIST_CAPACITY", f64::from(grid.list_capacity)),
+            ("LANES", f64::from(lanes)),
+            ("SUPPORT", p.support_radius),
+            ("VOLUME", p.particle_volume()),
+            ("MASS", p.particle_mass()),
+            ("MARGIN", p.margin),
+            ("MAX_SPEED", p.max_speed),
+            ("GRAVITY_X", p.gravity[0]),
+            ("GRAVITY_Y", p.gravity[1]),
+            ("GRAVITY_Z", p.gravity[2]),
+            ("VISCOUS", flag(p.viscosity > 0.0)),
+            ("CELL", grid.cell),
+            ("CELL_BITS_X", f64::from(grid.bits[0])),
+            ("CELL_BITS_Y", f64::from(grid.bits[1])),
+            ("CELL_BITS_Z", f64::from(grid.bits[2])),
+            ("BLOCKS", f64::from(grid.blocks())),
+            ("CELL_GROUPS", f64::from(grid.blocks())),
+            ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
+            ("LIST_SLACK", margin * MARGIN_FOR_PREDICTION),
+            ("LIST_REACH", margin * 0.5),
+            ("FLASKS", spec.flasks.len() as f64),
+            ("LOADS", flag(spec.loads)),
+            ("PLANE_COUNT", PLANE_ENTRIES as f64),
+            ("FLOOR", spec.ground.floor),
+        ];
+        if let Some((top, centre, size)) = spec.ground.table {
+            all.extend([
+                ("TABLE", 1.0),
+                ("TABLE_TOP", top),
+                ("TABLE_UNDER", spec.ground.table_under(top)),
+                ("TABLE_X", centre.x),
+                ("TABLE_Z", centre.y),
+                ("TABLE_HALF_X", 0.5 * size.x),
+                ("TABLE_HALF_Z", 0.5 * size.y),
+            ]);
+        }
+        Self(all)
+    }
+
+    /// Those that `shader` declares, with `extra`.
+    fn of(
+        &self,
+        library: &Library,
+        shader: ShaderId,
+        extra: &[(&'static str, f64)],
+    ) -> Result<Vec<(&'static str, f64)>, SolverError> {
+        let declared = library.constants(&shader)?;
+        let mut own: Vec<_> = self
+            .0
+            .iter()
+            .copied()
+            .filter(|(name, _)| declared.iter().any(|known| known == name))
+            .collect();
+        own.extend(extra);
+        Ok(own)
+    }
+}

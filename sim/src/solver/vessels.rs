@@ -1,0 +1,105 @@
+//! Flasks, table and floor as the shaders' buffers.
+
+use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
+use crate::parameters::Parameters;
+use crate::pose::Pose;
+use glam::DVec2;
+use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_shaders::layout;
+
+/// Entries of the half-space table over one support radius; its error is
+/// then below 1e-5 of a density.
+pub const PLANE_ENTRIES: usize = 129;
+
+/// Thickness of a table top, metres at real size.
+const TABLE_THICKNESS: f64 = 0.03;
+
+/// What is not a flask.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// Height of the floor, metres.
+    pub floor: f64,
+    /// The table: height of its top, centre and full extent in (x, z), metres.
+    pub table: Option<(f64, DVec2, DVec2)>,
+    /// How much larger than real this world is.
+    pub scale: f64,
+}
+
+impl Ground {
+    /// Height of the table's underside, metres.
+    pub fn table_under(&self, top: f64) -> f64 {
+        top - TABLE_THICKNESS * self.scale
+    }
+}
+
+/// The buffers that `common/vessel.wgsl` and `common/ground.wgsl` read.
+pub struct Vessels {
+    pub(super) flasks: Buffer,
+    pub(super) radii: Buffer,
+    pub(super) maps: Buffer,
+    pub(super) plane: Buffer,
+}
+
+impl Vessels {
+    /// Tabulates radii and volume maps and uploads them.
+    pub fn new(
+        gpu: &Gpu,
+        parameters: &Parameters,
+        profiles: &[Profile],
+        _ground: &Ground,
+    ) -> Result<Self, GpuError> {
+        let mut flasks = Vec::new();
+        let mut radii: Vec<f32> = Vec::new();
+        let mut maps: Vec<[f32; 4]> = Vec::new();
+        for profile in profiles {
+            let support = parameters.support_radius;
+            let inside = VolumeMap::new(profile, Side::Inside, support);
+            let outside = VolumeMap::new(profile, Side::Outside, support);
+            let table = profile.radius_table();
+            let height = profile.rim_height() - profile.floor_height();
+            let [columns, rows] = inside.size();
+            flasks.push(layout::Flask {
+                floor: profile.floor_height() as f32,
+                rim: profile.rim_height() as f32,
+                mouth: profile.mouth_radius() as f32,
+                outer: profile.outer_radius() as f32,
+                wall: profile.wall() as f32,
+                radius_scale: ((table.len() - 1) as f64 / height) as f32,
+                radius_first: radii.len() as u32,
+                radius_count: table.len() as u32,
+                inside_first: maps.len() as u32,
+                outside_first: (maps.len() + inside.nodes().len()) as u32,
+                map_columns: columns as u32,
+                map_rows: rows as u32,
+                map_scale: (1.0 / inside.spacing()) as f32,
+                map_base: inside.base() as f32,
+            });
+            radii.extend(table);
+            maps.extend_from_slice(inside.nodes());
+            maps.extend_from_slice(outside.nodes());
+        }
+        let plane = PlaneMap::new(parameters.support_radius).table(PLANE_ENTRIES);
+        Ok(Self {
+            flasks: upload(gpu, "flasks", &flasks)?,
+            radii: upload(gpu, "radii", &radii)?,
+            maps: upload(gpu, "maps", &maps)?,
+            plane: upload(gpu, "plane", &plane)?,
+        })
+    }
+}
+
+fn upload<T: bytemuck::NoUninit>(gpu: &Gpu, label: &str, data: &[T]) -> Result<Buffer, GpuError> {
+    let buffer = Buffer::storage(gpu, label, size_of_val(data) as u64)?;
+    if !data.is_empty() {
+        gpu.write(&buffer, data)?;
+    }
+    Ok(buffer)
+}
+
+/// A pose as the shaders have it.
+pub(super) fn flask_pose(stage_from_flask: Pose) -> layout::FlaskPose {
+    layout::FlaskPose {
+        position: stage_from_flask.position.extend(0.0).to_array(),
+        orientation: stage_from_flask.orientation.to_array(),
+    }
+}

@@ -1,0 +1,5 @@
+//! Harnesses that several tests share. A harness panics where its means fail:
+//! it is test code.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+pub mod browser;

@@ -1,0 +1,24 @@
+//! The built-in tracks, in keyframes.
+//!
+//! All stand at a desk whose top is at y = 0.75 m, with vessels at z = -0.40 m: an arm's
+//! length before the seated user's head, above the origin.
+
+use std::path::PathBuf;
+
+/// Names of the built-in tracks; each is also the name of the scene that it is made for.
+pub const NAMES: [&str; 3] = ["two-flasks", "shake", "three-flasks"];
+
+/// The keyframe file of the built-in track `name`.
+pub fn text(name: &str) -> Option<&'static str> {
+    match name {
+        "two-flasks" => Some(include_str!("../../tracks/two-flasks.toml")),
+        "shake" => Some(include_str!("../../tracks/shake.toml")),
+        "three-flasks" => Some(include_str!("../../tracks/three-flasks.toml")),
+        _ => None,
+    }
+}
+
+/// Where the built-in track's text comes from, for messages.
+pub(super) fn file(name: &str) -> PathBuf {
+    PathBuf::from(format!("tracks/{name}.toml"))
+}

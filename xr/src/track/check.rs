@@ -1,0 +1,176 @@
+//! What a frame must satisfy, asked alike by who writes and by who reads.
+
+use crate::{Fov, Hand, Pose, PoseFrame, Side};
+
+use super::names;
+
+/// One thing that is wrong with a frame.
+#[derive(Debug)]
+pub struct Flaw {
+    /// Topic of the message that holds it.
+    pub topic: String,
+    /// The field, named as in the file.
+    pub field: String,
+    /// What is wrong.
+    pub problem: String,
+    /// What would be right.
+    pub expected: String,
+}
+
+impl Flaw {
+    /// A flaw of `field` in `topic`.
+    pub fn new(
+        topic: impl Into<String>,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self {
+            topic: topic.into(),
+            field: field.into(),
+            problem: problem.into(),
+            expected: expected.into(),
+        }
+    }
+}
+
+/// Checks one frame and its flasks, and that it follows `before` (step, time in ns).
+pub fn frame(
+    frame: &PoseFrame,
+    stage_from_flasks: &[Pose],
+    before: Option<(u64, i64)>,
+) -> Result<(), Flaw> {
+    order(frame, before)?;
+    pose(&frame.stage_from_view, names::VIEW)?;
+    for side in Side::BOTH {
+        hand(frame.hand(side), side)?;
+    }
+    for (index, flask) in stage_from_flasks.iter().enumerate() {
+        pose(flask, &format!("{}{index}", names::FLASK))?;
+    }
+    for (view, fov) in frame.info.fov.iter().enumerate() {
+        field_of_view(fov, view)?;
+    }
+    if frame.scenario.iter().any(|switch| switch.key.is_empty()) {
+        return Err(Flaw::new(
+            names::SCENARIO,
+            "key",
+            "is empty",
+            "a switch names what it switches",
+        ));
+    }
+    Ok(())
+}
+
+fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
+    if u32::try_from(frame.step).is_err() {
+        return Err(Flaw::new(
+            names::FRAME,
+            "sequence",
+            "is above 4294967295",
+            "an MCAP sequence number has 32 bits",
+        ));
+    }
+    if frame.time_ns < 0 {
+        return Err(Flaw::new(
+            names::FRAME,
+            "log_time",
+            "is negative or beyond 292 years",
+            "a track's clock is the simulation's, which starts at 0",
+        ));
+    }
+    let Some((step, time_ns)) = before else {
+        return Ok(());
+    };
+    if frame.step <= step {
+        return Err(Flaw::new(
+            names::FRAME,
+            "sequence",
+            format!("goes from {step} to {}", frame.step),
+            "each frame has a higher step than the one before",
+        ));
+    }
+    if frame.time_ns <= time_ns {
+        return Err(Flaw::new(
+            names::FRAME,
+            "log_time",
+            format!("goes backwards, from {time_ns} ns to {} ns", frame.time_ns),
+            "each frame is later than the one before",
+        ));
+    }
+    Ok(())
+}
+
+fn pose(pose: &Pose, child: &str) -> Result<(), Flaw> {
+    if pose.is_valid() {
+        return Ok(());
+    }
+    let Pose {
+        position,
+        orientation,
+    } = pose;
+    let flaw = |field: &str, problem, expected| {
+        Flaw::new(names::TF, format!("{child}.{field}"), problem, expected)
+    };
+    Err(if !position.is_finite() {
+        flaw(
+            "translation",
+            format!("is {position}"),
+            "a position is finite, in metres",
+        )
+    } else if !orientation.is_finite() {
+        flaw(
+            "rotation",
+            format!("is {orientation}"),
+            "an orientation is a finite unit quaternion",
+        )
+    } else {
+        flaw(
+            "rotation",
+            format!("{orientation} has length {}", orientation.length()),
+            "an orientation has length 1 within 0.001",
+        )
+    })
+}
+
+fn hand(hand: &Hand, side: Side) -> Result<(), Flaw> {
+    pose(&hand.stage_from_grip, names::GRIP[side as usize])?;
+    pose(&hand.stage_from_aim, names::AIM[side as usize])?;
+    let values = [
+        ("squeeze", hand.squeeze, 0.0),
+        ("trigger", hand.trigger, 0.0),
+        ("thumbstick_x", hand.thumbstick[0], -1.0),
+        ("thumbstick_y", hand.thumbstick[1], -1.0),
+    ];
+    for (field, value, low) in values {
+        if !(low..=1.0).contains(&value) {
+            return Err(Flaw::new(
+                names::INPUT[side as usize],
+                field,
+                format!("is {value}"),
+                format!("it lies between {low} and 1"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn field_of_view(fov: &Fov, view: usize) -> Result<(), Flaw> {
+    use std::f32::consts::FRAC_PI_2;
+    for (side, angle) in [
+        ("left", fov.left),
+        ("right", fov.right),
+        ("up", fov.up),
+        ("down", fov.down),
+    ] {
+        if !(-FRAC_PI_2..=FRAC_PI_2).contains(&angle) {
+            return Err(Flaw::new(
+                names::FRAME,
+                format!("fov[{view}].{side}"),
+                format!("is {angle}"),
+                "an angle of view lies between -pi/2 and pi/2",
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,53 @@
+//! Tracks by name, and from one form to the other.
+
+use std::path::Path;
+
+use super::{Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
+
+/// The track of that name: a built-in one, else a file, keyframes where its name ends in
+/// `.toml` and MCAP otherwise.
+///
+/// # Errors
+/// [`TrackError::Unknown`] where it is neither; else what is wrong with the file.
+pub fn load(name: &str) -> Result<Track, TrackError> {
+    if let Some(text) = builtin::text(name) {
+        return Ok(Keyframes::parse(text, &builtin::file(name))?.sample_track());
+    }
+    let file = Path::new(name);
+    if !file.exists() {
+        return Err(TrackError::Unknown {
+            name: name.into(),
+            builtin: builtin::NAMES.join(", "),
+        });
+    }
+    if file
+        .extension()
+        .is_some_and(|extension| extension == "toml")
+    {
+        return Ok(Keyframes::open(file)?.sample_track());
+    }
+    Track::open(file)
+}
+
+/// Writes the track of that name (see [`load`]) to the MCAP file `output`. Nothing is created
+/// before the whole track was read and checked, and what a failed write leaves is removed.
+///
+/// # Errors
+/// What [`load`] and [`TrackWriter`] return.
+pub fn convert(name: &str, output: &Path, existing: Existing) -> Result<Written, TrackError> {
+    let track = load(name)?;
+    let writer = TrackWriter::create(output, &track.metadata, existing)?;
+    let written = fill(writer, &track);
+    if written.is_err() {
+        // The write's own error is the one to report.
+        let _ = std::fs::remove_file(output);
+    }
+    written
+}
+
+fn fill(mut writer: TrackWriter, track: &Track) -> Result<Written, TrackError> {
+    for (frame, flasks) in track.frames.iter().zip(&track.stage_from_flasks) {
+        writer.write(frame, flasks)?;
+    }
+    writer.finish()
+}

@@ -1,0 +1,224 @@
+//! From messages to frames.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use prost::Message;
+
+use super::check::Flaw;
+use super::message::{self, FrameTransform, FrameTransforms};
+use super::names;
+use crate::{Fov, FrameInfo, Hand, Pose, PoseFrame, SessionState, Side, Switch};
+
+/// The messages of one frame as they come in.
+#[derive(Default)]
+pub struct Partial {
+    transforms: Option<FrameTransforms>,
+    inputs: [Option<message::Input>; 2],
+    frame: Option<message::Frame>,
+    scenario: Vec<Switch>,
+}
+
+impl Partial {
+    /// Takes in the message `data` of `topic`, which must be one of a track's own.
+    pub fn add(&mut self, topic: &str, data: &[u8]) -> Result<(), Flaw> {
+        match topic {
+            names::TF => once(topic, &mut self.transforms, data),
+            names::FRAME => once(topic, &mut self.frame, data),
+            names::SCENARIO => {
+                let message: message::Switch = parse(topic, data)?;
+                self.scenario.push(Switch {
+                    key: message.key.unwrap_or_default(),
+                    value: message.value.unwrap_or_default(),
+                });
+                Ok(())
+            }
+            _ => {
+                let side = usize::from(topic == names::INPUT[Side::Right as usize]);
+                once(topic, &mut self.inputs[side], data)
+            }
+        }
+    }
+
+    /// The frame, and its flasks, once all of its messages are in.
+    pub fn finish(self, step: u64, time_ns: i64) -> Result<(PoseFrame, Vec<Pose>), Flaw> {
+        let transforms = self
+            .transforms
+            .ok_or_else(|| incomplete(names::TF))?
+            .transforms;
+        let info = self.frame.ok_or_else(|| incomplete(names::FRAME))?;
+        let [left, right] = self.inputs;
+        let stage_from_view = find(&transforms, names::VIEW)?;
+        let frame = PoseFrame {
+            step,
+            time_ns,
+            stage_from_view,
+            hands: [
+                hand(left, &transforms, Side::Left)?,
+                hand(right, &transforms, Side::Right)?,
+            ],
+            scenario: self.scenario,
+            info: frame_info(info)?,
+        };
+        Ok((frame, flasks(&transforms)?))
+    }
+}
+
+fn once<M: Message + Default>(topic: &str, slot: &mut Option<M>, data: &[u8]) -> Result<(), Flaw> {
+    if slot.replace(parse(topic, data)?).is_some() {
+        return Err(Flaw::new(
+            topic,
+            "sequence",
+            "is that of another message of this topic",
+            "each step has one",
+        ));
+    }
+    Ok(())
+}
+
+fn parse<M: Message + Default>(topic: &str, data: &[u8]) -> Result<M, Flaw> {
+    M::decode(data).map_err(|error| {
+        Flaw::new(
+            topic,
+            "message",
+            format!("does not decode ({error})"),
+            "it is a protobuf message of the topic's schema",
+        )
+    })
+}
+
+fn incomplete(topic: &str) -> Flaw {
+    Flaw::new(
+        topic,
+        "message",
+        "is missing in this step",
+        "each step has one",
+    )
+}
+
+fn hand(
+    input: Option<message::Input>,
+    transforms: &[FrameTransform],
+    side: Side,
+) -> Result<Hand, Flaw> {
+    let input = input.ok_or_else(|| incomplete(names::INPUT[side as usize]))?;
+    Ok(Hand {
+        active: input.active.unwrap_or_default(),
+        valid: input.valid.unwrap_or_default(),
+        tracked: input.tracked.unwrap_or_default(),
+        stage_from_grip: find(transforms, names::GRIP[side as usize])?,
+        stage_from_aim: find(transforms, names::AIM[side as usize])?,
+        squeeze: input.squeeze.unwrap_or_default(),
+        trigger: input.trigger.unwrap_or_default(),
+        thumbstick: [
+            input.thumbstick_x.unwrap_or_default(),
+            input.thumbstick_y.unwrap_or_default(),
+        ],
+        button_a: input.button_a.unwrap_or_default(),
+        button_b: input.button_b.unwrap_or_default(),
+        profile: Arc::from(input.profile.unwrap_or_default()),
+    })
+}
+
+fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
+    let views = frame.fov.len();
+    let fov = <[message::Fov; 2]>::try_from(frame.fov).map_err(|_| {
+        Flaw::new(
+            names::FRAME,
+            "fov",
+            format!("has {views} views"),
+            "it has two, the left and the right eye's",
+        )
+    })?;
+    let number = frame.session_state.unwrap_or_default();
+    let session_state = SessionState::try_from(number).map_err(|_| {
+        Flaw::new(
+            names::FRAME,
+            "session_state",
+            format!("is {number}"),
+            "it is one of OpenXR's session states, 0 to 8",
+        )
+    })?;
+    Ok(FrameInfo {
+        xr_time: frame.xr_time.unwrap_or_default(),
+        period_ns: frame.period_ns.unwrap_or_default(),
+        fov: fov.map(|fov| Fov {
+            left: fov.left.unwrap_or_default(),
+            right: fov.right.unwrap_or_default(),
+            up: fov.up.unwrap_or_default(),
+            down: fov.down.unwrap_or_default(),
+        }),
+        session_state,
+    })
+}
+
+/// All `flask_N`, in the order of N.
+fn flasks(transforms: &[FrameTransform]) -> Result<Vec<Pose>, Flaw> {
+    let count = transforms
+        .iter()
+        .filter(|transform| transform.child_frame_id.starts_with(names::FLASK))
+        .count();
+    (0..count)
+        .map(|index| find(transforms, &format!("{}{index}", names::FLASK)))
+        .collect()
+}
+
+fn find(transforms: &[FrameTransform], child: &str) -> Result<Pose, Flaw> {
+    let mut found = transforms
+        .iter()
+        .filter(|transform| transform.child_frame_id == child);
+    let Some(transform) = found.next() else {
+        return Err(Flaw::new(
+            names::TF,
+            child,
+            "is missing",
+            "each step has a transform of view, of both hands' grip and aim, and of flasks \
+             numbered from 0 without gap",
+        ));
+    };
+    if found.next().is_some() {
+        return Err(Flaw::new(
+            names::TF,
+            child,
+            "is there twice",
+            "each frame has one transform a step",
+        ));
+    }
+    if transform.parent_frame_id != names::STAGE {
+        return Err(Flaw::new(
+            names::TF,
+            format!("{child}.parent_frame_id"),
+            format!("is `{}`", transform.parent_frame_id),
+            "poses are relative to `stage`",
+        ));
+    }
+    pose(transform, child)
+}
+
+/// A message left out means its default, all zero; a rotation of zero is refused by the check
+/// of the frame.
+fn pose(transform: &FrameTransform, child: &str) -> Result<Pose, Flaw> {
+    let p = transform.translation.clone().unwrap_or_default();
+    let q = transform.rotation.clone().unwrap_or_default();
+    let position = DVec3::new(
+        p.x.unwrap_or_default(),
+        p.y.unwrap_or_default(),
+        p.z.unwrap_or_default(),
+    );
+    let orientation = DQuat::from_xyzw(
+        q.x.unwrap_or_default(),
+        q.y.unwrap_or_default(),
+        q.z.unwrap_or_default(),
+        q.w.unwrap_or_default(),
+    );
+    let narrowed = Pose::new(position.as_vec3(), orientation.as_quat());
+    if position.is_finite() && !narrowed.position.is_finite() {
+        return Err(Flaw::new(
+            names::TF,
+            format!("{child}.translation"),
+            format!("is {position}"),
+            "a position is finite in 32 bits, in metres",
+        ));
+    }
+    Ok(narrowed)
+}

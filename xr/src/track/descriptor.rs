@@ -1,0 +1,206 @@
+//! The schemas that a track carries with it, as Protobuf file descriptors.
+//!
+//! Built in code, because protoc would be one more program to install, for four messages.
+//! The layout of `foxglove.*` is that of the schemas published at
+//! github.com/foxglove/foxglove-sdk (schemas/proto); viewers go by their exact names.
+
+use prost::Message;
+use prost_types::field_descriptor_proto::{Label, Type};
+use prost_types::{
+    DescriptorProto, EnumDescriptorProto, EnumValueDescriptorProto, FieldDescriptorProto,
+    FileDescriptorProto, FileDescriptorSet,
+};
+
+use crate::SessionState;
+
+/// Full name of the schema of `/tf` and `/tf_static`.
+pub const FRAME_TRANSFORMS: &str = "foxglove.FrameTransforms";
+/// Full name of the schema of `/xr/input/left` and `/xr/input/right`.
+pub const INPUT: &str = "vitriol.xr.Input";
+/// Full name of the schema of `/xr/frame`.
+pub const FRAME: &str = "vitriol.xr.Frame";
+/// Full name of the schema of `/scenario`.
+pub const SWITCH: &str = "vitriol.xr.Switch";
+
+/// An encoded `FileDescriptorSet` with [`FRAME_TRANSFORMS`] and all that it refers to.
+pub fn frame_transforms() -> Vec<u8> {
+    let timestamp = message(
+        "Timestamp",
+        vec![
+            field("seconds", 1, Type::Int64),
+            field("nanos", 2, Type::Int32),
+        ],
+    );
+    let xyz = || ["x", "y", "z", "w"].into_iter().zip(1..);
+    let doubles = |n| {
+        xyz()
+            .take(n)
+            .map(|(name, tag)| field(name, tag, Type::Double))
+            .collect()
+    };
+    let transform = message(
+        "FrameTransform",
+        vec![
+            reference("timestamp", 1, ".google.protobuf.Timestamp"),
+            field("parent_frame_id", 2, Type::String),
+            field("child_frame_id", 3, Type::String),
+            reference("translation", 4, ".foxglove.Vector3"),
+            reference("rotation", 5, ".foxglove.Quaternion"),
+        ],
+    );
+    let transforms = message(
+        "FrameTransforms",
+        vec![repeated("transforms", 1, ".foxglove.FrameTransform")],
+    );
+    let set = FileDescriptorSet {
+        file: vec![
+            file(
+                "google/protobuf/timestamp.proto",
+                "google.protobuf",
+                &[],
+                timestamp,
+            ),
+            file(
+                "foxglove/Vector3.proto",
+                "foxglove",
+                &[],
+                message("Vector3", doubles(3)),
+            ),
+            file(
+                "foxglove/Quaternion.proto",
+                "foxglove",
+                &[],
+                message("Quaternion", doubles(4)),
+            ),
+            file(
+                "foxglove/FrameTransform.proto",
+                "foxglove",
+                &[
+                    "google/protobuf/timestamp.proto",
+                    "foxglove/Vector3.proto",
+                    "foxglove/Quaternion.proto",
+                ],
+                transform,
+            ),
+            file(
+                "foxglove/FrameTransforms.proto",
+                "foxglove",
+                &["foxglove/FrameTransform.proto"],
+                transforms,
+            ),
+        ],
+    };
+    set.encode_to_vec()
+}
+
+/// An encoded `FileDescriptorSet` with [`INPUT`], [`FRAME`] and [`SWITCH`].
+pub fn xr() -> Vec<u8> {
+    let input = message(
+        "Input",
+        vec![
+            field("active", 1, Type::Bool),
+            field("valid", 2, Type::Bool),
+            field("tracked", 3, Type::Bool),
+            field("squeeze", 4, Type::Float),
+            field("trigger", 5, Type::Float),
+            field("thumbstick_x", 6, Type::Float),
+            field("thumbstick_y", 7, Type::Float),
+            field("button_a", 8, Type::Bool),
+            field("button_b", 9, Type::Bool),
+            field("profile", 10, Type::String),
+        ],
+    );
+    let fov = message(
+        "Fov",
+        ["left", "right", "up", "down"]
+            .into_iter()
+            .zip(1..)
+            .map(|(name, tag)| field(name, tag, Type::Float))
+            .collect(),
+    );
+    let mut state = reference("session_state", 4, ".vitriol.xr.SessionState");
+    state.set_type(Type::Enum);
+    let frame = message(
+        "Frame",
+        vec![
+            field("xr_time", 1, Type::Int64),
+            field("period_ns", 2, Type::Int64),
+            repeated("fov", 3, ".vitriol.xr.Fov"),
+            state,
+        ],
+    );
+    let switch = message(
+        "Switch",
+        vec![
+            field("key", 1, Type::String),
+            field("value", 2, Type::String),
+        ],
+    );
+    let mut xr = file("vitriol/xr.proto", "vitriol.xr", &[], input);
+    xr.message_type.extend([fov, frame, switch]);
+    xr.enum_type.push(session_state());
+    FileDescriptorSet { file: vec![xr] }.encode_to_vec()
+}
+
+fn session_state() -> EnumDescriptorProto {
+    EnumDescriptorProto {
+        name: Some("SessionState".into()),
+        value: (0..)
+            .map_while(|number| SessionState::try_from(number).ok())
+            .map(|state| EnumValueDescriptorProto {
+                name: Some(format!("{state:?}")),
+                number: Some(state as i32),
+                options: None,
+            })
+            .collect(),
+        ..Default::default()
+    }
+}
+
+fn file(
+    name: &str,
+    package: &str,
+    imports: &[&str],
+    holds: DescriptorProto,
+) -> FileDescriptorProto {
+    FileDescriptorProto {
+        name: Some(name.into()),
+        package: Some(package.into()),
+        dependency: imports.iter().map(|&import| import.into()).collect(),
+        message_type: vec![holds],
+        syntax: Some("proto3".into()),
+        ..Default::default()
+    }
+}
+
+fn message(name: &str, field: Vec<FieldDescriptorProto>) -> DescriptorProto {
+    DescriptorProto {
+        name: Some(name.into()),
+        field,
+        ..Default::default()
+    }
+}
+
+fn field(name: &str, number: i32, kind: Type) -> FieldDescriptorProto {
+    FieldDescriptorProto {
+        name: Some(name.into()),
+        number: Some(number),
+        label: Some(Label::Optional as i32),
+        r#type: Some(kind as i32),
+        ..Default::default()
+    }
+}
+
+fn reference(name: &str, number: i32, type_name: &str) -> FieldDescriptorProto {
+    FieldDescriptorProto {
+        type_name: Some(type_name.into()),
+        ..field(name, number, Type::Message)
+    }
+}
+
+fn repeated(name: &str, number: i32, type_name: &str) -> FieldDescriptorProto {
+    FieldDescriptorProto {
+        label: Some(Label::Repeated as i32),
+        ..reference(name, number, type_name)
+    }
+}

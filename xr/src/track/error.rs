@@ -1,0 +1,124 @@
+//! What can be wrong with a track.
+
+use std::path::PathBuf;
+
+/// A track that cannot be read, written or converted. Each message names the file, the place
+/// in it, and what would be right.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrackError {
+    /// The operating system refused.
+    #[error("{file}: cannot {action}: {source}", file = file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// What was tried.
+        action: &'static str,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The output is there already.
+    #[error(
+        "{file}: exists, and nothing is overwritten unasked; name another file, or ask for it to \
+         be replaced",
+        file = file.display()
+    )]
+    Exists {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The file is no MCAP file, or a damaged one.
+    #[error(
+        "{file}: {problem} ({place}); a pose track is an intact MCAP file: copy or record it again",
+        file = file.display()
+    )]
+    Container {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        problem: String,
+        /// How far the file could be read.
+        place: String,
+    },
+    /// A topic or record that each track has is not there.
+    #[error("{file}: no {what}; {expected}", file = file.display())]
+    Missing {
+        /// The file.
+        file: PathBuf,
+        /// What is missing.
+        what: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// A topic's messages are of another schema.
+    #[error(
+        "{file}: topic {topic} holds {found}; it must hold {expected} in protobuf",
+        file = file.display()
+    )]
+    Schema {
+        /// The file.
+        file: PathBuf,
+        /// The topic.
+        topic: String,
+        /// Schema and encoding found.
+        found: String,
+        /// Name of the schema that the topic has in each track.
+        expected: &'static str,
+    },
+    /// A message holds what cannot be.
+    #[error("{file}: {place}: {field} {problem}; {expected}", file = file.display())]
+    Message {
+        /// The file.
+        file: PathBuf,
+        /// Topic, step (the message's sequence number) and time on the track's clock.
+        place: String,
+        /// The field.
+        field: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The metadata record holds what cannot be.
+    #[error("{file}: metadata: {field} {problem}; {expected}", file = file.display())]
+    Metadata {
+        /// The file.
+        file: PathBuf,
+        /// The field.
+        field: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// A keyframe file is no TOML, lacks a key or has one that does not exist.
+    #[error("{file}: {message}", file = file.display())]
+    KeyframeSyntax {
+        /// The file.
+        file: PathBuf,
+        /// Line, column, the line itself and what was expected.
+        message: String,
+    },
+    /// A keyframe file holds a value that cannot be.
+    #[error("{file}:{line}: {field} {problem}; {expected}", file = file.display())]
+    Keyframe {
+        /// The file.
+        file: PathBuf,
+        /// Line in the file, from 1.
+        line: usize,
+        /// The field.
+        field: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// Neither a built-in track nor a file.
+    #[error("{name}: neither a file nor a built-in track; built in are {builtin}")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// Names of the built-in tracks.
+        builtin: String,
+    },
+}

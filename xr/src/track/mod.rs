@@ -1,0 +1,95 @@
+//! Pose tracks: recordings of head, hands, inputs and switches in MCAP files, each message
+//! with the simulation step that consumed it.
+//!
+//! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which
+//! viewers draw without being told how. [`Keyframes`] is the short text form that people
+//! write, and [`builtin`] holds three tracks made from it.
+
+pub mod builtin;
+mod check;
+mod convert;
+mod decode;
+mod descriptor;
+mod ease;
+mod encode;
+mod error;
+mod keyframes;
+mod message;
+mod read;
+mod replay;
+mod sample;
+mod write;
+
+use std::collections::BTreeMap;
+
+use crate::{Pose, PoseFrame};
+
+pub use convert::{convert, load};
+pub use error::TrackError;
+pub use keyframes::Keyframes;
+pub use replay::TrackSource;
+pub use write::{Existing, TrackWriter, Written};
+
+/// A whole pose track in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// What it was recorded with.
+    pub metadata: TrackMetadata,
+    /// The frames, steps and times strictly increasing; at least one.
+    pub frames: Vec<PoseFrame>,
+    /// For each frame the recorded `stage_from_flask` of each flask; empty where a frame
+    /// recorded none. They are what the simulation answered, kept for comparison and for
+    /// viewers; a replay does not read them.
+    pub stage_from_flasks: Vec<Vec<Pose>>,
+    /// The file had no end, as after a crash; all up to its last whole chunk was read.
+    pub recovered: bool,
+}
+
+impl Track {
+    /// Time of the last frame, s.
+    pub fn duration(&self) -> f64 {
+        self.frames
+            .last()
+            .map_or(0.0, |frame| seconds(frame.time_ns))
+    }
+}
+
+/// What a track was recorded with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TrackMetadata {
+    /// Name of the scene; empty where the track belongs to none.
+    pub scene: String,
+    /// Seed of the scene's random numbers.
+    pub seed: u64,
+    /// Parameters of the run by name, such as preset and step; values as text.
+    pub parameters: BTreeMap<String, String>,
+    /// Version of the program that recorded.
+    pub program_version: String,
+}
+
+/// Topics, frames and names in a track's file.
+mod names {
+    pub const TF: &str = "/tf";
+    pub const TF_STATIC: &str = "/tf_static";
+    pub const FRAME: &str = "/xr/frame";
+    pub const INPUT: [&str; 2] = ["/xr/input/left", "/xr/input/right"];
+    pub const SCENARIO: &str = "/scenario";
+
+    pub const WORLD: &str = "world";
+    pub const STAGE: &str = "stage";
+    pub const VIEW: &str = "view";
+    pub const GRIP: [&str; 2] = ["left_grip", "right_grip"];
+    pub const AIM: [&str; 2] = ["left_aim", "right_aim"];
+    pub const FLASK: &str = "flask_";
+
+    pub const METADATA: &str = "vitriol";
+    pub const SCENE: &str = "scene";
+    pub const SEED: &str = "seed";
+    pub const PROGRAM_VERSION: &str = "program_version";
+    pub const PARAMETER: &str = "parameter.";
+}
+
+/// Nanoseconds to seconds.
+fn seconds(ns: i64) -> f64 {
+    ns as f64 * 1e-9
+}

@@ -1,0 +1,324 @@
+//! Reads a track.
+//!
+//! One pass over the records, with every checksum verified, rather than the summary first
+//! and the messages by index: the summary is written last, so that a recording that crashed
+//! has none, and a pass that must work without it works with it too. What tells a crash from
+//! damage is the magic number at the file's end. Where it is, the file was finished, and any
+//! record that is short or fails its checksum is damage. Where it is not, the recording was
+//! cut off, and all whole chunks before the cut count.
+
+use std::path::Path;
+
+use mcap::records::{Record, op};
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{MAGIC, McapError};
+
+use super::check::{self, Flaw};
+use super::decode::Partial;
+use super::write::at;
+use super::{Track, TrackError, TrackMetadata, descriptor, names, seconds};
+
+/// Longest record and longest chunk accepted, B. Half a second of track is some 50 kB; a
+/// length with a flipped bit must not become an allocation of exabytes.
+const RECORD_LIMIT: usize = 64 << 20;
+
+impl Track {
+    /// Reads a whole track from an MCAP file and checks every frame of it.
+    ///
+    /// A file without an end, as a crash leaves it, is read up to its last whole chunk and
+    /// marked [`recovered`](Track::recovered).
+    ///
+    /// # Errors
+    /// [`TrackError`], which names file, topic, step, time and field, and what would be right.
+    pub fn open(file: &Path) -> Result<Self, TrackError> {
+        let bytes = std::fs::read(file).map_err(|source| TrackError::Io {
+            file: file.into(),
+            action: "read",
+            source,
+        })?;
+        Self::parse(&bytes, file)
+    }
+
+    /// Like [`open`](Self::open), of bytes in memory; `file` is the name for messages.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn parse(bytes: &[u8], file: &Path) -> Result<Self, TrackError> {
+        let finished = bytes.len() > MAGIC.len() && bytes.ends_with(MAGIC);
+        let mut reading = Reading::new(file);
+        reading.records(bytes, finished)?;
+        reading.finish(!finished)
+    }
+}
+
+struct Channel {
+    id: u16,
+    topic: &'static str,
+}
+
+struct Reading<'a> {
+    file: &'a Path,
+    schemas: Vec<(u16, String, String)>,
+    channels: Vec<Channel>,
+    metadata: Option<TrackMetadata>,
+    partial: Option<(u64, i64, Partial)>,
+    track: Track,
+}
+
+impl<'a> Reading<'a> {
+    fn new(file: &'a Path) -> Self {
+        Self {
+            file,
+            schemas: Vec::new(),
+            channels: Vec::new(),
+            metadata: None,
+            partial: None,
+            track: Track {
+                metadata: TrackMetadata::default(),
+                frames: Vec::new(),
+                stage_from_flasks: Vec::new(),
+                recovered: false,
+            },
+        }
+    }
+
+    fn records(&mut self, bytes: &[u8], finished: bool) -> Result<(), TrackError> {
+        let mut reader = LinearReader::new_with_options(
+            LinearReaderOptions::default()
+                .with_skip_end_magic(!finished)
+                .with_check_finishes_after_end_magic(true)
+                // A chunk is checked before any of its messages is believed.
+                .with_prevalidate_chunk_crcs(true)
+                .with_validate_data_section_crc(true)
+                .with_validate_summary_section_crc(true)
+                .with_record_length_limit(RECORD_LIMIT),
+        );
+        let mut rest = bytes;
+        // Behind the data come copies of schemas and channels and the index.
+        let mut in_data = true;
+        while let Some(event) = reader.next_event() {
+            match event {
+                Ok(LinearReadEvent::ReadRequest(wanted)) => {
+                    let (now, later) = rest.split_at(wanted.min(rest.len()));
+                    reader.insert(now.len()).copy_from_slice(now);
+                    reader.notify_read(now.len());
+                    rest = later;
+                }
+                Ok(LinearReadEvent::Record { data, opcode }) => {
+                    in_data &= opcode != op::DATA_END;
+                    if in_data {
+                        self.record(opcode, data)?;
+                    }
+                }
+                Err(McapError::UnexpectedEof) if !finished => return Ok(()),
+                Err(error) => return Err(self.damaged(&error)),
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, opcode: u8, data: &[u8]) -> Result<(), TrackError> {
+        // Only the kinds that a track is made of are parsed: others are nobody's business,
+        // and mcap 0.26 panics on an attachment record that is too short.
+        if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA].contains(&opcode) {
+            return Ok(());
+        }
+        match mcap::parse_record(opcode, data).map_err(|error| self.damaged(&error))? {
+            Record::Schema { header, .. } => {
+                self.schemas.push((header.id, header.name, header.encoding));
+                Ok(())
+            }
+            Record::Channel(channel) => self.channel(&channel),
+            Record::Metadata(record) if record.name == names::METADATA => {
+                self.metadata = Some(metadata(record.metadata, self.file)?);
+                Ok(())
+            }
+            Record::Message { header, data } => {
+                let known = self.channels.iter().find(|c| c.id == header.channel_id);
+                match known.map(|channel| channel.topic) {
+                    None | Some(names::TF_STATIC) => Ok(()),
+                    Some(topic) => self.message(topic, header.sequence, header.log_time, &data),
+                }
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn channel(&mut self, channel: &mcap::records::Channel) -> Result<(), TrackError> {
+        let ours = [
+            (names::TF, descriptor::FRAME_TRANSFORMS),
+            (names::TF_STATIC, descriptor::FRAME_TRANSFORMS),
+            (names::FRAME, descriptor::FRAME),
+            (names::INPUT[0], descriptor::INPUT),
+            (names::INPUT[1], descriptor::INPUT),
+            (names::SCENARIO, descriptor::SWITCH),
+        ];
+        let Some(&(topic, expected)) = ours.iter().find(|(topic, _)| *topic == channel.topic)
+        else {
+            // Other programs may add topics of their own to a track.
+            return Ok(());
+        };
+        let schema = self.schemas.iter().find(|s| s.0 == channel.schema_id);
+        let fits = schema.is_some_and(|(_, name, encoding)| {
+            name == expected && encoding == "protobuf" && channel.message_encoding == "protobuf"
+        });
+        if !fits {
+            let found = schema.map_or("no schema".into(), |(_, name, _)| {
+                format!("{name} in {}", channel.message_encoding)
+            });
+            return Err(TrackError::Schema {
+                file: self.file.into(),
+                topic: topic.into(),
+                found,
+                expected,
+            });
+        }
+        self.channels.push(Channel {
+            id: channel.id,
+            topic,
+        });
+        Ok(())
+    }
+
+    fn message(
+        &mut self,
+        topic: &'static str,
+        sequence: u32,
+        log_time: u64,
+        data: &[u8],
+    ) -> Result<(), TrackError> {
+        let step = u64::from(sequence);
+        // Beyond i64 becomes negative, which the frame's check refuses.
+        let time_ns = log_time as i64;
+        if self.partial.as_ref().is_some_and(|(s, ..)| *s != step) {
+            self.end_frame()?;
+        }
+        let (_, frame_time, partial) = self
+            .partial
+            .get_or_insert_with(|| (step, time_ns, Partial::default()));
+        if *frame_time != time_ns {
+            let flaw = Flaw::new(
+                topic,
+                "log_time",
+                format!("is {time_ns} ns, other messages of its step have {frame_time} ns"),
+                "all messages of a step have one time",
+            );
+            return Err(at(self.file, flaw, step, time_ns));
+        }
+        partial
+            .add(topic, data)
+            .map_err(|flaw| at(self.file, flaw, step, time_ns))
+    }
+
+    fn end_frame(&mut self) -> Result<(), TrackError> {
+        let Some((step, time_ns, partial)) = self.partial.take() else {
+            return Ok(());
+        };
+        if self.track.frames.is_empty() {
+            self.topics()?;
+        }
+        let before = self.track.frames.last().map(|f| (f.step, f.time_ns));
+        let (frame, flasks) = partial
+            .finish(step, time_ns)
+            .and_then(|(frame, flasks)| {
+                check::frame(&frame, &flasks, before)?;
+                Ok((frame, flasks))
+            })
+            .map_err(|flaw| at(self.file, flaw, step, time_ns))?;
+        self.track.frames.push(frame);
+        self.track.stage_from_flasks.push(flasks);
+        Ok(())
+    }
+
+    /// That all topics are there. Asked once the first frame is complete, since a topic comes
+    /// before its first message.
+    fn topics(&self) -> Result<(), TrackError> {
+        for topic in [names::TF, names::FRAME, names::INPUT[0], names::INPUT[1]] {
+            if !self.channels.iter().any(|channel| channel.topic == topic) {
+                return Err(self.missing(
+                    format!("topic {topic}"),
+                    "a pose track has /tf, /xr/frame, /xr/input/left and /xr/input/right",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(mut self, recovered: bool) -> Result<Track, TrackError> {
+        self.end_frame()?;
+        self.topics()?;
+        let Some(metadata) = self.metadata.take() else {
+            return Err(self.missing(
+                format!("metadata record `{}`", names::METADATA),
+                "a pose track names its scene, seed and program version in one",
+            ));
+        };
+        if self.track.frames.is_empty() {
+            return Err(self.missing("frame".into(), "a pose track has at least one"));
+        }
+        Ok(Track {
+            metadata,
+            recovered,
+            ..self.track
+        })
+    }
+
+    fn missing(&self, what: String, expected: &str) -> TrackError {
+        TrackError::Missing {
+            file: self.file.into(),
+            what,
+            expected: expected.into(),
+        }
+    }
+
+    fn damaged(&self, error: &McapError) -> TrackError {
+        TrackError::Container {
+            file: self.file.into(),
+            problem: error.to_string(),
+            place: match self.track.frames.last() {
+                Some(frame) => format!("after step {} at {} s", frame.step, seconds(frame.time_ns)),
+                None => "before the first frame".into(),
+            },
+        }
+    }
+}
+
+fn metadata(
+    map: std::collections::BTreeMap<String, String>,
+    file: &Path,
+) -> Result<TrackMetadata, TrackError> {
+    let flaw = |field: &str, problem: String, expected: &str| TrackError::Metadata {
+        file: file.into(),
+        field: field.into(),
+        problem,
+        expected: expected.into(),
+    };
+    let text = |field: &str| {
+        map.get(field).cloned().ok_or_else(|| {
+            flaw(
+                field,
+                "is missing".into(),
+                "a track names scene, seed and program_version",
+            )
+        })
+    };
+    let seed = text(names::SEED)?;
+    Ok(TrackMetadata {
+        scene: text(names::SCENE)?,
+        seed: seed.parse().map_err(|_| {
+            flaw(
+                names::SEED,
+                format!("is `{seed}`"),
+                "a seed is a whole number from 0 to 2^64 - 1",
+            )
+        })?,
+        program_version: text(names::PROGRAM_VERSION)?,
+        parameters: map
+            .iter()
+            .filter_map(|(key, value)| {
+                let name = key.strip_prefix(names::PARAMETER)?;
+                Some((name.to_owned(), value.clone()))
+            })
+            .collect(),
+    })
+}

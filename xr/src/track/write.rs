@@ -1,0 +1,285 @@
+//! Writes a track.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{BufWriter, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use mcap::records::{MessageHeader, Metadata};
+use mcap::write::NoSeek;
+use mcap::{Compression, McapError, WriteOptions, Writer};
+use prost::Message;
+
+use super::check::{self, Flaw};
+use super::{TrackError, TrackMetadata, descriptor, encode, names, seconds};
+use crate::{Pose, PoseFrame, Side};
+
+/// A crash loses what was written since the last flush. Half a second keeps the loss below
+/// a second even where frames come irregularly, and an lz4 chunk of 45 frames compresses
+/// nearly as well as one of 90.
+const FLUSH_AFTER: Duration = Duration::from_millis(500);
+
+/// What to do where the output file is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// Leave it and return [`TrackError::Exists`].
+    Refuse,
+    /// Replace it.
+    Replace,
+}
+
+/// What a finished track holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Frames written.
+    pub frames: u64,
+    /// Time of the last frame, ns.
+    pub end_ns: i64,
+}
+
+/// Writes a track frame by frame, so that the file can be read up to the last flush whatever
+/// happens to the program.
+///
+/// It writes under the track's final name from the start and not under a temporary one: what
+/// a crash leaves must be found. Dropping it without [`finish`](Self::finish) ends the file
+/// properly too, but tells nobody where that failed.
+pub struct TrackWriter {
+    file: PathBuf,
+    // NoSeek and a chunk buffer in memory: a chunk reaches the file whole, with its header,
+    // and not as a header of zeros to be filled in later, which a crash would leave behind.
+    mcap: Writer<NoSeek<BufWriter<File>>>,
+    channels: Channels,
+    buffer: Vec<u8>,
+    frames: u64,
+    last: Option<(u64, i64)>,
+    flushed_ns: i64,
+    flushed_at: Instant,
+}
+
+struct Channels {
+    tf: u16,
+    tf_static: u16,
+    frame: u16,
+    input: [u16; 2],
+    scenario: u16,
+}
+
+impl TrackWriter {
+    /// Creates `file` and writes what comes before the first frame.
+    ///
+    /// # Errors
+    /// [`TrackError::Exists`] where `file` exists and `existing` does not say to replace it;
+    /// [`TrackError::Io`] where it cannot be created or written.
+    pub fn create(
+        file: &Path,
+        metadata: &TrackMetadata,
+        existing: Existing,
+    ) -> Result<Self, TrackError> {
+        let mut options = OpenOptions::new();
+        options.write(true);
+        match existing {
+            Existing::Refuse => options.create_new(true),
+            Existing::Replace => options.create(true).truncate(true),
+        };
+        let handle = options.open(file).map_err(|source| {
+            if source.kind() == ErrorKind::AlreadyExists {
+                TrackError::Exists { file: file.into() }
+            } else {
+                TrackError::Io {
+                    file: file.into(),
+                    action: "create",
+                    source,
+                }
+            }
+        })?;
+        let (mcap, channels) = begin(handle, metadata).map_err(|error| failed(file, error))?;
+        Ok(Self {
+            file: file.into(),
+            mcap,
+            channels,
+            buffer: Vec::new(),
+            frames: 0,
+            last: None,
+            flushed_ns: 0,
+            flushed_at: Instant::now(),
+        })
+    }
+
+    /// Appends the frame that one simulation step consumed, with the `stage_from_flask` of
+    /// each flask after that step (empty where there are none to record). Flushes where half
+    /// a second, of the track or of the clock, has passed since the last flush.
+    ///
+    /// # Errors
+    /// [`TrackError::Message`] where a reader would refuse the frame: a pose that is not
+    /// valid, a value out of its range, a step or a time not above the last frame's. Nothing
+    /// is written then, and the next frame may follow. [`TrackError::Io`] where the file
+    /// cannot be written; what was flushed before stays readable.
+    pub fn write(
+        &mut self,
+        frame: &PoseFrame,
+        stage_from_flasks: &[Pose],
+    ) -> Result<(), TrackError> {
+        check::frame(frame, stage_from_flasks, self.last)
+            .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
+        self.put_frame(frame, stage_from_flasks)
+            .map_err(|error| failed(&self.file, error))?;
+        if self.frames == 0 {
+            self.flushed_ns = frame.time_ns;
+        }
+        self.frames += 1;
+        self.last = Some((frame.step, frame.time_ns));
+        let passed = Duration::from_nanos(frame.time_ns.abs_diff(self.flushed_ns));
+        if passed >= FLUSH_AFTER || self.flushed_at.elapsed() >= FLUSH_AFTER {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Hands all that was written to the operating system, so that it outlives the program.
+    ///
+    /// # Errors
+    /// [`TrackError::Io`] where the file cannot be written.
+    pub fn flush(&mut self) -> Result<(), TrackError> {
+        self.mcap
+            .flush()
+            .map_err(|error| failed(&self.file, error))?;
+        self.flushed_ns = self.last.map_or(0, |(_, time_ns)| time_ns);
+        self.flushed_at = Instant::now();
+        Ok(())
+    }
+
+    /// Writes the index and the end of the file.
+    ///
+    /// # Errors
+    /// [`TrackError::Io`] where the file cannot be written.
+    pub fn finish(mut self) -> Result<Written, TrackError> {
+        self.flush()?;
+        self.mcap
+            .finish()
+            .map_err(|error| failed(&self.file, error))?;
+        // The buffer's own flush on drop would swallow an error.
+        std::io::Write::flush(&mut self.mcap.into_inner().into_inner()).map_err(|source| {
+            TrackError::Io {
+                file: self.file.clone(),
+                action: "write",
+                source,
+            }
+        })?;
+        Ok(Written {
+            frames: self.frames,
+            end_ns: self.last.map_or(0, |(_, time_ns)| time_ns),
+        })
+    }
+
+    fn put_frame(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), McapError> {
+        if self.frames == 0 {
+            let root = encode::world_from_stage(frame.time_ns);
+            self.put(self.channels.tf_static, frame, &root)?;
+        }
+        self.put(self.channels.frame, frame, &encode::frame(frame))?;
+        self.put(self.channels.tf, frame, &encode::transforms(frame, flasks))?;
+        for side in Side::BOTH {
+            let input = encode::input(frame.hand(side));
+            self.put(self.channels.input[side as usize], frame, &input)?;
+        }
+        for switch in &frame.scenario {
+            self.put(self.channels.scenario, frame, &encode::switch(switch))?;
+        }
+        Ok(())
+    }
+
+    fn put(
+        &mut self,
+        channel_id: u16,
+        frame: &PoseFrame,
+        message: &impl Message,
+    ) -> Result<(), McapError> {
+        self.buffer.clear();
+        // A Vec always has room, so that the only error of encode cannot occur.
+        let _ = message.encode(&mut self.buffer);
+        let header = MessageHeader {
+            channel_id,
+            // Both were checked to fit.
+            sequence: frame.step as u32,
+            log_time: frame.time_ns as u64,
+            publish_time: frame.time_ns as u64,
+        };
+        self.mcap.write_to_known_channel(&header, &self.buffer)
+    }
+}
+
+type Begun = (Writer<NoSeek<BufWriter<File>>>, Channels);
+
+fn begin(handle: File, metadata: &TrackMetadata) -> Result<Begun, McapError> {
+    let mut mcap = WriteOptions::new()
+        .compression(Some(Compression::Lz4))
+        // Only a flush ends a chunk, so that no frame is split between two.
+        .chunk_size(None)
+        .disable_seeking(true)
+        .library(concat!("vitriol ", env!("CARGO_PKG_VERSION")))
+        .create(NoSeek::new(BufWriter::new(handle)))?;
+    mcap.write_metadata(&record(metadata))?;
+
+    let transforms = mcap.add_schema(
+        descriptor::FRAME_TRANSFORMS,
+        "protobuf",
+        &descriptor::frame_transforms(),
+    )?;
+    let xr = descriptor::xr();
+    let input = mcap.add_schema(descriptor::INPUT, "protobuf", &xr)?;
+    let frame = mcap.add_schema(descriptor::FRAME, "protobuf", &xr)?;
+    let switch = mcap.add_schema(descriptor::SWITCH, "protobuf", &xr)?;
+    let mut channel = |schema, topic| mcap.add_channel(schema, topic, "protobuf", &BTreeMap::new());
+    let channels = Channels {
+        tf: channel(transforms, names::TF)?,
+        tf_static: channel(transforms, names::TF_STATIC)?,
+        frame: channel(frame, names::FRAME)?,
+        input: [
+            channel(input, names::INPUT[0])?,
+            channel(input, names::INPUT[1])?,
+        ],
+        scenario: channel(switch, names::SCENARIO)?,
+    };
+    Ok((mcap, channels))
+}
+
+fn record(metadata: &TrackMetadata) -> Metadata {
+    let mut map: BTreeMap<String, String> = metadata
+        .parameters
+        .iter()
+        .map(|(name, value)| (format!("{}{name}", names::PARAMETER), value.clone()))
+        .collect();
+    map.insert(names::SCENE.into(), metadata.scene.clone());
+    map.insert(names::SEED.into(), metadata.seed.to_string());
+    map.insert(
+        names::PROGRAM_VERSION.into(),
+        metadata.program_version.clone(),
+    );
+    Metadata {
+        name: names::METADATA.into(),
+        metadata: map,
+    }
+}
+
+fn failed(file: &Path, error: McapError) -> TrackError {
+    TrackError::Io {
+        file: file.into(),
+        action: "write",
+        source: match error {
+            McapError::Io(source) => source,
+            other => std::io::Error::other(other),
+        },
+    }
+}
+
+/// The flaw of a frame as an error of a file.
+pub fn at(file: &Path, flaw: Flaw, step: u64, time_ns: i64) -> TrackError {
+    TrackError::Message {
+        file: file.into(),
+        place: format!("{}, step {step} at {} s", flaw.topic, seconds(time_ns)),
+        field: flaw.field,
+        problem: flaw.problem,
+        expected: flaw.expected,
+    }
+}

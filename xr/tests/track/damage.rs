@@ -1,0 +1,117 @@
+//! Truncated and bit-flipped files: an error or a recovery, never a panic, never a wrong pose.
+
+use std::path::Path;
+
+use proptest::prelude::*;
+use vitriol_xr::track::{Track, TrackError};
+
+/// 1.5 s: four chunks.
+const FRAMES: u64 = 135;
+
+fn parse(bytes: &[u8]) -> Result<Track, TrackError> {
+    Track::parse(bytes, Path::new("damaged.mcap"))
+}
+
+/// What is read must be a beginning of what was written.
+fn is_beginning(read: &Track, whole: &Track) {
+    let kept = read.frames.len();
+    assert!(kept <= whole.frames.len());
+    assert_eq!(read.frames, whole.frames[..kept]);
+    assert_eq!(read.stage_from_flasks, whole.stage_from_flasks[..kept]);
+    assert_eq!(read.metadata, whole.metadata);
+}
+
+/// Numbers that look random and are the same each time (SplitMix64).
+fn numbers(mut state: u64) -> impl Iterator<Item = u64> {
+    std::iter::from_fn(move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        Some(z ^ (z >> 31))
+    })
+}
+
+#[test]
+fn cut_anywhere_it_is_recovered_up_to_the_cut_or_refused() {
+    let whole = super::track(FRAMES);
+    let bytes = super::bytes(&whole);
+    let (mut recovered, mut last) = (0, 0);
+    for cut in (0..bytes.len()).step_by(37) {
+        match parse(&bytes[..cut]) {
+            Ok(read) => {
+                assert!(read.recovered);
+                is_beginning(&read, &whole);
+                assert!(read.frames.len() >= last, "a longer file holds no less");
+                last = read.frames.len();
+                recovered += 1;
+            }
+            Err(error) => assert!(error.to_string().contains("damaged.mcap"), "{error}"),
+        }
+    }
+    assert!(recovered > 100, "{recovered}");
+    assert_eq!(last, whole.frames.len(), "without its index it is whole");
+}
+
+#[test]
+fn a_flipped_bit_is_noticed_wherever_it_is() {
+    let whole = super::track(FRAMES);
+    let bytes = super::bytes(&whole);
+    for number in numbers(2).take(1500) {
+        let mut flipped = bytes.clone();
+        let bit = (number % (8 * bytes.len() as u64)) as usize;
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        match parse(&flipped) {
+            // A flip in the last eight bytes makes the file look cut off.
+            Ok(read) => {
+                assert!(
+                    read.recovered && bit / 8 >= bytes.len() - 8,
+                    "flip of bit {bit} of {} went unnoticed",
+                    8 * bytes.len()
+                );
+                is_beginning(&read, &whole);
+            }
+            Err(error) => assert!(error.to_string().contains("damaged.mcap"), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn a_flipped_bit_in_a_chunk_is_no_crash() {
+    // Cut off as by a crash, and damaged besides: recovering would replay a wrong pose.
+    let whole = super::track(FRAMES);
+    let mut bytes = super::bytes(&whole);
+    bytes.truncate(bytes.len() - 100);
+    let middle = bytes.len() / 3;
+    bytes[middle] ^= 0x10;
+    let error = parse(&bytes).unwrap_err();
+    assert!(matches!(error, TrackError::Container { .. }), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn scrambled_files_do_not_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..40),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let mut bytes = super::bytes(&super::track(50));
+        for (at, value) in edits {
+            let at = at.index(bytes.len());
+            bytes[at] = value;
+        }
+        bytes.truncate(cut.index(bytes.len() + 1));
+        let _ = parse(&bytes);
+    }
+
+    #[test]
+    fn any_bytes_do_not_panic(tail in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = parse(&tail);
+        let mut bytes = b"\x89MCAP0\r\n".to_vec();
+        bytes.extend(&tail);
+        let _ = parse(&bytes);
+        bytes.extend(b"\x89MCAP0\r\n");
+        let _ = parse(&bytes);
+    }
+}
