@@ -91,9 +91,9 @@ pub struct ReplayArgs {
     /// Simulated seconds; without it the whole track
     #[arg(long, value_name = "S", value_parser = positive_seconds)]
     pub seconds: Option<f64>,
-    /// Seed of the particles' initial jitter
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    /// Seed of the particles' initial jitter; without it the track's own
+    #[arg(long)]
+    pub seed: Option<u64>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,
@@ -131,6 +131,9 @@ pub struct BenchArgs {
     /// Table 2 of the paper: its rows as far as they exist, beside its times
     #[arg(long)]
     pub paper: bool,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
     /// Frames to measure, after as many as it takes to warm up
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,

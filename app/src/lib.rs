@@ -3,9 +3,11 @@
 pub mod cli;
 pub mod command;
 pub mod console;
+mod device;
 mod experiment;
 pub mod failure;
 pub mod film;
+mod measure;
 pub mod output;
 pub mod recorder;
 pub mod replay;

@@ -187,3 +187,50 @@ fn doctor_says_what_is_missing() {
     let missing = found["missing"].to_string();
     assert!(missing.contains("XR_RUNTIME_JSON") || missing.contains("libopenxr-loader1"));
 }
+
+#[test]
+fn scenes_state_their_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = object(folder.path(), &["scenes"]);
+    let scenes = list["scenes"].as_array().unwrap();
+    let two_flasks = scenes.iter().find(|s| s["name"] == "two-flasks").unwrap();
+    assert_eq!(two_flasks["length_scale"], 1.0, "real size");
+    assert!((two_flasks["gravity_m_s2"].as_f64().unwrap() - 9.81).abs() < 0.01);
+    for scene in scenes {
+        for key in [
+            "d_m",
+            "h_over_d",
+            "frame_time_s",
+            "gravity_m_s2",
+            "length_scale",
+        ] {
+            assert!(scene[key].as_f64().unwrap() > 0.0, "{key} of {scene}");
+        }
+        for preset in scene["presets"].as_array().unwrap() {
+            for key in ["substeps", "iterations", "omega", "fluid_particles"] {
+                assert!(preset[key].as_f64().unwrap() > 0.0, "{key} of {scene}");
+            }
+        }
+    }
+
+    let typo = "name = \"x\"\ngravitty = 1\n";
+    fs::write(folder.path().join("typo.toml"), typo).unwrap();
+    let arguments = [
+        "replay",
+        "two-flasks",
+        "--scene",
+        "typo.toml",
+        "--out",
+        "new",
+    ];
+    refuses(folder.path(), &arguments, 2, &["typo.toml", "gravitty"]);
+    let arguments = ["replay", "two-flasks", "--device", "Voodoo", "--out", "new"];
+    // Without any driver it is the driver that is missing.
+    let code = if object(folder.path(), &["doctor"])["can_replay"] == true {
+        2
+    } else {
+        3
+    };
+    refuses(folder.path(), &arguments, code, &[]);
+    assert!(!folder.path().join("new").exists());
+}

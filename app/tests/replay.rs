@@ -19,6 +19,7 @@ use vitriol_xr::PoseFrame;
 /// is a formula of the step.
 struct Toy {
     steps: u64,
+    /// The step that fails; 0 for the end, after the film.
     fails_at: u64,
     picture: Vec<u8>,
 }
@@ -74,6 +75,9 @@ impl Experiment for Toy {
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {
+        if self.fails_at == 0 {
+            return Err("the device was lost").other();
+        }
         Ok(Outcome {
             fluid_particles: 13_894,
             lost_particles: 0,
@@ -101,8 +105,11 @@ fn replay(out: &Path, more: &[&str], fails_at: u64) -> Result<(), Failure> {
     let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
         panic!("replay is parsed as another command");
     };
-    run(&args, Format::Json, |_, scene| {
-        assert_eq!(scene.name, "two-flasks", "the scene that the track names");
+    run(&args, Format::Json, |setup| {
+        assert_eq!(
+            setup.scene.name, "two-flasks",
+            "the scene that the track names"
+        );
         Ok(Box::new(Toy::new(fails_at)))
     })
 }
@@ -132,7 +139,7 @@ fn numbers_come_through() {
     let last = report.series.last().unwrap();
     assert!((last.t_s - report.simulated_s).abs() < 1e-12);
     assert_eq!(report.mass_kg, last.mass_kg);
-    let worst = report.series.iter().map(|s| s.density_error_p99);
+    let worst = report.series[1..].iter().map(|s| s.density_error_p99);
     assert_eq!(report.density_error_p99, worst.fold(0.0, f64::max));
     assert!((report.mass_kg.total() - 0.217).abs() < 1e-12);
 }
@@ -154,13 +161,23 @@ fn an_earlier_run_is_not_overwritten() {
 }
 
 #[test]
+fn a_run_longer_than_its_track_holds_the_last_pose() {
+    let folder = tempfile::tempdir().unwrap();
+    // The toy checks the steps; the track is shorter.
+    replay(folder.path(), &["--seconds", "60", "--no-video"], u64::MAX).unwrap();
+    assert_eq!(report_of(folder.path()).frames, 5400);
+}
+
+#[test]
 fn a_failed_run_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let failure = replay(&out, &["--seconds", "1"], 50).unwrap_err();
-    assert_eq!(failure.to_string(), "the device was lost");
-    assert_eq!(failure.exit_code(), 1);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    for fails_at in [50, 0] {
+        let failure = replay(&out, &["--seconds", "1"], fails_at).unwrap_err();
+        assert_eq!(failure.to_string(), "the device was lost");
+        assert_eq!(failure.exit_code(), 1);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
 }
 
 #[test]
@@ -185,8 +202,9 @@ fn the_report_reads_in_a_browser() {
           const seeked = new Promise((done) => (film.onseeked = done));
           const canvas = page.querySelector(".canvas");
           const box = canvas.querySelector("svg").getBoundingClientRect();
-          const { left, right } = canvas.dataset;
-          const middle = (Number(left) + Number(right)) / 2;
+          const points = canvas.querySelector("polyline[stroke='#0072B2']").getAttribute("points").trim();
+          const ends = points.split(/\s+/).map((pair) => Number(pair.split(",")[0]));
+          const middle = (ends[0] + ends.at(-1)) / 2;
           const x = box.left + (middle / canvas.querySelector("svg").viewBox.baseVal.width) * box.width;
           canvas.dispatchEvent(new MouseEvent("click", { clientX: x, clientY: box.top + 50, bubbles: true }));
           await seeked;

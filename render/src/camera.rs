@@ -112,8 +112,8 @@ impl View {
         // distortion of the glass, and the rims' ellipses stay flat.
         Self::look_at(
             Vec3::new(0.0, 1.06, 0.36),
-            Vec3::new(0.0, 0.855, -0.40),
-            Fov::symmetric(24.0_f32.to_radians(), aspect),
+            Vec3::new(0.0, 0.865, -0.40),
+            Fov::symmetric(20.5_f32.to_radians(), aspect),
         )
     }
 

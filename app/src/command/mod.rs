@@ -9,6 +9,7 @@ pub mod track;
 use crate::cli::{Cli, Command};
 use crate::experiment;
 use crate::failure::Failure;
+use crate::measure;
 
 /// Runs the subcommand that was asked for.
 ///
@@ -18,7 +19,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
     let format = cli.format();
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, experiment::prepare),
-        Command::Bench(args) => bench::run(args, format, experiment::measure),
+        Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
         Command::Scenes => scenes::run(format),
         Command::Doctor => doctor::run(format),

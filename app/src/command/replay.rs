@@ -28,8 +28,20 @@ struct Replayed {
     report_html: String,
 }
 
-/// Runs `vitriol replay`. `prepare` makes the experiment of the arguments and
-/// the scene, which has its preset already.
+/// What an experiment is made of.
+#[derive(Debug)]
+pub struct Setup<'a> {
+    /// The scene, its preset applied.
+    pub scene: &'a Scene,
+    /// Seed of the initial jitter.
+    pub seed: u64,
+    /// Number or part of the name of the device; the best one without.
+    pub device: Option<&'a str>,
+    /// Width and height of the pictures, pixels; `None` where none is asked for.
+    pub picture: Option<(u32, u32)>,
+}
+
+/// Runs `vitriol replay`; `prepare` makes the experiment.
 ///
 /// # Errors
 /// [`Failure::Input`] for bad track, scene or folder, [`Failure::NoDevice`],
@@ -37,13 +49,19 @@ struct Replayed {
 pub fn run(
     args: &ReplayArgs,
     format: Format,
-    prepare: impl FnOnce(&ReplayArgs, &Scene) -> Result<Box<dyn Experiment>, Failure>,
+    prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let track = track::load(&args.track)?;
     let name = scene_of(args, &track)?;
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
-    let mut experiment = prepare(args, &scene)?;
+    let seed = args.seed.unwrap_or(track.metadata.seed);
+    let mut experiment = prepare(&Setup {
+        scene: &scene,
+        seed,
+        device: args.device.as_deref(),
+        picture: (!args.no_video).then_some(FILM_SIZE),
+    })?;
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let span = Span::covering(seconds, scene.scale.frame_time);
 
@@ -68,7 +86,14 @@ pub fn run(
         statement::of_scene(&name, &scene),
         statement::of_solver(&scene),
     );
-    let report = assemble(args, span, statements, experiment.outcome()?, recording);
+    let report = assemble(
+        args,
+        seed,
+        span,
+        statements,
+        experiment.outcome()?,
+        recording,
+    );
     write(&mut out, &report)?;
 
     let replayed = Replayed {
@@ -101,28 +126,28 @@ fn stem(track: &str) -> String {
 
 fn assemble(
     args: &ReplayArgs,
+    seed: u64,
     span: Span,
     (scene, solver): (SceneStatement, SolverStatement),
     outcome: Outcome,
     recording: Recording,
 ) -> Report {
     let samples = recording.samples;
-    let count = samples.len().max(1) as f64;
+    // The filling is not the solver's work, so the start does not count.
+    let solved = || samples.iter().skip(1);
+    let count = solved().count().max(1) as f64;
     let (width, height) = FILM_SIZE;
     Report {
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
-        command: command_line(args),
+        command: command_line(args, seed),
         track: args.track.clone(),
         preset: args.preset.name().into(),
-        seed: args.seed,
+        seed,
         fluid_particles: outcome.fluid_particles,
         lost_particles: outcome.lost_particles,
         nan_particles: outcome.nan_particles,
-        density_error_mean: samples.iter().map(|s| s.density_error_mean).sum::<f64>() / count,
-        density_error_p99: samples
-            .iter()
-            .map(|s| s.density_error_p99)
-            .fold(0.0, f64::max),
+        density_error_mean: solved().map(|s| s.density_error_mean).sum::<f64>() / count,
+        density_error_p99: solved().map(|s| s.density_error_p99).fold(0.0, f64::max),
         frames: span.steps,
         simulated_s: span.seconds(),
         wall_s: recording.wall.as_secs_f64(),
@@ -148,12 +173,12 @@ fn assemble(
 
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
-fn command_line(args: &ReplayArgs) -> String {
+fn command_line(args: &ReplayArgs, seed: u64) -> String {
     let mut line = format!("vitriol replay {}", quoted(&args.track));
     if let Some(scene) = &args.scene {
         line += &format!(" --scene {}", quoted(scene));
     }
-    line += &format!(" --preset {} --seed {}", args.preset.name(), args.seed);
+    line += &format!(" --preset {} --seed {}", args.preset.name(), seed);
     if let Some(seconds) = args.seconds {
         line += &format!(" --seconds {seconds}");
     }

@@ -68,7 +68,11 @@ fn look_into(name: &str) -> Result<SceneInfo, Failure> {
     });
     Ok(SceneInfo {
         scene: statement::of_scene(name, &scene),
-        description: scene.description.clone(),
+        description: scene
+            .description
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" "),
         flasks: scene.flasks.iter().map(|f| f.name.clone()).collect(),
         presets: presets.into(),
     })
@@ -84,7 +88,7 @@ fn describe(info: &SceneInfo) -> String {
     let mut text = format!(
         "{}\n  {}\n  flasks {}; models {}\n  h/d {}, frame {} ms, g {} m/s², length scale {}\n",
         scene.name,
-        info.description.trim(),
+        info.description,
         info.flasks.join(", "),
         models,
         three_digits(scene.h_over_d),

@@ -62,7 +62,7 @@ impl Report {
         html! {
             section.figures aria-label="Figures" {
                 (figure("density_error_mean", "Density error, mean",
-                    &percent(self.density_error_mean), "of rest density, over the run", false))
+                    &percent(self.density_error_mean), "compression over rest density, over the run", false))
                 (figure("density_error_p99", "Density error, 99th percentile",
                     &percent(self.density_error_p99), "worst moment of the run", false))
                 (figure("lost_particles", "Lost particles",

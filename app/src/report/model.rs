@@ -23,8 +23,9 @@ pub struct Report {
     pub lost_particles: u64,
     /// Particles that turned non-finite and were taken out.
     pub nan_particles: u64,
-    /// Mean of |ρ/ρ₀ − 1| over particles with a full neighbourhood, averaged
-    /// over the run's samples; 0.01 is one per cent.
+    /// Density error max(0, ρ/ρ₀ − 1), the compression that Eq. 2 forbids:
+    /// mean over particles, averaged over the run's samples after the start;
+    /// 0.01 is one per cent.
     pub density_error_mean: f64,
     /// 99th percentile of the same, the largest of the run's samples.
     pub density_error_p99: f64,
@@ -159,7 +160,7 @@ pub struct Counters {
 pub struct Sample {
     /// Simulated time, s.
     pub t_s: f64,
-    /// Mean of |ρ/ρ₀ − 1| over particles with a full neighbourhood.
+    /// Mean over particles of max(0, ρ/ρ₀ − 1).
     pub density_error_mean: f64,
     /// 99th percentile of the same.
     pub density_error_p99: f64,

@@ -17,10 +17,10 @@ pub const CURVE_COLOURS: [RGBColor; 6] = [
 ];
 
 const WIDTH: u32 = 640;
-const HEIGHT: u32 = 250;
+const HEIGHT: u32 = 270;
 /// Room for the numbers beside and below the axes, pixels.
-const LEFT: u32 = 52;
-const BOTTOM: u32 = 30;
+const LEFT: u32 = 58;
+const BOTTOM: u32 = 34;
 const MARGIN: u32 = 10;
 
 /// One curve: its name in the legend and its points (time in s, value in the
@@ -89,8 +89,8 @@ fn draw(
         .bold_line_style(RGBColor(0xdd, 0xdd, 0xdd))
         .light_line_style(TRANSPARENT)
         .axis_style(RGBColor(0x99, 0x99, 0x99))
-        .label_style(("sans-serif", 13))
-        .x_labels(9)
+        .label_style(("sans-serif", 18))
+        .x_labels(7)
         .y_labels(5)
         .x_label_formatter(&|t| format!("{} s", trimmed(*t)))
         .y_label_formatter(&|value| trimmed(*value))

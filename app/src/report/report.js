@@ -10,7 +10,7 @@
     const line = document.createElementNS(svg.namespaceURI, "line");
     line.setAttribute("class", "now");
     line.setAttribute("y1", "10");
-    line.setAttribute("y2", String(height - 40));
+    line.setAttribute("y2", String(height - 44));
     svg.append(line);
     canvas.addEventListener("click", (event) => {
       const box = svg.getBoundingClientRect();

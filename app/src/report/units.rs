@@ -47,11 +47,15 @@ pub fn three_digits(value: f64) -> String {
     if !value.is_finite() {
         return "not finite".into();
     }
-    let magnitude = value.abs().log10().floor() as i32;
-    if !(-4..=6).contains(&magnitude) {
-        return format!("{value:.2e}");
-    }
-    let decimals = (2 - magnitude).max(0) as usize;
+    // The exponent after rounding: 0.9999 is 1.00 and not 1.000.
+    let rounded = format!("{value:.2e}");
+    let exponent = rounded
+        .split_once('e')
+        .map(|(_, exponent)| exponent.parse());
+    let Some(Ok(magnitude @ -4..=6)) = exponent else {
+        return rounded;
+    };
+    let decimals = (2_i32 - magnitude).max(0) as usize;
     format!("{value:.decimals$}")
 }
 
@@ -89,6 +93,8 @@ mod tests {
         assert_eq!(with_unit(0.0, mass(0.0)), "0 g");
         assert_eq!(percent(0.012_44), "1.24 %");
         assert_eq!(three_digits(13_894.0), "13894");
+        assert_eq!(three_digits(0.999_999), "1.00");
+        assert_eq!(three_digits(-3e-9), "-3.00e-9");
         assert_eq!(three_digits(f64::NAN), "not finite");
         assert_eq!(grouped(13_894), "13\u{202f}894");
         assert_eq!(grouped(999), "999");

@@ -40,6 +40,10 @@ struct QueueState {
     /// Value of the last submission.
     submitted: u64,
     in_flight: VecDeque<(u64, Box<Storage>)>,
+    #[expect(
+        clippy::vec_box,
+        reason = "it goes to a recorder and comes back without a copy"
+    )]
     free: Vec<Box<Storage>>,
 }
 

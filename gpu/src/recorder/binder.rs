@@ -171,6 +171,7 @@ impl<'a> Binder<'a> {
             scope: slot.scope,
         };
         storage.uses.push(used);
+        storage.pass_bytes += inner.bytes;
     }
 
     pub(crate) fn image(

@@ -147,7 +147,7 @@ impl Storage {
         self.emit(barrier);
         if self.queries.is_some() || self.markers.is_some() {
             let text = String::from_utf8_lossy(label);
-            self.names.push(&text);
+            self.names.push(&text, self.pass_bytes);
         }
         if let Some(markers) = &self.markers {
             markers.write(&self.core, self.cmd, self.names.len() - 1);

@@ -57,6 +57,8 @@ pub(crate) struct Storage {
     pub(crate) label: Vec<u8>,
     pub(crate) arena: Arena,
     pub(crate) names: Names,
+    /// Bytes of the buffers that the pass in the making binds.
+    pub(crate) pass_bytes: u64,
     pub(crate) queries: Option<Queries>,
     pub(crate) markers: Option<Markers>,
     pub(crate) bound: vk::Pipeline,
@@ -96,6 +98,7 @@ impl Storage {
             label: Vec::new(),
             arena: Arena::default(),
             names: Names::default(),
+            pass_bytes: 0,
             queries: None,
             markers: None,
             bound: vk::Pipeline::null(),
@@ -153,6 +156,7 @@ impl Storage {
 
     /// Forgets the pass being recorded.
     pub(crate) fn clear_pass(&mut self) {
+        self.pass_bytes = 0;
         self.uses.clear();
         self.image_uses.clear();
         self.descriptors.clear();

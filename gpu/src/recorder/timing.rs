@@ -15,6 +15,8 @@ pub struct PassTiming {
     pub label: String,
     /// From the end of the work before it to its own end, in nanoseconds.
     pub nanoseconds: f64,
+    /// Bytes of the buffers that it binds, each counted once.
+    pub bytes: u64,
 }
 
 /// Labels of passes, end to end in one string, so that none is allocated.
@@ -22,12 +24,14 @@ pub struct PassTiming {
 pub(crate) struct Names {
     text: String,
     ends: Vec<usize>,
+    bytes: Vec<u64>,
 }
 
 impl Names {
-    pub(crate) fn push(&mut self, name: &str) {
+    pub(crate) fn push(&mut self, name: &str, bytes: u64) {
         self.text.push_str(name);
         self.ends.push(self.text.len());
+        self.bytes.push(bytes);
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -42,6 +46,7 @@ impl Names {
     pub(crate) fn clear(&mut self) {
         self.text.clear();
         self.ends.clear();
+        self.bytes.clear();
     }
 }
 
@@ -128,12 +133,14 @@ fn timings(stamps: &[u64], names: &Names, mask: u64, period: f32) -> Vec<PassTim
         .map(|(index, pair)| PassTiming {
             label: names.get(index).to_owned(),
             nanoseconds: elapsed(pair[0], pair[1]),
+            bytes: names.bytes[index],
         })
         .collect();
     if let (Some(first), Some(last)) = (stamps.first(), stamps.last()) {
         list.push(PassTiming {
             label: "total".to_owned(),
             nanoseconds: elapsed(*first, *last),
+            bytes: names.bytes.iter().sum(),
         });
     }
     list
@@ -205,8 +212,8 @@ mod tests {
     #[test]
     fn times_from_a_counter_that_wraps() {
         let mut names = Names::default();
-        names.push("a");
-        names.push("bc");
+        names.push("a", 16);
+        names.push("bc", 32);
         // 36 valid bits, as some drivers have; 2 ns a tick.
         let mask = (1 << 36) - 1;
         let list = timings(&[mask - 9, mask, 19], &names, mask, 2.0);

@@ -1,6 +1,6 @@
 //! Timestamps, and the CPU's share of a frame.
 
-use vitriol_gpu::{Buffer, ComputePipeline, GpuError, QueueKind};
+use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
 
 use crate::common::{DOUBLE, assert_silent, compile, open, open_with};
 
@@ -11,8 +11,9 @@ fn every_pass_is_timed_under_its_label() {
     let count = 1_000_000_u32;
     let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 4 * u64::from(count)).unwrap());
     let [c, d] = ["c", "d"].map(|l| Buffer::storage(&gpu, l, 256).unwrap());
-    // The second recorder is a recycled one.
-    for _ in 0..2 {
+    let [mut large, mut small, mut closing] = [f64::INFINITY; 3];
+    // All recorders but the first are recycled ones.
+    for _ in 0..8 {
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
         rec.fill(&a, 1).unwrap();
         rec.pass(&double)
@@ -36,28 +37,24 @@ fn every_pass_is_timed_under_its_label() {
                 .unwrap();
         }
         let ticket = gpu.submit(rec).unwrap();
-        assert!(ticket.is_done().unwrap() || matches!(ticket.timings(), Err(GpuError::NotDone)));
         ticket.wait().unwrap();
         let timings = ticket.timings().unwrap();
         let labels: Vec<&str> = timings.iter().map(|timing| timing.label.as_str()).collect();
         assert_eq!(labels[..4], ["fill", "large", "small", "test:main"]);
         assert_eq!((labels.len(), labels[603]), (604, "total"));
         let time = |index: usize| timings[index].nanoseconds;
-        // 15,625 times the work, with a margin of 1,000 for fixed costs.
-        assert!(
-            time(1) > 10.0 * time(2),
-            "{} ns against {} ns",
-            time(1),
-            time(2)
-        );
         let sum: f64 = (0..603).map(time).sum();
-        // The stamps abut but for the last, which closes the submission.
-        assert!(
-            sum <= time(603) && sum > 0.5 * time(603),
-            "{sum} of {}",
-            time(603)
-        );
+        // Stamps are whole ticks; their sum is exact but for the last digits.
+        assert!(sum <= time(603) * (1.0 + 1e-9), "{sum} of {}", time(603));
+        large = large.min(time(1));
+        small = small.min(time(2));
+        closing = closing.min(1.0 - sum / time(603));
     }
+    // 15,625 times the work, with a margin of 1,000 for fixed costs. The best
+    // of several, since other tests share the processor.
+    assert!(large > 10.0 * small, "{large} ns against {small} ns");
+    // The stamps abut; only what closes the submission is nobody's.
+    assert!(closing < 0.1, "{closing} of the total");
     assert_silent(&gpu);
 }
 
@@ -71,8 +68,7 @@ fn no_times_unless_asked() {
 }
 
 /// 60 passes of 8 bindings each, as a frame of the solver has them, in less
-/// than 0.3 ms of the frame's 0.5 ms (in an optimised build; three times that
-/// otherwise). The best of many, since other tests share the processor.
+/// than 0.3 ms of the frame's 0.5 ms. The best of many, since other tests share the processor.
 #[test]
 fn recording_a_frame_is_cheap() {
     let gpu = open_with(|options| options.validation = false);
@@ -103,11 +99,5 @@ fn recording_a_frame_is_cheap() {
         best = best.min(start.elapsed().as_secs_f64());
         gpu.submit(rec).unwrap().wait().unwrap();
     }
-    println!("60 passes recorded in {:.3} ms", best * 1e3);
-    let limit = if cfg!(debug_assertions) {
-        0.9e-3
-    } else {
-        0.3e-3
-    };
-    assert!(best < limit, "{best} s");
+    assert!(best < 0.3e-3, "{best} s");
 }

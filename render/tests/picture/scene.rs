@@ -1,8 +1,7 @@
 //! Light, glass and scale of the whole picture.
 
-
-use glam::{Affine3A, DVec3, Vec3};
 use crate::rig::{Rig, ray, without_particles};
+use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::QueueKind;
 use vitriol_render::{
     ColourBy, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,

@@ -4,6 +4,8 @@
 
 /// d_margin, metres: 0.001 h.
 override MARGIN: f32 = 5e-6;
+/// Whether flask constraints are generated; without, membership is by region alone.
+override CONSTRAINT: bool = true;
 
 struct Constrained {
     position: vec3<f32>,
@@ -47,6 +49,10 @@ fn into_liquid_space(k: u32, p: vec3<f32>) -> vec3<f32> {
 fn from_inside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     if (is_inside(k, after)) { return Constrained(after, k + 1u, false); }
     if (after.y >= flasks[k].rim && crosses_mouth(k, before, after)) {
+        let clear = flasks[k].rim + MARGIN;
+        if (after.y < clear && glass_distance(k, after) < 0.5 * MARGIN) {
+            return Constrained(vec3<f32>(after.x, clear, after.z), NOBODYS, true);
+        }
         return Constrained(after, NOBODYS, false);
     }
     return Constrained(into_liquid_space(k, after), k + 1u, true);
@@ -114,8 +120,16 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
 /// under those from `after_first` on (stage frame).
 fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first: u32, after_first: u32) -> Constrained {
     var result = Constrained(after, membership, false);
+    if (!CONSTRAINT) {
+        result.membership = NOBODYS;
+        for (var k = 0u; k < FLASKS; k++) {
+            if (is_inside(k, flask_from_stage(poses[after_first + k], after))) { result.membership = k + 1u; }
+        }
+        return result;
+    }
     if (FLASKS > 0u) {
-        if (membership != NOBODYS) {
+        // Loops that run once in place of `if`, as in `boundary_volume`.
+        for (var member = membership != NOBODYS; member; member = false) {
             let k = membership - 1u;
             let p = from_inside(k, flask_from_stage(poses[before_first + k], before),
                                 flask_from_stage(poses[after_first + k], after));
@@ -125,21 +139,23 @@ fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first:
                 result.position = stage_from_flask(poses[after_first + k], p.position);
             }
         }
-        if (result.membership == NOBODYS) {
+        for (var nobodys = result.membership == NOBODYS; nobodys; nobodys = false) {
             for (var k = 0u; k < FLASKS; k++) {
-                if (k + 1u == membership) { continue; }
                 let local_before = flask_from_stage(poses[before_first + k], before);
                 let local_after = flask_from_stage(poses[after_first + k], result.position);
-                let reach = length(local_after - local_before) + flasks[k].wall;
+                let reach = length(local_after - local_before) + flasks[k].wall
+                    + flasks[k].outer + 0.5 * flasks[k].rim;
                 let middle = vec3<f32>(0.0, 0.5 * flasks[k].rim, 0.0);
-                let far = length(local_before - middle) > reach + flasks[k].outer + 0.5 * flasks[k].rim;
-                if (far) { continue; }
-                let p = from_outside(k, local_before, local_after);
-                if (p.generated) {
-                    result.generated = true;
-                    result.position = stage_from_flask(poses[after_first + k], p.position);
+                var near = length(local_before - middle) <= reach
+                    && k + 1u != membership && result.membership == NOBODYS;
+                for (; near; near = false) {
+                    let p = from_outside(k, local_before, local_after);
+                    result.membership = p.membership;
+                    if (p.generated) {
+                        result.generated = true;
+                        result.position = stage_from_flask(poses[after_first + k], p.position);
+                    }
                 }
-                if (p.membership != NOBODYS) { result.membership = p.membership; break; }
             }
         }
     }

@@ -35,8 +35,8 @@ fn surroundings(direction: vec3<f32>) -> vec3<f32> {
     // Where the direction meets the plane x = -1; the panes' edges are soft, so that thin
     // highlights do not shimmer.
     let hit = direction.yz / max(-direction.x, 1e-3);
-    let pane = abs(hit - vec2<f32>(0.75, 0.35));
-    let inside = smoothstep(vec2<f32>(0.48, 0.60), vec2<f32>(0.42, 0.54), pane);
+    let pane = abs(hit - vec2<f32>(0.35, 0.75));
+    let inside = smoothstep(vec2<f32>(1.00, 0.62), vec2<f32>(0.90, 0.54), pane);
     let bars = smoothstep(vec2<f32>(0.02), vec2<f32>(0.06), pane);
     let open = inside.x * inside.y * bars.x * bars.y * step(0.0, -direction.x);
     seen += open * vec3<f32>(5.2, 5.4, 5.6);

@@ -111,6 +111,8 @@ fn sample_map(k: u32, first: u32, r: f32, y: f32) -> vec4<f32> {
 /// Whether what is at `from` in flask k's liquid space can act on what is at
 /// `to` outside of it: only through the open top (flask's frame).
 fn visible_from(k: u32, from_inside: vec3<f32>, to: vec3<f32>) -> bool {
+    // One that is about to leave is over the rim already.
+    if (from_inside.y >= flasks[k].rim) { return to.y >= flasks[k].rim || is_inside(k, to); }
     if (to.y < flasks[k].rim) { return is_inside(k, to); }
     return crosses_mouth(k, from_inside, to);
 }

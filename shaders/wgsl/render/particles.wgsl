@@ -125,7 +125,8 @@ fn fragment(in: Varyings) -> Pixel {
     // Blinn's half vector with the eye straight ahead: across one particle it hardly turns.
     let half_vector = window + vec3<f32>(0.0, 0.0, 1.0);
     let shine = max(dot(normal, half_vector) * inverseSqrt(dot(half_vector, half_vector)), 0.0);
-    let highlight = pow(shine, 40.0);
-    let light = in.colour.rgb * (ambient_light(up) + diffuse) + 0.35 * highlight * in.window.w;
+    // Wide and faint: a sphere is a few pixels across, and a sharp highlight would glitter.
+    let highlight = pow(shine, 14.0);
+    let light = in.colour.rgb * (ambient_light(up) + diffuse) + 0.12 * highlight * in.window.w;
     return Pixel(vec4<f32>(display(light), 1.0), in.clip.z * nearer);
 }

@@ -73,7 +73,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     if in.material == MATERIAL_TABLE || in.material == MATERIAL_FLOOR {
         albedo = select(
             vec3<f32>(0.20, 0.19, 0.18),
-            vec3<f32>(0.46, 0.47, 0.47),
+            vec3<f32>(0.30, 0.33, 0.35),
             in.material == MATERIAL_TABLE,
         );
         let share = shadow(in.position, in.normal, key.direction);

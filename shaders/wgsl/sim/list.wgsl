@@ -51,17 +51,42 @@ fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
 var<private> found: u32;
 var<private> coincident: bool;
 
-fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32) {
+/// Tests the particles from `first` to `end`; with `keep` it lists those that are neighbours.
+fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32, keep: bool) {
     for (var j = first; j < end; j++) {
         let other = sorted_trial[j].xyz;
         let offset = x - other;
         let distance = dot(offset, offset);
-        if (distance < CELL * CELL && j != i) {
-            let theirs = sorted_tags[j].x;
-            if (theirs == membership || visible(membership, x, theirs, other)) {
-                if (found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
-                found++;
-                coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
+        var near = distance < CELL * CELL && j != i;
+        let theirs = sorted_tags[j].x;
+        // A loop, not an `if`: a software driver walks both sides of an `if`
+        // for every pair, and leaves a loop that no invocation enters.
+        for (var past_glass = near && theirs != membership; past_glass; past_glass = false) {
+            near = visible(membership, x, theirs, other);
+        }
+        if (near) {
+            if (keep && found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
+            found++;
+            coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
+        }
+    }
+}
+
+/// The rows of three cells along x that are this lane's, of the nine around a particle.
+fn search_rows(i: u32, lane: u32, x: vec3<f32>, membership: u32, keep: bool) {
+    let cell = cell_of(x);
+    let wraps = (1 << CELL_BITS_X) - 1;
+    let column = cell.x & wraps;
+    for (var row = lane; row < 9u; row += LANES) {
+        let y = cell.y + i32(row % 3u) - 1;
+        let z = cell.z + i32(row / 3u) - 1;
+        let start = cell_index(vec3<i32>(0, y, z));
+        if (column > 0 && column < wraps) {
+            search(i, x, membership, start_of(start + u32(column - 1)), start_of(start + u32(column + 2)), keep);
+        } else {
+            for (var dx = -1; dx <= 1; dx++) {
+                let at = start + u32((column + dx) & wraps);
+                search(i, x, membership, start_of(at), start_of(at + 1u), keep);
             }
         }
     }
@@ -77,34 +102,35 @@ fn apart(identity: u32) -> vec3<f32> {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
     if (i >= COUNT) { return; }
     let tag = sorted_tags[i];
     var x = sorted_trial[i].xyz;
     found = 0u;
     coincident = false;
-    if (tag.x != REMOVED) {
-        let cell = cell_of(x);
-        let wraps = (1 << CELL_BITS_X) - 1;
-        let column = cell.x & wraps;
-        for (var dz = -1; dz <= 1; dz++) {
-            for (var dy = -1; dy <= 1; dy++) {
-                let row = cell_index(vec3<i32>(0, cell.y + dy, cell.z + dz));
-                if (column > 0 && column < wraps) {
-                    search(i, x, tag.x, start_of(row + u32(column - 1)), start_of(row + u32(column + 2)));
-                } else {
-                    for (var dx = -1; dx <= 1; dx++) {
-                        let at = row + u32((column + dx) & wraps);
-                        search(i, x, tag.x, start_of(at), start_of(at + 1u));
-                    }
-                }
-            }
+    if (LANES > 1u) {
+        // Counts first, so that each lane knows where its own part of the list begins.
+        if (tag.x != REMOVED) { search_rows(i, lane, x, tag.x, false); }
+        var total = found;
+        var before = 0u;
+        for (var step = 1u; step < LANES; step <<= 1u) {
+            let other = subgroupShuffleXor(total, step);
+            if ((lane & step) != 0u) { before += other; }
+            total += other;
         }
-        // Kernel gradients vanish at distance zero; particles in one place
-        // would stay together for ever.
-        if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
-        if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
+        found = before;
+        if (tag.x != REMOVED) { search_rows(i, lane, x, tag.x, true); }
+        found = total;
+        coincident = lane_sum(select(0.0, 1.0, coincident)) > 0.0;
+        if (lane != 0u) { return; }
+    } else if (tag.x != REMOVED) {
+        search_rows(i, 0u, x, tag.x, true);
     }
+    // Kernel gradients vanish at distance zero; particles in one place would
+    // stay together for ever.
+    if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
+    if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
     list_counts[i] = min(found, LIST_CAPACITY);
     trial[i] = vec4<f32>(x, 0.0);
     list_origin[i] = vec4<f32>(x, 0.0);

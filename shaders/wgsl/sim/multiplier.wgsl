@@ -40,6 +40,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (id.x == 0u) {
             list_args[0] = 0u;
             list_args[4] = 0u;
+            list_args[8] = 0u;
+            list_args[12] = 0u;
         }
     }
     if (i >= COUNT) { return; }

@@ -6,6 +6,8 @@ use rapier3d::prelude::{
     ColliderBuilder, MassProperties, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
+use crate::scene::TableTop;
+
 use super::spec::{BodiesError, BodiesSpec, BodySpec, Table};
 use super::units::{UNIT, Units};
 use super::{shell, solid};
@@ -26,7 +28,7 @@ const RESTITUTION: f32 = 0.2;
 /// substeps (1440 Hz at 90 Hz of simulation) still resolve it.
 const CONTACT_FREQUENCY: f32 = 200.0;
 /// Thickness of the table top (m, at real size).
-const TABLE_THICKNESS: f32 = 0.04;
+const TABLE_THICKNESS: f32 = TableTop::THICKNESS as f32;
 
 /// What of a flask never changes.
 pub(super) struct Flask {

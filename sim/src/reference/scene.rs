@@ -4,10 +4,7 @@ use super::Reference;
 use super::surroundings::{Surroundings, Table, Vessel};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
-use crate::scene::{Boundary, Scene};
-
-/// Thickness of the table top at real size, metres.
-const TABLE_THICKNESS: f64 = 0.04;
+use crate::scene::{Boundary, Scene, TableTop};
 
 impl Surroundings {
     /// What is solid in `scene`.
@@ -23,7 +20,7 @@ impl Surroundings {
                 .map(|(profile, solids)| Vessel::with_particles(profile, solids, support))
                 .collect(),
         };
-        let thickness = TABLE_THICKNESS / scene.scale.length_scale;
+        let thickness = TableTop::THICKNESS / scene.scale.length_scale;
         let table = scene.table.map(|table| Table {
             top: table.top,
             under: table.top - thickness,

@@ -12,7 +12,8 @@ mod tests;
 
 pub use error::SceneError;
 pub use settings::{
-    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, Scale, SolverSettings, TableTop,
+    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, RelaxationKind, Scale, SolverSettings,
+    TableTop,
 };
 
 use crate::fill::{self, FillError};
@@ -156,11 +157,13 @@ impl Scene {
                 substeps,
                 iterations,
                 omega,
+                carry,
                 spacing,
             } = *overrides;
             scene.solver.substeps = substeps.unwrap_or(scene.solver.substeps);
             scene.solver.iterations = iterations.unwrap_or(scene.solver.iterations);
             scene.solver.omega = omega.unwrap_or(scene.solver.omega);
+            scene.solver.carry = carry.unwrap_or(scene.solver.carry);
             scene.scale.spacing = spacing.unwrap_or(scene.scale.spacing);
         }
         scene

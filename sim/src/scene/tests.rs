@@ -17,7 +17,9 @@ boundary_spacing_ratio = 0.5
 [solver]
 substeps = 3
 iterations = 2
+relaxation = "jacobi"
 omega = 0.5
+carry = 0.0
 v_max = 10.0
 boundary = "map"
 viscosity = 0.1

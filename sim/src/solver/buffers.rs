@@ -78,7 +78,7 @@ impl Buffers {
             cell_starts: words("cell_starts", u64::from(grid.cells()))?,
             block_sums: words("block_sums", u64::from(grid.blocks()))?,
             cell_items: words("cell_items", n)?,
-            list_args: words("list_args", 8)?,
+            list_args: words("list_args", 16)?,
             poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks as u64)?,
             wall_push: words("wall_push", 4 * pushed)?,
             loads: words("loads", if loads { 12 * groups * flasks as u64 } else { 0 })?,

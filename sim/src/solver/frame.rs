@@ -121,6 +121,8 @@ impl Solver {
         let (b, p) = (&self.buffers, &self.pipelines);
         const PARTICLES: u64 = 0;
         const CELLS: u64 = 16;
+        const LIST: u64 = 32;
+        const ONE: u64 = 48;
         rec.pass(&p.cell_count)
             .read("trial", &b.trial)
             .write("cell_counts", &b.cell_counts)
@@ -132,7 +134,7 @@ impl Solver {
             .indirect(&b.list_args, CELLS)?;
         rec.pass(&p.block_scan)
             .write("block_sums", &b.block_sums)
-            .workgroups([1, 1, 1])?;
+            .indirect(&b.list_args, ONE)?;
         rec.pass(&p.cell_scatter)
             .read("trial", &b.trial)
             .read("cell_starts", &b.cell_starts)
@@ -173,7 +175,7 @@ impl Solver {
             .write("list", &b.list)
             .write("counters", &b.counters)
             .constants(step)
-            .indirect(&b.list_args, PARTICLES)?;
+            .indirect(&b.list_args, LIST)?;
         Ok(())
     }
 

@@ -57,6 +57,9 @@ pub struct SolverSpec<'a> {
     pub particles: &'a [Particle],
     /// Whether the liquid's push on the flasks is summed up each frame.
     pub loads: bool,
+    /// Whether the flask constraint of section 5 acts. Without it walls are
+    /// what they are to plain PBF: a density, and no more (Fig. 5).
+    pub constraint: bool,
     /// Invocations that share a particle: 1, 2, 4 or 8; `None` lets the
     /// device and the number of particles decide.
     pub lanes: Option<u32>,
@@ -88,7 +91,7 @@ impl Solver {
             .map_err(|_| SolverError::TooManyParticles(spec.particles.len()))?;
         let grid = Grid::new(&spec.parameters, count);
         let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
-        let vessels = Vessels::new(gpu, &spec.parameters, spec.flasks, &spec.ground)?;
+        let vessels = Vessels::new(gpu, &spec.parameters, spec.flasks)?;
         let buffers = Buffers::new(gpu, count, &grid, spec.flasks.len(), spec.loads)?;
         let pipelines = Pipelines::new(gpu, library, spec, count, &grid, lanes)?;
         let solver = Self {

@@ -149,10 +149,12 @@ impl Constants {
             ("BLOCKS", f64::from(grid.blocks())),
             ("CELL_GROUPS", f64::from(grid.blocks())),
             ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
+            ("LIST_GROUPS", f64::from((count * lanes).div_ceil(64))),
             ("LIST_SLACK", margin * MARGIN_FOR_PREDICTION),
             ("LIST_REACH", margin * 0.5),
             ("FLASKS", spec.flasks.len() as f64),
             ("LOADS", flag(spec.loads)),
+            ("CONSTRAINT", flag(spec.constraint)),
             ("PLANE_COUNT", PLANE_ENTRIES as f64),
             ("FLOOR", spec.ground.floor),
         ];

@@ -127,8 +127,8 @@ impl Solver {
         write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
-        // Nothing is stale yet; y and z of both dispatch sizes are 1.
-        rec.upload(&b.list_args, &[0u32, 1, 1, 0, 0, 1, 1, 0])?;
+        // Nothing is stale yet; y and z of the dispatch sizes are 1.
+        rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
         gpu.submit(rec)?.wait()?;
         Ok(())
     }

@@ -3,6 +3,7 @@
 use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
 use crate::parameters::Parameters;
 use crate::pose::Pose;
+use crate::scene::TableTop;
 use glam::DVec2;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout;
@@ -10,9 +11,6 @@ use vitriol_shaders::layout;
 /// Entries of the half-space table over one support radius; its error is
 /// then below 1e-5 of a density.
 pub const PLANE_ENTRIES: usize = 129;
-
-/// Thickness of a table top, metres at real size.
-const TABLE_THICKNESS: f64 = 0.03;
 
 /// What is not a flask.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +26,7 @@ pub struct Ground {
 impl Ground {
     /// Height of the table's underside, metres.
     pub fn table_under(&self, top: f64) -> f64 {
-        top - TABLE_THICKNESS * self.scale
+        top - TableTop::THICKNESS * self.scale
     }
 }
 
@@ -46,7 +44,6 @@ impl Vessels {
         gpu: &Gpu,
         parameters: &Parameters,
         profiles: &[Profile],
-        _ground: &Ground,
     ) -> Result<Self, GpuError> {
         let mut flasks = Vec::new();
         let mut radii: Vec<f32> = Vec::new();

@@ -83,13 +83,12 @@ fn column_rests() {
             carry: 0.02,
             ..parameters()
         },
-        600,
+        500,
         Pose::IDENTITY,
     );
-    let ([mean, p99], [early, late]) = settle(&mut water, 60);
-    assert_eq!((water.positions.len(), water.removed), (600, 0));
-    assert_eq!(water.membership, [Some(0); 600]);
-    println!("{mean} {p99} {early} {late}");
+    let ([mean, p99], [early, late]) = settle(&mut water, 48);
+    assert_eq!((water.positions.len(), water.removed), (500, 0));
+    assert_eq!(water.membership, [Some(0); 500]);
     assert!(mean < 0.01 && p99 < 0.03, "{mean} {p99}");
     assert!(late < early, "{early} {late}");
 }
@@ -101,10 +100,10 @@ fn chebyshev_beats_jacobi() {
             relaxation,
             ..parameters()
         };
-        settle(&mut glass_of_water(p, 600, Pose::IDENTITY), 40).0
+        settle(&mut glass_of_water(p, 400, Pose::IDENTITY), 24).0
     };
     let chebyshev = with(parameters().relaxation);
     let jacobi = with(Relaxation::Jacobi { omega: 0.35 });
-    println!("{chebyshev:?} {jacobi:?}");
-    assert!(chebyshev[0] < 0.7 * jacobi[0]);
+    // 0.7 and 2.4 % against 1.1 and 4.4 % (mean, p99) at 600 particles.
+    assert!(chebyshev[0] < 0.8 * jacobi[0] && chebyshev[1] < 0.8 * jacobi[1]);
 }

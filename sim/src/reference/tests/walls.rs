@@ -1,7 +1,7 @@
 //! Nothing acts or passes through glass.
 
 use super::*;
-use crate::flask::particles;
+use crate::flask::{Side, VolumeMap, particles};
 use crate::reference::motion::constrain;
 use crate::reference::placement::Motion;
 use crate::reference::surroundings::Table;
@@ -63,6 +63,19 @@ fn glasses_that_touch_do_not_feel_each_other() {
 }
 
 #[test]
+fn a_member_feels_the_inner_surface_of_its_own_glass_alone() {
+    let (water, _) = two_glasses(parameters(), Vec::new());
+    // By the outermost wall, and by the one that touches the other glass.
+    for x in [-0.0125, 0.0125] {
+        let at = [DVec3::new(x, 0.03, 0.0)];
+        let sum = water.surroundings.sums(&at, &[Some(0)], &water.motion)[0];
+        let map = VolumeMap::new(&narrow_glass(), Side::Inside, H).sample(0.0125, 0.03);
+        assert_eq!(sum.volume, map.volume);
+        assert_eq!(sum.gradient.x, map.volume_dr * x.signum());
+    }
+}
+
+#[test]
 fn what_pours_over_the_rim_is_seen() {
     let rim = 0.062;
     let (mut water, _) = two_glasses(
@@ -91,7 +104,7 @@ fn what_pours_over_the_rim_is_seen() {
 #[test]
 fn boundary_particles_and_maps_make_up_the_density_alike() {
     let profile = narrow_glass();
-    let positions = fill(&profile, Pose::IDENTITY, 600, D, None).unwrap();
+    let positions = fill(&profile, Pose::IDENTITY, 300, D, None).unwrap();
     let solids = particles::sample(&profile, 0.5 * D, H);
     let density = |vessel: Vessel| {
         let surroundings = Surroundings::new(vec![vessel], None, None, H);
@@ -112,7 +125,7 @@ fn boundary_particles_and_maps_make_up_the_density_alike() {
     let (maps, maps_error) = density(Vessel::with_maps(profile.clone(), H));
     let (solid, solid_error) = density(Vessel::with_particles(profile.clone(), solids, H));
     // On the axis, half a spacing above the floor: a lattice cut by a plane.
-    let low = (0..600)
+    let low = (0..300)
         .find(|&i| positions[i].x == 0.0 && positions[i].z == 0.0)
         .unwrap();
     // The half space is even where the lattice is not.

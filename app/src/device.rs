@@ -1,0 +1,40 @@
+//! The device that a command runs on.
+
+use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader};
+
+use crate::failure::Failure;
+use crate::report::DeviceStatement;
+
+/// Opens the device that was asked for, or the best.
+///
+/// # Errors
+/// [`Failure::NoDevice`], or [`Failure::Input`] for a device that is not there.
+pub fn open(device: Option<&str>, timestamps: bool) -> Result<Gpu, Failure> {
+    let options = Options {
+        device: device.map(str::to_owned),
+        timestamps,
+        ..Options::default()
+    };
+    Gpu::open(&mut PlainLoader::default(), &options).map_err(blame)
+}
+
+/// What a report says of it.
+pub fn statement(gpu: &Gpu) -> DeviceStatement {
+    let info = gpu.info();
+    DeviceStatement {
+        name: info.name.clone(),
+        driver: info.driver.clone(),
+        api: info.api.clone(),
+    }
+}
+
+fn blame(error: GpuError) -> Failure {
+    match error {
+        GpuError::NoSuchDevice { .. } => Failure::Input(error.into()),
+        GpuError::NoLoader { .. }
+        | GpuError::NoInstance { .. }
+        | GpuError::NoDevice
+        | GpuError::Unsuitable { .. } => Failure::NoDevice(error.into()),
+        _ => Failure::Other(error.into()),
+    }
+}

@@ -1,0 +1,170 @@
+//! Measures what `vitriol bench` prints: a scene at rest in its flasks, frame
+//! by frame on the device's own clock.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::World;
+
+use crate::cli::BenchArgs;
+use crate::command::bench::{Bench, PassRow, Row, TABLE_2, Timing};
+use crate::device;
+use crate::failure::{Blame, Failure};
+
+/// Simulated time before the first measured frame, seconds: the filling
+/// lattice has settled, and the driver has compiled what it compiles late.
+const WARM_UP: f64 = 1.0;
+
+/// Measures what `vitriol bench` was asked for.
+///
+/// # Errors
+/// [`Failure::NoDevice`], or [`Failure::Input`] for a scene or device that is
+/// not there.
+pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
+    let timed = device::open(args.device.as_deref(), true)?;
+    let plain = device::open(args.device.as_deref(), false)?;
+    let names: Vec<String> = match (&args.scene, args.paper) {
+        (_, true) => TABLE_2.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        (Some(scene), false) => vec![scene.clone()],
+        (None, false) => vec!["beaker".to_owned()],
+    };
+    let rows = names
+        .iter()
+        .map(|name| row(&timed, &plain, name, args))
+        .collect::<Result<_, _>>()?;
+    Ok(Bench {
+        device: device::statement(&timed),
+        frames: args.frames,
+        rows,
+    })
+}
+
+/// One scene: totals without timestamps around passes, which cost time
+/// themselves on a software driver, then each pass with them.
+fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Failure> {
+    let scene = Scene::load(name).input()?.with_preset(args.preset.into());
+    let whole = Whole::run(plain, &scene, args.frames)?;
+    let passes = passes(timed, &scene, args.frames)?;
+    let paper = TABLE_2.iter().find(|(known, _)| *known == name);
+    Ok(Row {
+        scene: name.to_owned(),
+        fluid_particles: whole.particles,
+        solid_particles: 0,
+        substeps: scene.solver.substeps,
+        iterations: scene.solver.iterations,
+        density_error_mean: whole.density_error.0,
+        density_error_p99: whole.density_error.1,
+        total: whole.total,
+        device_total: passes.total,
+        cpu: whole.cpu,
+        passes: passes.rows,
+        paper: paper.map(|(_, row)| *row),
+    })
+}
+
+/// A frame as a whole.
+struct Whole {
+    particles: u64,
+    density_error: (f64, f64),
+    /// From the recording's begin to the device's end.
+    total: Timing,
+    /// Recording and submitting.
+    cpu: Timing,
+}
+
+impl Whole {
+    fn run(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Self, Failure> {
+        let world = settled(gpu, scene)?;
+        let poses = world.poses().to_vec();
+        let (mut total, mut cpu) = (Vec::new(), Vec::new());
+        for _ in 0..frames {
+            let begin = Instant::now();
+            let mut rec = gpu.recorder(QueueKind::Main).other()?;
+            world.solver().record(&mut rec, &poses, &poses).other()?;
+            let ticket = gpu.submit(rec).other()?;
+            cpu.push(milliseconds(begin));
+            ticket.wait().other()?;
+            total.push(milliseconds(begin));
+        }
+        let measured = world.measure().other()?;
+        Ok(Self {
+            particles: u64::from(world.solver().count()),
+            density_error: (measured.density_error_mean, measured.density_error_p99),
+            total: Timing::of(&total),
+            cpu: Timing::of(&cpu),
+        })
+    }
+}
+
+/// Passes of a frame on the device's clock.
+struct Passes {
+    total: Timing,
+    rows: Vec<PassRow>,
+}
+
+fn passes(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Passes, Failure> {
+    let world = settled(gpu, scene)?;
+    let poses = world.poses().to_vec();
+    let mut totals = Vec::new();
+    let mut times: BTreeMap<String, (u32, u64, Vec<f64>)> = BTreeMap::new();
+    let mut order: Vec<String> = Vec::new();
+    for _ in 0..frames {
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        world.solver().record(&mut rec, &poses, &poses).other()?;
+        let ticket = gpu.submit(rec).other()?;
+        ticket.wait().other()?;
+        let mut frame: BTreeMap<String, (u32, u64, f64)> = BTreeMap::new();
+        for pass in ticket.timings().other()? {
+            if pass.label == "total" {
+                totals.push(pass.nanoseconds * 1e-6);
+                continue;
+            }
+            if !order.contains(&pass.label) {
+                order.push(pass.label.clone());
+            }
+            let sum = frame.entry(pass.label).or_default();
+            sum.0 += 1;
+            sum.1 += pass.bytes;
+            sum.2 += pass.nanoseconds * 1e-6;
+        }
+        for (label, (dispatches, bytes, time)) in frame {
+            let kept = times.entry(label).or_default();
+            (kept.0, kept.1) = (dispatches, bytes);
+            kept.2.push(time);
+        }
+    }
+    let rows = order
+        .iter()
+        .filter_map(|name| times.get(name).map(|kept| (name, kept)))
+        .map(|(name, (dispatches, bytes, times))| PassRow {
+            name: name.clone(),
+            dispatches: *dispatches,
+            bytes: *bytes,
+            time: Timing::of(times),
+        })
+        .collect();
+    Ok(Passes {
+        total: Timing::of(&totals),
+        rows,
+    })
+}
+
+/// A world whose liquid has come to rest.
+fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
+    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let poses = world.poses().to_vec();
+    let frames = (WARM_UP / scene.scale.frame_time).ceil() as u64;
+    for _ in 0..frames {
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        world.solver().record(&mut rec, &poses, &poses).other()?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+    }
+    Ok(world)
+}
+
+fn milliseconds(begin: Instant) -> f64 {
+    begin.elapsed().as_secs_f64() * 1e3
+}

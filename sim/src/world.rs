@@ -1,0 +1,305 @@
+//! The simulation's one entrance: a world that advances by a fixed step with
+//! that step's inputs.
+
+use crate::bodies::{Bodies, BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
+use crate::fill::FillError;
+use crate::parameters::Parameters;
+use crate::pose::Pose;
+use crate::scene::Scene;
+use crate::solver::{
+    Counters, FrameRecord, Ground, Particle, Solver, SolverError, SolverSpec, SolverState,
+};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+use thiserror::Error;
+use vitriol_gpu::{Gpu, GpuError, QueueKind, Ticket};
+use vitriol_shaders::Library;
+use vitriol_shaders::layout::LiquidLoad;
+
+/// Steps after which the liquid's push acts on a flask. Two, always: by then
+/// the device has finished the frame, so that no one waits for it, and a
+/// replay has the same bits as the live session.
+const LOAD_DELAY: usize = 2;
+
+/// What a step is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepInput {
+    /// Left and right hand at the step's end.
+    pub hands: [Hand; 2],
+}
+
+/// Why a world could not be made or could not go on.
+#[derive(Debug, Error)]
+pub enum WorldError {
+    /// The particle solver.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// The device.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The rigid bodies.
+    #[error(transparent)]
+    Bodies(#[from] BodiesError),
+    /// A liquid does not fit its flask.
+    #[error(transparent)]
+    Fill(#[from] FillError),
+}
+
+/// Everything that the next step depends on.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct WorldState {
+    /// Steps done.
+    pub step: u64,
+    /// The particles.
+    pub solver: SolverState,
+    bodies: Vec<u8>,
+    loads: Vec<Vec<[[f32; 4]; 3]>>,
+}
+
+/// A scene in motion.
+pub struct World {
+    gpu: Gpu,
+    scene: Scene,
+    bodies: Bodies,
+    solver: Solver,
+    /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
+    loads: VecDeque<PendingLoad>,
+    step: u64,
+    last: Option<Ticket>,
+}
+
+/// A step's loads, on the device still or read already.
+enum PendingLoad {
+    Device(FrameRecord, Ticket),
+    Host(Vec<LiquidLoad>),
+}
+
+impl World {
+    /// The scene at its start, under the preset that was applied to it, with
+    /// the filling's jitter from `seed`.
+    ///
+    /// # Errors
+    /// [`WorldError`].
+    pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, seed: u64) -> Result<Self, WorldError> {
+        let parameters = Parameters::from_scene(scene);
+        let particles: Vec<Particle> = scene
+            .start(Some(seed))?
+            .iter()
+            .map(|start| Particle {
+                position: start.position,
+                velocity: DVec3::ZERO,
+                flask: Some(start.flask),
+            })
+            .collect();
+        let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
+        let spec = SolverSpec {
+            parameters,
+            flasks: &profiles,
+            ground: ground(scene),
+            particles: &particles,
+            loads: scene.flasks.iter().any(|flask| !flask.fixed),
+            constraint: true,
+            lanes: None,
+        };
+        Ok(Self {
+            gpu: gpu.clone(),
+            bodies: Bodies::new(&bodies(scene))?,
+            solver: Solver::new(gpu, library, &spec)?,
+            scene: scene.clone(),
+            loads: VecDeque::new(),
+            step: 0,
+            last: None,
+        })
+    }
+
+    /// Advances by one step of the scene's Δt_f: the hands move the flasks,
+    /// and these the liquid. Returns once the device has its work.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn step(&mut self, input: &StepInput) -> Result<(), WorldError> {
+        let loads = self.due_loads()?;
+        let before = self.bodies.poses().to_vec();
+        self.bodies.step(&input.hands, &loads);
+        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
+        let ticket = self.gpu.submit(rec)?;
+        self.loads
+            .push_back(PendingLoad::Device(record, ticket.clone()));
+        self.last = Some(ticket);
+        self.step += 1;
+        Ok(())
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// The scene that it was made of.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The device that it runs on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The submission of the last step, for who draws it on another queue.
+    pub fn last_step(&self) -> Option<&Ticket> {
+        self.last.as_ref()
+    }
+
+    /// The particles on the device.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
+    }
+
+    /// stage_from_flask of each flask, after the last step.
+    pub fn poses(&self) -> &[Pose] {
+        self.bodies.poses()
+    }
+
+    /// Index of the hand that holds a flask.
+    pub fn holder(&self, flask: usize) -> Option<usize> {
+        self.bodies.holder(flask)
+    }
+
+    /// Events counted so far; waits for the device.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn counters(&self) -> Result<Counters, WorldError> {
+        Ok(self.solver.counters()?)
+    }
+
+    /// The whole state on the host; waits for the device.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn snapshot(&self) -> Result<WorldState, WorldError> {
+        let solver = self.solver.snapshot()?;
+        let loads = self.loads.iter().map(|load| {
+            let sums = load.read()?;
+            Ok(sums.iter().map(|s| [s.impulse, s.angular, s.offsets]).collect())
+        });
+        Ok(WorldState {
+            step: self.step,
+            solver,
+            bodies: self.bodies.snapshot()?,
+            loads: loads.collect::<Result<_, SolverError>>()?,
+        })
+    }
+
+    /// Takes up a state of the same scene and preset, on this device; what
+    /// follows has the bits that it would have had without the interruption
+    /// on a device of the same kind.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the state is another scene's, or the device fails.
+    pub fn restore(&mut self, state: &WorldState) -> Result<(), WorldError> {
+        self.solver.restore(&state.solver)?;
+        self.bodies.restore(&state.bodies)?;
+        self.step = state.step;
+        self.loads = state
+            .loads
+            .iter()
+            .map(|sums| {
+                let load = |&[impulse, angular, offsets]: &[[f32; 4]; 3]| LiquidLoad {
+                    impulse,
+                    angular,
+                    offsets,
+                };
+                PendingLoad::Host(sums.iter().map(load).collect())
+            })
+            .collect();
+        Ok(())
+    }
+
+    /// What the liquid did [`LOAD_DELAY`] steps ago.
+    fn due_loads(&mut self) -> Result<Vec<Load>, WorldError> {
+        if self.loads.len() < LOAD_DELAY {
+            return Ok(Vec::new());
+        }
+        let Some(due) = self.loads.pop_front() else {
+            return Ok(Vec::new());
+        };
+        let mass = self.solver.parameters().particle_mass() as f32;
+        let poses = self.bodies.poses();
+        let loads = due.read()?;
+        Ok(loads
+            .iter()
+            .zip(poses)
+            .map(|(sum, pose)| load(sum, *pose, mass))
+            .collect())
+    }
+}
+
+impl PendingLoad {
+    fn read(&self) -> Result<Vec<LiquidLoad>, SolverError> {
+        match self {
+            Self::Device(record, ticket) => {
+                ticket.wait()?;
+                record.loads()
+            }
+            Self::Host(loads) => Ok(loads.clone()),
+        }
+    }
+}
+
+/// A flask's load from its sums over particles.
+fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
+    let axes = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+    let number = sum.impulse[3];
+    let offset = axes(sum.offsets) / number.max(1.0);
+    Load {
+        impulse: axes(sum.impulse),
+        angular_impulse: axes(sum.angular),
+        liquid_mass: number * particle_mass,
+        liquid_centre: stage_from_flask.orientation.inverse() * offset,
+    }
+}
+
+/// Table and floor of a scene, for the particles.
+pub fn ground(scene: &Scene) -> Ground {
+    Ground {
+        floor: scene.floor.height,
+        table: scene
+            .table
+            .map(|t| (t.top, DVec2::from(t.centre), DVec2::from(t.size))),
+        scale: 1.0 / scene.scale.length_scale,
+    }
+}
+
+/// The rigid bodies of a scene.
+fn bodies(scene: &Scene) -> BodiesSpec {
+    let single = |pair: [f64; 2]| Vec2::new(pair[0] as f32, pair[1] as f32);
+    BodiesSpec {
+        gravity: Vec3::new(0.0, -scene.scale.gravity as f32, 0.0),
+        step: scene.scale.frame_time as f32,
+        length_scale: (1.0 / scene.scale.length_scale) as f32,
+        table: scene.table.map(|table| Table {
+            top: table.top as f32,
+            centre: single(table.centre),
+            size: single(table.size),
+        }),
+        floor: scene.floor.height as f32,
+        flasks: scene
+            .flasks
+            .iter()
+            .map(|flask| BodySpec {
+                outline: flask
+                    .profile
+                    .outer_outline()
+                    .iter()
+                    .map(|&[r, y]| [r as f32, y as f32])
+                    .collect(),
+                glass_mass: flask.mass as f32,
+                stage_from_flask: flask.stage_from_flask,
+                fixed: flask.fixed,
+            })
+            .collect(),
+    }
+}
