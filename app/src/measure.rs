@@ -18,6 +18,11 @@ use crate::failure::{Blame, Failure};
 /// lattice has settled, and the driver has compiled what it compiles late.
 const WARM_UP: f64 = 1.0;
 
+/// Frames that are submitted before the device is waited for: as in the loop,
+/// recording one frame overlaps with solving the one before, and the time is
+/// that of whichever takes longer.
+const QUEUED: u32 = 8;
+
 /// Measures what `vitriol bench` was asked for.
 ///
 /// # Errors
@@ -69,7 +74,8 @@ fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Fa
 struct Whole {
     particles: u64,
     density_error: (f64, f64),
-    /// From the recording's begin to the device's end.
+    /// A frame's share of [`QUEUED`] frames, from the first one's recording
+    /// to the last one's end.
     total: Timing,
     /// Recording and submitting.
     cpu: Timing,
@@ -80,14 +86,20 @@ impl Whole {
         let world = settled(gpu, scene)?;
         let poses = world.poses().to_vec();
         let (mut total, mut cpu) = (Vec::new(), Vec::new());
-        for _ in 0..frames {
+        for _ in 0..frames.div_ceil(QUEUED) {
             let begin = Instant::now();
-            let mut rec = gpu.recorder(QueueKind::Main).other()?;
-            world.solver().record(&mut rec, &poses, &poses).other()?;
-            let ticket = gpu.submit(rec).other()?;
-            cpu.push(milliseconds(begin));
-            ticket.wait().other()?;
-            total.push(milliseconds(begin));
+            let mut last = None;
+            for _ in 0..QUEUED {
+                let recording = Instant::now();
+                let mut rec = gpu.recorder(QueueKind::Main).other()?;
+                world.solver().record(&mut rec, &poses, &poses).other()?;
+                last = Some(gpu.submit(rec).other()?);
+                cpu.push(milliseconds(recording));
+            }
+            if let Some(ticket) = last {
+                ticket.wait().other()?;
+            }
+            total.push(milliseconds(begin) / f64::from(QUEUED));
         }
         let measured = world.measure().other()?;
         Ok(Self {

@@ -57,7 +57,9 @@ impl World {
             self.gpu().submit(rec)?.wait()?;
             errors = density.get::<f32>()?;
             errors.truncate(solver.count() as usize);
-            errors.iter_mut().for_each(|density| *density = (*density - 1.0).max(0.0));
+            errors
+                .iter_mut()
+                .for_each(|density| *density = (*density - 1.0).max(0.0));
             errors.sort_by(f32::total_cmp);
         }
         let count = errors.len().max(1);
@@ -111,8 +113,13 @@ impl World {
         }
         scene.flasks.iter().enumerate().any(|(index, flask)| {
             let pose = self.poses()[index];
-            let local = pose.inverse().transform_point(position.as_vec3()).as_dvec3();
-            let depth = flask.profile.signed_distance_inner(local.x.hypot(local.z), local.y);
+            let local = pose
+                .inverse()
+                .transform_point(position.as_vec3())
+                .as_dvec3();
+            let depth = flask
+                .profile
+                .signed_distance_inner(local.x.hypot(local.z), local.y);
             if member_of == Some(index) {
                 Region::of(&flask.profile, local) == Region::Outside && depth < -tolerance
             } else {
@@ -132,14 +139,17 @@ fn lies_on_table(scene: &Scene, position: DVec3, thickness: f64) -> bool {
 }
 
 fn kinetic_energy(state: &SolverState, mass: f64) -> f64 {
-    let squares = state.velocities.iter().map(|&[x, y, z, _]| {
-        f64::from(Vec3::new(x, y, z).length_squared())
-    });
+    let squares = state
+        .velocities
+        .iter()
+        .map(|&[x, y, z, _]| f64::from(Vec3::new(x, y, z).length_squared()));
     0.5 * mass * squares.sum::<f64>()
 }
 
 /// Of sorted values, by nearest rank; 0 of none.
 fn percentile(sorted: &[f32], share: f64) -> f64 {
     let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted.get(rank.saturating_sub(1)).map_or(0.0, |&v| v.into())
+    sorted
+        .get(rank.saturating_sub(1))
+        .map_or(0.0, |&v| v.into())
 }

@@ -83,15 +83,7 @@ impl World {
     /// [`WorldError`].
     pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, seed: u64) -> Result<Self, WorldError> {
         let parameters = Parameters::from_scene(scene);
-        let particles: Vec<Particle> = scene
-            .start(Some(seed))?
-            .iter()
-            .map(|start| Particle {
-                position: start.position,
-                velocity: DVec3::ZERO,
-                flask: Some(start.flask),
-            })
-            .collect();
+        let particles = particles(scene, seed)?;
         let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
         let spec = SolverSpec {
             parameters,
@@ -183,7 +175,10 @@ impl World {
         let solver = self.solver.snapshot()?;
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
-            Ok(sums.iter().map(|s| [s.impulse, s.angular, s.offsets]).collect())
+            Ok(sums
+                .iter()
+                .map(|s| [s.impulse, s.angular, s.offsets])
+                .collect())
         });
         Ok(WorldState {
             step: self.step,
@@ -260,6 +255,26 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
         liquid_mass: number * particle_mass,
         liquid_centre: stage_from_flask.orientation.inverse() * offset,
     }
+}
+
+/// The liquid at the start, under the pressure of its depth: from none, the
+/// column would first be squeezed while its multipliers build up.
+fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
+    let start = scene.start(Some(seed))?;
+    let mut levels = vec![f64::NEG_INFINITY; scene.flasks.len()];
+    for particle in &start {
+        let level = &mut levels[particle.flask];
+        *level = level.max(particle.position.y);
+    }
+    Ok(start
+        .iter()
+        .map(|particle| Particle {
+            position: particle.position,
+            velocity: DVec3::ZERO,
+            flask: Some(particle.flask),
+            carried: scene.scale.gravity * (particle.position.y - levels[particle.flask]),
+        })
+        .collect())
 }
 
 /// Table and floor of a scene, for the particles.

@@ -39,8 +39,8 @@ pub struct Row {
     pub density_error_mean: f64,
     /// 99th percentile of the same.
     pub density_error_p99: f64,
-    /// A frame from the begin of its recording to the device's end, measured
-    /// without timestamps around its passes.
+    /// A frame's share of several that are queued one behind the other,
+    /// measured without timestamps around their passes.
     pub total: Timing,
     /// All passes of a frame by the device's clock, with timestamps around them.
     pub device_total: Timing,
@@ -189,7 +189,7 @@ fn describe(bench: &Bench) -> String {
             "all passes, timed",
             row.device_total.median_ms,
             row.device_total.p95_ms,
-            "frame, untimed",
+            "frame, queued, untimed",
             row.total.median_ms,
             row.total.p95_ms,
             "of it recording, submitting",

@@ -19,7 +19,7 @@ fn outside_vessels(x: vec3<f32>, pose_first: u32) -> vec4<f32> {
         let pose = poses[pose_first + k];
         let reach = flasks[k].outer + flasks[k].rim + SUPPORT;
         let offset = x - pose.position.xyz;
-        for (var close = dot(offset, offset) < reach * reach; close; close = false) {
+        if (dot(offset, offset) < reach * reach) {
             sum += vessel_volume(k, pose, flasks[k].outside_first, x);
         }
     }
@@ -30,16 +30,15 @@ fn outside_vessels(x: vec3<f32>, pose_first: u32) -> vec4<f32> {
 /// is inside a flask feels that flask's inner surface and nothing beyond it.
 fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
-    // Loops that run once stand for `if`: a software driver skips a loop that
-    // no invocation enters, but walks both sides of every `if`.
     if (FLASKS > 0u) {
-        for (var inside = membership != NOBODYS; inside; inside = false) {
+        if (membership != NOBODYS) {
             let k = membership - 1u;
             sum = vessel_volume(k, poses[pose_first + k], flasks[k].inside_first, x);
+        } else {
+            sum = outside_vessels(x, pose_first);
         }
     }
-    for (var outside = membership == NOBODYS; outside; outside = false) {
-        if (FLASKS > 0u) { sum = outside_vessels(x, pose_first); }
+    if (membership == NOBODYS) {
         if (TABLE) {
             let above = x.y - TABLE_TOP;
             if (above < SUPPORT && x.y > TABLE_UNDER && beyond_table(x) < 0.0) {

@@ -13,26 +13,37 @@ struct Constrained {
     generated: bool,
 }
 
-/// Signed distance to the glass (positive on either side of it), or far off a lower bound.
-fn glass_distance(k: u32, p: vec3<f32>) -> f32 {
+/// Signed distances to the glass, of the maps for particles outside.
+@group(0) @binding(25) var<storage, read> distances: array<f32>;
+
+/// Direction in which the distance to the glass grows fastest, and that
+/// distance (positive on either side of it; beyond the map a lower bound).
+/// One sample gives both: on a software driver, gathers are what this costs.
+fn glass(k: u32, p: vec3<f32>) -> vec4<f32> {
     let r = length(p.xz);
-    let beside = max(r - flasks[k].outer, 0.0);
-    let beyond = max(max(p.y - flasks[k].rim, -p.y), 0.0);
-    let bound = length(vec2<f32>(beside, beyond));
-    if (bound > 0.25 * flasks[k].rim) { return bound; }
-    return sample_map(k, flasks[k].outside_first, r, p.y).x;
+    let columns = flasks[k].map_columns;
+    let at = vec2<f32>(r, p.y - flasks[k].map_base) * flasks[k].map_scale;
+    let last = vec2<f32>(f32(columns - 1u), f32(flasks[k].map_rows - 1u));
+    let edge = clamp(at, vec2<f32>(0.0), last);
+    let i = min(u32(edge.x), columns - 2u);
+    let j = min(u32(edge.y), flasks[k].map_rows - 2u);
+    let s = edge.x - f32(i);
+    let t = edge.y - f32(j);
+    let node = flasks[k].distance_first + j * columns + i;
+    let a = distances[node];
+    let b = distances[node + 1u];
+    let c = distances[node + columns];
+    let d = distances[node + columns + 1u];
+    let slope = vec2<f32>(mix(b - a, d - c, t), mix(c - a, d - b, s));
+    let out = p.xz / max(r, 1e-9);
+    let normal = vec3<f32>(out.x * slope.x, slope.y, out.y * slope.x);
+    let value = mix(mix(a, b, s), mix(c, d, s), t);
+    let away = length(at - edge) / flasks[k].map_scale;
+    return vec4<f32>(normal / max(length(normal), 1e-12), select(value, max(abs(value), away), away > 0.0));
 }
 
-/// Direction in which the distance to the glass grows fastest.
-fn outward(k: u32, p: vec3<f32>) -> vec3<f32> {
-    let e = 0.25 * flasks[k].wall;
-    let slope = vec3<f32>(
-        glass_distance(k, p + vec3<f32>(e, 0.0, 0.0)) - glass_distance(k, p - vec3<f32>(e, 0.0, 0.0)),
-        glass_distance(k, p + vec3<f32>(0.0, e, 0.0)) - glass_distance(k, p - vec3<f32>(0.0, e, 0.0)),
-        glass_distance(k, p + vec3<f32>(0.0, 0.0, e)) - glass_distance(k, p - vec3<f32>(0.0, 0.0, e)));
-    let size = length(slope);
-    if (size > 0.0) { return slope / size; }
-    return vec3<f32>(0.0, 1.0, 0.0);
+fn glass_distance(k: u32, p: vec3<f32>) -> f32 {
+    return glass(k, p).w;
 }
 
 /// Fig. 4: vertically to a proper height, then radially at the radius of that height.
@@ -69,9 +80,10 @@ fn out_of_glass(k: u32, p: vec3<f32>) -> vec3<f32> {
 fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     var start = before;
     let was_in = is_inside(k, before);
-    if (was_in || glass_distance(k, before) < 0.0) {
+    let here = glass(k, before);
+    if (was_in || here.w < 0.0) {
         // Still in the glass by rounding or by the map's interpolation: along its normal first.
-        start = before + outward(k, before) * (2.0 * MARGIN - glass_distance(k, before));
+        start = before + here.xyz * (2.0 * MARGIN - here.w);
         if (was_in || glass_distance(k, start) < 0.0 || is_inside(k, start)) {
             start = out_of_glass(k, before);
         }
@@ -104,11 +116,11 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     }
     let hit = start + path * (clear / size);
     // The rest of the motion along the glass, so that a drop runs down it.
-    let normal = outward(k, hit);
+    let normal = glass(k, hit).xyz;
     let rest = after - hit;
     var slid = hit + rest - normal * min(dot(rest, normal), 0.0) + normal * MARGIN;
-    let gap = glass_distance(k, slid);
-    if (gap < MARGIN) { slid += outward(k, slid) * (2.0 * MARGIN - gap); }
+    let gap = glass(k, slid);
+    if (gap.w < MARGIN) { slid += gap.xyz * (2.0 * MARGIN - gap.w); }
     if (glass_distance(k, slid) < 0.0 || is_inside(k, slid) || length(slid - hit) > 2.0 * length(rest) + 8.0 * MARGIN) {
         slid = hit;
     }
@@ -128,8 +140,7 @@ fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first:
         return result;
     }
     if (FLASKS > 0u) {
-        // Loops that run once in place of `if`, as in `boundary_volume`.
-        for (var member = membership != NOBODYS; member; member = false) {
+        if (membership != NOBODYS) {
             let k = membership - 1u;
             let p = from_inside(k, flask_from_stage(poses[before_first + k], before),
                                 flask_from_stage(poses[after_first + k], after));
@@ -139,16 +150,15 @@ fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first:
                 result.position = stage_from_flask(poses[after_first + k], p.position);
             }
         }
-        for (var nobodys = result.membership == NOBODYS; nobodys; nobodys = false) {
+        if (result.membership == NOBODYS) {
             for (var k = 0u; k < FLASKS; k++) {
                 let local_before = flask_from_stage(poses[before_first + k], before);
                 let local_after = flask_from_stage(poses[after_first + k], result.position);
                 let reach = length(local_after - local_before) + flasks[k].wall
                     + flasks[k].outer + 0.5 * flasks[k].rim;
                 let middle = vec3<f32>(0.0, 0.5 * flasks[k].rim, 0.0);
-                var near = length(local_before - middle) <= reach
-                    && k + 1u != membership && result.membership == NOBODYS;
-                for (; near; near = false) {
+                let near = length(local_before - middle) <= reach;
+                if (near && k + 1u != membership && result.membership == NOBODYS) {
                     let p = from_outside(k, local_before, local_after);
                     result.membership = p.membership;
                     if (p.generated) {

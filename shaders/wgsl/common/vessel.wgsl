@@ -26,6 +26,8 @@ struct Flask {
     inside_first: u32,
     /// First node of the map for all others.
     outside_first: u32,
+    /// First node of the distances for all others.
+    distance_first: u32,
     /// Nodes in r.
     map_columns: u32,
     /// Nodes in y.

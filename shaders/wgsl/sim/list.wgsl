@@ -10,6 +10,7 @@
 
 override LOADS: bool = false;
 
+/// (x*, bits of the membership)
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> sorted_position: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> sorted_velocity: array<vec4<f32>>;
@@ -50,24 +51,29 @@ fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
 
 var<private> found: u32;
 var<private> coincident: bool;
+/// Whether any candidate has another membership.
+var<private> mixed: bool;
 
 /// Tests the particles from `first` to `end`; with `keep` it lists those that are neighbours.
 fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32, keep: bool) {
     for (var j = first; j < end; j++) {
-        let other = sorted_trial[j].xyz;
-        let offset = x - other;
+        let other = sorted_trial[j];
+        let theirs = bitcast<u32>(other.w);
+        let offset = x - other.xyz;
         let distance = dot(offset, offset);
-        var near = distance < CELL * CELL && j != i;
-        let theirs = sorted_tags[j].x;
-        // A loop, not an `if`: a software driver walks both sides of an `if`
-        // for every pair, and leaves a loop that no invocation enters.
-        for (var past_glass = near && theirs != membership; past_glass; past_glass = false) {
-            near = visible(membership, x, theirs, other);
-        }
-        if (near) {
-            if (keep && found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
-            found++;
-            coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
+        if (distance < CELL * CELL && j != i) {
+            mixed = mixed || theirs != membership;
+            // On a software driver, which walks both sides of every `if`, the
+            // few pairs of mixed membership are looked at afterwards.
+            var seen = true;
+            if (LANES > 1u) {
+                if (theirs != membership) { seen = visible(membership, x, theirs, other.xyz); }
+            }
+            if (seen) {
+                if (keep && found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
+                found++;
+                coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
+            }
         }
     }
 }
@@ -92,6 +98,21 @@ fn search_rows(i: u32, lane: u32, x: vec3<f32>, membership: u32, keep: bool) {
     }
 }
 
+/// Takes those of the first `listed` neighbours off the list that glass hides.
+fn drop_unseen(i: u32, x: vec3<f32>, membership: u32, listed: u32) {
+    var kept = 0u;
+    for (var k = 0u; k < listed; k++) {
+        let j = list[k * COUNT + i];
+        let other = sorted_trial[j];
+        let theirs = bitcast<u32>(other.w);
+        if (theirs == membership || visible(membership, x, theirs, other.xyz)) {
+            list[kept * COUNT + i] = j;
+            kept++;
+        }
+    }
+    if (listed > 0u) { found = kept; }
+}
+
 /// A direction from a particle's identity: apart, but the same at each replay.
 fn apart(identity: u32) -> vec3<f32> {
     var bits = identity * 747796405u + 2891336453u;
@@ -109,6 +130,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var x = sorted_trial[i].xyz;
     found = 0u;
     coincident = false;
+    mixed = false;
     if (LANES > 1u) {
         // Counts first, so that each lane knows where its own part of the list begins.
         if (tag.x != REMOVED) { search_rows(i, lane, x, tag.x, false); }
@@ -124,8 +146,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         found = total;
         coincident = lane_sum(select(0.0, 1.0, coincident)) > 0.0;
         if (lane != 0u) { return; }
-    } else if (tag.x != REMOVED) {
-        search_rows(i, 0u, x, tag.x, true);
+    } else {
+        if (tag.x != REMOVED) { search_rows(i, 0u, x, tag.x, true); }
+        let listed = min(found, LIST_CAPACITY);
+        if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
+        found = listed;
+        if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
     }
     // Kernel gradients vanish at distance zero; particles in one place would
     // stay together for ever.

@@ -37,9 +37,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var k = start; k < end; k++) {
         to += select(0u, 1u, cell_items[k] < i);
     }
-    sorted_trial[to] = x;
+    let tag = tags[i];
+    // The list pass reads both of every candidate: one fetch in place of two.
+    sorted_trial[to] = vec4<f32>(x.xyz, bitcast<f32>(tag.x));
     sorted_position[to] = position[i];
     sorted_velocity[to] = velocity[i];
-    sorted_tags[to] = tags[i];
+    sorted_tags[to] = tag;
     if (LOADS) { sorted_push[to] = wall_push[i]; }
 }

@@ -12,8 +12,8 @@ mod tests;
 
 pub use error::SceneError;
 pub use settings::{
-    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, RelaxationKind, Scale, SolverSettings,
-    TableTop,
+    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, RelaxationKind, Scale,
+    SolverSettings, TableTop,
 };
 
 use crate::fill::{self, FillError};

@@ -81,7 +81,14 @@ impl Buffers {
             list_args: words("list_args", 16)?,
             poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks as u64)?,
             wall_push: words("wall_push", 4 * pushed)?,
-            loads: words("loads", if loads { 12 * groups * flasks as u64 } else { 0 })?,
+            loads: words(
+                "loads",
+                if loads {
+                    12 * groups * flasks as u64
+                } else {
+                    0
+                },
+            )?,
             density: words("density", n)?,
         })
     }

@@ -249,6 +249,7 @@ impl Solver {
             .read("multiplier", &b.multiplier)
             .read("velocity", &b.velocity)
             .write("position", &b.position)
+            .read("distances", &self.vessels.distances)
             .write("tags", &b.tags)
             .write("new_velocity", &b.new_velocity)
             .read("list_origin", &b.list_origin)
@@ -265,7 +266,11 @@ impl Solver {
         last: bool,
     ) -> Result<(), SolverError> {
         let (b, p) = (&self.buffers, &self.pipelines);
-        let pass = if last { &p.last_viscosity } else { &p.viscosity };
+        let pass = if last {
+            &p.last_viscosity
+        } else {
+            &p.viscosity
+        };
         self.prediction(rec.pass(pass))
             .read("position", &b.position)
             .read("new_velocity", &b.new_velocity)
@@ -333,6 +338,7 @@ impl Solver {
     fn prediction<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
         let b = &self.buffers;
         self.vessels(pass)
+            .read("distances", &self.vessels.distances)
             .write("list_args", &b.list_args)
             .read("list_origin", &b.list_origin)
             .write("wall_push", &b.wall_push)

@@ -42,6 +42,9 @@ pub struct Particle {
     pub velocity: DVec3,
     /// Index of the flask it is in.
     pub flask: Option<usize>,
+    /// Carried multiplier −p/ρ at the start, m²/s², at most 0; unused where
+    /// nothing is carried.
+    pub carried: f64,
 }
 
 /// What the solver is made of, beside its parameters.

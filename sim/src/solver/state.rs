@@ -36,8 +36,14 @@ impl SolverState {
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
         Self {
             positions: particles.iter().map(|p| words(p.position, 1.0)).collect(),
-            velocities: particles.iter().map(|p| words(p.velocity, 0.0)).collect(),
-            tags: (0..).zip(particles).map(|(i, p)| [membership(p), i]).collect(),
+            velocities: particles
+                .iter()
+                .map(|p| words(p.velocity, p.carried as f32))
+                .collect(),
+            tags: (0..)
+                .zip(particles)
+                .map(|(i, p)| [membership(p), i])
+                .collect(),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],

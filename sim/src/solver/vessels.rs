@@ -35,19 +35,17 @@ pub struct Vessels {
     pub(super) flasks: Buffer,
     pub(super) radii: Buffer,
     pub(super) maps: Buffer,
+    pub(super) distances: Buffer,
     pub(super) plane: Buffer,
 }
 
 impl Vessels {
     /// Tabulates radii and volume maps and uploads them.
-    pub fn new(
-        gpu: &Gpu,
-        parameters: &Parameters,
-        profiles: &[Profile],
-    ) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, parameters: &Parameters, profiles: &[Profile]) -> Result<Self, GpuError> {
         let mut flasks = Vec::new();
         let mut radii: Vec<f32> = Vec::new();
         let mut maps: Vec<[f32; 4]> = Vec::new();
+        let mut distances: Vec<f32> = Vec::new();
         for profile in profiles {
             let support = parameters.support_radius;
             let inside = VolumeMap::new(profile, Side::Inside, support);
@@ -66,6 +64,7 @@ impl Vessels {
                 radius_count: table.len() as u32,
                 inside_first: maps.len() as u32,
                 outside_first: (maps.len() + inside.nodes().len()) as u32,
+                distance_first: distances.len() as u32,
                 map_columns: columns as u32,
                 map_rows: rows as u32,
                 map_scale: (1.0 / inside.spacing()) as f32,
@@ -74,12 +73,14 @@ impl Vessels {
             radii.extend(table);
             maps.extend_from_slice(inside.nodes());
             maps.extend_from_slice(outside.nodes());
+            distances.extend(outside.nodes().iter().map(|node| node[0]));
         }
         let plane = PlaneMap::new(parameters.support_radius).table(PLANE_ENTRIES);
         Ok(Self {
             flasks: upload(gpu, "flasks", &flasks)?,
             radii: upload(gpu, "radii", &radii)?,
             maps: upload(gpu, "maps", &maps)?,
+            distances: upload(gpu, "distances", &distances)?,
             plane: upload(gpu, "plane", &plane)?,
         })
     }
