@@ -51,7 +51,7 @@ impl World {
         let state = solver.snapshot()?;
         let counters = solver.counters()?;
         let mut errors = Vec::new();
-        if self.steps() > 0 && solver.count() > 0 {
+        if solver.count() > 0 {
             let mut rec = self.gpu().recorder(QueueKind::Main)?;
             let density = solver.record_density(&mut rec)?;
             self.gpu().submit(rec)?.wait()?;

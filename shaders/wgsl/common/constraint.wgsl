@@ -132,6 +132,8 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
 /// under those from `after_first` on (stage frame).
 fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first: u32, after_first: u32) -> Constrained {
     var result = Constrained(after, membership, false);
+    // Clamps and maxima would make a number of what is none, and it would stay.
+    if (!is_finite(after)) { return result; }
     if (!CONSTRAINT) {
         result.membership = NOBODYS;
         for (var k = 0u; k < FLASKS; k++) {

@@ -1,6 +1,6 @@
 //! Algorithm 1 on the GPU.
 //!
-//! [`frame`] is the loop itself. Each pass is a file of the same name in the
+//! `frame.rs` is the loop itself. Each pass is a file of the same name in the
 //! shaders' folder `sim/`; `reference/` is the same mathematics in f64.
 //!
 //! Few passes, since a dispatch with its barrier costs as much as the work of
