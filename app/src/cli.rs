@@ -48,6 +48,9 @@ pub enum Command {
     Scenes,
     /// Measure the time of each pass, with the density error beside it
     Bench(BenchArgs),
+    /// Fig. 5 of the paper: a flask moved violently, without and with the flask
+    /// constraint
+    Fig5(Fig5Args),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
 }
@@ -137,6 +140,17 @@ pub struct BenchArgs {
     /// Frames to measure, after as many as it takes to warm up
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol fig5`.
+#[derive(Debug, Args)]
+pub struct Fig5Args {
+    /// Folder for the two pictures; without it none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

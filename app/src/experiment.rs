@@ -3,12 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use glam::Affine3A;
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_render::{
-    ColourBy, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer, SceneDesc, VesselDesc,
-    View,
-};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies;
 use vitriol_sim::measure::Measurement;
@@ -17,19 +11,12 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame};
 
+use crate::camera::Camera;
 use crate::command::replay::Setup;
 use crate::device;
-use crate::failure::{Blame, Failure};
+use crate::failure::Failure;
 use crate::replay::{Experiment, Outcome};
 use crate::report::{Counters, MassByPlace, Sample};
-
-/// Radius of a drawn particle over the particle spacing: closes the gaps
-/// between neighbours, and a single drop still looks like one.
-const DRAWN_RADIUS: f64 = 0.6;
-
-/// A fall over this height (m, real) gives the speed at the end of the colour
-/// map: about that from one flask's lip to another's floor.
-const COLOURED_FALL: f64 = 0.075;
 
 /// The experiment of a scene on the device that was asked for.
 ///
@@ -112,67 +99,6 @@ impl Experiment for Laboratory {
             },
         })
     }
-}
-
-/// The film's camera on its tripod.
-struct Camera {
-    renderer: Renderer,
-    view: View,
-}
-
-impl Camera {
-    fn new(gpu: &Gpu, library: &Library, scene: &Scene, extent: [u32; 2]) -> Result<Self, Failure> {
-        let vessels = scene.flasks.iter().map(|flask| VesselDesc {
-            inner: flask.profile.inner_outline().to_vec(),
-            outer: flask.profile.outer_outline().to_vec(),
-        });
-        let length_scale = scene.scale.length_scale as f32;
-        let table_top = scene.table.map_or(0.0, |table| table.top as f32);
-        let mut desc =
-            SceneDesc::laboratory(vessels.collect(), table_top * length_scale, length_scale);
-        if scene.table.is_none() {
-            desc.table = None;
-        }
-        let film = RenderDesc::film(extent);
-        let mut renderer = Renderer::new(gpu, library, &film).other()?;
-        renderer.set_scene(&desc).other()?;
-        Ok(Self {
-            renderer,
-            view: View::bench(extent[0] as f32 / extent[1] as f32),
-        })
-    }
-
-    fn shoot(&self, world: &World) -> Result<Vec<u8>, Failure> {
-        let scale = &world.scene().scale;
-        let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
-        let fastest = (2.0 * scale.gravity.abs() * COLOURED_FALL / scale.length_scale).sqrt();
-        let solver = world.solver();
-        let frame = FrameDesc {
-            views: &[self.view],
-            vessels: &vessels,
-            particles: Some(ParticleSource {
-                positions: solver.positions(),
-                velocities: solver.velocities(),
-                count: solver.count(),
-                radius: (DRAWN_RADIUS * scale.spacing) as f32,
-            }),
-            colour_by: ColourBy::Speed(fastest as f32),
-            length_scale: scale.length_scale as f32,
-        };
-        let draw = || -> Result<Vec<u8>, RenderError> {
-            let gpu = world.gpu();
-            let mut rec = gpu.recorder(QueueKind::Main)?;
-            self.renderer.record(&mut rec, &frame)?;
-            let picture = self.renderer.read_back(&mut rec)?;
-            gpu.submit(rec)?.wait()?;
-            picture.first_view()
-        };
-        draw().other()
-    }
-}
-
-fn affine(pose: &Pose) -> Affine3A {
-    Affine3A::from_rotation_translation(pose.orientation, pose.position)
 }
 
 /// A recorded hand in the simulation's terms. Hands move in real metres, the

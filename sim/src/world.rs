@@ -82,6 +82,30 @@ impl World {
     /// # Errors
     /// [`WorldError`].
     pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, seed: u64) -> Result<Self, WorldError> {
+        Self::build(gpu, library, scene, seed, true)
+    }
+
+    /// The same without flask constraints, which leaves walls that are no more
+    /// than a density: for comparison (Fig. 5).
+    ///
+    /// # Errors
+    /// As for [`World::new`].
+    pub fn without_flask_constraint(
+        gpu: &Gpu,
+        library: &Library,
+        scene: &Scene,
+        seed: u64,
+    ) -> Result<Self, WorldError> {
+        Self::build(gpu, library, scene, seed, false)
+    }
+
+    fn build(
+        gpu: &Gpu,
+        library: &Library,
+        scene: &Scene,
+        seed: u64,
+        constraint: bool,
+    ) -> Result<Self, WorldError> {
         let parameters = Parameters::from_scene(scene);
         let particles = particles(scene, seed)?;
         let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
@@ -91,7 +115,7 @@ impl World {
             ground: ground(scene),
             particles: &particles,
             loads: scene.flasks.iter().any(|flask| !flask.fixed),
-            constraint: true,
+            constraint,
             lanes: None,
         };
         Ok(Self {

@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod doctor;
+mod fig5;
 pub mod replay;
 pub mod scenes;
 pub mod track;
@@ -22,6 +23,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
         Command::Scenes => scenes::run(format),
+        Command::Fig5(args) => fig5::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }

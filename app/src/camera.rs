@@ -1,0 +1,134 @@
+//! The film's camera on its tripod.
+
+use glam::{Affine3A, Vec3};
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_render::{
+    BoxDesc, ColourBy, Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer,
+    SceneDesc, VesselDesc, View,
+};
+use vitriol_shaders::Library;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::{Scene, TableTop};
+use vitriol_sim::world::World;
+
+use crate::failure::{Blame, Failure};
+
+/// Radius of a drawn particle over the spacing d: closes the gaps between them.
+const DRAWN_RADIUS: f64 = 0.6;
+
+/// A fall over this height (m, real) gives the speed at the end of the colour
+/// map: about that from one flask's lip to another's floor.
+const COLOURED_FALL: f64 = 0.075;
+
+/// Takes pictures of a world, all from one place.
+pub struct Camera {
+    renderer: Renderer,
+    view: View,
+}
+
+impl Camera {
+    /// A camera for pictures of `extent` pixels of that scene.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(
+        gpu: &Gpu,
+        library: &Library,
+        scene: &Scene,
+        extent: [u32; 2],
+    ) -> Result<Self, Failure> {
+        let mut renderer = Renderer::new(gpu, library, &RenderDesc::film(extent)).other()?;
+        renderer.set_scene(&laboratory(scene)).other()?;
+        Ok(Self {
+            renderer,
+            view: view(scene, extent[0] as f32 / extent[1] as f32),
+        })
+    }
+
+    /// The world as it is now: rows from the top, sRGB-encoded RGBA bytes.
+    /// Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn shoot(&self, world: &World) -> Result<Vec<u8>, Failure> {
+        let scale = &world.scene().scale;
+        let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
+        let fastest = (2.0 * scale.gravity.abs() * COLOURED_FALL / scale.length_scale).sqrt();
+        let solver = world.solver();
+        let frame = FrameDesc {
+            views: &[self.view],
+            vessels: &vessels,
+            particles: Some(ParticleSource {
+                positions: solver.positions(),
+                velocities: solver.velocities(),
+                count: solver.count(),
+                radius: (DRAWN_RADIUS * scale.spacing) as f32,
+            }),
+            colour_by: ColourBy::Speed(fastest as f32),
+            length_scale: scale.length_scale as f32,
+        };
+        let draw = || -> Result<Vec<u8>, RenderError> {
+            let gpu = world.gpu();
+            let mut rec = gpu.recorder(QueueKind::Main)?;
+            self.renderer.record(&mut rec, &frame)?;
+            let picture = self.renderer.read_back(&mut rec)?;
+            gpu.submit(rec)?.wait()?;
+            picture.first_view()
+        };
+        draw().other()
+    }
+}
+
+/// The scene's vessels on their table in the room.
+fn laboratory(scene: &Scene) -> SceneDesc {
+    let vessels = scene.flasks.iter().map(|flask| VesselDesc {
+        inner: flask.profile.inner_outline().to_vec(),
+        outer: flask.profile.outer_outline().to_vec(),
+    });
+    let length_scale = scene.scale.length_scale;
+    let top = scene.table.map_or(0.0, |table| table.top) * length_scale;
+    let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
+    let table = scene.table.map(|table| {
+        let half = [0.5 * table.size[0], 0.5 * table.size[1]];
+        let under = table.top - TableTop::THICKNESS / length_scale;
+        let corner = |side: f64, y: f64| {
+            Vec3::new(
+                (table.centre[0] + side * half[0]) as f32,
+                y as f32,
+                (table.centre[1] + side * half[1]) as f32,
+            )
+        };
+        BoxDesc {
+            min: corner(-1.0, under),
+            max: corner(1.0, table.top),
+        }
+    });
+    SceneDesc { table, ..room }
+}
+
+/// At real size the view of a bench before a standing user; else one that has
+/// the vessels, and as much room above them for what is lifted, in its picture.
+fn view(scene: &Scene, aspect: f32) -> View {
+    let scale = scene.scale.length_scale as f32;
+    if scale == 1.0 || scene.flasks.is_empty() {
+        return View::bench(aspect);
+    }
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for flask in &scene.flasks {
+        let foot = flask.stage_from_flask.position * scale;
+        let reach = Vec3::new(1.0, 0.0, 1.0) * (flask.profile.outer_radius() as f32 * scale);
+        low = low.min(foot - reach);
+        high = high.max(foot + reach + Vec3::Y * (flask.profile.rim_height() as f32 * scale));
+    }
+    let lifted = 2.0 * (high.y - low.y);
+    let middle = 0.5 * (low + high);
+    let target = Vec3::new(middle.x, low.y + 0.4 * lifted, middle.z);
+    let vertical = 20.5_f32.to_radians();
+    let half = (0.6 * lifted).max(0.7 * (high.x - low.x) / aspect);
+    let eye = target + Vec3::new(0.0, 0.25, 1.0).normalize() * (half / (0.5 * vertical).tan());
+    View::look_at(eye, target, Fov::symmetric(vertical, aspect))
+}
+
+fn affine(pose: &Pose) -> Affine3A {
+    Affine3A::from_rotation_translation(pose.orientation, pose.position)
+}

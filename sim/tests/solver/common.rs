@@ -1,0 +1,260 @@
+//! What the tests of the GPU solver share.
+
+use glam::{DVec3, Vec3};
+use serde::Deserialize;
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_shaders::layout::LiquidLoad;
+use vitriol_sim::fill::fill;
+use vitriol_sim::flask::Profile;
+use vitriol_sim::parameters::{Parameters, Relaxation};
+use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+
+/// Spacing of real glass, metres.
+pub const D: f64 = 0.0025;
+/// Support radius, metres.
+pub const H: f64 = 2.0 * D;
+/// A substep of 90 Hz × 12, seconds.
+pub const SUBSTEP: f64 = 1.0 / 1080.0;
+
+/// Real size at 90 Hz × 12 × 4.
+pub fn parameters() -> Parameters {
+    Parameters {
+        spacing: D,
+        support_radius: H,
+        rest_density: 1000.0,
+        frame_time: 1.0 / 90.0,
+        substeps: 12,
+        iterations: 4,
+        relaxation: Relaxation::Chebyshev {
+            spectral_bound: 6.0,
+            reduction: 5.0,
+        },
+        carry: 0.0,
+        gravity: [0.0, -9.81, 0.0],
+        max_speed: 8.0,
+        viscosity: 0.02,
+        vorticity: 0.0,
+        cohesion: 0.0,
+        adhesion: 0.0,
+        list_margin: 0.15,
+        margin: 0.001 * H,
+    }
+}
+
+/// The same, each substep a frame, so that every one can be looked at.
+pub fn single_substeps() -> Parameters {
+    Parameters {
+        frame_time: SUBSTEP,
+        substeps: 1,
+        ..parameters()
+    }
+}
+
+/// No table, and a floor out of reach.
+pub const NOWHERE: Ground = Ground {
+    floor: -1000.0,
+    table: None,
+    scale: 1.0,
+};
+
+/// A glass 26 mm wide, 60 mm deep, of which 800 particles fill 24 mm.
+pub fn narrow_glass() -> Profile {
+    Profile::new(&[[0.0, 0.013], [0.06, 0.013]], 0.002).unwrap()
+}
+
+/// `count` particles at rest in flask `flask` of shape `profile` at `pose`.
+pub fn water(profile: &Profile, flask: usize, pose: Pose, count: usize) -> Vec<Particle> {
+    let positions = fill(profile, pose, count, D, Some(1)).unwrap();
+    let inside = |position| Particle {
+        position,
+        velocity: DVec3::ZERO,
+        flask: Some(flask),
+        carried: 0.0,
+    };
+    positions.into_iter().map(inside).collect()
+}
+
+/// A particle that is in no flask.
+pub fn drop_at(position: DVec3, velocity: DVec3) -> Particle {
+    Particle {
+        position,
+        velocity,
+        flask: None,
+        carried: 0.0,
+    }
+}
+
+/// A pose without rotation.
+pub fn at(x: f32, y: f32, z: f32) -> Pose {
+    Pose::from_position(Vec3::new(x, y, z))
+}
+
+/// What a solver is made of, owned; lanes are 1 unless a test asks for more.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    pub parameters: Parameters,
+    pub flasks: Vec<Profile>,
+    pub ground: Ground,
+    pub particles: Vec<Particle>,
+    pub loads: bool,
+    pub lanes: Option<u32>,
+}
+
+impl Setup {
+    pub fn new(parameters: Parameters, flasks: Vec<Profile>, particles: Vec<Particle>) -> Self {
+        Self {
+            parameters,
+            flasks,
+            ground: NOWHERE,
+            particles,
+            loads: false,
+            lanes: Some(1),
+        }
+    }
+
+    pub fn solver(&self, gpu: &Gpu) -> Solver {
+        let spec = SolverSpec {
+            parameters: self.parameters.clone(),
+            flasks: &self.flasks,
+            ground: self.ground,
+            particles: &self.particles,
+            loads: self.loads,
+            constraint: true,
+            lanes: self.lanes,
+        };
+        Solver::new(gpu, &Library::watching(), &spec).unwrap()
+    }
+}
+
+/// Runs one frame; returns the liquid's load on each flask.
+pub fn frame(gpu: &Gpu, solver: &Solver, before: &[Pose], after: &[Pose]) -> Vec<LiquidLoad> {
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let record = solver.record(&mut rec, before, after).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    record.loads().unwrap()
+}
+
+/// Runs frames with flasks that stand still.
+pub fn frames(gpu: &Gpu, solver: &Solver, poses: &[Pose], count: usize) {
+    for _ in 0..count {
+        frame(gpu, solver, poses, poses);
+    }
+}
+
+/// ρ/ρ₀ by slot.
+pub fn densities(gpu: &Gpu, solver: &Solver) -> Vec<f64> {
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let copy = solver.record_density(&mut rec).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    let densities = copy.get::<f32>().unwrap();
+    densities[..solver.count() as usize]
+        .iter()
+        .map(|&density| f64::from(density))
+        .collect()
+}
+
+/// One particle as the GPU left it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    pub position: DVec3,
+    pub velocity: DVec3,
+    /// −p/ρ, m²/s².
+    pub carried: f64,
+    pub flask: Option<usize>,
+    pub present: bool,
+}
+
+/// The particles in the order in which the solver was given them.
+pub fn particles(state: &SolverState) -> Vec<Found> {
+    let mut found: Vec<_> = (0..state.tags.len())
+        .map(|slot| {
+            let [x, y, z, _] = state.positions[slot].map(f64::from);
+            let [u, v, w, carried] = state.velocities[slot].map(f64::from);
+            let found = Found {
+                position: DVec3::new(x, y, z),
+                velocity: DVec3::new(u, v, w),
+                carried,
+                flask: state.flask_of(slot),
+                present: state.is_present(slot),
+            };
+            (state.tags[slot][1], found)
+        })
+        .collect();
+    found.sort_by_key(|&(identity, _)| identity);
+    for (index, &(identity, _)) in found.iter().enumerate() {
+        assert_eq!(index, identity as usize, "a particle was lost or doubled");
+    }
+    found.into_iter().map(|(_, found)| found).collect()
+}
+
+/// The neighbour list out of a state, by slot. The state keeps it to itself,
+/// but not from a serialiser.
+pub struct List {
+    /// Predicted positions when the list was built.
+    pub origins: Vec<DVec3>,
+    /// Slots of each particle's neighbours, ascending.
+    pub neighbours: Vec<Vec<usize>>,
+}
+
+impl List {
+    pub fn of(state: &SolverState) -> Self {
+        #[derive(Deserialize)]
+        struct Fields {
+            positions: Vec<[f32; 4]>,
+            _velocities: Vec<[f32; 4]>,
+            _tags: Vec<[u32; 2]>,
+            list_origin: Vec<[f32; 4]>,
+            list_counts: Vec<u32>,
+            list: Vec<u32>,
+            _counters: Vec<u32>,
+        }
+        let bytes = postcard::to_allocvec(state).unwrap();
+        // Postcard stores fields in their order and no names.
+        let fields: Fields = postcard::from_bytes(&bytes).unwrap();
+        let n = fields.positions.len();
+        let row = |slot: usize| {
+            let count = fields.list_counts[slot] as usize;
+            let mut row: Vec<_> = (0..count)
+                .map(|k| fields.list[k * n + slot] as usize)
+                .collect();
+            row.sort_unstable();
+            row
+        };
+        let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
+        Self {
+            origins: fields.list_origin.iter().map(origin).collect(),
+            neighbours: (0..n).map(row).collect(),
+        }
+    }
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014), as numbers in [0, 1).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A point of the cube of edge `size` around the origin.
+    pub fn point(&mut self, size: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| size * (self.number() - 0.5)))
+    }
+}
+
+/// Closest two of all particles, metres.
+pub fn closest_pair(found: &[Found]) -> f64 {
+    let mut closest = f64::INFINITY;
+    for (i, a) in found.iter().enumerate() {
+        for b in &found[..i] {
+            closest = closest.min(a.position.distance(b.position));
+        }
+    }
+    closest
+}

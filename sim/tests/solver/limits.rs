@@ -1,0 +1,189 @@
+//! What had to be limited, or taken out, is counted.
+
+use crate::common::*;
+use glam::DVec3;
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::Particle;
+use vitriol_tests::gpu;
+
+/// Parameters under which a lone particle keeps its velocity.
+fn weightless() -> Parameters {
+    Parameters {
+        gravity: [0.0; 3],
+        ..single_substeps()
+    }
+}
+
+#[test]
+fn speed_is_limited_and_counted() {
+    let device = gpu::device();
+    let p = Parameters {
+        max_speed: 2.0,
+        ..weightless()
+    };
+    let lone = |i: i32, speed: f64| drop_at(DVec3::X * f64::from(i), DVec3::Z * speed);
+    let all = vec![lone(0, 3.0), lone(1, 1.9), lone(2, -50.0), lone(3, 0.0)];
+    let solver = Setup::new(p, Vec::new(), all).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let found = particles(&solver.snapshot().unwrap());
+    let speeds: Vec<_> = found.iter().map(|p| p.velocity.z).collect();
+    for (own, expected) in speeds.iter().zip([2.0, 1.9, -2.0, 0.0]) {
+        // Rounding of z over Δt.
+        assert!((own - expected).abs() < 1e-5, "{speeds:?}");
+    }
+    assert_eq!(solver.counters().unwrap().speed_limited, 2);
+    // Once limited, no more.
+    frames(&device, &solver, &[], 3);
+    let again = solver.counters().unwrap().speed_limited;
+    assert!(again <= 2 + 3 * 2, "{again}");
+}
+
+/// Two particles a hundredth of h apart are pushed further than half of the
+/// list's margin.
+#[test]
+fn corrections_beyond_the_list_are_limited_and_counted() {
+    let device = gpu::device();
+    let mut random = Random(1);
+    // 40 in a ball of 2 mm, where 2 have room.
+    let all: Vec<_> = (0..40)
+        .map(|_| drop_at(random.point(0.002), DVec3::ZERO))
+        .collect();
+    let solver = Setup::new(weightless(), Vec::new(), all).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let state = solver.snapshot().unwrap();
+    let found = particles(&state);
+    let list = List::of(&state);
+    let reach = 0.5 * 0.15 * H;
+    let mut at_reach = 0;
+    for (slot, tag) in state.tags.iter().enumerate() {
+        let moved = found[tag[1] as usize].position.distance(list.origins[slot]);
+        assert!(moved < reach + 1e-8, "{moved}");
+        at_reach += u32::from(moved > reach - 1e-8);
+    }
+    assert!(at_reach > 10);
+    assert_eq!(solver.counters().unwrap().list_limited, at_reach);
+}
+
+#[test]
+fn a_list_that_overflows_is_counted() {
+    let device = gpu::device();
+    let mut random = Random(2);
+    let mut ball = |count: usize, centre: DVec3| -> Vec<Particle> {
+        (0..count)
+            .map(|_| drop_at(centre + random.point(0.003), DVec3::ZERO))
+            .collect()
+    };
+    // All see each other: 72 neighbours fit, 73 do not.
+    let mut all = ball(73, DVec3::ZERO);
+    all.extend(ball(74, DVec3::X));
+    let solver = Setup::new(weightless(), Vec::new(), all).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let list = List::of(&solver.snapshot().unwrap());
+    assert!(list.neighbours.iter().all(|row| row.len() == 72));
+    assert_eq!(solver.counters().unwrap().list_overflows, 74);
+}
+
+#[test]
+fn flask_constraints_are_counted() {
+    let device = gpu::device();
+    let towards_the_wall = Particle {
+        position: DVec3::new(0.0, 0.03, 0.0),
+        velocity: DVec3::X * 2.0,
+        flask: Some(0),
+        carried: 0.0,
+    };
+    let setup = Setup {
+        loads: true,
+        ..Setup::new(weightless(), vec![narrow_glass()], vec![towards_the_wall])
+    };
+    let solver = setup.solver(&device);
+    // 13 mm at 1.85 mm a substep: the eighth strikes.
+    let count = |_| {
+        frames(&device, &solver, &[Pose::IDENTITY], 1);
+        solver.counters().unwrap().flask_constraints
+    };
+    let counts: Vec<_> = (0..8).map(count).collect();
+    assert_eq!(counts[..6], [0; 6], "{counts:?}");
+    let found = particles(&solver.snapshot().unwrap())[0];
+    assert!(found.position.x < 0.013 && found.flask == Some(0));
+}
+
+/// A liquid around a particle whose velocity has become `bad`, by what a
+/// state on the host lets one do.
+fn with_bad_velocity(bad: [f32; 3], flasks: bool) {
+    let device = gpu::device();
+    let p = Parameters {
+        carry: 0.005,
+        ..parameters()
+    };
+    let mut particles_at_start = water(&narrow_glass(), 0, Pose::IDENTITY, 300);
+    let (shapes, poses) = if flasks {
+        (vec![narrow_glass()], vec![Pose::IDENTITY])
+    } else {
+        for p in &mut particles_at_start {
+            p.flask = None;
+        }
+        (Vec::new(), Vec::new())
+    };
+    let setup = Setup {
+        loads: flasks,
+        ..Setup::new(p, shapes, particles_at_start)
+    };
+    let solver = setup.solver(&device);
+    frames(&device, &solver, &poses, 2);
+    let mut state = solver.snapshot().unwrap();
+    let victim = 123;
+    let [x, y, z] = bad;
+    let carried = state.velocities[victim][3];
+    state.velocities[victim] = [x, y, z, carried];
+    let identity = state.tags[victim][1] as usize;
+    solver.restore(&state).unwrap();
+    let mut loads = Vec::new();
+    for _ in 0..3 {
+        loads.extend(frame(&device, &solver, &poses, &poses));
+    }
+    let counters = solver.counters().unwrap();
+    assert_eq!(counters.nan_particles, 1, "{bad:?}: {counters:?}");
+    let end = solver.snapshot().unwrap();
+    for (i, p) in particles(&end).iter().enumerate() {
+        let finite = p.position.is_finite() && p.velocity.is_finite() && p.carried.is_finite();
+        assert!(finite, "{bad:?}: {i} is {p:?}");
+        assert_eq!(p.present, i != identity, "{bad:?}: {i}");
+        if flasks {
+            assert_eq!(p.flask, (i != identity).then_some(0));
+        }
+        // It has not shaken the others: they are at rest or fall.
+        let fast = if flasks { 0.3 } else { 1.0 };
+        assert!(p.velocity.length() < fast, "{bad:?}: {i} at {}", p.velocity);
+    }
+    // Its mark in the positions, by which the picture leaves it out.
+    let marked = end.positions.iter().filter(|p| p[3] == -1.0).count();
+    assert_eq!(marked, 1);
+    let finite = |v: [f32; 4]| v.iter().all(|x| x.is_finite());
+    assert!(
+        loads
+            .iter()
+            .all(|load| finite(load.impulse) && finite(load.angular))
+    );
+    for load in loads {
+        assert_eq!(load.impulse[3], 299.0);
+    }
+    let density = densities(&device, &solver);
+    assert!(density.iter().all(|d| d.is_finite()));
+}
+
+#[test]
+fn a_particle_that_is_no_number_is_taken_out_and_counted() {
+    let nan = f32::NAN;
+    for bad in [
+        [nan; 3],
+        [0.0, nan, 0.0],
+        [nan, 0.0, 0.0],
+        [0.0, 0.0, f32::INFINITY],
+    ] {
+        for flasks in [false, true] {
+            with_bad_velocity(bad, flasks);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! The GPU solver against truth from outside it: the f64 reference, formulas,
+//! brute force and the flask's geometry; on any device, the software driver
+//! included, with the validation layer watching.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod against_reference;
+mod chaos;
+mod common;
+mod limits;
+mod neighbours;
+mod open_space;
+mod passes;
+mod repeat;
+mod rest;
+mod walls;

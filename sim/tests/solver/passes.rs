@@ -1,0 +1,132 @@
+//! A scene pays for what it names, and for nothing else.
+
+use crate::common::*;
+use vitriol_gpu::QueueKind;
+use vitriol_shaders::{Library, ShaderId, sim};
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_tests::gpu;
+
+const PASSES: [ShaderId; 12] = [
+    sim::PREDICT,
+    sim::CELL_COUNT,
+    sim::CELL_SCAN,
+    sim::BLOCK_SCAN,
+    sim::CELL_SCATTER,
+    sim::REORDER,
+    sim::LIST,
+    sim::MULTIPLIER,
+    sim::DISPLACEMENT,
+    sim::VISCOSITY,
+    sim::DENSITY,
+    sim::LOAD,
+];
+
+/// Names of the buffers that a pass binds under these constants.
+fn bindings(shader: ShaderId, constants: &[(&str, f64)]) -> Vec<String> {
+    let library = Library::watching();
+    let declared = library.constants(&shader).unwrap();
+    let own: Vec<_> = constants
+        .iter()
+        .copied()
+        .filter(|(name, _)| declared.iter().any(|known| known == name))
+        .collect();
+    let compiled = library.compile(&shader, "main", &own).unwrap();
+    compiled.bindings.into_iter().map(|b| b.name).collect()
+}
+
+#[test]
+fn shaders_bind_what_the_scene_has() {
+    let of_flasks = ["flasks", "poses", "radii", "maps"];
+    let of_loads = ["wall_push", "sorted_push"];
+    let of_table = ["plane"];
+    let (mut seen_flasks, mut seen_loads) = (0, 0);
+    for shader in PASSES {
+        let last = [("COMMIT", 1.0), ("PREDICT", 1.0)];
+        let with = |flasks: f64, loads: f64| {
+            let constants = [("FLASKS", flasks), ("LOADS", loads)];
+            bindings(shader, &[&constants[..], &last].concat())
+        };
+        let holds =
+            |names: &[String], any: &[&str]| names.iter().any(|n| any.contains(&n.as_str()));
+        if shader.path() != sim::LOAD.path() {
+            let bare = with(0.0, 0.0);
+            assert!(!holds(&bare, &of_flasks), "{shader}: {bare:?}");
+            assert!(!holds(&bare, &of_loads), "{shader}: {bare:?}");
+        }
+        let full = with(2.0, 1.0);
+        seen_flasks += usize::from(holds(&full, &of_flasks));
+        seen_loads += usize::from(holds(&full, &of_loads));
+        // The floor is always there, for those that ask for walls at all.
+        let density_like = [sim::MULTIPLIER, sim::DENSITY].map(|s| s.path());
+        assert_eq!(
+            holds(&full, &of_table),
+            density_like.contains(&shader.path())
+        );
+    }
+    // Names that are in none would have proved nothing.
+    assert_eq!((seen_flasks, seen_loads), (7, 6));
+    let carried = bindings(sim::MULTIPLIER, &[("FIRST", 1.0)]);
+    assert!(!carried.contains(&"velocity".to_owned()), "{carried:?}");
+}
+
+/// Labels of the passes of one frame, in their order.
+fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
+    let device = gpu::another_device(|options| options.timestamps = true);
+    let solver = setup.solver(&device);
+    let mut rec = device.recorder(QueueKind::Main).unwrap();
+    solver.record(&mut rec, poses, poses).unwrap();
+    let ticket = device.submit(rec).unwrap();
+    ticket.wait().unwrap();
+    let timings = ticket.timings().unwrap();
+    timings.into_iter().map(|timing| timing.label).collect()
+}
+
+#[test]
+fn frames_dispatch_what_the_scene_has() {
+    let p = Parameters {
+        substeps: 3,
+        iterations: 2,
+        ..parameters()
+    };
+    let particles = water(&narrow_glass(), 0, Pose::IDENTITY, 200);
+    let full = Setup {
+        loads: true,
+        parameters: Parameters {
+            carry: 0.01,
+            ..p.clone()
+        },
+        ..Setup::new(p.clone(), vec![narrow_glass()], particles.clone())
+    };
+    let falling = particles
+        .into_iter()
+        .map(|particle| drop_at(particle.position, particle.velocity));
+    let bare = Setup::new(p, Vec::new(), falling.collect());
+    let own = passes(&bare, &[]);
+    let count = |labels: &[String], name: &str| labels.iter().filter(|l| l.contains(name)).count();
+    assert_eq!(count(&own, "sim/load"), 0, "{own:?}");
+    // Two over neighbours an iteration, one for viscosity: 3 × (2 × 2 + 1).
+    let over_neighbours = ["multiplier", "displacement", "viscosity"];
+    let sum = |labels: &[String]| -> usize {
+        over_neighbours.iter().map(|name| count(labels, name)).sum()
+    };
+    assert_eq!(sum(&own), 15, "{own:?}");
+    let theirs = passes(&full, &[Pose::IDENTITY]);
+    assert_eq!(count(&theirs, "sim/load"), 1, "{theirs:?}");
+    // What is carried costs two more a substep.
+    assert_eq!(sum(&theirs), 21, "{theirs:?}");
+}
+
+#[test]
+fn loads_cost_memory_where_they_are_asked_for() {
+    let device = gpu::device();
+    let particles = water(&narrow_glass(), 0, Pose::IDENTITY, 400);
+    let without = Setup::new(parameters(), vec![narrow_glass()], particles);
+    let with = Setup {
+        loads: true,
+        ..without.clone()
+    };
+    let bytes = |setup: &Setup| setup.solver(&device).bytes_per_particle();
+    // The push on the walls and its sorted copy, four floats each.
+    assert_eq!(bytes(&with) - bytes(&without), 32);
+}

@@ -1,0 +1,75 @@
+//! A column at rest stays at rest.
+
+use crate::common::*;
+use vitriol_sim::flask::Profile;
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_tests::gpu;
+
+/// 2,000 particles in a glass 36 mm wide, 31 mm deep: 10 s at 10 × 3, or with
+/// `VITRIOL_LONG=1` a minute of the beaker's `reference`, 16 × 6, which takes
+/// the software driver ten.
+#[test]
+fn a_column_rests() {
+    let device = gpu::device();
+    let profile = Profile::new(&[[0.0, 0.018], [0.05, 0.018]], 0.002).unwrap();
+    let long = std::env::var_os("VITRIOL_LONG").is_some_and(|value| value == "1");
+    let (seconds, substeps, iterations) = if long { (60, 16, 6) } else { (10, 10, 3) };
+    let p = Parameters {
+        substeps,
+        iterations,
+        carry: 0.005,
+        ..parameters()
+    };
+    let particle_mass = p.particle_mass();
+    let start = water(&profile, 0, Pose::IDENTITY, 2000);
+    let setup = Setup::new(p, vec![profile.clone()], start);
+    let solver = setup.solver(&device);
+    let mut energies = Vec::new();
+    let mut errors = Vec::new();
+    for second in 0..seconds {
+        let (mut energy, mut error) = (0.0, 0.0);
+        for _ in 0..9 {
+            frames(&device, &solver, &[Pose::IDENTITY], 10);
+            let found = particles(&solver.snapshot().unwrap());
+            assert_eq!(found.len(), 2000);
+            for (i, p) in found.iter().enumerate() {
+                let (r, y) = (p.position.x.hypot(p.position.z), p.position.y);
+                assert!(p.present && p.flask == Some(0), "{i} at {second} s: {p:?}");
+                assert!(profile.is_inside(r, y), "{i} at {second} s: {}", p.position);
+            }
+            let squares: f64 = found.iter().map(|p| p.velocity.length_squared()).sum();
+            energy += 0.5 * particle_mass * squares / 9.0;
+            let density = densities(&device, &solver);
+            let excess: f64 = density.iter().map(|d| (d - 1.0).max(0.0)).sum();
+            error += excess / 2000.0 / 9.0;
+        }
+        energies.push(energy);
+        errors.push(error);
+    }
+    // It has not become a gas: below a support radius under the level that
+    // its volume has, the mean density is the rest density.
+    let level = profile.level_for_volume(2000.0 * D.powi(3)).unwrap();
+    let state = solver.snapshot().unwrap();
+    let deep: Vec<_> = densities(&device, &solver)
+        .into_iter()
+        .zip(&state.positions)
+        .filter(|(_, position)| f64::from(position[1]) < level - H)
+        .map(|(density, _)| density)
+        .collect();
+    let mean = deep.iter().sum::<f64>() / deep.len() as f64;
+    assert!(deep.len() > 1500, "{}", deep.len());
+    assert!((mean - 1.0).abs() < 0.01, "{mean}");
+    // The first second settles the lattice.
+    assert!(errors[1..].iter().all(|&error| error < 0.01), "{errors:?}");
+    let half = energies.len() / 2;
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    let (early, late) = (mean(&energies[..half]), mean(&energies[half..]));
+    assert!(late < early, "{energies:?}");
+    assert!(
+        energies[energies.len() - 1] < 0.5 * energies[0],
+        "{energies:?}"
+    );
+    let counters = solver.counters().unwrap();
+    assert_eq!((counters.nan_particles, counters.speed_limited), (0, 0));
+}
