@@ -28,7 +28,7 @@ const SCENE: &str = "moving-flask";
 /// Simulated frames: at rest first, then the motion, then at rest again.
 const FRAMES: [u32; 3] = [30, 60, 30];
 /// How far the flask is jerked to either side, in its own radii.
-const SWING: f32 = 1.0;
+const SWING: f32 = 0.25;
 /// Frames of one jerk and of the rest after it.
 const JERK: [u32; 2] = [2, 8];
 
