@@ -54,9 +54,12 @@ var<private> coincident: bool;
 /// Whether any candidate has another membership.
 var<private> mixed: bool;
 
-/// Tests the particles from `first` to `end`; with `keep` it lists those that are neighbours.
-fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32, keep: bool) {
-    for (var j = first; j < end; j++) {
+/// Tests `count` particles from `first` on, and then `wrapped` from `second`
+/// on, in one loop: two would both be walked on a software driver, the second
+/// one for nothing. With `keep` it lists those that are neighbours.
+fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, count: u32, second: u32, wrapped: u32, keep: bool) {
+    for (var n = 0u; n < count + wrapped; n++) {
+        let j = select(second + n - count, first + n, n < count);
         let other = sorted_trial[j];
         let theirs = bitcast<u32>(other.w);
         let offset = x - other.xyz;
@@ -81,20 +84,19 @@ fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, end: u32, keep: boo
 /// The rows of three cells along x that are this lane's, of the nine around a particle.
 fn search_rows(i: u32, lane: u32, x: vec3<f32>, membership: u32, keep: bool) {
     let cell = cell_of(x);
-    let wraps = (1 << CELL_BITS_X) - 1;
-    let column = cell.x & wraps;
+    let last = (1 << CELL_BITS_X) - 1;
+    let low = u32((cell.x - 1) & last);
+    let high = u32((cell.x + 1) & last);
+    let wraps = low > high;
     for (var row = lane; row < 9u; row += LANES) {
         let y = cell.y + i32(row % 3u) - 1;
         let z = cell.z + i32(row / 3u) - 1;
         let start = cell_index(vec3<i32>(0, y, z));
-        if (column > 0 && column < wraps) {
-            search(i, x, membership, start_of(start + u32(column - 1)), start_of(start + u32(column + 2)), keep);
-        } else {
-            for (var dx = -1; dx <= 1; dx++) {
-                let at = start + u32((column + dx) & wraps);
-                search(i, x, membership, start_of(at), start_of(at + 1u), keep);
-            }
-        }
+        let first = start_of(start + low);
+        let end = start_of(start + select(high, u32(last), wraps) + 1u);
+        let second = start_of(start);
+        let second_end = select(second, start_of(start + high + 1u), wraps);
+        search(i, x, membership, first, end - first, second, second_end - second, keep);
     }
 }
 
