@@ -7,6 +7,7 @@ mod against_reference;
 mod chaos;
 mod common;
 mod limits;
+mod loads;
 mod neighbours;
 mod open_space;
 mod passes;

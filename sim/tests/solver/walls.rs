@@ -138,3 +138,31 @@ fn table_and_floor_hold() {
     let on_floor = found.iter().filter(|p| p.position.y < -0.006).count();
     assert!(on_table > 100 && on_floor > 100, "{on_table} {on_floor}");
 }
+
+/// Drops that fly at the table's edge from the side, at its top and from
+/// below it.
+#[test]
+fn a_table_is_solid_from_all_sides() {
+    let device = gpu::device();
+    let flying = |y: f64, z: f64, velocity: DVec3| drop_at(DVec3::new(0.042, y, z), velocity);
+    let drops = [
+        flying(-0.003, 0.00, DVec3::NEG_X * 3.0),
+        flying(-0.001, 0.02, DVec3::NEG_X * 3.0),
+        flying(0.001, 0.04, DVec3::NEG_X * 3.0),
+    ];
+    let p = Parameters {
+        gravity: [0.0; 3],
+        ..parameters()
+    };
+    let setup = Setup {
+        ground: TABLE,
+        ..Setup::new(p, Vec::new(), drops.to_vec())
+    };
+    let solver = setup.solver(&device);
+    frames(&device, &solver, &[], 2);
+    let found = particles(&solver.snapshot().unwrap());
+    // The edge is at 40 mm; in two frames they would fly 67.
+    assert!(found[0].position.x >= 0.04 - 1e-6, "{}", found[0].position);
+    assert!(found[1].position.x >= 0.04 - 1e-6, "{}", found[1].position);
+    assert!(found[2].position.x < 0.0, "{}", found[2].position);
+}
