@@ -7,7 +7,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::bodies;
 use vitriol_sim::measure::Measurement;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame};
 
@@ -24,6 +24,9 @@ use crate::report::{Counters, MassByPlace, Sample};
 /// [`Failure::NoDevice`]; [`Failure::Input`] for a device that is not there or
 /// a liquid that does not fit.
 pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
+    if setup.scene.models(Feature::Heat) {
+        tracing::warn!("heat, dilution and boiling are not simulated yet: the scene runs without");
+    }
     let gpu = device::open(setup.device, false)?;
     let library = Library::embedded();
     let world = World::new(&gpu, &library, setup.scene, setup.seed).map_err(blame_world)?;
@@ -127,7 +130,7 @@ fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
 
 fn blame_world(error: WorldError) -> Failure {
     match error {
-        WorldError::Fill(_) => Failure::Input(error.into()),
+        WorldError::Fill(_) | WorldError::NotOnDevice { .. } => Failure::Input(error.into()),
         _ => Failure::Other(error.into()),
     }
 }

@@ -5,7 +5,7 @@ use crate::bodies::{Bodies, BodiesError, BodiesSpec, BodySpec, Hand, Load, Table
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
-use crate::scene::Scene;
+use crate::scene::{Boundary, Feature, Scene};
 use crate::solver::{
     Counters, FrameRecord, Ground, Particle, Solver, SolverError, SolverSpec, SolverState,
 };
@@ -44,6 +44,16 @@ pub enum WorldError {
     /// A liquid does not fit its flask.
     #[error(transparent)]
     Fill(#[from] FillError),
+    /// The scene asks for what only the f64 reference has.
+    #[error("{field}: the GPU solver has no {what} yet; {remedy}")]
+    NotOnDevice {
+        /// Where the scene asks for it.
+        field: &'static str,
+        /// What it asks for.
+        what: &'static str,
+        /// What to do instead.
+        remedy: &'static str,
+    },
 }
 
 /// Everything that the next step depends on.
@@ -106,6 +116,7 @@ impl World {
         seed: u64,
         constraint: bool,
     ) -> Result<Self, WorldError> {
+        check_supported(scene)?;
         let parameters = Parameters::from_scene(scene);
         let particles = particles(scene, seed)?;
         let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
@@ -281,6 +292,27 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
     }
 }
 
+/// Refuses what would silently be left out.
+fn check_supported(scene: &Scene) -> Result<(), WorldError> {
+    let refuse = |field, what, remedy| {
+        Err(WorldError::NotOnDevice {
+            field,
+            what,
+            remedy,
+        })
+    };
+    if scene.solver.boundary == Boundary::Particles {
+        return refuse("solver.boundary", "boundary particles", "use \"map\"");
+    }
+    if scene.models(Feature::Cohesion) {
+        return refuse("model", "cohesion", "leave it out");
+    }
+    if scene.models(Feature::Vorticity) {
+        return refuse("model", "vorticity confinement", "leave it out");
+    }
+    Ok(())
+}
+
 /// The liquid at the start, under the pressure of its depth: from none, the
 /// column would first be squeezed while its multipliers build up.
 fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
@@ -340,5 +372,26 @@ fn bodies(scene: &Scene) -> BodiesSpec {
                 fixed: flask.fixed,
             })
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn what_the_device_lacks_is_refused() {
+        let scene = Scene::load("beaker").unwrap();
+        assert!(check_supported(&scene).is_ok());
+        for asks in [
+            |scene: &mut Scene| scene.solver.boundary = Boundary::Particles,
+            |scene: &mut Scene| scene.model.push(Feature::Cohesion),
+            |scene: &mut Scene| scene.model.push(Feature::Vorticity),
+        ] {
+            let mut scene = scene.clone();
+            asks(&mut scene);
+            assert!(check_supported(&scene).is_err());
+        }
     }
 }
