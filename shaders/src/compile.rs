@@ -6,6 +6,7 @@ use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{ValidationFlags, Validator};
 use naga::{AddressSpace, Module, ShaderStage};
 
+use crate::chains;
 use crate::check::{Checked, capabilities, validation_message};
 use crate::error::ShaderError;
 use crate::fold::fold_constant_ifs;
@@ -135,7 +136,7 @@ pub fn compile(
     };
     Ok(Compiled {
         label: format!("{}:{entry}", path.trim_end_matches(".wgsl")),
-        spirv,
+        spirv: chains::join(&spirv),
         entry: entry.to_owned(),
         stage,
         workgroup_size: module.entry_points[0].workgroup_size,

@@ -14,6 +14,7 @@
 //! are `var<immediate>`; no float atomics in workgroup memory; `sample_mask` as an output is
 //! invalid. Only `if` is folded, not `switch`, and not `select`, which evaluates both sides.
 
+mod chains;
 mod check;
 mod compile;
 mod error;

@@ -9,7 +9,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout;
 
 /// Entries of the half-space table over one support radius; its error is
-/// then below 1e-5 of a density.
+/// then below 3e-5 of a density.
 pub const PLANE_ENTRIES: usize = 129;
 
 /// What is not a flask.
