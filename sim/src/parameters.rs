@@ -1,6 +1,7 @@
 //! What both solvers need to know about the liquid and about the time step.
 
 use crate::kernel::Kernel;
+use crate::reference::forces::{adhesion_strength, cohesion_strength};
 use crate::scene::{RelaxationKind, Scene};
 
 /// Time over which [`Parameters::viscosity`] is defined, seconds: the substep
@@ -56,13 +57,9 @@ pub struct Parameters {
     pub vorticity: f64,
     /// Cohesion (Akinci et al. 2013) as the surface tension that it makes,
     /// N/m, water's being 0.072; see [`cohesion_strength`]. 0 leaves it out.
-    ///
-    /// [`cohesion_strength`]: crate::reference::forces::cohesion_strength
     pub cohesion: f64,
     /// Adhesion (Akinci et al. 2013), likewise, N/m; see
     /// [`adhesion_strength`]. 0 leaves it out.
-    ///
-    /// [`adhesion_strength`]: crate::reference::forces::adhesion_strength
     pub adhesion: f64,
     /// Margin of a neighbour list that outlives its substep, fraction of h.
     pub list_margin: f64,
@@ -203,6 +200,18 @@ impl Parameters {
             .flat_map(|x| axis().flat_map(move |y| axis().map(move |z| x.hypot(y).hypot(z))))
             .map(|distance| (self.particle_volume() * kernel.dw(distance)).powi(2))
             .sum()
+    }
+
+    /// γm of cohesion, m⁴/s²: times C(r) an acceleration.
+    pub fn cohesion_scale(&self) -> f64 {
+        self.particle_mass()
+            * cohesion_strength(self.cohesion, self.rest_density, self.support_radius)
+    }
+
+    /// βρ₀ of adhesion, m/s²: times ∫ A(r)·r̂ over what is solid an
+    /// acceleration.
+    pub fn adhesion_scale(&self) -> f64 {
+        self.rest_density * adhesion_strength(self.adhesion, self.rest_density, self.support_radius)
     }
 
     /// μ_s = 1 − (1 − μ)^(Δt_s/Δt_ref), the XSPH coefficient of one substep,

@@ -5,7 +5,7 @@ use crate::bodies::{Bodies, BodiesError, BodiesSpec, BodySpec, Hand, Load, Table
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
-use crate::scene::{Boundary, Feature, Scene};
+use crate::scene::{Boundary, Scene};
 use crate::solver::{
     Counters, FrameRecord, Ground, Particle, Solver, SolverError, SolverSpec, SolverState,
 };
@@ -304,12 +304,6 @@ fn check_supported(scene: &Scene) -> Result<(), WorldError> {
     if scene.solver.boundary == Boundary::Particles {
         return refuse("solver.boundary", "boundary particles", "use \"map\"");
     }
-    if scene.models(Feature::Cohesion) {
-        return refuse("model", "cohesion", "leave it out");
-    }
-    if scene.models(Feature::Vorticity) {
-        return refuse("model", "vorticity confinement", "leave it out");
-    }
     Ok(())
 }
 
@@ -384,14 +378,8 @@ mod tests {
     fn what_the_device_lacks_is_refused() {
         let scene = Scene::load("beaker").unwrap();
         assert!(check_supported(&scene).is_ok());
-        for asks in [
-            |scene: &mut Scene| scene.solver.boundary = Boundary::Particles,
-            |scene: &mut Scene| scene.model.push(Feature::Cohesion),
-            |scene: &mut Scene| scene.model.push(Feature::Vorticity),
-        ] {
-            let mut scene = scene.clone();
-            asks(&mut scene);
-            assert!(check_supported(&scene).is_err());
-        }
+        let mut scene = scene.clone();
+        scene.solver.boundary = Boundary::Particles;
+        assert!(check_supported(&scene).is_err());
     }
 }

@@ -1,56 +1,74 @@
-// The volume that walls contribute to a particle's density, and its gradient.
+// What is solid, as the density sum and the adhesion have it.
 //!include common/vessel.wgsl
 //!include common/ground.wgsl
 
-/// (∇V, V) of one map of flask k at `x` (stage frame).
-fn vessel_volume(k: u32, pose: FlaskPose, first: u32, x: vec3<f32>) -> vec4<f32> {
+/// Whether the walls' pull (adhesion, line 28) is asked for.
+override PULL: bool = false;
+/// Entries of the table of half-space pulls over one support radius.
+override PULL_COUNT: u32 = 2u;
+
+/// G at distances 0 to h: what a half-space of solid particles attracts with.
+@group(0) @binding(26) var<storage, read> pulls: array<f32>;
+
+/// What one flask's glass is to a particle.
+struct Wall {
+    /// ∇V, 1/m.
+    gradient: vec3<f32>,
+    /// V, its part of a full density.
+    volume: f32,
+    /// ∫ A·r̂ over the glass, towards it, dimensionless; zero without PULL.
+    pull: vec3<f32>,
+}
+
+/// G of a half-space whose surface lies `distance` away, that at its surface within it.
+fn half_space_pull(distance: f32) -> f32 {
+    let at = clamp(distance / SUPPORT, 0.0, 1.0) * f32(PULL_COUNT - 1u);
+    let i = min(u32(at), PULL_COUNT - 2u);
+    return mix(pulls[i], pulls[i + 1u], at - f32(i));
+}
+
+/// Whether flask k's glass may act on a particle at `x` (stage frame). What is
+/// inside a flask feels that flask's inner surface and nothing beyond it.
+fn may_touch(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>) -> bool {
+    let reach = flasks[k].outer + flasks[k].rim + SUPPORT;
+    let offset = x - pose.position.xyz;
+    return membership == k + 1u || (membership == NOBODYS && dot(offset, offset) < reach * reach);
+}
+
+/// Flask k's wall at `x` (stage frame), by the map of the particle's side.
+fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>) -> Wall {
     let p = flask_from_stage(pose, x);
     let r = length(p.xz);
+    let first = select(flasks[k].outside_first, flasks[k].inside_first, membership == k + 1u);
     let map = sample_map(k, first, r, p.y);
     let out = p.xz / max(r, 1e-9);
-    let slope = vec3<f32>(out.x * map.z, map.w, out.y * map.z);
-    return vec4<f32>(rotate(pose.orientation, slope), map.y);
-}
-
-/// (∇V, V) at `x` of all vessels' glass.
-fn outside_vessels(x: vec3<f32>, pose_first: u32) -> vec4<f32> {
-    var sum = vec4<f32>(0.0);
-    for (var k = 0u; k < FLASKS; k++) {
-        let pose = poses[pose_first + k];
-        let reach = flasks[k].outer + flasks[k].rim + SUPPORT;
-        let offset = x - pose.position.xyz;
-        if (dot(offset, offset) < reach * reach) {
-            sum += vessel_volume(k, pose, flasks[k].outside_first, x);
-        }
+    let gradient = rotate(pose.orientation, vec3<f32>(out.x * map.z, map.w, out.y * map.z));
+    var pull = vec3<f32>(0.0);
+    if (PULL) {
+        // No wall in reach has no gradient and no direction either.
+        pull = gradient * (half_space_pull(map.x) / max(length(gradient), 1e-9));
     }
-    return sum;
+    return Wall(gradient, map.y, pull);
 }
 
-/// (∇V, V) at `x` of all walls that act on a particle with `membership`. What
-/// is inside a flask feels that flask's inner surface and nothing beyond it.
+/// (∇V, V) at `x` of all walls that act on a particle with `membership`. One
+/// loop for particles inside and outside: two would both be walked on a
+/// software driver.
 fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
     if (FLASKS > 0u) {
-        if (membership != NOBODYS) {
-            let k = membership - 1u;
-            sum = vessel_volume(k, poses[pose_first + k], flasks[k].inside_first, x);
-        } else {
-            sum = outside_vessels(x, pose_first);
+        for (var k = 0u; k < FLASKS; k++) {
+            let pose = poses[pose_first + k];
+            if (may_touch(k, membership, pose, x)) {
+                let wall = wall_of(k, membership, pose, x);
+                sum += vec4<f32>(wall.gradient, wall.volume);
+            }
         }
     }
     if (membership == NOBODYS) {
-        if (TABLE) {
-            let above = x.y - TABLE_TOP;
-            if (above < SUPPORT && x.y > TABLE_UNDER && beyond_table(x) < 0.0) {
-                let v = half_space(above);
-                sum += vec4<f32>(0.0, v.y, 0.0, v.x);
-            }
-        }
-        let height = x.y - FLOOR;
-        if (height < SUPPORT) {
-            let v = half_space(height);
-            sum += vec4<f32>(0.0, v.y, 0.0, v.x);
-        }
+        let above = heights(x);
+        let v = half_space(above.x) + half_space(above.y);
+        sum += vec4<f32>(0.0, v.y, 0.0, v.x);
     }
     return sum;
 }

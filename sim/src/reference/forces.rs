@@ -14,8 +14,8 @@ const COHESION_MOMENT: f64 = 21.0 / 28160.0;
 /// ∫₀¹ q⁴·a(q) dq for the adhesion kernel A = 0.007/h³·a(r/h), by quadrature.
 const ADHESION_MOMENT: f64 = 0.116_585;
 
-/// Samples of [`HalfSpacePull`] over the support radius.
-const PULL_SAMPLES: usize = 64;
+/// Intervals of [`HalfSpacePull`]'s table over the support radius.
+pub const PULL_SAMPLES: usize = 64;
 
 /// C(r) of Akinci et al. 2013, Eq. 2, 1/m³: attracts beyond h/2, repels
 /// nearby.

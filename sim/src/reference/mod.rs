@@ -107,8 +107,9 @@ impl Reference {
         let neighbours = self.neighbours(&predicted); // lines 9–12
         let solved = self.solve(predicted, &neighbours); // lines 18–21
         self.commit(&solved); // lines 22–25
+        let accelerations = self.internal_forces(&neighbours); // line 28
         self.smooth(&neighbours); // line 27
-        self.push(&neighbours); // line 28
+        self.push(&accelerations);
         self.take_out_non_finite();
     }
 
@@ -234,10 +235,15 @@ impl Reference {
         );
     }
 
-    /// Line 28: internal forces, those that are not zero.
-    pub fn push(&mut self, neighbours: &Neighbours) {
+    /// Line 28: accelerations by internal forces, m/s², of each force that is
+    /// not zero.
+    ///
+    /// By the velocities that line 24 left, as those of line 27 are: a vorticity
+    /// of smoothed velocities would take the GPU a second pass over the
+    /// neighbours, and lines 27 and 28 stand in one loop over the particles
+    /// in the paper, so that neither order is the listing's.
+    pub fn internal_forces(&self, neighbours: &Neighbours) -> Vec<Vec<DVec3>> {
         let parameters = &self.parameters;
-        let (rest_density, support) = (parameters.rest_density, parameters.support_radius);
         let mut accelerations = Vec::new();
         if parameters.vorticity > 0.0 {
             let volume = parameters.particle_volume();
@@ -250,27 +256,29 @@ impl Reference {
             accelerations.push(confinement);
         }
         if parameters.cohesion > 0.0 {
-            let gamma = forces::cohesion_strength(parameters.cohesion, rest_density, support);
-            let strength = gamma * parameters.particle_mass();
+            let (support, strength) = (parameters.support_radius, parameters.cohesion_scale());
             let cohesion = forces::cohesion(support, strength, &self.positions, neighbours);
             accelerations.push(cohesion);
         }
         if parameters.adhesion > 0.0 {
-            let beta = forces::adhesion_strength(parameters.adhesion, rest_density, support);
-            let strength = beta * rest_density;
             let adhesion = forces::adhesion(
                 &self.surroundings,
                 &self.motion,
-                strength,
+                parameters.adhesion_scale(),
                 &self.positions,
                 &self.membership,
             );
             accelerations.push(adhesion);
         }
-        let time = parameters.substep_time();
+        accelerations
+    }
+
+    /// v ← v + Δt·a for each of `accelerations` (m/s²).
+    pub fn push(&mut self, accelerations: &[Vec<DVec3>]) {
+        let time = self.parameters.substep_time();
         for acceleration in accelerations {
             for (velocity, acceleration) in self.velocities.iter_mut().zip(acceleration) {
-                *velocity += acceleration * time;
+                *velocity += *acceleration * time;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The particles' state and the solver's scratch memory. A particle's place in
 //! every array is the same; it changes when the list is rebuilt.
 
+use super::SolverSpec;
 use super::pipelines::Grid;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 
@@ -25,6 +26,7 @@ pub(super) struct Buffers {
     pub(super) boundary: Buffer,
     pub(super) multiplier: Buffer,
     pub(super) new_velocity: Buffer,
+    pub(super) vorticity: Buffer,
     // Scratch of a rebuild. The sorted copies of what is dead at that moment
     // share its memory: `solved` and `new_velocity` are written only later.
     pub(super) sorted_position: Buffer,
@@ -49,15 +51,17 @@ const MAX_SUBSTEPS: u64 = 64;
 impl Buffers {
     pub(super) fn new(
         gpu: &Gpu,
+        spec: &SolverSpec<'_>,
         count: u32,
         grid: &Grid,
-        flasks: usize,
-        loads: bool,
     ) -> Result<Self, GpuError> {
         let n = u64::from(count);
+        let flasks = spec.flasks.len() as u64;
         let words = |label, number: u64| Buffer::storage(gpu, label, 4 * number);
-        let pushed = if loads { n } else { 0 };
+        let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
+        let pushed = where_asked(spec.loads, n);
         let groups = u64::from(count.div_ceil(LOAD_GROUP));
+        let confined = spec.parameters.vorticity > 0.0;
         Ok(Self {
             position: words("position", 4 * n)?,
             velocity: words("velocity", 4 * n)?,
@@ -71,6 +75,7 @@ impl Buffers {
             boundary: words("boundary", 4 * n)?,
             multiplier: words("multiplier", n)?,
             new_velocity: words("new_velocity", 4 * n)?,
+            vorticity: words("vorticity", where_asked(confined, 4 * n))?,
             sorted_position: words("sorted_position", 4 * n)?,
             sorted_tags: words("sorted_tags", 2 * n)?,
             sorted_push: words("sorted_push", 4 * pushed)?,
@@ -79,16 +84,9 @@ impl Buffers {
             block_sums: words("block_sums", u64::from(grid.blocks()))?,
             cell_items: words("cell_items", n)?,
             list_args: words("list_args", 16)?,
-            poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks as u64)?,
+            poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks)?,
             wall_push: words("wall_push", 4 * pushed)?,
-            loads: words(
-                "loads",
-                if loads {
-                    12 * groups * flasks as u64
-                } else {
-                    0
-                },
-            )?,
+            loads: words("loads", where_asked(spec.loads, 12 * groups * flasks))?,
             density: words("density", n)?,
         })
     }
@@ -106,6 +104,7 @@ impl Buffers {
             &self.boundary,
             &self.multiplier,
             &self.new_velocity,
+            &self.vorticity,
             &self.sorted_position,
             &self.sorted_tags,
             &self.sorted_push,

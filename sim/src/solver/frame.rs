@@ -59,7 +59,8 @@ impl Solver {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
-            self.apply_viscosity(rec, &step, n + 1 == substeps)?; // 27; 16 of the next
+            self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
+            self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
         }
         self.sum_loads(rec)
     }
@@ -112,70 +113,6 @@ impl Solver {
             .read("tags", &b.tags)
             .constants(&self.step(0))
             .invocations(self.count)?;
-        Ok(())
-    }
-
-    /// Counting sort by cell, reordering and list, all with no workgroups
-    /// while the list of an earlier substep serves.
-    fn find_neighbours(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
-        let (b, p) = (&self.buffers, &self.pipelines);
-        const PARTICLES: u64 = 0;
-        const CELLS: u64 = 16;
-        const LIST: u64 = 32;
-        const ONE: u64 = 48;
-        rec.pass(&p.cell_count)
-            .read("trial", &b.trial)
-            .write("cell_counts", &b.cell_counts)
-            .indirect(&b.list_args, PARTICLES)?;
-        rec.pass(&p.cell_scan)
-            .read("cell_counts", &b.cell_counts)
-            .write("cell_starts", &b.cell_starts)
-            .write("block_sums", &b.block_sums)
-            .indirect(&b.list_args, CELLS)?;
-        rec.pass(&p.block_scan)
-            .write("block_sums", &b.block_sums)
-            .indirect(&b.list_args, ONE)?;
-        rec.pass(&p.cell_scatter)
-            .read("trial", &b.trial)
-            .read("cell_starts", &b.cell_starts)
-            .read("block_sums", &b.block_sums)
-            .write("cell_counts", &b.cell_counts)
-            .write("cell_items", &b.cell_items)
-            .indirect(&b.list_args, PARTICLES)?;
-        rec.pass(&p.reorder)
-            .read("trial", &b.trial)
-            .read("position", &b.position)
-            .read("velocity", &b.velocity)
-            .read("tags", &b.tags)
-            .read("wall_push", &b.wall_push)
-            .read("cell_starts", &b.cell_starts)
-            .read("block_sums", &b.block_sums)
-            .read("cell_items", &b.cell_items)
-            .write("sorted_trial", &b.solved)
-            .write("sorted_position", &b.sorted_position)
-            .write("sorted_velocity", &b.new_velocity)
-            .write("sorted_tags", &b.sorted_tags)
-            .write("sorted_push", &b.sorted_push)
-            .indirect(&b.list_args, PARTICLES)?;
-        self.vessels(rec.pass(&p.list))
-            .read("sorted_trial", &b.solved)
-            .read("sorted_position", &b.sorted_position)
-            .read("sorted_velocity", &b.new_velocity)
-            .read("sorted_tags", &b.sorted_tags)
-            .read("sorted_push", &b.sorted_push)
-            .read("cell_starts", &b.cell_starts)
-            .read("block_sums", &b.block_sums)
-            .write("trial", &b.trial)
-            .write("position", &b.position)
-            .write("velocity", &b.velocity)
-            .write("tags", &b.tags)
-            .write("wall_push", &b.wall_push)
-            .write("list_origin", &b.list_origin)
-            .write("list_counts", &b.list_counts)
-            .write("list", &b.list)
-            .write("counters", &b.counters)
-            .constants(step)
-            .indirect(&b.list_args, LIST)?;
         Ok(())
     }
 
@@ -259,12 +196,22 @@ impl Solver {
         Ok(())
     }
 
-    fn apply_viscosity(
-        &self,
-        rec: &mut Recorder,
-        step: &Step,
-        last: bool,
-    ) -> Result<(), SolverError> {
+    fn find_vorticity(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.vorticity else {
+            return Ok(());
+        };
+        let b = &self.buffers;
+        rec.pass(pass)
+            .read("position", &b.position)
+            .read("new_velocity", &b.new_velocity)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .write("vorticity", &b.vorticity)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    fn apply_forces(&self, rec: &mut Recorder, step: &Step, last: bool) -> Result<(), SolverError> {
         let (b, p) = (&self.buffers, &self.pipelines);
         let pass = if last {
             &p.last_viscosity
@@ -272,12 +219,14 @@ impl Solver {
             &p.viscosity
         };
         self.prediction(rec.pass(pass))
+            .read("plane", &self.vessels.plane)
+            .read("pulls", &self.vessels.pulls)
             .read("position", &b.position)
             .read("new_velocity", &b.new_velocity)
+            .read("vorticity", &b.vorticity)
             .read("tags", &b.tags)
             .read("list_counts", &b.list_counts)
             .read("list", &b.list)
-            .read("boundary", &b.boundary)
             .write("velocity", &b.velocity)
             .constants(step)
             .invocations(self.count * self.lanes)?;
@@ -323,7 +272,7 @@ impl Solver {
         }
     }
 
-    fn vessels<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+    pub(super) fn vessels<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
         let v = &self.vessels;
         pass.read("flasks", &v.flasks)
             .read("poses", &self.buffers.poses)
@@ -332,7 +281,9 @@ impl Solver {
     }
 
     fn boundary<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        self.vessels(pass).read("plane", &self.vessels.plane)
+        self.vessels(pass)
+            .read("plane", &self.vessels.plane)
+            .read("pulls", &self.vessels.pulls)
     }
 
     fn prediction<'r>(&self, pass: Pass<'r>) -> Pass<'r> {

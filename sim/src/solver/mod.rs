@@ -6,8 +6,8 @@
 //! Few passes, since a dispatch with its barrier costs as much as the work of
 //! a small scene: two over neighbours per iteration (multipliers,
 //! displacements), one for viscosity. The last displacement pass also commits
-//! (lines 23 to 25), the viscosity pass also predicts the next substep
-//! (line 16). The neighbour list is rebuilt when a particle has used up its
+//! (lines 23 to 25), the viscosity pass also applies the internal forces
+//! (line 28) and predicts the next substep (line 16). The neighbour list is rebuilt when a particle has used up its
 //! margin; the GPU decides, by the sizes of six indirect dispatches.
 
 mod buffers;
@@ -15,6 +15,7 @@ mod counters;
 mod error;
 mod frame;
 mod pipelines;
+mod search;
 mod state;
 mod vessels;
 
@@ -94,8 +95,8 @@ impl Solver {
             .map_err(|_| SolverError::TooManyParticles(spec.particles.len()))?;
         let grid = Grid::new(&spec.parameters, count);
         let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
-        let vessels = Vessels::new(gpu, &spec.parameters, spec.flasks)?;
-        let buffers = Buffers::new(gpu, count, &grid, spec.flasks.len(), spec.loads)?;
+        let vessels = Vessels::new(gpu, spec)?;
+        let buffers = Buffers::new(gpu, spec, count, &grid)?;
         let pipelines = Pipelines::new(gpu, library, spec, count, &grid, lanes)?;
         let solver = Self {
             gpu: gpu.clone(),

@@ -3,6 +3,7 @@
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
 use crate::parameters::Parameters;
+use crate::reference::forces::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId, sim};
 
@@ -67,6 +68,8 @@ pub(super) struct Pipelines {
     pub(super) multiplier: ComputePipeline,
     pub(super) displacement: ComputePipeline,
     pub(super) commit: ComputePipeline,
+    /// Where the scene has vorticity confinement.
+    pub(super) vorticity: Option<ComputePipeline>,
     pub(super) viscosity: ComputePipeline,
     pub(super) last_viscosity: ComputePipeline,
     pub(super) load: ComputePipeline,
@@ -91,6 +94,11 @@ impl Pipelines {
             let compiled = library.compile(&shader, "main", &own)?;
             Ok::<_, SolverError>(ComputePipeline::new(gpu, &compiled)?)
         };
+        let pull = ("PULL", flag(spec.parameters.adhesion > 0.0));
+        let vorticity = match spec.parameters.vorticity {
+            0.0 => None,
+            _ => Some(make(sim::VORTICITY, &[])?),
+        };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
@@ -110,8 +118,9 @@ impl Pipelines {
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             commit: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
-            viscosity: make(sim::VISCOSITY, &[("PREDICT", 1.0)])?,
-            last_viscosity: make(sim::VISCOSITY, &[])?,
+            vorticity,
+            viscosity: make(sim::VISCOSITY, &[pull, ("PREDICT", 1.0)])?,
+            last_viscosity: make(sim::VISCOSITY, &[pull])?,
             load: make(sim::LOAD, &[])?,
             density: make(sim::DENSITY, &[])?,
         })
@@ -142,6 +151,10 @@ impl Constants {
             ("GRAVITY_Y", p.gravity[1]),
             ("GRAVITY_Z", p.gravity[2]),
             ("VISCOUS", flag(p.viscosity > 0.0)),
+            ("CONFINEMENT", p.vorticity),
+            ("COHESION", p.cohesion_scale()),
+            ("ADHESION", p.adhesion_scale()),
+            ("PULL_COUNT", (PULL_SAMPLES + 1) as f64),
             ("CELL", grid.cell),
             ("CELL_BITS_X", f64::from(grid.bits[0])),
             ("CELL_BITS_Y", f64::from(grid.bits[1])),

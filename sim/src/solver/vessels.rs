@@ -1,8 +1,9 @@
 //! Flasks, table and floor as the shaders' buffers.
 
-use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
-use crate::parameters::Parameters;
+use super::SolverSpec;
+use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
+use crate::reference::forces::HalfSpacePull;
 use crate::scene::TableTop;
 use glam::DVec2;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
@@ -37,17 +38,19 @@ pub struct Vessels {
     pub(super) maps: Buffer,
     pub(super) distances: Buffer,
     pub(super) plane: Buffer,
+    pub(super) pulls: Buffer,
 }
 
 impl Vessels {
-    /// Tabulates radii and volume maps and uploads them.
-    pub fn new(gpu: &Gpu, parameters: &Parameters, profiles: &[Profile]) -> Result<Self, GpuError> {
+    /// Tabulates radii, volume maps and what the scene's forces need, and
+    /// uploads them.
+    pub fn new(gpu: &Gpu, spec: &SolverSpec<'_>) -> Result<Self, GpuError> {
+        let support = spec.parameters.support_radius;
         let mut flasks = Vec::new();
         let mut radii: Vec<f32> = Vec::new();
         let mut maps: Vec<[f32; 4]> = Vec::new();
         let mut distances: Vec<f32> = Vec::new();
-        for profile in profiles {
-            let support = parameters.support_radius;
+        for profile in spec.flasks {
             let inside = VolumeMap::new(profile, Side::Inside, support);
             let outside = VolumeMap::new(profile, Side::Outside, support);
             let table = profile.radius_table();
@@ -75,13 +78,19 @@ impl Vessels {
             maps.extend_from_slice(outside.nodes());
             distances.extend(outside.nodes().iter().map(|node| node[0]));
         }
-        let plane = PlaneMap::new(parameters.support_radius).table(PLANE_ENTRIES);
+        let plane = PlaneMap::new(support).table(PLANE_ENTRIES);
+        let pulls = if spec.parameters.adhesion > 0.0 {
+            HalfSpacePull::new(support).table()
+        } else {
+            Vec::new()
+        };
         Ok(Self {
             flasks: upload(gpu, "flasks", &flasks)?,
             radii: upload(gpu, "radii", &radii)?,
             maps: upload(gpu, "maps", &maps)?,
             distances: upload(gpu, "distances", &distances)?,
             plane: upload(gpu, "plane", &plane)?,
+            pulls: upload(gpu, "pulls", &pulls)?,
         })
     }
 }

@@ -1,118 +1,12 @@
-//! The same scene by the f64 reference, pass by pass and as a whole.
-//!
-//! The scene: 800 jittered particles in a leaning glass, puddles on the
-//! table beside it and on the floor, drops that run down its outside. Coordinates are up to
-//! 0.1 m, so positions are rounded to 7 nm; a velocity is a difference of two
-//! over Δt = 1/1080 s, and rounded to 1e-5 m/s with it.
+//! The leaning glass by the f64 reference, pass by pass and as a whole.
 
 use crate::common::*;
-use glam::{DVec2, DVec3, Quat, Vec3};
-use std::ops::Range;
-use vitriol_gpu::Gpu;
+use crate::leaning_glass::*;
+use glam::{DVec3, Quat, Vec3};
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::reference::Reference;
-use vitriol_sim::reference::surroundings::{Surroundings, Table, Vessel};
-use vitriol_sim::solver::{Ground, Particle, Solver};
+use vitriol_sim::solver::Particle;
 use vitriol_tests::gpu;
-
-/// Rounding of a place in the scene after a substep: some ten operations.
-const PLACE: f64 = 5e-8;
-
-/// What interpolating the half space's table linearly over h/128 makes of a
-/// density: V''·(h/128)²/8 with V'' = 3/h² at h/3.
-const PLANE: f64 = 3e-5;
-
-const GROUND: Ground = Ground {
-    floor: -0.05,
-    table: Some((-0.01, DVec2::new(0.0, 0.01), DVec2::new(0.16, 0.1))),
-    scale: 1.0,
-};
-
-fn glass_pose() -> Pose {
-    let lean = Quat::from_rotation_z(0.15) * Quat::from_rotation_x(-0.1);
-    Pose::new(Vec3::new(0.01, 0.0, 0.02), lean)
-}
-
-fn scene(parameters: Parameters) -> Setup {
-    let mut random = Random(7);
-    let mut particles = water(&narrow_glass(), 0, glass_pose(), 800);
-    let block = |count: u32, corner: DVec3| {
-        (0..count).map(move |i| {
-            let site = DVec3::new((i % 5).into(), (i / 15).into(), (i / 5 % 3).into());
-            corner + site * D
-        })
-    };
-    let on_table = block(45, DVec3::new(-0.055, -0.01 + 0.5 * D, -0.02));
-    let on_floor = block(30, DVec3::new(-0.1, -0.05 + 0.5 * D, 0.03));
-    let down_the_glass = (0..12).map(|i| {
-        let angle = f64::from(i) * 0.5;
-        let local = DVec3::new(
-            0.0165 * angle.cos(),
-            0.01 + 0.003 * f64::from(i),
-            0.0165 * angle.sin(),
-        );
-        glass_pose().transform_point(local.as_vec3()).as_dvec3()
-    });
-    let outside = on_table.chain(on_floor).chain(down_the_glass);
-    particles.extend(outside.map(|position| drop_at(position, DVec3::ZERO)));
-    for particle in &mut particles {
-        particle.position += random.point(0.1 * D);
-        // What both solvers start with is the same float.
-        particle.position = particle.position.as_vec3().as_dvec3();
-        particle.velocity = random.point(0.1).as_vec3().as_dvec3();
-        particle.carried = f64::from(-0.2 * random.number() as f32);
-    }
-    Setup {
-        ground: GROUND,
-        ..Setup::new(parameters, vec![narrow_glass()], particles)
-    }
-}
-
-fn reference(setup: &Setup, poses: &[Pose]) -> Reference {
-    let vessels = setup.flasks.iter().cloned();
-    let vessels = vessels.map(|profile| Vessel::with_maps(profile, H));
-    let table = setup.ground.table.map(|(top, centre, size)| Table {
-        top,
-        under: setup.ground.table_under(top),
-        centre,
-        size,
-    });
-    let surroundings = Surroundings::new(vessels.collect(), table, Some(setup.ground.floor), H);
-    let positions = setup.particles.iter().map(|p| p.position).collect();
-    let mut reference = Reference::new(setup.parameters.clone(), surroundings, positions, poses);
-    reference.velocities = setup.particles.iter().map(|p| p.velocity).collect();
-    reference.carried = setup.particles.iter().map(|p| p.carried).collect();
-    let member_of: Vec<_> = setup.particles.iter().map(|p| p.flask).collect();
-    assert_eq!(reference.membership, member_of);
-    reference
-}
-
-/// Largest value, and whose.
-fn worst(among: Range<usize>, of: impl Fn(usize) -> f64) -> (f64, usize) {
-    let worst = among.map(|i| (of(i), i));
-    worst.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
-}
-
-fn no_limiter_acted(solver: &Solver) {
-    let counters = solver.counters().unwrap();
-    let limited = (
-        counters.list_limited,
-        counters.speed_limited,
-        counters.list_overflows,
-    );
-    assert_eq!(limited, (0, 0, 0));
-}
-
-/// A frame by both.
-fn both(gpu: &Gpu, setup: &Setup, after: Pose) -> (Vec<Found>, Reference) {
-    let solver = setup.solver(gpu);
-    let mut truth = reference(setup, &[glass_pose()]);
-    frame(gpu, &solver, &[glass_pose()], &[after]);
-    truth.step(&[glass_pose()], &[after]);
-    no_limiter_acted(&solver);
-    (particles(&solver.snapshot().unwrap()), truth)
-}
 
 /// Line 16 with line 23: the list's origins are the predictions.
 #[test]
@@ -216,9 +110,9 @@ fn displacement_and_commit() {
     }
 }
 
-/// Line 27, with a glass that moves at 0.5 m/s and turns at 2 rad/s, on water
-/// so loose that the density has nothing to correct: what the GPU has of the
-/// walls is of before the last displacement.
+/// Line 27, with a glass that moves at 0.5 m/s and turns at 2 rad/s and takes
+/// along what is in it and the drops on its outside, but for those on table
+/// and floor.
 #[test]
 fn viscosity_and_moving_glass() {
     let device = gpu::device();
@@ -226,14 +120,7 @@ fn viscosity_and_moving_glass() {
         viscosity: 0.6,
         ..single_substeps()
     };
-    let mut setup = scene(p.clone());
-    // Every second particle, and no drops on the glass that moves.
-    setup.particles.truncate(875);
-    let mut odd = false;
-    setup.particles.retain(|_| {
-        odd = !odd;
-        odd
-    });
+    let setup = scene(p.clone());
     let time = SUBSTEP as f32;
     let start = glass_pose();
     let after = Pose::new(

@@ -6,6 +6,8 @@
 mod against_reference;
 mod chaos;
 mod common;
+mod forces;
+mod leaning_glass;
 mod limits;
 mod loads;
 mod neighbours;

@@ -7,7 +7,7 @@ use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_tests::gpu;
 
-const PASSES: [ShaderId; 12] = [
+const PASSES: [ShaderId; 13] = [
     sim::PREDICT,
     sim::CELL_COUNT,
     sim::CELL_SCAN,
@@ -17,6 +17,7 @@ const PASSES: [ShaderId; 12] = [
     sim::LIST,
     sim::MULTIPLIER,
     sim::DISPLACEMENT,
+    sim::VORTICITY,
     sim::VISCOSITY,
     sim::DENSITY,
     sim::LOAD,
@@ -58,14 +59,23 @@ fn shaders_bind_what_the_scene_has() {
         seen_flasks += usize::from(holds(&full, &of_flasks));
         seen_loads += usize::from(holds(&full, &of_loads));
         // The floor is always there, for those that ask for walls at all.
-        let density_like = [sim::MULTIPLIER, sim::DENSITY].map(|s| s.path());
-        assert_eq!(
-            holds(&full, &of_table),
-            density_like.contains(&shader.path())
-        );
+        let of_walls = [sim::MULTIPLIER, sim::VISCOSITY, sim::DENSITY].map(|s| s.path());
+        assert_eq!(holds(&full, &of_table), of_walls.contains(&shader.path()));
     }
     // Names that are in none would have proved nothing.
     assert_eq!((seen_flasks, seen_loads), (7, 6));
+    let forces = |constants: &[(&str, f64)]| {
+        let bound = bindings(sim::VISCOSITY, constants);
+        ["vorticity", "pulls"].map(|name| bound.contains(&name.to_owned()))
+    };
+    assert_eq!(forces(&[("COHESION", 1.0)]), [false, false]);
+    assert_eq!(forces(&[("CONFINEMENT", 1.0)]), [true, false]);
+    assert_eq!(forces(&[("ADHESION", 1.0), ("PULL", 1.0)]), [false, true]);
+    // Without viscosity and forces, no neighbour is looked at and no wall.
+    let idle = bindings(sim::VISCOSITY, &[("VISCOUS", 0.0), ("FLASKS", 1.0)]);
+    let looks_at = |name: &&str| idle.contains(&(*name).to_owned());
+    let any = ["list", "list_counts", "maps", "plane"];
+    assert_eq!(any.iter().find(|name| looks_at(name)), None, "{idle:?}");
     let carried = bindings(sim::MULTIPLIER, &[("FIRST", 1.0)]);
     assert!(!carried.contains(&"velocity".to_owned()), "{carried:?}");
 }
@@ -115,6 +125,22 @@ fn frames_dispatch_what_the_scene_has() {
     assert_eq!(count(&theirs, "sim/load"), 1, "{theirs:?}");
     // What is carried costs two more a substep.
     assert_eq!(sum(&theirs), 21, "{theirs:?}");
+    let with_forces = |vorticity: f64| {
+        let setup = Setup {
+            parameters: Parameters {
+                vorticity,
+                cohesion: 0.05,
+                adhesion: 0.05,
+                ..bare.parameters.clone()
+            },
+            ..bare.clone()
+        };
+        passes(&setup, &[])
+    };
+    // Cohesion and adhesion cost none, vorticity one a substep.
+    let vorticity = with_forces(0.1);
+    assert_eq!(count(&vorticity, "sim/vorticity"), 3, "{vorticity:?}");
+    assert_eq!(with_forces(0.0), own);
 }
 
 #[test]
