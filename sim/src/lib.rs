@@ -1,6 +1,7 @@
 //! The simulation: scenes as data, vessels, the particle solver.
 
 pub mod bodies;
+pub mod chemistry;
 pub mod fill;
 pub mod flask;
 pub mod kernel;

@@ -1,0 +1,7 @@
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+//! Truth from outside: the source tables, handbook values, the pair sums
+//! that the paper's equations are meant to give.
+
+mod enthalpy;
+mod pairs;
+mod phases;

@@ -1,0 +1,229 @@
+//! Exchange between pairs: sums that must hold whatever the arrangement.
+
+use super::super::exchange::{Exchange, list_capacity};
+use super::super::paper::{AntiViscosity, Dilution};
+use super::super::physical::Content;
+use super::super::table::SolutionTable;
+use super::super::thomsen;
+use super::super::transport::{Losses, Mixing, Potential, contact_area, flux};
+use crate::parameters::Parameters;
+use crate::scene::Scene;
+use proptest::prelude::*;
+
+/// The paper's world.
+fn world() -> Parameters {
+    Parameters::from_scene(&Scene::load("single-dilution").unwrap())
+}
+
+/// Points that may lie anywhere, close together too, with their acid
+/// fractions; at most as many as a list holds.
+fn cluster() -> impl Strategy<Value = Vec<([f64; 3], f64)>> {
+    let acid = prop_oneof![Just(0.0), Just(1.0), 0.0..=1.0];
+    prop::collection::vec((prop::array::uniform3(0.0..0.15), acid), 2..64)
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// One step on acid fractions: the new ones and every Δc_ij.
+fn diffuse(
+    exchange: &Exchange,
+    diffusivity: f64,
+    points: &[([f64; 3], f64)],
+) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let changes: Vec<Vec<f64>> = points
+        .iter()
+        .map(|&(at, acid)| {
+            let change = |&(other, beside): &([f64; 3], f64)| {
+                exchange.share(diffusivity, distance(at, other)) * (beside - acid)
+            };
+            points.iter().map(change).collect()
+        })
+        .collect();
+    let after = points
+        .iter()
+        .zip(&changes)
+        .map(|((_, acid), changes)| acid + changes.iter().sum::<f64>())
+        .collect();
+    (after, changes)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    /// No new extrema and no drift, for any D, Δt and disorder.
+    #[test]
+    fn diffusion_keeps_its_sum_and_its_range(
+        points in cluster(),
+        diffusivity in prop_oneof![Just(0.007), Just(1e9), 0.0..10.0],
+    ) {
+        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let (after, _) = diffuse(&exchange, diffusivity, &points);
+        let before: f64 = points.iter().map(|(_, acid)| acid).sum();
+        // Rounding of 64 sums of 64 terms.
+        prop_assert!((after.iter().sum::<f64>() - before).abs() < 1e-12);
+        let (low, high) = points.iter().fold((1.0f64, 0.0f64), |(low, high), (_, acid)| {
+            (low.min(*acid), high.max(*acid))
+        });
+        for acid in after {
+            prop_assert!((low - 1e-15..=high + 1e-15).contains(&acid), "{acid}");
+        }
+    }
+
+    /// Eqs 6 to 13: the heat of all pairs is the change of enthalpy, and all
+    /// of it arrives.
+    #[test]
+    fn pair_heats_sum_to_the_change_of_enthalpy(
+        points in cluster(),
+        diffusivity in prop_oneof![Just(0.007), Just(1e9)],
+    ) {
+        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let dilution = Dilution::new(0.017, world().particle_mass());
+        let (after, changes) = diffuse(&exchange, diffusivity, &points);
+        let secants: Vec<f64> = points
+            .iter()
+            .zip(&after)
+            .map(|((_, before), after)| thomsen::secant(*before, *after))
+            .collect();
+        let (mut heat, mut warming) = (0.0, 0.0);
+        for i in 0..points.len() {
+            for j in 0..points.len() {
+                let pair = dilution.pair_heat((secants[i], secants[j]), changes[i][j]);
+                heat += 0.5 * pair;
+                warming += dilution.warming(pair, points[i].1, points[j].1);
+            }
+        }
+        let enthalpy: f64 = points
+            .iter()
+            .zip(&after)
+            .map(|((_, before), after)| dilution.heat(*after) - dilution.heat(*before))
+            .sum();
+        let scale = enthalpy.abs() + 1e-6 * dilution.heat(0.5);
+        prop_assert!((heat - enthalpy).abs() < 1e-6 * scale, "{heat} {enthalpy}");
+        let arrived = warming * dilution.heat_capacity();
+        prop_assert!((arrived - enthalpy).abs() < 1e-6 * scale, "{arrived} {enthalpy}");
+    }
+
+    /// The physical exchange keeps acid and enthalpy, and compositions in
+    /// range, for liquids of any temperature with bubbles in them.
+    #[test]
+    fn physical_exchange_keeps_acid_and_enthalpy(
+        points in cluster(),
+        temperatures in prop::collection::vec(-10.0..400.0, 64),
+        speed in prop_oneof![Just(0.0), Just(1e9), 0.0..5.0],
+    ) {
+        let table = SolutionTable::new();
+        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let mut contents: Vec<Content> = points
+            .iter()
+            .zip(&temperatures)
+            .map(|((_, acid), &at)| Content::liquid(&table, 0.1 + acid, *acid, at).unwrap())
+            .collect();
+        contents.iter_mut().for_each(|content| {
+            content.boil(&table, 1.0, 1.0);
+        });
+        let potentials: Vec<_> = contents.iter().map(|c| Potential::of(&table, c)).collect();
+        let d = Mixing::default().diffusivities(0.1, speed);
+        let (mut acid, mut enthalpy, mut size) = (0.0, 0.0, 0.0);
+        for i in 0..points.len() {
+            let mut gained = contents[i].mass * contents[i].acid;
+            for j in 0..points.len() {
+                let apart = distance(points[i].0, points[j].0);
+                let got = flux(&exchange, d, apart, &potentials[i], &potentials[j]);
+                let back = flux(&exchange, d, apart, &potentials[j], &potentials[i]);
+                prop_assert_eq!((got.acid, got.enthalpy), (-back.acid, -back.enthalpy));
+                gained += got.acid;
+                acid += got.acid;
+                enthalpy += got.enthalpy;
+                size += got.enthalpy.abs();
+            }
+            let fraction = gained / contents[i].liquid_mass();
+            prop_assert!((-1e-14..=1.0 + 1e-14).contains(&fraction), "{fraction}");
+        }
+        prop_assert!(acid.abs() < 1e-12 && enthalpy.abs() < 1e-12 * size + 1e-9);
+    }
+}
+
+#[test]
+fn limit_reports_what_it_takes() {
+    let exchange = Exchange::new(&world(), list_capacity(&world()));
+    // Table 1 on the lattice is not limited at 60 Hz × 3.
+    assert_eq!(exchange.remaining(0.01), 1.0);
+    assert_eq!(exchange.remaining(0.0), 1.0);
+    let (some, little) = (exchange.remaining(0.1), exchange.remaining(1.0));
+    assert!(
+        some < 0.6 && little < 0.1 && little > 0.0,
+        "{some} {little}"
+    );
+    assert_eq!(exchange.remaining(1e308), 0.0);
+}
+
+#[test]
+fn uniform_liquid_exchanges_nothing() {
+    let exchange = Exchange::new(&world(), list_capacity(&world()));
+    let table = SolutionTable::new();
+    let content = Content::liquid(&table, 0.125, 0.3, 80.0).unwrap();
+    let potential = Potential::of(&table, &content);
+    let got = flux(&exchange, (1.0, 1.0), 0.05, &potential, &potential);
+    // Exactly: else a scene at rest would not stay as it is.
+    assert_eq!((got.acid, got.enthalpy), (0.0, 0.0));
+    assert_eq!(thomsen::secant(0.3, 0.3) - thomsen::secant(0.3, 0.3), 0.0);
+}
+
+#[test]
+fn losses_stop_at_ambient() {
+    let table = SolutionTable::new();
+    let losses = Losses::to_air(20.0);
+    for temperature in [-20.0, 20.0, 150.0, 1e6] {
+        let content = Content::liquid(&table, 1.6e-5, 0.5, temperature).unwrap();
+        let hot = Potential::of(&table, &content);
+        let at_once = losses.gain(&hot, 6e-6, 6e-6, 1e9);
+        let all = hot.capacity * (20.0 - temperature);
+        assert!(
+            (at_once - all).abs() <= 1e-9 * all.abs() + 1e-12,
+            "{temperature}"
+        );
+        // 12 W/(m² K) over a short time, by hand.
+        let soon = losses.gain(&hot, 6e-6, 0.0, 1e-3);
+        let by_hand = 12.0 * 6e-6 * (20.0 - temperature) * 1e-3;
+        assert!(
+            (soon - by_hand).abs() <= 1e-4 * by_hand.abs() + 1e-15,
+            "{soon} {by_hand}"
+        );
+    }
+}
+
+#[test]
+fn areas_of_a_plane_sum_to_its_own() {
+    // Layers at d/2, 3d/2 before a plane wall with h = 2d: one particle of
+    // each per d².
+    let map = crate::flask::PlaneMap::new(0.005);
+    let (d, volume) = (0.0025, 0.0025f64.powi(3));
+    let area: f64 = [0.5 * d, 1.5 * d]
+        .map(|distance| contact_area(volume, -map.slope(distance)))
+        .iter()
+        .sum();
+    assert!((area / (d * d) - 1.0).abs() < 1e-9, "{area}");
+}
+
+#[test]
+fn anti_viscosity_is_bounded_at_any_temperature_and_intensity() {
+    for (temperature, intensity) in [(1e6, 1.0), (150.0, 100.0), (1e6, 100.0), (1e300, 1e9)] {
+        let law = AntiViscosity::new(100.0, intensity).unwrap();
+        for agitation in [0.0, 1e-30, 1.0, 1e6] {
+            let growth = law.growth(temperature, agitation, 1.0 / 180.0);
+            assert!((0.0..=0.3).contains(&growth), "{temperature} {growth}");
+        }
+    }
+    let law = AntiViscosity::new(100.0, 1.0).unwrap();
+    assert_eq!(law.growth(99.99, 0.0, 1.0), 0.0);
+    assert_eq!(law.growth(100.0, 0.0, 1.0), 0.0);
+    // Eq. 17: μ₀ below T_B, from zero at it, −μ₀·k_v·0.5 at 150 °C.
+    assert_eq!(law.literal(99.0, 0.3), 0.3);
+    assert_eq!(law.literal(100.0, 0.3), 0.0);
+    assert!((law.literal(150.0, 0.3) + 0.15).abs() < 1e-15);
+    for boiling_point in [0.0, -10.0, f64::NAN] {
+        assert!(AntiViscosity::new(boiling_point, 1.0).is_err());
+    }
+}
