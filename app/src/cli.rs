@@ -79,6 +79,16 @@ impl PresetName {
     }
 }
 
+/// Where a film is seen from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum CameraName {
+    /// A tripod before the bench
+    #[default]
+    Fixed,
+    /// The track's head, as the user saw it
+    Head,
+}
+
 /// Arguments of `vitriol replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
@@ -104,6 +114,9 @@ pub struct ReplayArgs {
     /// out/TRACK-NUMBER
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Where the film is seen from
+    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    pub camera: CameraName,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,

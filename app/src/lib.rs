@@ -5,7 +5,7 @@ pub mod cli;
 pub mod command;
 pub mod console;
 mod device;
-mod experiment;
+pub mod experiment;
 pub mod failure;
 pub mod film;
 mod measure;

@@ -1,0 +1,7 @@
+//! What runs on a device: the experiment itself, behind the loop, with the
+//! validation layer on.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod camera;
+mod common;
+mod reload;
