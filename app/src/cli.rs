@@ -51,6 +51,9 @@ pub enum Command {
     /// Fig. 5 of the paper: a flask moved violently, without and with the flask
     /// constraint
     Fig5(Fig5Args),
+    /// The collapse of a column of water against Martin and Moyce's
+    /// measurements of 1952
+    DamBreak(DamBreakArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
 }
@@ -164,6 +167,20 @@ pub struct Fig5Args {
     /// Folder for the two pictures; without it none are made
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol dam-break`.
+#[derive(Debug, Args)]
+pub struct DamBreakArgs {
+    /// Folder for the figure; without it none is made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

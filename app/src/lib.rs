@@ -2,6 +2,7 @@
 
 mod camera;
 pub mod cli;
+pub mod column;
 pub mod command;
 pub mod console;
 mod device;

@@ -14,7 +14,7 @@ use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
-use crate::output::{FILM, OutDir, OutputError, REPORT_HTML, REPORT_JSON};
+use crate::output::{FILM, OutDir, REPORT_HTML, REPORT_JSON, blame};
 use crate::recorder::{FILM_FPS, FILM_SIZE, Recorder, Recording};
 use crate::replay::{self, Experiment, Outcome, Span};
 use crate::report::units::{grouped, mass, percent, three_digits, with_unit};
@@ -271,14 +271,6 @@ fn describe(done: &Replayed, out: &Path) -> String {
     lines.push(format!("report  {}", done.report_html));
     lines.push(format!("numbers {}", done.report_json));
     lines.join("\n")
-}
-
-fn blame(error: OutputError) -> Failure {
-    if error.is_input() {
-        Failure::Input(error.into())
-    } else {
-        Failure::Other(error.into())
-    }
 }
 
 #[cfg(test)]

@@ -4,4 +4,6 @@
 
 mod camera;
 mod common;
+mod dam_break;
+mod fig5;
 mod reload;
