@@ -1,4 +1,4 @@
-//! The film's camera on its tripod.
+//! The film's camera: on a tripod, or where the user's eyes were.
 
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind};
@@ -6,7 +6,7 @@ use vitriol_render::{
     BoxDesc, ColourBy, Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer,
     SceneDesc, VesselDesc, View,
 };
-use vitriol_shaders::Library;
+use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::{Scene, TableTop};
 use vitriol_sim::world::World;
@@ -20,14 +20,20 @@ const DRAWN_RADIUS: f64 = 0.6;
 /// map: about that from one flask's lip to another's floor.
 const COLOURED_FALL: f64 = 0.075;
 
-/// Takes pictures of a world, all from one place.
+/// Vertical field of view from the head, degrees: 80° across at 16:9. A
+/// headset's own 90° and more, flattened into a film, makes the bench small
+/// and its edges long.
+const HEAD_FIELD: f32 = 50.0;
+
+/// Takes pictures of a world.
 pub struct Camera {
     renderer: Renderer,
     view: View,
 }
 
 impl Camera {
-    /// A camera for pictures of `extent` pixels of that scene.
+    /// A camera for pictures of `extent` pixels of that scene, on its tripod
+    /// until [`Camera::follow`] takes it off.
     ///
     /// # Errors
     /// What the device says.
@@ -43,6 +49,27 @@ impl Camera {
             renderer,
             view: view(scene, extent[0] as f32 / extent[1] as f32),
         })
+    }
+
+    /// Takes up what changed of the renderer's shaders; `changed` is what
+    /// [`Library::changed`] returned. On an error the old pipelines stay.
+    ///
+    /// # Errors
+    /// What shader or device say.
+    pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
+        self.renderer.reload(library, changed)
+    }
+
+    /// Puts the camera where a head is: `stage_from_view`, in real metres.
+    pub fn follow(&mut self, stage_from_view: &vitriol_xr::Pose) {
+        let [width, height] = self.renderer.extent();
+        self.view = View {
+            stage_from_eye: Affine3A::from_rotation_translation(
+                stage_from_view.orientation.normalize(),
+                stage_from_view.position,
+            ),
+            fov: Fov::symmetric(HEAD_FIELD.to_radians(), width as f32 / height as f32),
+        };
     }
 
     /// The world as it is now: rows from the top, sRGB-encoded RGBA bytes.

@@ -51,6 +51,9 @@ pub enum Command {
     /// Fig. 5 of the paper: a flask moved violently, without and with the flask
     /// constraint
     Fig5(Fig5Args),
+    /// The collapse of a column of water against Martin and Moyce's
+    /// measurements of 1952
+    DamBreak(DamBreakArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
 }
@@ -79,6 +82,16 @@ impl PresetName {
     }
 }
 
+/// Where a film is seen from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum CameraName {
+    /// A tripod before the bench
+    #[default]
+    Fixed,
+    /// The track's head, as the user saw it
+    Head,
+}
+
 /// Arguments of `vitriol replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
@@ -104,6 +117,9 @@ pub struct ReplayArgs {
     /// out/TRACK-NUMBER
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Where the film is seen from
+    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    pub camera: CameraName,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,
@@ -151,6 +167,20 @@ pub struct Fig5Args {
     /// Folder for the two pictures; without it none are made
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol dam-break`.
+#[derive(Debug, Args)]
+pub struct DamBreakArgs {
+    /// Folder for the figure; without it none is made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

@@ -2,8 +2,10 @@
 //! them.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
+use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::bodies;
 use vitriol_sim::measure::Measurement;
 use vitriol_sim::pose::Pose;
@@ -14,7 +16,7 @@ use vitriol_xr::{Hand, PoseFrame};
 use crate::camera::Camera;
 use crate::command::replay::Setup;
 use crate::device;
-use crate::failure::Failure;
+use crate::failure::{Blame, Failure};
 use crate::replay::{Experiment, Outcome};
 use crate::report::{Counters, MassByPlace, Sample};
 
@@ -27,16 +29,29 @@ pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
     if setup.scene.models(Feature::Heat) {
         tracing::warn!("heat, dilution and boiling are not simulated yet: the scene runs without");
     }
-    let gpu = device::open(setup.device, false)?;
-    let library = Library::embedded();
-    let world = World::new(&gpu, &library, setup.scene, setup.seed).map_err(blame_world)?;
-    let film = match setup.picture {
-        Some((width, height)) => Some(Camera::new(&gpu, &library, setup.scene, [width, height])?),
+    on_device(&device::open(setup.device, false)?, setup)
+}
+
+/// The same on a device that is open already.
+///
+/// # Errors
+/// [`Failure::Input`] for a liquid that does not fit.
+pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
+    let library = &setup.shaders;
+    let world = World::new(gpu, library, setup.scene, setup.seed).map_err(blame_world)?;
+    let mut film = match setup.picture {
+        Some((width, height)) => Some(Camera::new(gpu, library, setup.scene, [width, height])?),
         None => None,
     };
+    if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
+        camera.follow(head);
+    }
     Ok(Box::new(Laboratory {
         world,
         film,
+        follows_head: setup.head.is_some(),
+        seed: setup.seed,
+        shaders: setup.shaders.clone(),
         picture: Vec::new(),
     }))
 }
@@ -44,11 +59,63 @@ pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
 struct Laboratory {
     world: World,
     film: Option<Camera>,
+    follows_head: bool,
+    seed: u64,
+    shaders: Arc<Library>,
     picture: Vec<u8>,
+}
+
+impl Laboratory {
+    /// Takes up shaders that were changed on disk. What does not compile, or
+    /// what the device refuses, leaves the old ones in use: who is writing a
+    /// shader mends it and goes on.
+    fn take_up_shaders(&mut self) {
+        let changed = self.shaders.changed();
+        if changed.is_empty() {
+            return;
+        }
+        let names: Vec<_> = changed.iter().map(ShaderId::path).collect();
+        let names = names.join(", ");
+        match self.rebuild(&changed) {
+            Ok(()) => tracing::warn!(
+                "taken up: {names}; the report's command line no longer gives this run"
+            ),
+            Err(failure) => tracing::warn!("the old {names} stay in use: {failure}"),
+        }
+    }
+
+    fn rebuild(&mut self, changed: &[ShaderId]) -> Result<(), Failure> {
+        let solves = changed.iter().any(|id| id.path().starts_with("sim/"));
+        let renewed = solves.then(|| self.renewed_world()).transpose()?;
+        if let Some(camera) = &mut self.film {
+            camera.reload(&self.shaders, changed).other()?;
+        }
+        if let Some(world) = renewed {
+            self.world = world;
+        }
+        Ok(())
+    }
+
+    /// A new world with the old one's state: shaders change seldom, and a
+    /// state that survives a change of device survives this too.
+    fn renewed_world(&self) -> Result<World, Failure> {
+        let state = self.world.snapshot().map_err(blame_world)?;
+        let (gpu, scene) = (self.world.gpu(), self.world.scene());
+        let mut world = World::new(gpu, &self.shaders, scene, self.seed).map_err(blame_world)?;
+        world.restore(&state).map_err(blame_world)?;
+        Ok(world)
+    }
 }
 
 impl Experiment for Laboratory {
     fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure> {
+        self.take_up_shaders();
+
+        if let Some(camera) = &mut self.film
+            && self.follows_head
+        {
+            camera.follow(&frame.stage_from_view);
+        }
         let length_scale = self.world.scene().scale.length_scale;
         let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
         self.world.step(&StepInput { hands }).map_err(blame_world)

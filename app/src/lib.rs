@@ -2,10 +2,11 @@
 
 mod camera;
 pub mod cli;
+pub mod column;
 pub mod command;
 pub mod console;
 mod device;
-mod experiment;
+pub mod experiment;
 pub mod failure;
 pub mod film;
 mod measure;

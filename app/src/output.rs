@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use crate::failure::Failure;
+
 /// The report's name in the output folder; it is written last, so a folder
 /// that holds it is a whole run.
 pub const REPORT_JSON: &str = "report.json";
@@ -63,6 +65,15 @@ impl OutputError {
         } else {
             Self::Write { path, source }
         }
+    }
+}
+
+/// Whose fault it is.
+pub fn blame(error: OutputError) -> Failure {
+    if error.is_input() {
+        Failure::Input(error.into())
+    } else {
+        Failure::Other(error.into())
     }
 }
 
@@ -124,12 +135,35 @@ impl Staged {
     }
 }
 
-/// Writes a whole new file at once, by way of [`Staged`].
+/// The path of a file that a command will write at its end into a folder,
+/// which may be new; asked for at its start, so that a long run does not end
+/// in a refusal.
+///
+/// # Errors
+/// [`OutputError::Exists`], [`OutputError::NotAFolder`] or
+/// [`OutputError::Write`].
+pub fn new_file(dir: &Path, name: &str) -> Result<PathBuf, OutputError> {
+    let path = dir.join(name);
+    if path.symlink_metadata().is_ok() {
+        return Err(OutputError::Exists { path });
+    }
+    if dir.symlink_metadata().is_ok() && !dir.is_dir() {
+        let dir = dir.to_owned();
+        return Err(OutputError::NotAFolder { dir });
+    }
+    Ok(path)
+}
+
+/// Writes a whole new file at once, by way of [`Staged`], and its folder where
+/// there is none.
 ///
 /// # Errors
 /// [`OutputError::Exists`] or [`OutputError::Write`].
-fn write_new(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let write = || {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
         let staged = Staged::create(path)?;
         staged.file.as_file().write_all(bytes)?;
         staged.keep()

@@ -69,6 +69,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--device",
                 "--out",
                 "--no-video",
+                "--camera",
             ][..],
         ),
         ("track", &["--output", "--list"]),
@@ -233,4 +234,26 @@ fn scenes_state_their_scale() {
     };
     refuses(folder.path(), &arguments, code, &[]);
     assert!(!folder.path().join("new").exists());
+}
+
+#[test]
+fn a_replay_watches_the_shaders_that_it_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let shaders = folder.path().join("wgsl/render");
+    fs::create_dir_all(&shaders).unwrap();
+    fs::write(shaders.join("glass.wgsl"), "fn nonsense(").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+        .args(["replay", "two-flasks", "--seconds", "0.001", "--out", "new"])
+        .args(["--preset", "fast", "--camera", "head"])
+        .current_dir(folder.path())
+        .env("VITRIOL_SHADERS", folder.path().join("wgsl"))
+        .output()
+        .unwrap();
+    let message = text(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    for part in ["the built-in render/glass.wgsl is used", "glass.wgsl:1:"] {
+        assert!(message.contains(part), "{message}");
+    }
+    let report = fs::read_to_string(folder.path().join("new/report.json")).unwrap();
+    assert!(report.contains("--camera head"), "{report}");
 }

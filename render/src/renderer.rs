@@ -113,6 +113,11 @@ impl Renderer {
         Ok(())
     }
 
+    /// Width and height of each view, pixels.
+    pub fn extent(&self) -> [u32; 2] {
+        self.desc.extent
+    }
+
     /// The colour image, a layer a view.
     pub fn image(&self) -> &Image {
         &self.colour

@@ -53,9 +53,10 @@ pub enum ShaderError {
         /// What is wrong with the value.
         message: String,
     },
-    /// A changed file gives a buffer another layout than the Rust struct that was generated when
-    /// the program was built. Build the program anew.
-    #[error("{shader}: the type of '{variable}' changed: build the program anew")]
+    /// A changed file binds something more or less than the program gives it, or gives a buffer
+    /// another layout than the Rust struct that was generated when the program was built. Build
+    /// the program anew.
+    #[error("{shader}: the declaration of '{variable}' changed: build the program anew")]
     Layout {
         /// Path of the shader.
         shader: String,

@@ -1,13 +1,14 @@
 //! Whether a changed shader still fits the program that runs.
 
-use naga::{AddressSpace, Handle, Module, Type, TypeInner};
+use naga::{AddressSpace, GlobalVariable, Handle, Module, Type, TypeInner};
 
 use crate::compile::list;
 use crate::error::ShaderError;
 
 /// Refuses a new text that the running program cannot use: an entry point is gone (an editor may
-/// have emptied the file and not yet written it; an empty module is valid WGSL), or a buffer has
-/// another layout than the Rust struct generated from the old text.
+/// have emptied the file and not yet written it; an empty module is valid WGSL), a binding came,
+/// went or is accessed otherwise, or a buffer has another layout than the Rust struct generated
+/// from the old text.
 ///
 /// # Errors
 /// [`ShaderError::MissingEntry`], [`ShaderError::Layout`].
@@ -21,27 +22,32 @@ pub fn fits(path: &str, old: &Module, new: &Module) -> Result<(), ShaderError> {
             });
         }
     }
-    for (_, variable) in old.global_variables.iter() {
-        if !matches!(
-            variable.space,
-            AddressSpace::Uniform | AddressSpace::Storage { .. } | AddressSpace::Immediate
-        ) {
-            continue;
-        }
-        let renewed = new
-            .global_variables
-            .iter()
-            .find(|v| v.1.name == variable.name);
-        if let Some((_, renewed)) = renewed
-            && !same_layout(old, variable.ty, new, renewed.ty)
-        {
-            return Err(ShaderError::Layout {
-                shader: path.to_owned(),
-                variable: variable.name.clone().unwrap_or_default(),
-            });
-        }
+    let known = |variable: &GlobalVariable| bound(old).any(|v| v.name == variable.name);
+    let added = bound(new).find(|variable| !known(variable));
+    let changed = bound(old).find(|variable| {
+        let renewed = bound(new).find(|v| v.name == variable.name);
+        !renewed.is_some_and(|renewed| {
+            renewed.space == variable.space && same_layout(old, variable.ty, new, renewed.ty)
+        })
+    });
+    match added.or(changed) {
+        None => Ok(()),
+        Some(variable) => Err(ShaderError::Layout {
+            shader: path.to_owned(),
+            variable: variable.name.clone().unwrap_or_default(),
+        }),
     }
-    Ok(())
+}
+
+/// What the program gives a shader of `module`: buffers, images, samplers and immediates.
+fn bound(module: &Module) -> impl Iterator<Item = &GlobalVariable> {
+    module
+        .global_variables
+        .iter()
+        .map(|(_, variable)| variable)
+        .filter(|variable| {
+            variable.binding.is_some() || matches!(variable.space, AddressSpace::Immediate)
+        })
 }
 
 fn same_layout(old: &Module, old_ty: Handle<Type>, new: &Module, new_ty: Handle<Type>) -> bool {

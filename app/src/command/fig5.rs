@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use glam::{Quat, Vec3};
-use image::ColorType;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
@@ -21,6 +22,7 @@ use crate::cli::Fig5Args;
 use crate::console::{Format, emit};
 use crate::device;
 use crate::failure::{Blame, Failure};
+use crate::output;
 use crate::recorder::FILM_SIZE;
 
 /// The scene of Fig. 5.
@@ -34,59 +36,70 @@ const JERK: [u32; 2] = [2, 8];
 
 /// What `vitriol fig5` prints.
 #[derive(Debug, Serialize)]
-struct Fig5 {
+pub struct Fig5 {
     /// Fluid particles.
-    fluid_particles: u32,
+    pub fluid_particles: u32,
     /// Highest speed of the flask, particle spacings a frame.
-    spacings_per_frame: f32,
+    pub spacings_per_frame: f32,
     /// Without the flask constraint.
-    without: Count,
+    pub without: Count,
     /// With it.
-    with: Count,
+    pub with: Count,
 }
 
 /// Where a run's particles went.
 #[derive(Debug, Serialize)]
-struct Count {
+pub struct Count {
     /// Particles that were seen to go through the glass.
-    through_glass: usize,
+    pub through_glass: usize,
     /// Particles that left over the rim.
-    over_rim: usize,
+    pub over_rim: usize,
     /// Particles in the flask at the end.
-    in_flask: usize,
+    pub in_flask: usize,
 }
 
 /// Runs `vitriol fig5`.
 ///
 /// # Errors
-/// [`Failure::NoDevice`], or [`Failure::Other`] where the device or the folder
-/// fails.
+/// [`Failure::NoDevice`]; [`Failure::Input`] where a picture exists already;
+/// [`Failure::Other`] where device or folder fails.
 pub fn run(args: &Fig5Args, format: Format) -> Result<(), Failure> {
+    let pictures = match &args.out {
+        Some(dir) => {
+            let new = |name| output::new_file(dir, name).map_err(output::blame);
+            [Some(new("fig5-without.png")?), Some(new("fig5-with.png")?)]
+        }
+        None => [None, None],
+    };
     let gpu = device::open(args.device.as_deref(), false)?;
-    let library = Library::embedded();
     let scene = Scene::load(SCENE).input()?;
-    let out = args.out.as_deref();
-    let free = World::without_flask_constraint(&gpu, &library, &scene, 0).other()?;
-    let without = count(
-        &gpu,
-        free,
-        out.map(|dir| dir.join("fig5-without.png")).as_deref(),
-    )?;
-    let held = World::new(&gpu, &library, &scene, 0).other()?;
+    let result = compare(&gpu, &scene, pictures.each_ref().map(Option::as_deref))?;
+    emit(format, &result, describe)
+}
+
+/// Jerks the first flask of `scene` without the flask constraint and with it;
+/// takes a picture of each end where there is a path for it.
+///
+/// # Errors
+/// What device or folder say.
+pub fn compare(
+    gpu: &Gpu,
+    scene: &Scene,
+    [picture_without, picture_with]: [Option<&Path>; 2],
+) -> Result<Fig5, Failure> {
+    let library = Library::embedded();
+    let free = World::without_flask_constraint(gpu, &library, scene, 0).other()?;
+    let without = count(gpu, free, picture_without)?;
+    let held = World::new(gpu, &library, scene, 0).other()?;
     let fluid_particles = held.solver().count();
-    let with = count(
-        &gpu,
-        held,
-        out.map(|dir| dir.join("fig5-with.png")).as_deref(),
-    )?;
+    let with = count(gpu, held, picture_with)?;
     let jump = 2.0 * SWING * scene.flasks[0].profile.outer_radius() as f32 / JERK[0] as f32;
-    let result = Fig5 {
+    Ok(Fig5 {
         fluid_particles,
         spacings_per_frame: jump / scene.scale.spacing as f32,
         without,
         with,
-    };
-    emit(format, &result, describe)
+    })
 }
 
 /// Runs the motion and classes what leaves the flask, frame by frame, by
@@ -175,10 +188,11 @@ fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let (width, height) = FILM_SIZE;
     let camera = Camera::new(gpu, &Library::embedded(), world.scene(), [width, height])?;
     let picture = camera.shoot(world)?;
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).other()?;
-    }
-    image::save_buffer(path, &picture, width, height, ColorType::Rgba8).other()
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(&picture, width, height, ExtendedColorType::Rgba8)
+        .other()?;
+    output::write_new(path, &png).map_err(output::blame)
 }
 
 fn describe(result: &Fig5) -> String {

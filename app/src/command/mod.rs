@@ -1,8 +1,9 @@
 //! The subcommands, one file each.
 
 pub mod bench;
+pub mod dam_break;
 pub mod doctor;
-mod fig5;
+pub mod fig5;
 pub mod replay;
 pub mod scenes;
 pub mod track;
@@ -24,6 +25,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Track(args) => track::run(args, format),
         Command::Scenes => scenes::run(format),
         Command::Fig5(args) => fig5::run(args, format),
+        Command::DamBreak(args) => dam_break::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }

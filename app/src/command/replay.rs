@@ -1,17 +1,20 @@
 //! `vitriol replay`: a track through the simulation to film and report.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Serialize;
+use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
+use vitriol_xr::Pose;
 use vitriol_xr::track::{Track, TrackSource};
 
-use crate::cli::ReplayArgs;
+use crate::cli::{CameraName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
-use crate::output::{FILM, OutDir, OutputError, REPORT_HTML, REPORT_JSON};
+use crate::output::{FILM, OutDir, REPORT_HTML, REPORT_JSON, blame};
 use crate::recorder::{FILM_FPS, FILM_SIZE, Recorder, Recording};
 use crate::replay::{self, Experiment, Outcome, Span};
 use crate::report::units::{grouped, mass, percent, three_digits, with_unit};
@@ -39,6 +42,12 @@ pub struct Setup<'a> {
     pub device: Option<&'a str>,
     /// Width and height of the pictures, pixels; `None` where none is asked for.
     pub picture: Option<(u32, u32)>,
+    /// The head at the start (stage_from_view), where the pictures are what it
+    /// sees; `None` for a fixed camera.
+    pub head: Option<Pose>,
+    /// The shaders; where it watches a folder, what changes there is taken up
+    /// between two steps.
+    pub shaders: Arc<Library>,
 }
 
 /// Runs `vitriol replay`; `prepare` makes the experiment.
@@ -54,6 +63,7 @@ pub fn run(
     let track = track::load(&args.track)?;
     let name = scene_of(args, &track)?;
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
+    let head = head(args, &track)?;
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
     let seed = args.seed.unwrap_or(track.metadata.seed);
     let mut experiment = prepare(&Setup {
@@ -61,6 +71,8 @@ pub fn run(
         seed,
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
+        head,
+        shaders: Arc::new(Library::watching()),
     })?;
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let span = Span::covering(seconds, scene.scale.frame_time);
@@ -115,6 +127,19 @@ fn scene_of(args: &ReplayArgs, track: &Track) -> Result<String, Failure> {
         ))
         .input(),
         None => Ok(track.metadata.scene.clone()),
+    }
+}
+
+/// Where the head is at the start, if the film is to show what it sees.
+fn head(args: &ReplayArgs, track: &Track) -> Result<Option<Pose>, Failure> {
+    match (args.camera, track.frames.first()) {
+        (CameraName::Fixed, _) => Ok(None),
+        (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),
+        (CameraName::Head, None) => Err(format!(
+            "--camera head: {} holds no pose of a head; take --camera fixed",
+            args.track
+        ))
+        .input(),
     }
 }
 
@@ -185,6 +210,9 @@ fn command_line(args: &ReplayArgs, seed: u64) -> String {
     if let Some(device) = &args.device {
         line += &format!(" --device {}", quoted(device));
     }
+    if args.camera == CameraName::Head {
+        line += " --camera head";
+    }
     if args.no_video {
         line += " --no-video";
     }
@@ -243,14 +271,6 @@ fn describe(done: &Replayed, out: &Path) -> String {
     lines.push(format!("report  {}", done.report_html));
     lines.push(format!("numbers {}", done.report_json));
     lines.join("\n")
-}
-
-fn blame(error: OutputError) -> Failure {
-    if error.is_input() {
-        Failure::Input(error.into())
-    } else {
-        Failure::Other(error.into())
-    }
 }
 
 #[cfg(test)]

@@ -9,3 +9,4 @@ pub use model::{
     Counters, DeviceStatement, FilmStatement, MassByPlace, Report, Sample, SceneStatement,
     SolverStatement,
 };
+pub use plot::CURVE_COLOURS;

@@ -82,6 +82,8 @@ struct Document {
     rate_hz: Spanned<f64>,
     #[serde(default)]
     pivot: Pivot,
+    // Without any, the message says what a track needs.
+    #[serde(default)]
     head: Vec<Spanned<HeadKey>>,
     #[serde(default)]
     left: Vec<Spanned<HandKey>>,

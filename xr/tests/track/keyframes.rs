@@ -285,7 +285,9 @@ fn bad_keyframes_are_refused_with_their_line() {
             assert!(message.contains(part), "{bad}: no `{part}` in: {message}");
         }
     }
-    let headless = "name = \"a\"\nduration = 1.0\nhead = []";
-    let message = parse(headless).unwrap_err().to_string();
-    assert!(message.contains("head has no keyframe"), "{message}");
+    for headless in ["", "head = []"] {
+        let text = format!("name = \"a\"\nduration = 1.0\n{headless}");
+        let message = parse(&text).unwrap_err().to_string();
+        assert!(message.contains("head has no keyframe"), "{message}");
+    }
 }

@@ -1,0 +1,9 @@
+//! What runs on a device: the experiment itself, behind the loop, with the
+//! validation layer on.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod camera;
+mod common;
+mod dam_break;
+mod fig5;
+mod reload;
