@@ -1,5 +1,6 @@
 //! What both solvers need to know about the liquid and about the time step.
 
+use crate::chemistry::Chemistry;
 use crate::kernel::Kernel;
 use crate::reference::forces::{adhesion_strength, cohesion_strength};
 use crate::scene::{RelaxationKind, Scene};
@@ -61,6 +62,8 @@ pub struct Parameters {
     /// Adhesion (Akinci et al. 2013), likewise, N/m; see
     /// [`adhesion_strength`]. 0 leaves it out.
     pub adhesion: f64,
+    /// Heat, dilution and boiling; `None` where the scene models no heat.
+    pub chemistry: Option<Chemistry>,
     /// Margin of a neighbour list that outlives its substep, fraction of h.
     pub list_margin: f64,
     /// Distance d_margin that the flask constraint keeps from the glass,
@@ -167,6 +170,7 @@ impl Parameters {
             vorticity: solver.vorticity.unwrap_or(0.0),
             cohesion: solver.cohesion.unwrap_or(0.0),
             adhesion: solver.adhesion.unwrap_or(0.0),
+            chemistry: Chemistry::from_scene(scene),
             list_margin: LIST_MARGIN,
             margin: FLASK_MARGIN * scale.support(),
         }

@@ -322,6 +322,8 @@ fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
             position: particle.position,
             velocity: DVec3::ZERO,
             flask: Some(particle.flask),
+            temperature: particle.temperature,
+            acid: particle.acid_fraction,
             carried: scene.scale.gravity * (particle.position.y - levels[particle.flask]),
         })
         .collect())

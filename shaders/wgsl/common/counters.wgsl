@@ -13,4 +13,6 @@ struct Counters {
     flask_constraints: atomic<u32>,
     /// Particles taken out because they turned non-finite.
     removed: atomic<u32>,
+    /// Particles of whose exchange by diffusion some was cut short.
+    diffusion_limited: atomic<u32>,
 }

@@ -15,6 +15,8 @@
 override COMMIT: bool = false;
 override CARRY: bool = false;
 override LOADS: bool = false;
+/// Whether particles have a temperature.
+override HEAT: bool = false;
 /// v_max, m/s.
 override MAX_SPEED: f32 = 10.0;
 /// Half of the list's margin, metres: a particle that went further might miss neighbours.
@@ -34,6 +36,7 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(10) var<storage, read_write> new_velocity: array<vec4<f32>>;
 @group(0) @binding(11) var<storage, read> list_origin: array<vec4<f32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
+@group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
 
 fn commit(i: u32, x_star: vec3<f32>) {
     let tag = tags[i];
@@ -43,7 +46,11 @@ fn commit(i: u32, x_star: vec3<f32>) {
         return;
     }
     let multiplied = multiplier[i];
-    if (!is_finite(x_star) || !is_finite(vec3<f32>(multiplied))) {
+    var finite = is_finite(x_star) && is_finite(vec3<f32>(multiplied));
+    if (HEAT) { finite = finite && is_finite(heat[i].xyz); }
+    if (!finite) {
+        // Its neighbours still have it on their lists.
+        if (HEAT) { heat[i] = vec4<f32>(0.0); }
         tags[i].x = REMOVED;
         position[i] = vec4<f32>(parked(tag.y), -1.0);
         new_velocity[i] = vec4<f32>(0.0);

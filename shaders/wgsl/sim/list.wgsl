@@ -9,6 +9,8 @@
 //!include common/counters.wgsl
 
 override LOADS: bool = false;
+/// Whether particles have a temperature.
+override HEAT: bool = false;
 
 /// (x*, bits of the membership)
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
@@ -27,6 +29,8 @@ override LOADS: bool = false;
 @group(0) @binding(13) var<storage, read_write> counters: Counters;
 @group(0) @binding(14) var<storage, read> sorted_push: array<vec4<f32>>;
 @group(0) @binding(15) var<storage, read_write> wall_push: array<vec4<f32>>;
+@group(0) @binding(16) var<storage, read> sorted_heat: array<vec4<f32>>;
+@group(0) @binding(17) var<storage, read_write> heat: array<vec4<f32>>;
 
 fn start_of(cell: u32) -> u32 {
     if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
@@ -166,5 +170,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     velocity[i] = sorted_velocity[i];
     tags[i] = tag;
     if (LOADS) { wall_push[i] = sorted_push[i]; }
+    if (HEAT) { heat[i] = sorted_heat[i]; }
     if (i == 0u) { atomicAdd(&counters.rebuilds, 1u); }
 }

@@ -4,6 +4,8 @@
 //!include common/grid.wgsl
 
 override LOADS: bool = false;
+/// Whether particles have a temperature.
+override HEAT: bool = false;
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
@@ -18,6 +20,8 @@ override LOADS: bool = false;
 @group(0) @binding(10) var<storage, read_write> sorted_tags: array<vec2<u32>>;
 @group(0) @binding(11) var<storage, read> wall_push: array<vec4<f32>>;
 @group(0) @binding(12) var<storage, read_write> sorted_push: array<vec4<f32>>;
+@group(0) @binding(13) var<storage, read> heat: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> sorted_heat: array<vec4<f32>>;
 
 /// Index of the first particle of a cell; of the end of the table after the last.
 fn start_of(cell: u32) -> u32 {
@@ -44,4 +48,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sorted_velocity[to] = velocity[i];
     sorted_tags[to] = tag;
     if (LOADS) { sorted_push[to] = wall_push[i]; }
+    if (HEAT) { sorted_heat[to] = heat[i]; }
 }

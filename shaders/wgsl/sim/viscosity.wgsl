@@ -2,17 +2,32 @@
 // with walls, and line 28, internal forces. Both read the state that lines 22
 // to 25 left, so that one pass over the neighbours serves them. Within a frame
 // it ends with the next substep's prediction, which saves another.
+//
+// Where acid is diluted, line 26 ends here as well: the heat of solution
+// (Eqs 6 to 8 and 11 to 13) needs what the neighbours became.
 //!include common/particle.wgsl
 //!include common/kernel.wgsl
 //!include common/step.wgsl
 //!include common/contact.wgsl
 //!include common/forces.wgsl
+//!include common/diffusion.wgsl
 //!include common/predict.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;
 /// Whether the liquid has any viscosity.
 override VISCOUS: bool = true;
+/// Whether particles have a temperature; whether acid diffuses; whether
+/// viscosity depends on the temperature (Eq. 17).
+override HEAT: bool = false;
+override DILUTION: bool = false;
+override BOILING: bool = false;
+/// D_c, m²/s.
+override ACID_DIFFUSION: f32 = 0.0;
+/// k_d of Eq. 13 for a particle's mass, K per J/kg.
+override HEATING: f32 = 0.0;
+/// ε of Eqs 11 and 12.
+const EPSILON: f32 = 1e-6;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;
@@ -22,6 +37,18 @@ override VISCOUS: bool = true;
 @group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
 /// (ω, |ω|), 1/s.
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
+/// (T, c) after diffusion.
+@group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
+/// (c before, s_i in J/kg, coefficient of Eq. 17, –)
+@group(0) @binding(8) var<storage, read> mixing: array<vec4<f32>>;
+/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, –)
+@group(0) @binding(9) var<storage, read_write> heat: array<vec4<f32>>;
+
+/// What Eqs 8 and 11 make of a pair: the heat that i gets of it, J/kg.
+fn warming(own: vec4<f32>, other: vec4<f32>, q: f32) -> f32 {
+    let gained = (other.x - own.x) * pair_share(step.time * ACID_DIFFUSION, diffusion_weight(q));
+    return (own.y - other.y) * gained * (other.x + 0.5 * EPSILON) / (own.x + other.x + EPSILON);
+}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -32,11 +59,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = new_velocity[i];
     var omega = vec4<f32>(0.0);
     if (CONFINEMENT > 0.0) { omega = vorticity[i]; }
+    var mixed = vec4<f32>(0.0);
+    if (DILUTION || BOILING) { mixed = mixing[i]; }
 
     var drag = vec3<f32>(0.0);
     var eta = vec3<f32>(0.0);
     var attraction = vec3<f32>(0.0);
-    if (VISCOUS || CONFINEMENT > 0.0 || COHESION > 0.0) {
+    var agitation = 0.0;
+    var warmed = 0.0;
+    if (VISCOUS || BOILING || DILUTION || CONFINEMENT > 0.0 || COHESION > 0.0) {
         let count = list_counts[i];
         for (var k = lane; k < count; k += LANES) {
             let j = list[k * COUNT + i];
@@ -44,13 +75,28 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
             let per_distance = inverseSqrt(square);
             let q = square * per_distance / SUPPORT;
-            if (VISCOUS) { drag += (new_velocity[j].xyz - own.xyz) * spline(q); }
+            var other = vec4<f32>(0.0);
+            if (DILUTION || BOILING) { other = mixing[j]; }
+            if (VISCOUS || BOILING) {
+                let relative = new_velocity[j].xyz - own.xyz;
+                let weight = spline(q);
+                // A coefficient of 1 throughout leaves the bits as they are without boiling.
+                var pair = weight;
+                if (BOILING) {
+                    pair *= 0.5 * (mixed.z + other.z);
+                    agitation += weight * dot(relative, relative);
+                }
+                drag += relative * pair;
+            }
+            if (DILUTION) { warmed += warming(mixed, other, q); }
             if (CONFINEMENT > 0.0) {
                 eta += offset * ((vorticity[j].w - omega.w) * per_distance * spline_slope(q));
             }
             if (COHESION > 0.0) { attraction -= offset * (per_distance * cohesion(q)); }
         }
-        if (VISCOUS) { drag = lane_sum3(drag) * weight_scale(); }
+        if (VISCOUS || BOILING) { drag = lane_sum3(drag) * weight_scale(); }
+        if (BOILING) { agitation = lane_sum(agitation) * weight_scale(); }
+        if (DILUTION) { warmed = lane_sum(warmed); }
         if (CONFINEMENT > 0.0) { eta = lane_sum3(eta) * (weight_scale() / SUPPORT); }
         if (COHESION > 0.0) { attraction = lane_sum3(attraction); }
     }
@@ -60,13 +106,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var acceleration = attraction;
     if (VISCOUS || ADHESION > 0.0) {
         let walls = contact(tag, x, own.xyz);
-        if (VISCOUS) { drag += walls.drag; }
+        if (BOILING) {
+            // Walls only ever slow down.
+            drag += walls.drag * max(mixed.z, 0.0);
+        } else if (VISCOUS) {
+            drag += walls.drag;
+        }
         if (ADHESION > 0.0) { acceleration += ADHESION * walls.pull; }
     }
     if (CONFINEMENT > 0.0) { acceleration += confinement(eta, omega); }
     var v = own.xyz;
-    if (VISCOUS) { v += step.viscosity * drag; }
+    if (VISCOUS || BOILING) { v += step.viscosity * drag; }
     if (CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0) { v += step.time * acceleration; }
     velocity[i] = vec4<f32>(v, own.w);
+    if (HEAT) {
+        let after = diffused[i];
+        heat[i] = vec4<f32>(after.x + HEATING * warmed, after.y, 0.5 * agitation, 0.0);
+    }
     if (PREDICT) { predict(i, x, v, tag, step.after, step.next); }
 }

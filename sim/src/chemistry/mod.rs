@@ -13,6 +13,7 @@ pub mod adiabatic;
 pub mod curve;
 mod error;
 pub mod exchange;
+mod model;
 pub mod paper;
 pub mod physical;
 pub mod properties;
@@ -24,6 +25,7 @@ pub mod transport;
 mod tests;
 
 pub use error::{OutOfRange, check_content};
+pub use model::{Chemistry, Paper, PaperBoiling, PaperDilution};
 
 /// Absolute zero, °C.
 pub const ABSOLUTE_ZERO: f64 = -273.15;

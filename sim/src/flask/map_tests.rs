@@ -178,3 +178,21 @@ fn table_interpolates_the_integral() {
         assert!((table.distance - exact.distance).abs() < 0.1 * H);
     }
 }
+
+/// A row of the map may lie on the rim's plane. Taken for glass there, it was a
+/// membrane: what fell slowly came to rest on it.
+#[test]
+fn the_mouth_is_open() {
+    let profile = beaker();
+    let map = VolumeMap::new(&profile, Side::Outside, H);
+    let rim = profile.rim_height();
+    let to_wall = profile.mouth_radius() - 0.01;
+    for above in [-0.5, 0.0, 0.5, 1.0] {
+        let sample = map.sample(0.01, rim + above * map.spacing());
+        // Linear interpolation between nodes is this good far from the glass.
+        assert!(
+            (sample.distance - to_wall).abs() < 0.05 * H,
+            "{above}: {sample:?}"
+        );
+    }
+}

@@ -266,7 +266,9 @@ impl Profile {
     /// negative in the glass. Metres.
     pub fn signed_distance_glass(&self, r: f64, y: f64) -> f64 {
         let distance = self.distance_to_glass_surface(r, y);
-        let in_outer = (0.0..=self.rim_height()).contains(&y) && r <= self.outer_radius_at(y);
+        // The plane of the rim is free: in the mouth it is nobody's glass, and
+        // a map's row that lies on it would close the vessel.
+        let in_outer = (0.0..self.rim_height()).contains(&y) && r <= self.outer_radius_at(y);
         if in_outer && !self.is_inside(r, y) {
             -distance
         } else {

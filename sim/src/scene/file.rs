@@ -1,10 +1,8 @@
 //! A scene file as it stands, before flasks and liquids are made of it.
 
+use super::chemistry::{ABSOLUTE_ZERO, Feature, PaperChemistry, PhysicalChemistry};
 use super::error::Problem;
-use super::settings::{
-    ABSOLUTE_ZERO, Feature, Floor, PaperChemistry, PresetOverrides, Scale, SolverSettings,
-    TableTop, require,
-};
+use super::settings::{Floor, PresetOverrides, Scale, SolverSettings, TableTop, require};
 use super::{Flask, Liquid};
 use crate::fill;
 use crate::flask::{Profile, glass};
@@ -22,6 +20,7 @@ pub(super) struct SceneFile {
     pub solver: SolverSettings,
     pub model: Vec<Feature>,
     pub paper: Option<PaperChemistry>,
+    pub physical: Option<PhysicalChemistry>,
     #[serde(default)]
     pub flask: Vec<FlaskEntry>,
     #[serde(default)]

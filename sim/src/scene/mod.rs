@@ -2,6 +2,7 @@
 //! with which parameters.
 
 mod builtin;
+mod chemistry;
 mod error;
 mod file;
 mod overlap;
@@ -10,10 +11,10 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use chemistry::{Feature, PaperChemistry, PhysicalChemistry};
 pub use error::SceneError;
 pub use settings::{
-    Boundary, Feature, Floor, PaperChemistry, PresetOverrides, RelaxationKind, Scale,
-    SolverSettings, TableTop,
+    Boundary, Floor, PresetOverrides, RelaxationKind, Scale, SolverSettings, TableTop,
 };
 
 use crate::fill::{self, FillError};
@@ -94,6 +95,8 @@ pub struct Scene {
     pub model: Vec<Feature>,
     /// Table 1's parameters, where the model uses any.
     pub paper: Option<PaperChemistry>,
+    /// The physical chemistry's, likewise; never both.
+    pub physical: Option<PhysicalChemistry>,
     /// Flasks, in the order that indices refer to.
     pub flasks: Vec<Flask>,
     /// Liquids, lower ones first where they share a flask.
@@ -220,7 +223,15 @@ impl Scene {
         if let Some(paper) = &raw.paper {
             paper.check()?;
         }
-        settings::check_features(&raw.model, &raw.solver, raw.paper.as_ref())?;
+        if let Some(physical) = &raw.physical {
+            physical.check()?;
+        }
+        chemistry::check_features(
+            &raw.model,
+            &raw.solver,
+            raw.paper.as_ref(),
+            raw.physical.as_ref(),
+        )?;
         if let Some(table) = &raw.table {
             file::check_table(table)?;
         }
@@ -247,6 +258,7 @@ impl Scene {
             solver: raw.solver,
             model: raw.model,
             paper: raw.paper,
+            physical: raw.physical,
             flasks,
             liquids,
             table: raw.table,

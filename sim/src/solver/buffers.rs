@@ -1,8 +1,8 @@
 //! The particles' state and the solver's scratch memory. A particle's place in
 //! every array is the same; it changes when the list is rebuilt.
 
-use super::SolverSpec;
 use super::pipelines::Grid;
+use super::{Counters, SolverSpec};
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 
 /// Threads of the load pass's workgroups.
@@ -37,6 +37,11 @@ pub(super) struct Buffers {
     pub(super) block_sums: Buffer,
     pub(super) cell_items: Buffer,
     pub(super) list_args: Buffer,
+    // Chemistry; state, and scratch of one substep and of a rebuild.
+    pub(super) heat: Buffer,
+    pub(super) diffused: Buffer,
+    pub(super) mixing: Buffer,
+    pub(super) sorted_heat: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
     pub(super) wall_push: Buffer,
@@ -44,9 +49,6 @@ pub(super) struct Buffers {
     // Reports.
     pub(super) density: Buffer,
 }
-
-/// Substeps for whose poses there is room.
-const MAX_SUBSTEPS: u64 = 64;
 
 impl Buffers {
     pub(super) fn new(
@@ -61,6 +63,7 @@ impl Buffers {
         let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
         let pushed = where_asked(spec.loads, n);
         let groups = u64::from(count.div_ceil(LOAD_GROUP));
+        let heated = where_asked(spec.parameters.chemistry.is_some(), n);
         let confined = spec.parameters.vorticity > 0.0;
         Ok(Self {
             position: words("position", 4 * n)?,
@@ -69,7 +72,7 @@ impl Buffers {
             list_origin: words("list_origin", 4 * n)?,
             list_counts: words("list_counts", n)?,
             list: words("list", n * u64::from(grid.list_capacity))?,
-            counters: words("counters", 6)?,
+            counters: words("counters", size_of::<Counters>() as u64 / 4)?,
             trial: words("trial", 4 * n)?,
             solved: words("solved", 4 * n)?,
             boundary: words("boundary", 4 * n)?,
@@ -84,7 +87,14 @@ impl Buffers {
             block_sums: words("block_sums", u64::from(grid.blocks()))?,
             cell_items: words("cell_items", n)?,
             list_args: words("list_args", 16)?,
-            poses: words("poses", 8 * (MAX_SUBSTEPS + 1) * flasks)?,
+            heat: words("heat", 4 * heated)?,
+            diffused: words("diffused", 2 * heated)?,
+            mixing: words("mixing", 4 * heated)?,
+            sorted_heat: words("sorted_heat", 4 * heated)?,
+            poses: words(
+                "poses",
+                8 * (u64::from(spec.parameters.substeps) + 1) * flasks,
+            )?,
             wall_push: words("wall_push", 4 * pushed)?,
             loads: words("loads", where_asked(spec.loads, 12 * groups * flasks))?,
             density: words("density", n)?,
@@ -109,6 +119,10 @@ impl Buffers {
             &self.sorted_tags,
             &self.sorted_push,
             &self.cell_items,
+            &self.heat,
+            &self.diffused,
+            &self.mixing,
+            &self.sorted_heat,
             &self.wall_push,
             &self.density,
         ];

@@ -20,4 +20,6 @@ pub struct Counters {
     pub flask_constraints: u32,
     /// Particles taken out because they turned non-finite.
     pub nan_particles: u32,
+    /// Particles and substeps in which diffusion exchanged less than D and Δt ask for.
+    pub diffusion_limited: u32,
 }

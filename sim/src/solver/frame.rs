@@ -59,6 +59,7 @@ impl Solver {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
+            self.diffuse(rec, &step)?; // 26
             self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
             self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
         }
@@ -191,6 +192,27 @@ impl Solver {
             .write("new_velocity", &b.new_velocity)
             .read("list_origin", &b.list_origin)
             .write("counters", &b.counters)
+            .write("heat", &b.heat)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    /// Line 26, but for the heat of solution, which [`Self::apply_forces`] adds.
+    fn diffuse(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.diffusion else {
+            return Ok(());
+        };
+        let b = &self.buffers;
+        rec.pass(pass)
+            .read("position", &b.position)
+            .read("list_counts", &b.list_counts)
+            .read("list", &b.list)
+            .read("boundary", &b.boundary)
+            .read("heat", &b.heat)
+            .write("diffused", &b.diffused)
+            .write("mixing", &b.mixing)
+            .write("counters", &b.counters)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())
@@ -227,6 +249,9 @@ impl Solver {
             .read("tags", &b.tags)
             .read("list_counts", &b.list_counts)
             .read("list", &b.list)
+            .read("diffused", &b.diffused)
+            .read("mixing", &b.mixing)
+            .write("heat", &b.heat)
             .write("velocity", &b.velocity)
             .constants(step)
             .invocations(self.count * self.lanes)?;
@@ -263,12 +288,21 @@ impl Solver {
         let flasks = self.flasks as u32;
         Step {
             time: self.parameters.substep_time() as f32,
-            viscosity: self.parameters.substep_viscosity() as f32,
+            viscosity: self.viscosity_unit() as f32,
             carry: self.parameters.carry as f32,
             before: n * flasks,
             after: (n + 1) * flasks,
             next: (n + 2) * flasks,
             ..Step::default()
+        }
+    }
+
+    /// XSPH coefficient of a substep, in whose units those of boiling particles
+    /// are: 1 where there is none.
+    fn viscosity_unit(&self) -> f64 {
+        match self.parameters.substep_viscosity() {
+            0.0 => 1.0,
+            viscosity => viscosity,
         }
     }
 

@@ -43,6 +43,10 @@ pub struct Particle {
     pub velocity: DVec3,
     /// Index of the flask it is in.
     pub flask: Option<usize>,
+    /// Temperature, °C; unused where no heat is modelled.
+    pub temperature: f64,
+    /// Acid mass fraction; unused where no heat is modelled.
+    pub acid: f64,
     /// Carried multiplier −p/ρ at the start, m²/s², at most 0; unused where
     /// nothing is carried.
     pub carried: f64,
@@ -114,7 +118,11 @@ impl Solver {
             vessels,
             pipelines,
         };
-        solver.restore(&SolverState::start(spec.particles, &solver.grid))?;
+        solver.restore(&SolverState::start(
+            spec.particles,
+            &solver.grid,
+            spec.parameters.chemistry.is_some(),
+        ))?;
         Ok(solver)
     }
 
@@ -138,6 +146,15 @@ impl Solver {
     /// w is no velocity.
     pub fn velocities(&self) -> &Buffer {
         &self.buffers.velocity
+    }
+
+    /// Temperature (°C), acid mass fraction and more as `array<vec4<f32>>`, in
+    /// the order of the positions; `None` where no heat is modelled.
+    pub fn heat(&self) -> Option<&Buffer> {
+        self.parameters
+            .chemistry
+            .as_ref()
+            .map(|_| &self.buffers.heat)
     }
 
     /// Bytes of device memory that a particle takes.

@@ -2,6 +2,9 @@
 
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
+use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
+use crate::chemistry::thomsen::JOULES_PER_CALORIE;
+use crate::chemistry::{Chemistry, Paper};
 use crate::parameters::Parameters;
 use crate::reference::forces::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
@@ -68,6 +71,8 @@ pub(super) struct Pipelines {
     pub(super) multiplier: ComputePipeline,
     pub(super) displacement: ComputePipeline,
     pub(super) commit: ComputePipeline,
+    /// Where particles have a temperature.
+    pub(super) diffusion: Option<ComputePipeline>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<ComputePipeline>,
     pub(super) viscosity: ComputePipeline,
@@ -99,6 +104,10 @@ impl Pipelines {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
         };
+        let diffusion = match spec.parameters.chemistry {
+            None => None,
+            Some(_) => Some(make(sim::DIFFUSION, &[])?),
+        };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
@@ -118,6 +127,7 @@ impl Pipelines {
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             commit: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
+            diffusion,
             vorticity,
             viscosity: make(sim::VISCOSITY, &[pull, ("PREDICT", 1.0)])?,
             last_viscosity: make(sim::VISCOSITY, &[pull])?,
@@ -125,6 +135,31 @@ impl Pipelines {
             density: make(sim::DENSITY, &[])?,
         })
     }
+}
+
+/// Constants of the paper's chemistry.
+fn of_paper(paper: &Paper, p: &Parameters) -> Vec<(&'static str, f64)> {
+    let mut own = vec![("HEAT", 1.0), ("CALM", flag(p.viscosity > 0.0))];
+    if let Some(dilution) = &paper.dilution {
+        let per_joule = dilution.heat_generation / JOULES_PER_CALORIE;
+        own.extend([
+            ("DILUTION", 1.0),
+            ("AMBIENT", dilution.ambient),
+            ("HEAT_DIFFUSION", dilution.heat_diffusivity),
+            ("ACID_DIFFUSION", dilution.acid_diffusivity),
+            ("HEATING", per_joule * p.particle_mass()),
+        ]);
+    }
+    if let Some(boiling) = &paper.boiling {
+        own.extend([
+            ("BOILING", 1.0),
+            ("BOILING_POINT", boiling.boiling_point),
+            ("BOILING_INTENSITY", boiling.intensity),
+            ("BOILING_POWER", REFERENCE_POWER),
+            ("LITERAL_BOILING", flag(boiling.law == Boiling::Literal)),
+        ]);
+    }
+    own
 }
 
 fn flag(on: bool) -> f64 {
@@ -181,6 +216,9 @@ impl Constants {
                 ("TABLE_HALF_X", 0.5 * size.x),
                 ("TABLE_HALF_Z", 0.5 * size.y),
             ]);
+        }
+        if let Some(Chemistry::Paper(paper)) = &p.chemistry {
+            all.extend(of_paper(paper, p));
         }
         Self(all)
     }

@@ -18,6 +18,9 @@ pub struct SolverState {
     /// (membership, identity) by slot: 0 for nobody's, k + 1 for flask k's,
     /// `u32::MAX` for one taken out; and the particle's index at the start.
     pub tags: Vec<[u32; 2]>,
+    /// (temperature in °C, acid mass fraction, …) by slot; empty where no heat
+    /// is modelled.
+    pub heat: Vec<[f32; 4]>,
     /// Predicted positions when the list was built.
     list_origin: Vec<[f32; 4]>,
     list_counts: Vec<u32>,
@@ -30,7 +33,7 @@ const REMOVED: u32 = u32::MAX;
 
 impl SolverState {
     /// The state before the first frame: a list that is stale for all.
-    pub(super) fn start(particles: &[Particle], grid: &Grid) -> Self {
+    pub(super) fn start(particles: &[Particle], grid: &Grid, heated: bool) -> Self {
         let n = particles.len();
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
@@ -44,6 +47,11 @@ impl SolverState {
                 .zip(particles)
                 .map(|(i, p)| [membership(p), i])
                 .collect(),
+            heat: particles
+                .iter()
+                .filter(|_| heated)
+                .map(|p| [p.temperature as f32, p.acid as f32, 0.0, 0.0])
+                .collect(),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],
@@ -52,7 +60,7 @@ impl SolverState {
     }
 
     /// Hash of what a replay must repeat: every particle's bits of position,
-    /// velocity and membership, in the order of their identities.
+    /// velocity, membership and heat, in the order of their identities.
     pub fn hash(&self) -> u64 {
         let mut order: Vec<usize> = (0..self.tags.len()).collect();
         order.sort_by_key(|&slot| self.tags[slot][1]);
@@ -61,6 +69,9 @@ impl SolverState {
             hash.update(bytemuck::bytes_of(&self.positions[slot]));
             hash.update(bytemuck::bytes_of(&self.velocities[slot]));
             hash.update(bytemuck::bytes_of(&self.tags[slot]));
+            if let Some(heat) = self.heat.get(slot) {
+                hash.update(bytemuck::bytes_of(heat));
+            }
         }
         hash.digest()
     }
@@ -91,6 +102,7 @@ impl Solver {
             positions: read(gpu, &b.position, n)?,
             velocities: read(gpu, &b.velocity, n)?,
             tags: read(gpu, &b.tags, n)?,
+            heat: read(gpu, &b.heat, self.heated())?,
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
             list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
@@ -110,6 +122,7 @@ impl Solver {
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
             ("tags", state.tags.len(), n),
+            ("heat", state.heat.len(), self.heated()),
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
@@ -127,6 +140,7 @@ impl Solver {
         write(gpu, &b.position, &state.positions)?;
         write(gpu, &b.velocity, &state.velocities)?;
         write(gpu, &b.tags, &state.tags)?;
+        write(gpu, &b.heat, &state.heat)?;
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
@@ -137,6 +151,14 @@ impl Solver {
         rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
         gpu.submit(rec)?.wait()?;
         Ok(())
+    }
+
+    /// Particles that have a temperature: all or none.
+    fn heated(&self) -> usize {
+        match self.parameters.chemistry {
+            Some(_) => self.count as usize,
+            None => 0,
+        }
     }
 
     /// Reads the counters; waits for the device.

@@ -38,6 +38,7 @@ pub fn parameters() -> Parameters {
         vorticity: 0.0,
         cohesion: 0.0,
         adhesion: 0.0,
+        chemistry: None,
         list_margin: 0.15,
         margin: 0.001 * H,
     }
@@ -71,6 +72,8 @@ pub fn water(profile: &Profile, flask: usize, pose: Pose, count: usize) -> Vec<P
         position,
         velocity: DVec3::ZERO,
         flask: Some(flask),
+        temperature: 20.0,
+        acid: 0.0,
         carried: 0.0,
     };
     positions.into_iter().map(inside).collect()
@@ -82,6 +85,8 @@ pub fn drop_at(position: DVec3, velocity: DVec3) -> Particle {
         position,
         velocity,
         flask: None,
+        temperature: 20.0,
+        acid: 0.0,
         carried: 0.0,
     }
 }

@@ -161,6 +161,8 @@ fn glass_parts_the_pairs_that_it_stands_between() {
                 position,
                 velocity: DVec3::Y * up,
                 flask,
+                temperature: 20.0,
+                acid: 0.0,
                 carried: 0.0,
             });
         }

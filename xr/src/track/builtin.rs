@@ -5,8 +5,8 @@
 
 use std::path::PathBuf;
 
-/// Names of the built-in tracks; each is also the name of the scene that it is made for.
-pub const NAMES: [&str; 3] = ["two-flasks", "shake", "three-flasks"];
+/// Names of the built-in tracks.
+pub const NAMES: [&str; 4] = ["two-flasks", "shake", "three-flasks", "slow-pour"];
 
 /// The keyframe file of the built-in track `name`.
 pub fn text(name: &str) -> Option<&'static str> {
@@ -14,6 +14,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "two-flasks" => Some(include_str!("../../tracks/two-flasks.toml")),
         "shake" => Some(include_str!("../../tracks/shake.toml")),
         "three-flasks" => Some(include_str!("../../tracks/three-flasks.toml")),
+        "slow-pour" => Some(include_str!("../../tracks/slow-pour.toml")),
         _ => None,
     }
 }

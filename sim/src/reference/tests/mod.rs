@@ -39,6 +39,7 @@ fn parameters() -> Parameters {
         vorticity: 0.0,
         cohesion: 0.0,
         adhesion: 0.0,
+        chemistry: None,
         list_margin: 0.15,
         margin: 0.001 * H,
     }
