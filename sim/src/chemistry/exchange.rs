@@ -61,9 +61,13 @@ impl Exchange {
     /// with 4m/(ρ_i + ρ_j) at rest density.
     ///
     /// m_j/ρ_j·4ρ_i/(ρ_i + ρ_j), as printed, is not symmetric, and Σc drifts.
-    /// 4m/(ρ_i + ρ_j) would be; its densities take a pass at the committed
-    /// positions. They differ from ρ₀ only where neighbours lack, at the
-    /// surface, by less than the sum itself does.
+    /// 4m/(ρ_i + ρ_j) is, but its densities take a pass of their own at the
+    /// committed positions. What that would buy, as Σ k_ij·x²/2, which should
+    /// be 1, at h/d = 2: on the lattice 0.99 with either, in its outermost
+    /// layer 0.84 at rest density and 0.97 with the actual one; inside a
+    /// lattice shaken by 0.15 d, 0.974 ± 0.048 and 0.954 ± 0.040, by 0.3 d,
+    /// 0.945 and 0.892. So along a free surface diffusion is 16 % slower than
+    /// it should be, and nowhere else is it worse.
     pub fn coefficient(&self, distance: f64) -> f64 {
         let (h, r) = (self.kernel.support(), distance);
         2.0 * self.volume * r * -self.kernel.dw(r) / (r * r + 0.01 * h * h)

@@ -168,3 +168,12 @@ impl Losses {
 pub fn contact_area(volume: f64, gradient: f64) -> f64 {
     2.0 * volume * gradient
 }
+
+impl std::iter::Sum for Flux {
+    fn sum<I: Iterator<Item = Self>>(fluxes: I) -> Self {
+        fluxes.fold(Self::default(), |a, b| Self {
+            acid: a.acid + b.acid,
+            enthalpy: a.enthalpy + b.enthalpy,
+        })
+    }
+}

@@ -7,12 +7,16 @@
 //! neighbours are found in each substep; line 11 reorders particles for the
 //! cache.
 
+pub mod boiling;
+pub mod chemistry;
 pub mod density;
+pub mod dilution;
 pub mod forces;
 pub mod measure;
 pub mod motion;
 pub mod neighbours;
 pub mod placement;
+mod reaction;
 mod scene;
 pub mod surroundings;
 pub mod viscosity;
@@ -25,10 +29,12 @@ use crate::flask::Region;
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
+use chemistry::Chemistry;
 use glam::DVec3;
 use measure::{DensityError, Masses};
 use neighbours::Neighbours;
 use placement::{Motion, Placement};
+pub use scene::ChemistryError;
 use surroundings::Surroundings;
 use visibility::see_each_other;
 
@@ -52,6 +58,8 @@ pub struct Reference {
     pub membership: Vec<Option<usize>>,
     /// Particles that turned non-finite and were taken out.
     pub removed: usize,
+    /// Heat, acid and boiling, where they are modelled.
+    pub chemistry: Option<Chemistry>,
     motion: Vec<Motion>,
 }
 
@@ -82,6 +90,7 @@ impl Reference {
             positions,
             membership,
             removed: 0,
+            chemistry: None,
             motion,
         }
     }
@@ -107,6 +116,7 @@ impl Reference {
         let neighbours = self.neighbours(&predicted); // lines 9–12
         let solved = self.solve(predicted, &neighbours); // lines 18–21
         self.commit(&solved); // lines 22–25
+        self.dilute(&neighbours); // line 26
         let accelerations = self.internal_forces(&neighbours); // line 28
         self.smooth(&neighbours); // line 27
         self.push(&accelerations);
@@ -214,8 +224,13 @@ impl Reference {
         }
     }
 
-    /// Line 27: XSPH. (Anti-viscosity is for boiling, which this does not model.)
+    /// Line 27: XSPH, and anti-viscosity where something boils.
     pub fn smooth(&mut self, neighbours: &Neighbours) {
+        if let Some(mut chemistry) = self.chemistry.take() {
+            self.stir(&mut chemistry, neighbours);
+            self.chemistry = Some(chemistry);
+            return;
+        }
         if self.parameters.viscosity == 0.0 {
             return;
         }
@@ -299,6 +314,9 @@ impl Reference {
         retain(&mut self.velocities, &keep);
         retain(&mut self.carried, &keep);
         retain(&mut self.membership, &keep);
+        if let Some(chemistry) = &mut self.chemistry {
+            chemistry.retain(&keep);
+        }
     }
 
     /// The kernel W of Eq. 1.

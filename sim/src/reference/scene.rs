@@ -1,10 +1,14 @@
 //! The reference solver of a scene.
 
 use super::Reference;
+use super::chemistry::{DilutionLaw, Paper};
 use super::surroundings::{Surroundings, Table, Vessel};
+use crate::chemistry::OutOfRange;
+use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::scene::{Boundary, Scene, TableTop};
+use thiserror::Error;
 
 impl Surroundings {
     /// What is solid in `scene`.
@@ -57,5 +61,62 @@ impl Reference {
             positions,
             &poses,
         ))
+    }
+}
+
+/// Why a scene's chemistry cannot start.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ChemistryError {
+    /// Its liquids do not fit.
+    #[error(transparent)]
+    Fill(#[from] FillError),
+    /// Its liquids or its boiling point are none.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+}
+
+impl Paper {
+    /// What `scene` models of the paper's chemistry, by the `scheme` of Eq. 5
+    /// and the kind of `boiling`; `None` without the feature `heat`. The
+    /// particles are those of [`Reference::of_scene`] with the same seed.
+    ///
+    /// # Errors
+    /// [`ChemistryError`] as for [`Scene::start`], or T_B ≤ 0 °C.
+    pub fn of_scene(
+        scene: &Scene,
+        seed: Option<u64>,
+        scheme: Diffusion,
+        boiling: Boiling,
+    ) -> Result<Option<Self>, ChemistryError> {
+        let Some(table) = &scene.paper else {
+            return Ok(None);
+        };
+        let Some(ambient) = table.T_a else {
+            return Ok(None);
+        };
+        let particles: Vec<_> = scene
+            .start(seed)?
+            .iter()
+            .map(|start| (start.temperature, start.acid_fraction))
+            .collect();
+        let dilution = match (table.k_d, table.D_T, table.D_c) {
+            (Some(k_d), Some(temperature_diffusivity), Some(acid_diffusivity)) => {
+                Some(DilutionLaw {
+                    heat: Dilution::new(k_d, scene.scale.particle_mass()),
+                    temperature_diffusivity,
+                    acid_diffusivity,
+                    ambient,
+                    scheme,
+                })
+            }
+            _ => None,
+        };
+        let anti_viscosity = match (table.T_B, table.k_v) {
+            (Some(boiling_point), Some(intensity)) => {
+                Some((AntiViscosity::new(boiling_point, intensity)?, boiling))
+            }
+            _ => None,
+        };
+        Ok(Some(Self::new(dilution, anti_viscosity, &particles)?))
     }
 }

@@ -3,6 +3,8 @@
 use super::buffers::LOAD_GROUP;
 use super::vessels::flask_pose;
 use super::{Solver, SolverError};
+use crate::chemistry::Chemistry;
+use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
 use vitriol_gpu::{ComputePipeline, Pass, Readback, Recorder};
 use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
@@ -298,12 +300,21 @@ impl Solver {
     }
 
     /// XSPH coefficient of a substep, in whose units those of boiling particles
-    /// are: 1 where there is none.
+    /// are: 1 where there is none. Eq. 17 as printed takes μ₀ per substep,
+    /// however long that is.
     fn viscosity_unit(&self) -> f64 {
-        match self.parameters.substep_viscosity() {
-            0.0 => 1.0,
-            viscosity => viscosity,
-        }
+        let literal = match &self.parameters.chemistry {
+            Some(Chemistry::Paper(paper)) => paper
+                .boiling
+                .is_some_and(|boiling| boiling.law == Boiling::Literal),
+            None => false,
+        };
+        let viscosity = if literal {
+            self.parameters.viscosity
+        } else {
+            self.parameters.substep_viscosity()
+        };
+        if viscosity > 0.0 { viscosity } else { 1.0 }
     }
 
     pub(super) fn vessels<'r>(&self, pass: Pass<'r>) -> Pass<'r> {

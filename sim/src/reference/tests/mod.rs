@@ -2,7 +2,10 @@
 //! Truth from outside: formulas, brute force, finite differences, and the
 //! flask's regions on their own.
 
+mod boiling;
 mod chaos;
+mod dilution;
+mod mixing;
 mod passes;
 mod rest;
 mod walls;

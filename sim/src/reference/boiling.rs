@@ -1,0 +1,81 @@
+//! XSPH with a coefficient per particle, and anti-viscosity (Eqs 16 and 17;
+//! line 27).
+
+use super::neighbours::Neighbours;
+use super::placement::Motion;
+use super::surroundings::Surroundings;
+use crate::kernel::Kernel;
+use glam::DVec3;
+
+/// What line 27 needs to know of each particle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficients {
+    /// μ_i ≥ 0 of one substep: how fast relative velocities go.
+    pub viscosity: Vec<f64>,
+    /// α_i ≥ 0 of one substep: how fast they grow.
+    pub growth: Vec<f64>,
+    /// m_i, kg.
+    pub masses: Vec<f64>,
+}
+
+/// What line 27 did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stirred {
+    /// The velocities after it, m/s.
+    pub velocities: Vec<DVec3>,
+    /// Specific kinetic energy that the particle's own share of the
+    /// anti-viscous impulses gave it, J/kg. Times the masses these sum to
+    /// what the impulses add to the kinetic energy, exactly.
+    pub injected: Vec<f64>,
+    /// e_i = ½Σ_j w_ij·|v_i − v_j|² of the old velocities, J/kg: the next
+    /// substep's.
+    pub agitation: Vec<f64>,
+}
+
+/// v_i ← v_i + Σ_j (μ_i + μ_j − α_i − α_j)/2·w_ij·(v_j − v_i) + μ_i·V_b·(v_b − v_i)
+/// with w_ij = V₀W_ij·2m_j/(m_i + m_j).
+///
+/// Eq. 17 has μ_i alone, with which what one particle gains in momentum no
+/// other loses; the pair's mean keeps it. The reduced mass does so among
+/// unequal ones, and is one among equals. Walls do not boil, so α is none of
+/// theirs. All read the old velocities.
+#[allow(clippy::too_many_arguments)]
+pub fn stir(
+    surroundings: &Surroundings,
+    motion: &[Motion],
+    kernel: &Kernel,
+    (volume, max_speed): (f64, f64),
+    positions: &[DVec3],
+    membership: &[Option<usize>],
+    neighbours: &Neighbours,
+    velocities: &[DVec3],
+    of: &Coefficients,
+) -> Stirred {
+    let mut stirred = Stirred {
+        velocities: Vec::with_capacity(velocities.len()),
+        injected: Vec::with_capacity(velocities.len()),
+        agitation: Vec::with_capacity(velocities.len()),
+    };
+    for (i, &velocity) in velocities.iter().enumerate() {
+        let (mut damping, mut driving, mut agitation) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+        for j in neighbours.of(i) {
+            let kernel = volume * kernel.w(positions[i].distance(positions[j]));
+            if kernel > 0.0 {
+                let weight = kernel * 2.0 * of.masses[j] / (of.masses[i] + of.masses[j]);
+                let apart = velocity - velocities[j];
+                damping -= apart * (weight * 0.5 * (of.viscosity[i] + of.viscosity[j]));
+                driving += apart * (weight * 0.5 * (of.growth[i] + of.growth[j]));
+                agitation += 0.5 * weight * apart.length_squared();
+            }
+        }
+        surroundings.contacts(positions[i], membership[i], motion, |contact| {
+            let wall = contact.velocity.clamp_length_max(max_speed);
+            damping += (wall - velocity) * (contact.volume * of.viscosity[i]);
+        });
+        stirred.velocities.push(velocity + damping + driving);
+        let injected = driving.dot(velocity) + 0.5 * driving.length_squared();
+        stirred.injected.push(injected);
+        stirred.agitation.push(agitation);
+    }
+    stirred
+}

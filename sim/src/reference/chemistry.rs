@@ -1,0 +1,309 @@
+//! What a scene's chemistry keeps per particle, and its part of a substep.
+
+use super::boiling::Coefficients;
+use super::dilution::{self, Pairs, Weight};
+use super::retain;
+use super::surroundings::WallSum;
+use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
+use crate::chemistry::physical::{Content, Steam, motion_budget};
+use crate::chemistry::table::SolutionTable;
+use crate::chemistry::transport::{Flux, Losses, Mixing, Potential, contact_area, flux};
+use crate::chemistry::{OutOfRange, check_content, paper};
+use crate::parameters::Parameters;
+use glam::DVec3;
+
+/// What is modelled beyond a fluid with viscosity.
+#[derive(Clone, Debug)]
+pub enum Chemistry {
+    /// Sections 4.1 to 4.3.
+    Paper(Paper),
+    /// What section 8 misses.
+    Physical(Box<Physical>),
+}
+
+impl Chemistry {
+    /// Leaves out the particles that are not to `keep`.
+    pub(super) fn retain(&mut self, keep: &[bool]) {
+        match self {
+            Self::Paper(paper) => {
+                retain(&mut paper.temperatures, keep);
+                retain(&mut paper.acid, keep);
+                retain(&mut paper.agitation, keep);
+            }
+            Self::Physical(physical) => {
+                retain(&mut physical.contents, keep);
+                retain(&mut physical.agitation, keep);
+                retain(&mut physical.budgets, keep);
+            }
+        }
+    }
+}
+
+/// Diffusion and heat of solution of the paper's chemistry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DilutionLaw {
+    /// Eqs 6 to 13.
+    pub heat: Dilution,
+    /// D_T, m²/s.
+    pub temperature_diffusivity: f64,
+    /// D_c, m²/s.
+    pub acid_diffusivity: f64,
+    /// T_a of all that is solid, °C.
+    pub ambient: f64,
+    /// How Eq. 5 weights a pair.
+    pub scheme: Diffusion,
+}
+
+/// The paper's chemistry.
+#[derive(Clone, Debug)]
+pub struct Paper {
+    /// Line 26, if it is modelled.
+    pub dilution: Option<DilutionLaw>,
+    /// Line 27, if it is modelled.
+    pub boiling: Option<(AntiViscosity, Boiling)>,
+    /// T_i, °C.
+    pub temperatures: Vec<f64>,
+    /// c_i, mass fraction.
+    pub acid: Vec<f64>,
+    /// e_i of the substep before, J/kg.
+    pub agitation: Vec<f64>,
+}
+
+impl Paper {
+    /// Particles of `(temperature in °C, acid fraction)`, at rest.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] for what no liquid has.
+    pub fn new(
+        dilution: Option<DilutionLaw>,
+        boiling: Option<(AntiViscosity, Boiling)>,
+        particles: &[(f64, f64)],
+    ) -> Result<Self, OutOfRange> {
+        for &(temperature, acid) in particles {
+            check_content(acid, temperature)?;
+        }
+        Ok(Self {
+            dilution,
+            boiling,
+            temperatures: particles.iter().map(|particle| particle.0).collect(),
+            acid: particles.iter().map(|particle| particle.1).collect(),
+            agitation: vec![0.0; particles.len()],
+        })
+    }
+
+    /// Line 26. `densities` are ρ/ρ₀ at the committed positions, for the
+    /// literal scheme.
+    pub fn dilute(&mut self, pairs: &Pairs, walls: &[WallSum], densities: &[f64]) {
+        let Some(law) = &self.dilution else { return };
+        let of_acid = Weight::of(law.scheme, law.acid_diffusivity, densities);
+        let of_heat = Weight::of(law.scheme, law.temperature_diffusivity, densities);
+        let acid = dilution::diffuse(pairs, &of_acid, &self.acid);
+        self.temperatures = dilution::diffuse(pairs, &of_heat, &self.temperatures);
+        dilution::exchange_with_walls(
+            pairs.exchange,
+            law.temperature_diffusivity,
+            law.ambient,
+            walls,
+            &mut self.temperatures,
+        );
+        let warming = dilution::heat_of_solution(pairs, &of_acid, &law.heat, &self.acid, &acid);
+        for (temperature, warming) in self.temperatures.iter_mut().zip(warming) {
+            *temperature += warming;
+        }
+        self.acid = acid;
+    }
+
+    /// μ_i and α_i of line 27.
+    ///
+    /// Eq. 17 as printed is a coefficient per substep, and so is its μ₀.
+    pub fn coefficients(&self, parameters: &Parameters) -> Coefficients {
+        let time = parameters.substep_time();
+        let usual = parameters.substep_viscosity();
+        let of = |(&temperature, &agitation): (&f64, &f64)| match &self.boiling {
+            None => (usual, 0.0),
+            Some((law, Boiling::Literal)) => {
+                let mu = law.literal(temperature, parameters.viscosity);
+                (mu.max(0.0), (-mu).max(0.0))
+            }
+            Some((law, Boiling::Power)) if law.boils(temperature) => {
+                (0.0, law.growth(temperature, agitation, time))
+            }
+            Some((_, Boiling::Power)) => (usual, 0.0),
+        };
+        let particles = self.temperatures.iter().zip(&self.agitation);
+        let (viscosity, growth) = particles.map(of).unzip();
+        Coefficients {
+            viscosity,
+            growth,
+            masses: vec![parameters.particle_mass(); self.temperatures.len()],
+        }
+    }
+}
+
+/// Where enthalpy and mass went, J and kg since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Enthalpy taken up from around the liquid.
+    pub exchanged: f64,
+    /// Steam that has left, and its enthalpy.
+    pub steam: Steam,
+    /// Enthalpy that became motion.
+    pub kinetic: f64,
+}
+
+/// Constants of the physical chemistry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhysicalLaw {
+    /// Mixing below the particles' size.
+    pub mixing: Mixing,
+    /// Heat that leaves; none in an insulated vessel.
+    pub losses: Option<Losses>,
+    /// Time constant of boiling and condensing, s.
+    pub settling: f64,
+    /// Time constant with which bubbles leave, s.
+    pub escape: f64,
+    /// η.
+    pub work_share: f64,
+}
+
+/// The physical chemistry.
+#[derive(Clone, Debug)]
+pub struct Physical {
+    /// Its constants.
+    pub law: PhysicalLaw,
+    /// Properties of the liquid.
+    pub table: SolutionTable,
+    /// What each particle holds.
+    pub contents: Vec<Content>,
+    /// e_i of the substep before, J/kg.
+    pub agitation: Vec<f64>,
+    /// What may become motion in this substep, J/kg.
+    pub budgets: Vec<f64>,
+    /// Balance since the start.
+    pub ledger: Ledger,
+}
+
+impl Physical {
+    /// Particles of volume `volume` (m³) and `(temperature in °C, acid
+    /// fraction)`, at rest.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] for what no liquid has.
+    pub fn new(
+        law: PhysicalLaw,
+        volume: f64,
+        particles: &[(f64, f64)],
+    ) -> Result<Self, OutOfRange> {
+        let table = SolutionTable::new();
+        let content = |&(temperature, acid): &(f64, f64)| {
+            let mass = volume * table.at(acid).density_at(temperature);
+            Content::liquid(&table, mass, acid, temperature)
+        };
+        let contents = particles
+            .iter()
+            .map(content)
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Self {
+            law,
+            agitation: vec![0.0; contents.len()],
+            budgets: vec![0.0; contents.len()],
+            contents,
+            table,
+            ledger: Ledger::default(),
+        })
+    }
+
+    /// Line 26: acid and enthalpy between particles, heat to what is around,
+    /// boiling. `surfaces` are each particle's areas of glass and of free
+    /// surface, m².
+    pub fn dilute(
+        &mut self,
+        pairs: &Pairs,
+        (support, time): (f64, f64),
+        velocities: &[DVec3],
+        surfaces: &[(f64, f64)],
+    ) {
+        let potentials: Vec<_> = self
+            .contents
+            .iter()
+            .map(|content| Potential::of(&self.table, content))
+            .collect();
+        let fluxes = pairs.sums(|i, j| {
+            let speed = velocities[i].distance(velocities[j]);
+            let diffusivities = self.law.mixing.diffusivities(support, speed);
+            let distance = pairs.distance(i, j);
+            flux(
+                pairs.exchange,
+                diffusivities,
+                distance,
+                &potentials[i],
+                &potentials[j],
+            )
+        });
+        for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
+            let (glass, surface) = surfaces[i];
+            let gained = self.law.losses.map_or(0.0, |losses| {
+                losses.gain(&potentials[i], glass, surface, time)
+            });
+            self.ledger.exchanged += gained;
+            let content = &mut self.contents[i];
+            content.acid += acid / content.mass;
+            content.enthalpy += (enthalpy + gained) / content.mass;
+            let evaporated = content.boil(&self.table, time, self.law.settling);
+            let temperature = content.temperature(&self.table);
+            self.budgets[i] = motion_budget(self.law.work_share, evaporated, temperature);
+            let share = -(-time / self.law.escape).exp_m1();
+            let steam = content.release(&self.table, share);
+            self.ledger.steam.mass += steam.mass;
+            self.ledger.steam.enthalpy += steam.enthalpy;
+        }
+    }
+
+    /// μ_i and α_i of line 27: the budget over the agitation, bounded.
+    pub fn coefficients(&self, parameters: &Parameters) -> Coefficients {
+        let usual = parameters.substep_viscosity();
+        let growth: Vec<_> = self
+            .budgets
+            .iter()
+            .zip(&self.agitation)
+            .map(|(&budget, &agitation)| paper::bounded_growth(budget, agitation))
+            .collect();
+        let viscosity = growth
+            .iter()
+            .map(|&growth| if growth > 0.0 { 0.0 } else { usual });
+        Coefficients {
+            viscosity: viscosity.collect(),
+            growth,
+            masses: self.contents.iter().map(|content| content.mass).collect(),
+        }
+    }
+
+    /// Takes what became motion (J/kg per particle) from the enthalpy.
+    pub fn pay(&mut self, injected: &[f64]) {
+        for (content, injected) in self.contents.iter_mut().zip(injected) {
+            content.enthalpy -= injected;
+            self.ledger.kinetic += content.mass * injected;
+        }
+    }
+
+    /// Σ m·h of all particles, J.
+    pub fn enthalpy(&self) -> f64 {
+        self.contents
+            .iter()
+            .map(|content| content.mass * content.enthalpy)
+            .sum()
+    }
+}
+
+/// Area of glass and of free surface of each particle of volume `volume`
+/// (m³), m², from ∇V_b and Σ_j V₀∇W_ij.
+pub fn surfaces(volume: f64, walls: &[WallSum], liquid: &[DVec3]) -> Vec<(f64, f64)> {
+    let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
+        let open = (wall.gradient + liquid).length();
+        (
+            contact_area(volume, wall.gradient.length()),
+            contact_area(volume, open),
+        )
+    };
+    walls.iter().zip(liquid).map(areas).collect()
+}

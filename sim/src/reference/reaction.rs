@@ -1,0 +1,80 @@
+//! Lines 26 and 27 of a liquid with a chemistry.
+
+use super::Reference;
+use super::boiling;
+use super::chemistry::{Chemistry, surfaces};
+use super::dilution::Pairs;
+use super::neighbours::Neighbours;
+use crate::chemistry::exchange::{Exchange, list_capacity};
+
+impl Reference {
+    /// Line 26: diffusion, heat of solution and what else the chemistry does
+    /// to what particles hold.
+    pub fn dilute(&mut self, neighbours: &Neighbours) {
+        let Some(mut chemistry) = self.chemistry.take() else {
+            return;
+        };
+        let longest = (0..self.positions.len()).map(|i| neighbours.of(i).count());
+        let capacity = longest.max().unwrap_or(0) as u32;
+        // The GPU's lists have this capacity; these have no limit.
+        let capacity = capacity.max(list_capacity(&self.parameters));
+        let exchange = Exchange::new(&self.parameters, capacity);
+        let pairs = Pairs {
+            exchange: &exchange,
+            positions: &self.positions,
+            neighbours,
+        };
+        let walls = self
+            .surroundings
+            .sums(&self.positions, &self.membership, &self.motion);
+        match &mut chemistry {
+            Chemistry::Paper(paper) => {
+                let densities = self.densities(&self.positions, neighbours);
+                paper.dilute(&pairs, &walls, &densities);
+            }
+            Chemistry::Physical(physical) => {
+                let volume = self.parameters.particle_volume();
+                let kernel = self.kernel();
+                let slopes = pairs.sums(|i, j| {
+                    let apart = self.positions[i] - self.positions[j];
+                    apart.normalize_or_zero() * (volume * kernel.dw(apart.length()))
+                });
+                let surfaces = surfaces(volume, &walls, &slopes);
+                let scales = (
+                    self.parameters.support_radius,
+                    self.parameters.substep_time(),
+                );
+                physical.dilute(&pairs, scales, &self.velocities, &surfaces);
+            }
+        }
+        self.chemistry = Some(chemistry);
+    }
+
+    /// Line 27 with a coefficient per particle.
+    pub(super) fn stir(&mut self, chemistry: &mut Chemistry, neighbours: &Neighbours) {
+        let parameters = &self.parameters;
+        let coefficients = match chemistry {
+            Chemistry::Paper(paper) => paper.coefficients(parameters),
+            Chemistry::Physical(physical) => physical.coefficients(parameters),
+        };
+        let stirred = boiling::stir(
+            &self.surroundings,
+            &self.motion,
+            &self.kernel(),
+            (parameters.particle_volume(), parameters.max_speed),
+            &self.positions,
+            &self.membership,
+            neighbours,
+            &self.velocities,
+            &coefficients,
+        );
+        self.velocities = stirred.velocities;
+        match chemistry {
+            Chemistry::Paper(paper) => paper.agitation = stirred.agitation,
+            Chemistry::Physical(physical) => {
+                physical.pay(&stirred.injected);
+                physical.agitation = stirred.agitation;
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Line 26 of the paper's chemistry.
+
+use super::{Random, glass_of_water};
+use crate::chemistry::exchange::{Exchange, list_capacity};
+use crate::chemistry::paper::{Boiling, Diffusion, Dilution};
+use crate::chemistry::thomsen;
+use crate::parameters::Parameters;
+use crate::pose::Pose;
+use crate::reference::Reference;
+use crate::reference::chemistry::{Chemistry, DilutionLaw, Paper};
+use crate::reference::dilution::{Pairs, Weight, diffuse};
+use crate::reference::neighbours::find;
+use crate::scene::Scene;
+use glam::DVec3;
+
+/// Table 1 in the paper's world.
+fn world() -> Parameters {
+    Parameters::from_scene(&Scene::load("single-dilution").unwrap())
+}
+
+fn law(scheme: Diffusion, parameters: &Parameters) -> DilutionLaw {
+    DilutionLaw {
+        heat: Dilution::new(0.017, parameters.particle_mass()),
+        temperature_diffusivity: 0.01,
+        acid_diffusivity: 0.007,
+        ambient: 20.0,
+        scheme,
+    }
+}
+
+/// A glass that fits the world's spacing, at the scale of `glass_of_water`,
+/// and what it is filled with by `(temperature, acid)` of a position.
+fn glass(parameters: Parameters, law: DilutionLaw, of: impl Fn(DVec3) -> (f64, f64)) -> Reference {
+    let mut reference = glass_of_water(parameters, 300, Pose::IDENTITY);
+    let particles: Vec<_> = reference.positions.iter().map(|&at| of(at)).collect();
+    let paper = Paper::new(Some(law), None, &particles).unwrap();
+    reference.chemistry = Some(Chemistry::Paper(paper));
+    reference
+}
+
+fn paper(reference: &Reference) -> &Paper {
+    match &reference.chemistry {
+        Some(Chemistry::Paper(paper)) => paper,
+        _ => panic!("has the paper's chemistry"),
+    }
+}
+
+fn sum(values: &[f64]) -> f64 {
+    values.iter().sum()
+}
+
+/// erf to 1e-12 by its series (|x| < 3).
+fn erf(x: f64) -> f64 {
+    let mut term = x;
+    let mut sum = x;
+    for n in 1..200 {
+        let n = f64::from(n);
+        term *= -x * x / n;
+        sum += term / (2.0 * n + 1.0);
+    }
+    sum * 2.0 / std::f64::consts::PI.sqrt()
+}
+
+/// Largest error of a step in c after D·t = 0.01 m², `layers` a metre, against
+/// ½ erfc(x/√(4D't)), where D' = `share`·D.
+fn step_error(layers: usize, share: f64) -> f64 {
+    let d = 1.0 / layers as f64;
+    let total = 0.01;
+    // Σ K = 0.3 on the lattice: Δt·D = 0.07 d².
+    let steps = (total / (0.07 * d * d)).ceil();
+    let mut parameters = world();
+    parameters.spacing = d;
+    parameters.support_radius = 2.0 * d;
+    parameters.substeps = 1;
+    parameters.frame_time = total / steps;
+    // A bar five particles wide, of which the middle is used: its neighbours
+    // stand for a slab without end.
+    let length = 2 * layers;
+    let mut positions = Vec::new();
+    for x in 0..length {
+        for y in -2..=2 {
+            for z in -2..=2 {
+                let at = DVec3::new(x as f64 + 0.5 - layers as f64, y.into(), z.into());
+                positions.push(at * d);
+            }
+        }
+    }
+    let exchange = Exchange::new(&parameters, 20);
+    let neighbours = find(&positions, 2.0 * d, |_, _| true);
+    let pairs = Pairs {
+        exchange: &exchange,
+        positions: &positions,
+        neighbours: &neighbours,
+    };
+    let initial = |at: &DVec3| if at.x < 0.0 { 1.0 } else { 0.0 };
+    let mut acid: Vec<f64> = positions.iter().map(initial).collect();
+    for _ in 0..steps as usize {
+        let next = diffuse(&pairs, &Weight::Conservative(1.0), &acid);
+        for (slab, next) in acid.chunks_mut(25).zip(next.chunks(25)) {
+            slab.fill(next[12]);
+        }
+    }
+    positions
+        .iter()
+        .zip(&acid)
+        .filter(|(at, _)| at.x.abs() < 0.6)
+        .map(|(at, acid)| (acid - 0.5 * (1.0 - erf(at.x / (4.0 * share * total).sqrt()))).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_step_diffuses_as_erf() {
+    let resolutions = [10, 20, 40];
+    // To the lattice's own D' = 0.992 D the order is two: 0.0111, 0.0030,
+    // 0.00073.
+    let own = resolutions.map(|layers| step_error(layers, 0.9915));
+    for pair in own.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((1.7..2.6).contains(&order), "{own:?}: {order}");
+    }
+    // To D the error ends at what is left of D at h/d = 2 for good, 0.85 % of
+    // x·∂c/∂x: 0.0021.
+    let errors = resolutions.map(|layers| step_error(layers, 1.0));
+    assert!(errors[2] < 0.0025 && errors[0] < 0.02, "{errors:?}");
+}
+
+#[test]
+fn conservative_diffusion_does_not_drift_where_the_literal_does() {
+    let drift = |scheme| {
+        let parameters = Parameters {
+            support_radius: world().support_radius,
+            ..world()
+        };
+        let mut random = Random(3);
+        let count = 600;
+        let positions = random.points(count, 0.05 * 600f64.cbrt());
+        let mut reference = super::in_the_open(parameters.clone(), positions);
+        let particles: Vec<_> = (0..count)
+            .map(|i| (20.0, if i % 2 == 0 { 0.98 } else { 0.0 }))
+            .collect();
+        let start = Paper::new(Some(law(scheme, &parameters)), None, &particles).unwrap();
+        let before = sum(&start.acid);
+        reference.chemistry = Some(Chemistry::Paper(start));
+        let neighbours = reference.neighbours(&reference.positions);
+        for _ in 0..200 {
+            reference.dilute(&neighbours);
+        }
+        let after = &paper(&reference).acid;
+        assert!(after.iter().all(|acid| (0.0..=0.98 + 1e-12).contains(acid)));
+        (sum(after) - before).abs() / before
+    };
+    let (symmetric, printed) = (drift(Diffusion::Conservative), drift(Diffusion::Literal));
+    assert!(symmetric < 1e-12, "{symmetric}");
+    assert!(printed > 1e-4, "{printed}");
+}
+
+#[test]
+fn heat_in_the_glass_is_the_enthalpy_of_dilution() {
+    let parameters = super::parameters();
+    // D such that a pair's share is as in the paper's world.
+    let scale = 0.0025f64.powi(2) / 0.05f64.powi(2) * 4.0;
+    let law = DilutionLaw {
+        heat: Dilution::new(17.0, parameters.particle_mass()),
+        temperature_diffusivity: 0.01 * scale,
+        acid_diffusivity: 0.007 * scale,
+        // A wall at the liquid's own temperature would still cool it.
+        ambient: 20.0,
+        ..law(Diffusion::Conservative, &parameters)
+    };
+    let mut reference = glass(parameters, law, |at| {
+        (20.0, if at.y > 0.006 { 0.98 } else { 0.0 })
+    });
+    // Without walls in reach nothing but the heat of solution changes ΣT.
+    reference.surroundings =
+        super::in_the_open(reference.parameters.clone(), Vec::new()).surroundings;
+    reference.membership.fill(None);
+    let neighbours = reference.neighbours(&reference.positions);
+    let before = paper(&reference).clone();
+    for _ in 0..100 {
+        reference.dilute(&neighbours);
+    }
+    let after = paper(&reference);
+    let drift = sum(&after.acid) / sum(&before.acid) - 1.0;
+    assert!(drift.abs() < 1e-12, "{drift}");
+    let heat = |paper: &Paper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
+    let released = heat(after) - heat(&before);
+    let warming = (sum(&after.temperatures) - sum(&before.temperatures)) * law.heat.heat_capacity();
+    assert!(released > 0.0);
+    // ΣT loses digits to 100 steps' rounding; 1e-6 is asked for.
+    assert!(
+        (warming / released - 1.0).abs() < 1e-6,
+        "{warming} {released}"
+    );
+}
+
+#[test]
+fn all_water_and_all_acid_stay_as_they_are() {
+    for acid in [0.0, 1.0] {
+        let parameters = super::parameters();
+        let law = law(Diffusion::Conservative, &parameters);
+        let mut reference = glass(parameters, law, |_| (20.0, acid));
+        for _ in 0..3 {
+            reference.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
+        }
+        let paper = paper(&reference);
+        // To the bit: no difference, no exchange; walls are at 20 °C.
+        assert!(paper.acid.iter().all(|&c| c == acid));
+        assert!(paper.temperatures.iter().all(|&t| t == 20.0));
+    }
+}
+
+#[test]
+fn one_particle_of_acid_in_water_and_any_diffusivity() {
+    for diffusivity in [1e-6, 1.0, 1e300] {
+        let parameters = super::parameters();
+        let law = DilutionLaw {
+            temperature_diffusivity: diffusivity,
+            acid_diffusivity: diffusivity,
+            heat: Dilution::new(17.0, parameters.particle_mass()),
+            ..law(Diffusion::Conservative, &parameters)
+        };
+        let mut reference = glass(parameters, law, |_| (20.0, 0.0));
+        let Some(Chemistry::Paper(start)) = &mut reference.chemistry else {
+            panic!("has the paper's chemistry")
+        };
+        start.acid[150] = 1.0;
+        for _ in 0..4 {
+            reference.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
+            let paper = paper(&reference);
+            assert!((sum(&paper.acid) - 1.0).abs() < 1e-6, "{diffusivity}");
+            assert!(paper.acid.iter().all(|c| (0.0..=1.0).contains(c)));
+            // All the heat there is, in one particle: k_d·762 kJ/kg·m.
+            let most = thomsen::secant(0.0, 0.0) / 4.184 * 17.0 * 1000.0 * 0.0025f64.powi(3);
+            let within = 20.0 - 1e-9..=20.0 + most;
+            assert!(
+                paper.temperatures.iter().all(|t| within.contains(t)),
+                "{diffusivity}"
+            );
+        }
+        assert_eq!(reference.removed, 0);
+    }
+}
+
+#[test]
+fn walls_take_the_liquid_to_ambient_without_overshoot() {
+    for (diffusivity, end) in [(1e-5, 125.0), (1e300, 20.001)] {
+        let parameters = super::parameters();
+        let law = DilutionLaw {
+            temperature_diffusivity: diffusivity,
+            ..law(Diffusion::Conservative, &parameters)
+        };
+        let mut reference = glass(parameters, law, |_| (150.0, 0.3));
+        let neighbours = reference.neighbours(&reference.positions);
+        let mut before = sum(&paper(&reference).temperatures);
+        for _ in 0..400 {
+            reference.dilute(&neighbours);
+            let now = sum(&paper(&reference).temperatures);
+            assert!(now <= before, "{now} {before}");
+            before = now;
+        }
+        let temperatures = &paper(&reference).temperatures;
+        let mean = before / temperatures.len() as f64;
+        assert!(
+            temperatures
+                .iter()
+                .all(|t| (20.0 - 1e-9..=150.0).contains(t))
+        );
+        assert!(mean < end, "{mean}");
+    }
+}
+
+#[test]
+fn a_wall_of_the_map_cools_like_one_of_particles() {
+    // Eq. 5 over a lattice of solid particles that fills the half space y < 0.
+    let parameters = world();
+    let (d, h) = (parameters.spacing, parameters.support_radius);
+    let exchange = Exchange::new(&parameters, list_capacity(&parameters));
+    let map = crate::flask::PlaneMap::new(h);
+    for (height, tolerance) in [(0.5, 0.2), (0.7, 0.25)] {
+        let mut by_particles = 0.0;
+        for x in -3i32..=3 {
+            for z in -3i32..=3 {
+                for y in 0..4 {
+                    let down = height + 0.5 + f64::from(y);
+                    let distance = d * f64::from(x * x + z * z).sqrt().hypot(down);
+                    by_particles += exchange.unlimited(1e-6, distance);
+                }
+            }
+        }
+        let by_map = exchange.wall_share(1e-6, map.volume(height * d));
+        // A continuum has 1.3 times the Σk of the lattice (22.2 for 17.1),
+        // which is the liquid's own, too.
+        assert!(
+            (by_map / by_particles - 1.15).abs() < tolerance,
+            "{height} {by_map} {by_particles}"
+        );
+    }
+}
+
+#[test]
+fn scenes_of_the_paper_start_with_their_chemistry() {
+    let of = |name: &str| {
+        let scene = Scene::load(name).unwrap();
+        Paper::of_scene(&scene, Some(1), Diffusion::default(), Boiling::default()).unwrap()
+    };
+    assert!(of("beaker").is_none());
+    let soup = of("tomato-soup").unwrap();
+    assert!(soup.dilution.is_none() && soup.boiling.is_some());
+    let dilution = of("single-dilution").unwrap();
+    assert!(dilution.dilution.is_some() && dilution.boiling.is_some());
+    assert!(dilution.acid.iter().any(|&c| c > 0.9) && dilution.acid.contains(&0.0));
+    let mut scene = Scene::load("tomato-soup").unwrap();
+    if let Some(paper) = &mut scene.paper {
+        paper.T_B = Some(-5.0);
+    }
+    assert!(Paper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err());
+}

@@ -1,0 +1,207 @@
+//! Line 26 of the physical chemistry.
+
+use super::{Random, in_the_open, parameters};
+use crate::chemistry::OutOfRange;
+use crate::chemistry::adiabatic::{Feed, mix};
+use crate::chemistry::transport::{Losses, Mixing};
+use crate::reference::Reference;
+use crate::reference::chemistry::{Chemistry, Physical, PhysicalLaw};
+
+/// An insulated vessel whose bubbles stay.
+fn closed() -> PhysicalLaw {
+    PhysicalLaw {
+        mixing: Mixing::default(),
+        losses: None,
+        settling: 0.01,
+        escape: f64::INFINITY,
+        work_share: 0.003,
+    }
+}
+
+/// A block of 6 × 6 × 6 particles at real size, `(temperature, acid)` by
+/// height from 0 to 1.
+fn block(law: PhysicalLaw, of: impl Fn(f64) -> (f64, f64)) -> Reference {
+    let parameters = parameters();
+    let mut positions = Vec::new();
+    let mut particles = Vec::new();
+    for y in 0..6 {
+        for x in 0..6 {
+            for z in 0..6 {
+                let site = glam::DVec3::new(x.into(), y.into(), z.into());
+                positions.push(site * parameters.spacing);
+                particles.push(of(f64::from(y) / 5.0));
+            }
+        }
+    }
+    let volume = parameters.particle_volume();
+    let mut reference = in_the_open(parameters, positions);
+    let physical = Physical::new(law, volume, &particles).unwrap();
+    reference.chemistry = Some(Chemistry::Physical(Box::new(physical)));
+    reference
+}
+
+fn physical(reference: &Reference) -> &Physical {
+    match &reference.chemistry {
+        Some(Chemistry::Physical(physical)) => physical,
+        _ => panic!("has the physical chemistry"),
+    }
+}
+
+/// Mass, acid (kg) and enthalpy (J) of all particles.
+fn totals(physical: &Physical) -> [f64; 3] {
+    let sum = |of: fn(&crate::chemistry::physical::Content) -> f64| -> f64 {
+        physical.contents.iter().map(of).sum()
+    };
+    [
+        sum(|c| c.mass),
+        sum(|c| c.mass * c.acid),
+        sum(|c| c.mass * c.enthalpy),
+    ]
+}
+
+#[test]
+fn a_stirred_box_ends_where_the_formula_does_whichever_is_above() {
+    let end = |water_below: bool| {
+        // A third of the layers is acid.
+        let mut reference = block(closed(), |height| {
+            let acid = if water_below {
+                height > 0.7
+            } else {
+                height < 0.3
+            };
+            (20.0, if acid { 0.98 } else { 0.0 })
+        });
+        let mut random = Random(7);
+        let neighbours = reference.neighbours(&reference.positions);
+        let before = totals(physical(&reference));
+        for _ in 0..2000 {
+            // Stirred: 4 m/s between neighbours.
+            reference.velocities = random.points(216, 4.0);
+            reference.dilute(&neighbours);
+        }
+        let physical = physical(&reference);
+        for (before, after) in before.iter().zip(totals(physical)) {
+            assert!((after / before - 1.0).abs() < 1e-10, "{before} {after}");
+        }
+        let formula = mix(
+            &physical.table,
+            &[(144.0, 0.0), (72.0, 0.98)].map(|(volume, acid)| Feed {
+                mass: volume * physical.table.at(acid).density_at(20.0),
+                acid,
+                temperature: 20.0,
+            }),
+        )
+        .unwrap();
+        for content in &physical.contents {
+            let temperature = content.temperature(&physical.table);
+            // What is left of the differences after the stirring.
+            assert!(
+                (temperature - formula.temperature).abs() < 0.05,
+                "{content:?} {formula:?}"
+            );
+            assert!((content.liquid_acid() - formula.acid).abs() < 1e-3);
+        }
+        physical.contents[0].temperature(&physical.table)
+    };
+    assert!((end(true) - end(false)).abs() < 0.05);
+}
+
+#[test]
+fn the_ledger_closes_while_it_boils() {
+    let law = PhysicalLaw {
+        losses: Some(Losses::to_air(20.0)),
+        escape: 0.05,
+        ..closed()
+    };
+    let mut reference = block(law, |height| (110.0, 1.0 - height));
+    reference.velocities = Random(9).points(216, 1.0);
+    let before = totals(physical(&reference));
+    let neighbours = reference.neighbours(&reference.positions);
+    let mut injected = 0.0;
+    for _ in 0..300 {
+        reference.dilute(&neighbours);
+        // Without ordinary viscosity, whose heat is in no book.
+        reference.parameters.viscosity = 0.0;
+        let start = reference.clone();
+        let kinetic = energy(&start);
+        reference.smooth(&neighbours);
+        injected += energy(&reference) - kinetic;
+    }
+    let physical = physical(&reference);
+    let after = totals(physical);
+    let ledger = physical.ledger;
+    assert!(ledger.steam.mass > 1e-4 * before[0], "{ledger:?}");
+    assert!(ledger.exchanged < 0.0 && ledger.kinetic > 0.0, "{ledger:?}");
+    assert!((after[0] + ledger.steam.mass) / before[0] - 1.0 < 1e-12);
+    assert!((after[1] / before[1] - 1.0).abs() < 1e-12);
+    let scale = before[0] * 1e5;
+    let open = after[2] + ledger.steam.enthalpy + ledger.kinetic - ledger.exchanged - before[2];
+    assert!(open.abs() < 1e-10 * scale, "{open} {scale}");
+    // Motion is what was taken for it, and momentum is nobody's.
+    assert!(
+        (injected / ledger.kinetic - 1.0).abs() < 1e-9,
+        "{injected} {ledger:?}"
+    );
+}
+
+/// Σ ½mv² with each particle's own mass, J.
+fn energy(reference: &Reference) -> f64 {
+    let masses = physical(reference).contents.iter().map(|c| c.mass);
+    let squares = reference.velocities.iter().map(|v| v.length_squared());
+    masses.zip(squares).map(|(m, v)| 0.5 * m * v).sum()
+}
+
+#[test]
+fn anti_viscosity_keeps_momentum_among_unequal_masses() {
+    let mut reference = block(closed(), |height| (20.0, height));
+    reference.velocities = Random(2).points(216, 1.0);
+    let Some(Chemistry::Physical(state)) = &mut reference.chemistry else {
+        panic!("has the physical chemistry")
+    };
+    state.budgets.fill(1.0);
+    let momentum = |reference: &Reference| -> glam::DVec3 {
+        let masses = physical(reference).contents.iter().map(|c| c.mass);
+        masses.zip(&reference.velocities).map(|(m, &v)| v * m).sum()
+    };
+    let neighbours = reference.neighbours(&reference.positions);
+    let before = momentum(&reference);
+    let kinetic = energy(&reference);
+    for _ in 0..20 {
+        reference.smooth(&neighbours);
+    }
+    assert!(energy(&reference) > 1.5 * kinetic);
+    assert!((momentum(&reference) - before).length() < 1e-14);
+}
+
+#[test]
+fn extremes_stay_numbers() {
+    let cases: [fn(f64) -> (f64, f64); 4] = [
+        |_| (1e6, 0.5),
+        |height| (if height > 0.5 { 1e6 } else { -50.0 }, height),
+        |_| (99.0, 0.0),
+        |_| (20.0, 1.0),
+    ];
+    for of in cases {
+        let law = PhysicalLaw {
+            escape: 0.02,
+            ..closed()
+        };
+        let mut reference = block(law, of);
+        for _ in 0..3 {
+            reference.step(&[], &[]);
+        }
+        let physical = physical(&reference);
+        assert_eq!(reference.removed, 0);
+        for content in &physical.contents {
+            assert!((0.0..=1.0).contains(&content.acid), "{content:?}");
+            assert!((0.0..=1.0).contains(&content.vapour), "{content:?}");
+            assert!(content.mass >= 0.0 && content.temperature(&physical.table).is_finite());
+        }
+    }
+}
+
+#[test]
+fn impossible_liquids_are_refused() {
+    let refused = Physical::new(closed(), 1e-8, &[(20.0, 0.5), (20.0, 1.1)]);
+    assert!(matches!(refused, Err(OutOfRange::Acid(_))));
+}
