@@ -54,15 +54,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (CONFINEMENT > 0.0) { eta = lane_sum3(eta) * (weight_scale() / SUPPORT); }
         if (COHESION > 0.0) { attraction = lane_sum3(attraction); }
     }
-    if (lane != 0u) { return; }
-
     let tag = tags[i].x;
     var acceleration = attraction;
     if (VISCOUS || ADHESION > 0.0) {
-        let walls = contact(tag, x, own.xyz);
+        let walls = contact(tag, x, own.xyz, lane);
         if (VISCOUS) { drag += walls.drag; }
         if (ADHESION > 0.0) { acceleration += ADHESION * walls.pull; }
     }
+    if (lane != 0u) { return; }
+
     if (CONFINEMENT > 0.0) { acceleration += confinement(eta, omega); }
     var v = own.xyz;
     if (VISCOUS) { v += step.viscosity * drag; }
