@@ -197,7 +197,7 @@ fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
 
 fn blame_world(error: WorldError) -> Failure {
     match error {
-        WorldError::Fill(_) | WorldError::NotOnDevice { .. } => Failure::Input(error.into()),
+        WorldError::Fill(_) => Failure::Input(error.into()),
         _ => Failure::Other(error.into()),
     }
 }

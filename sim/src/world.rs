@@ -44,16 +44,6 @@ pub enum WorldError {
     /// A liquid does not fit its flask.
     #[error(transparent)]
     Fill(#[from] FillError),
-    /// The scene asks for what only the f64 reference has.
-    #[error("{field}: the GPU solver has no {what} yet; {remedy}")]
-    NotOnDevice {
-        /// Where the scene asks for it.
-        field: &'static str,
-        /// What it asks for.
-        what: &'static str,
-        /// What to do instead.
-        remedy: &'static str,
-    },
 }
 
 /// Everything that the next step depends on.
@@ -116,13 +106,17 @@ impl World {
         seed: u64,
         constraint: bool,
     ) -> Result<Self, WorldError> {
-        check_supported(scene)?;
         let parameters = Parameters::from_scene(scene);
         let particles = particles(scene, seed)?;
         let profiles: Vec<_> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
+        let solids = match scene.solver.boundary {
+            Boundary::Map => None,
+            Boundary::Particles => Some(scene.boundary_particles()),
+        };
         let spec = SolverSpec {
             parameters,
             flasks: &profiles,
+            solids: solids.as_deref(),
             ground: ground(scene),
             particles: &particles,
             loads: scene.flasks.iter().any(|flask| !flask.fixed),
@@ -292,21 +286,6 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
     }
 }
 
-/// Refuses what would silently be left out.
-fn check_supported(scene: &Scene) -> Result<(), WorldError> {
-    let refuse = |field, what, remedy| {
-        Err(WorldError::NotOnDevice {
-            field,
-            what,
-            remedy,
-        })
-    };
-    if scene.solver.boundary == Boundary::Particles {
-        return refuse("solver.boundary", "boundary particles", "use \"map\"");
-    }
-    Ok(())
-}
-
 /// The liquid at the start, under the pressure of its depth: from none, the
 /// column would first be squeezed while its multipliers build up.
 fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
@@ -368,20 +347,5 @@ fn bodies(scene: &Scene) -> BodiesSpec {
                 fixed: flask.fixed,
             })
             .collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    #[test]
-    fn what_the_device_lacks_is_refused() {
-        let scene = Scene::load("beaker").unwrap();
-        assert!(check_supported(&scene).is_ok());
-        let mut scene = scene.clone();
-        scene.solver.boundary = Boundary::Particles;
-        assert!(check_supported(&scene).is_err());
     }
 }

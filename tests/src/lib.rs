@@ -4,3 +4,4 @@
 
 pub mod browser;
 pub mod gpu;
+pub mod random;

@@ -1,7 +1,10 @@
 // What is solid, as the density sum and the adhesion have it.
 //!include common/vessel.wgsl
 //!include common/ground.wgsl
+//!include common/solids.wgsl
 
+/// Whether glass is made of boundary particles; else of volume maps.
+override SOLIDS: bool = false;
 /// Whether the walls' pull (adhesion, line 28) is asked for.
 override PULL: bool = false;
 /// Entries of the table of half-space pulls over one support radius.
@@ -35,14 +38,13 @@ fn may_touch(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>) -> bool {
     return membership == k + 1u || (membership == NOBODYS && dot(offset, offset) < reach * reach);
 }
 
-/// Flask k's wall at `x` (stage frame), by the map of the particle's side.
-fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>) -> Wall {
-    let p = flask_from_stage(pose, x);
+/// The wall at `p` by flask k's map of the particle's side, both in the flask's frame.
+fn wall_of_map(k: u32, membership: u32, p: vec3<f32>) -> Wall {
     let r = length(p.xz);
     let first = select(flasks[k].outside_first, flasks[k].inside_first, membership == k + 1u);
     let map = sample_map(k, first, r, p.y);
     let out = p.xz / max(r, 1e-9);
-    let gradient = rotate(pose.orientation, vec3<f32>(out.x * map.z, map.w, out.y * map.z));
+    let gradient = vec3<f32>(out.x * map.z, map.w, out.y * map.z);
     var pull = vec3<f32>(0.0);
     if (PULL) {
         // No wall in reach has no gradient and no direction either.
@@ -51,20 +53,32 @@ fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>) -> Wall {
     return Wall(gradient, map.y, pull);
 }
 
-/// (∇V, V) at `x` of all walls that act on a particle with `membership`. One
-/// loop for particles inside and outside: two would both be walked on a
-/// software driver.
-fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32) -> vec4<f32> {
+/// This lane's part of flask k's wall at `x`, in the stage's frame. The lanes
+/// of a particle share its solids; of a map, lane 0 has all.
+fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>, lane: u32) -> Wall {
+    let p = flask_from_stage(pose, x);
+    var wall: Wall;
+    if (SOLIDS) { wall = wall_of_solids(k, p, lane); } else { wall = wall_of_map(k, membership, p); }
+    wall.gradient = rotate(pose.orientation, wall.gradient);
+    if (PULL) { wall.pull = rotate(pose.orientation, wall.pull); }
+    return wall;
+}
+
+/// (∇V, V) at `x` of all walls that act on a particle with `membership`; for
+/// lane 0, but all lanes must ask. One loop for particles inside and outside:
+/// two would both be walked on a software driver.
+fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32, lane: u32) -> vec4<f32> {
     var sum = vec4<f32>(0.0);
-    if (FLASKS > 0u) {
+    if (FLASKS > 0u && (SOLIDS || lane == 0u)) {
         for (var k = 0u; k < FLASKS; k++) {
             let pose = poses[pose_first + k];
             if (may_touch(k, membership, pose, x)) {
-                let wall = wall_of(k, membership, pose, x);
+                let wall = wall_of(k, membership, pose, x, lane);
                 sum += vec4<f32>(wall.gradient, wall.volume);
             }
         }
     }
+    if (SOLIDS) { sum = vec4<f32>(lane_sum3(sum.xyz), lane_sum(sum.w)); }
     if (membership == NOBODYS) {
         let above = heights(x);
         let v = half_space(above.x) + half_space(above.y);

@@ -21,25 +21,19 @@ struct Constrained {
 /// One sample gives both: on a software driver, gathers are what this costs.
 fn glass(k: u32, p: vec3<f32>) -> vec4<f32> {
     let r = length(p.xz);
-    let columns = flasks[k].map_columns;
-    let at = vec2<f32>(r, p.y - flasks[k].map_base) * flasks[k].map_scale;
-    let last = vec2<f32>(f32(columns - 1u), f32(flasks[k].map_rows - 1u));
-    let edge = clamp(at, vec2<f32>(0.0), last);
-    let i = min(u32(edge.x), columns - 2u);
-    let j = min(u32(edge.y), flasks[k].map_rows - 2u);
-    let s = edge.x - f32(i);
-    let t = edge.y - f32(j);
-    let node = flasks[k].distance_first + j * columns + i;
+    let place = map_place(k, r, p.y);
+    let node = flasks[k].distance_first + place.node;
+    let above = node + flasks[k].map_columns;
     let a = distances[node];
     let b = distances[node + 1u];
-    let c = distances[node + columns];
-    let d = distances[node + columns + 1u];
-    let slope = vec2<f32>(mix(b - a, d - c, t), mix(c - a, d - b, s));
+    let c = distances[above];
+    let d = distances[above + 1u];
+    let slope = vec2<f32>(mix(b - a, d - c, place.t), mix(c - a, d - b, place.s));
     let out = p.xz / max(r, 1e-9);
     let normal = vec3<f32>(out.x * slope.x, slope.y, out.y * slope.x);
-    let value = mix(mix(a, b, s), mix(c, d, s), t);
-    let away = length(at - edge) / flasks[k].map_scale;
-    return vec4<f32>(normal / max(length(normal), 1e-12), select(value, max(abs(value), away), away > 0.0));
+    let value = mix(mix(a, b, place.s), mix(c, d, place.s), place.t);
+    let distance = select(value, max(abs(value), place.away), place.away > 0.0);
+    return vec4<f32>(normal / max(length(normal), 1e-12), distance);
 }
 
 fn glass_distance(k: u32, p: vec3<f32>) -> f32 {

@@ -20,18 +20,23 @@ fn wall_velocity(k: u32, x: vec3<f32>) -> vec3<f32> {
     return velocity * min(1.0, MAX_SPEED / max(length(velocity), 1e-9));
 }
 
-/// All walls that a particle at `x` with velocity `v` touches.
-fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>) -> Contact {
+/// All walls that a particle at `x` with velocity `v` touches; for lane 0, but
+/// all lanes must ask.
+fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> Contact {
     var sum = Contact(vec3<f32>(0.0), vec3<f32>(0.0));
-    if (FLASKS > 0u) {
+    if (FLASKS > 0u && (SOLIDS || lane == 0u)) {
         for (var k = 0u; k < FLASKS; k++) {
             let pose = poses[step.after + k];
             if (may_touch(k, membership, pose, x)) {
-                let wall = wall_of(k, membership, pose, x);
+                let wall = wall_of(k, membership, pose, x, lane);
                 sum.drag += wall.volume * (wall_velocity(k, x) - v);
                 sum.pull += wall.pull;
             }
         }
+    }
+    if (SOLIDS) {
+        sum.drag = lane_sum3(sum.drag);
+        if (PULL) { sum.pull = lane_sum3(sum.pull); }
     }
     if (membership == NOBODYS) {
         // Table and floor stand still.

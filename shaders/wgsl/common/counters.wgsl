@@ -9,7 +9,7 @@ struct Counters {
     list_limited: atomic<u32>,
     /// Speeds cut to the maximum.
     speed_limited: atomic<u32>,
-    /// Flask constraints generated.
+    /// Particles that a flask constraint moved after the density solve, summed over substeps.
     flask_constraints: atomic<u32>,
     /// Particles taken out because they turned non-finite.
     removed: atomic<u32>,

@@ -90,23 +90,37 @@ fn crosses_mouth(k: u32, a: vec3<f32>, b: vec3<f32>) -> bool {
     return length(p.xz) < flasks[k].mouth;
 }
 
-/// [signed distance, V, ∂V/∂r, ∂V/∂y] at (r, y) by bilinear interpolation.
-/// Outside of the map V is 0 and the distance a lower bound.
-fn sample_map(k: u32, first: u32, r: f32, y: f32) -> vec4<f32> {
+/// A place in a flask's tables over (r, y): the lower of its four nodes and
+/// the fractions of the way to the others.
+struct MapPlace {
+    node: u32,
+    s: f32,
+    t: f32,
+    /// Distance to the tables, metres; 0 within them.
+    away: f32,
+}
+
+fn map_place(k: u32, r: f32, y: f32) -> MapPlace {
     let columns = flasks[k].map_columns;
     let at = vec2<f32>(r, y - flasks[k].map_base) * flasks[k].map_scale;
     let last = vec2<f32>(f32(columns - 1u), f32(flasks[k].map_rows - 1u));
     let edge = clamp(at, vec2<f32>(0.0), last);
     let i = min(u32(edge.x), columns - 2u);
     let j = min(u32(edge.y), flasks[k].map_rows - 2u);
-    let s = edge.x - f32(i);
-    let t = edge.y - f32(j);
-    let node = first + j * columns + i;
-    let low = mix(maps[node], maps[node + 1u], s);
-    let high = mix(maps[node + columns], maps[node + columns + 1u], s);
-    let value = mix(low, high, t);
     let away = length(at - edge) / flasks[k].map_scale;
-    if (away > 0.0) { return vec4<f32>(max(abs(value.x), away), 0.0, 0.0, 0.0); }
+    return MapPlace(j * columns + i, edge.x - f32(i), edge.y - f32(j), away);
+}
+
+/// [signed distance, V, ∂V/∂r, ∂V/∂y] at (r, y) by bilinear interpolation.
+/// Outside of the map V is 0 and the distance a lower bound.
+fn sample_map(k: u32, first: u32, r: f32, y: f32) -> vec4<f32> {
+    let place = map_place(k, r, y);
+    let node = first + place.node;
+    let above = node + flasks[k].map_columns;
+    let low = mix(maps[node], maps[node + 1u], place.s);
+    let high = mix(maps[above], maps[above + 1u], place.s);
+    let value = mix(low, high, place.t);
+    if (place.away > 0.0) { return vec4<f32>(max(abs(value.x), place.away), 0.0, 0.0, 0.0); }
     return value;
 }
 

@@ -12,19 +12,18 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
     if (i >= COUNT) { return; }
     let x = position[i].xyz;
     let tag = tags[i].x;
-    if (tag == REMOVED) {
-        density[i] = 0.0;
-        return;
-    }
-    var sum = spline(0.0);
+    var sum = 0.0;
     let count = list_counts[i];
-    for (var k = 0u; k < count; k++) {
+    for (var k = lane; k < count; k += LANES) {
         let offset = x - position[list[k * COUNT + i]].xyz;
         sum += spline(sqrt(dot(offset, offset)) / SUPPORT);
     }
-    density[i] = sum * weight_scale() + boundary_volume(tag, x, step.after).w;
+    sum = (lane_sum(sum) + spline(0.0)) * weight_scale();
+    let wall = boundary_volume(tag, x, step.after, lane);
+    if (lane == 0u) { density[i] = select(sum + wall.w, 0.0, tag == REMOVED); }
 }

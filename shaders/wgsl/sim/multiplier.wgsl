@@ -55,15 +55,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         sum = lane_sum(sum);
     }
-    if (lane != 0u) { return; }
     let tag = tags[i].x;
+    let wall = boundary_volume(tag, x, step.after, lane);
+    if (lane != 0u) { return; }
     if (tag == REMOVED) {
         solved[i] = vec4<f32>(x, 0.0);
         boundary[i] = vec4<f32>(0.0);
         multiplier[i] = 0.0;
         return;
     }
-    let wall = boundary_volume(tag, x, step.after);
     boundary[i] = wall;
     if (APPLY_CARRIED) {
         let carried = velocity[i].w * step.time * step.time;

@@ -100,12 +100,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (CONFINEMENT > 0.0) { eta = lane_sum3(eta) * (weight_scale() / SUPPORT); }
         if (COHESION > 0.0) { attraction = lane_sum3(attraction); }
     }
-    if (lane != 0u) { return; }
-
     let tag = tags[i].x;
     var acceleration = attraction;
     if (VISCOUS || ADHESION > 0.0) {
-        let walls = contact(tag, x, own.xyz);
+        let walls = contact(tag, x, own.xyz, lane);
         if (BOILING) {
             // Walls only ever slow down.
             drag += walls.drag * max(mixed.z, 0.0);
@@ -114,6 +112,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         if (ADHESION > 0.0) { acceleration += ADHESION * walls.pull; }
     }
+    if (lane != 0u) { return; }
+
     if (CONFINEMENT > 0.0) { acceleration += confinement(eta, omega); }
     var v = own.xyz;
     if (VISCOUS || BOILING) { v += step.viscosity * drag; }

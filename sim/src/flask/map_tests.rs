@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
+use vitriol_tests::random::Random;
 
 const H: f64 = 0.005;
 
@@ -7,23 +8,14 @@ fn beaker() -> Profile {
     Profile::new(&[[0.0, 0.033], [0.093, 0.033]], 0.002).unwrap()
 }
 
-/// SplitMix64, as uniform numbers in [0, 1).
-fn uniform(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (z ^ (z >> 31)) as f64 / 2f64.powi(64)
-}
-
 /// V by random points in the ball, with the solid written down anew.
 fn monte_carlo(solid: impl Fn(f64, f64) -> bool, r: f64, y: f64) -> f64 {
     let kernel = Kernel::new(H);
     let n = 200_000;
-    let mut state = 7;
+    let mut random = Random(7);
     let mut sum = 0.0;
     for _ in 0..n {
-        let [dx, dy, dz] = [(); 3].map(|()| H * (2.0 * uniform(&mut state) - 1.0));
+        let [dx, dy, dz] = random.point(2.0 * H).to_array();
         let distance = (dx * dx + dy * dy + dz * dz).sqrt();
         if solid((r + dx).hypot(dz), y + dy) {
             sum += kernel.w(distance);
@@ -169,9 +161,9 @@ fn table_interpolates_the_integral() {
     let map = VolumeMap::new(&profile, Side::Inside, H);
     let integral = Integral::new(&profile, Side::Inside, H);
     for i in 0..200 {
-        let mut state = i;
-        let r = 0.033 * uniform(&mut state);
-        let y = 0.002 + 0.09 * uniform(&mut state);
+        let mut random = Random(i);
+        let r = 0.033 * random.number();
+        let y = 0.002 + 0.09 * random.number();
         let (table, exact) = (map.sample(r, y), integral.sample(r, y));
         // Bilinear over h/6: V'' (h/6)²/8 with V'' ≤ 4/h².
         assert!((table.volume - exact.volume).abs() < 0.015, "{r} {y}");

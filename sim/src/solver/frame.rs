@@ -82,7 +82,7 @@ impl Solver {
             .read("list", &b.list)
             .write("density", &b.density)
             .constants(&self.step(self.parameters.substeps - 1))
-            .invocations(self.count)?;
+            .invocations(self.count * self.lanes)?;
         Ok(rec.read_back(&b.density)?)
     }
 
@@ -242,9 +242,7 @@ impl Solver {
         } else {
             &p.viscosity
         };
-        self.prediction(rec.pass(pass))
-            .read("plane", &self.vessels.plane)
-            .read("pulls", &self.vessels.pulls)
+        self.walls(self.prediction(rec.pass(pass)))
             .read("position", &b.position)
             .read("new_velocity", &b.new_velocity)
             .read("vorticity", &b.vorticity)
@@ -326,9 +324,16 @@ impl Solver {
     }
 
     fn boundary<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        self.vessels(pass)
-            .read("plane", &self.vessels.plane)
-            .read("pulls", &self.vessels.pulls)
+        self.walls(self.vessels(pass))
+    }
+
+    fn walls<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+        let v = &self.vessels;
+        pass.read("plane", &v.plane)
+            .read("pulls", &v.pulls)
+            .read("solid_cells", &v.solids.cells)
+            .read("solid_starts", &v.solids.starts)
+            .read("solids", &v.solids.solids)
     }
 
     fn prediction<'r>(&self, pass: Pass<'r>) -> Pass<'r> {

@@ -16,6 +16,7 @@ mod error;
 mod frame;
 mod pipelines;
 mod search;
+mod solids;
 mod state;
 mod vessels;
 
@@ -26,6 +27,7 @@ pub use state::SolverState;
 pub use vessels::Ground;
 
 use crate::flask::Profile;
+use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
 use buffers::Buffers;
 use glam::DVec3;
@@ -59,6 +61,9 @@ pub struct SolverSpec<'a> {
     pub parameters: Parameters,
     /// Shapes of the flasks, in the order of their poses.
     pub flasks: &'a [Profile],
+    /// The paper's boundary particles of each flask, in its frame; `None` for
+    /// volume maps.
+    pub solids: Option<&'a [Vec<BoundaryParticle>]>,
     /// Table and floor.
     pub ground: Ground,
     /// The fluid.

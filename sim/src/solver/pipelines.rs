@@ -201,6 +201,7 @@ impl Constants {
             ("LIST_SLACK", margin * MARGIN_FOR_PREDICTION),
             ("LIST_REACH", margin * 0.5),
             ("FLASKS", spec.flasks.len() as f64),
+            ("SOLIDS", flag(spec.solids.is_some())),
             ("LOADS", flag(spec.loads)),
             ("CONSTRAINT", flag(spec.constraint)),
             ("PLANE_COUNT", PLANE_ENTRIES as f64),

@@ -1,6 +1,7 @@
 //! Flasks, table and floor as the shaders' buffers.
 
 use super::SolverSpec;
+use super::solids::Solids;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
 use crate::reference::forces::HalfSpacePull;
@@ -39,6 +40,7 @@ pub struct Vessels {
     pub(super) distances: Buffer,
     pub(super) plane: Buffer,
     pub(super) pulls: Buffer,
+    pub(super) solids: Solids,
 }
 
 impl Vessels {
@@ -51,11 +53,10 @@ impl Vessels {
         let mut maps: Vec<[f32; 4]> = Vec::new();
         let mut distances: Vec<f32> = Vec::new();
         for profile in spec.flasks {
-            let inside = VolumeMap::new(profile, Side::Inside, support);
             let outside = VolumeMap::new(profile, Side::Outside, support);
             let table = profile.radius_table();
             let height = profile.rim_height() - profile.floor_height();
-            let [columns, rows] = inside.size();
+            let [columns, rows] = outside.size();
             flasks.push(layout::Flask {
                 floor: profile.floor_height() as f32,
                 rim: profile.rim_height() as f32,
@@ -66,16 +67,20 @@ impl Vessels {
                 radius_first: radii.len() as u32,
                 radius_count: table.len() as u32,
                 inside_first: maps.len() as u32,
-                outside_first: (maps.len() + inside.nodes().len()) as u32,
+                outside_first: (maps.len() + outside.nodes().len()) as u32,
                 distance_first: distances.len() as u32,
                 map_columns: columns as u32,
                 map_rows: rows as u32,
-                map_scale: (1.0 / inside.spacing()) as f32,
-                map_base: inside.base() as f32,
+                map_scale: (1.0 / outside.spacing()) as f32,
+                map_base: outside.base() as f32,
             });
             radii.extend(table);
-            maps.extend_from_slice(inside.nodes());
-            maps.extend_from_slice(outside.nodes());
+            if spec.solids.is_none() {
+                // Both sides' maps have one size.
+                let inside = VolumeMap::new(profile, Side::Inside, support);
+                maps.extend_from_slice(inside.nodes());
+                maps.extend_from_slice(outside.nodes());
+            }
             distances.extend(outside.nodes().iter().map(|node| node[0]));
         }
         let plane = PlaneMap::new(support).table(PLANE_ENTRIES);
@@ -91,11 +96,16 @@ impl Vessels {
             distances: upload(gpu, "distances", &distances)?,
             plane: upload(gpu, "plane", &plane)?,
             pulls: upload(gpu, "pulls", &pulls)?,
+            solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,
         })
     }
 }
 
-fn upload<T: bytemuck::NoUninit>(gpu: &Gpu, label: &str, data: &[T]) -> Result<Buffer, GpuError> {
+pub(super) fn upload<T: bytemuck::NoUninit>(
+    gpu: &Gpu,
+    label: &str,
+    data: &[T],
+) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, label, size_of_val(data) as u64)?;
     if !data.is_empty() {
         gpu.write(&buffer, data)?;

@@ -7,9 +7,11 @@ use vitriol_shaders::Library;
 use vitriol_shaders::layout::LiquidLoad;
 use vitriol_sim::fill::fill;
 use vitriol_sim::flask::Profile;
+use vitriol_sim::flask::particles::BoundaryParticle;
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+pub use vitriol_tests::random::Random;
 
 /// Spacing of real glass, metres.
 pub const D: f64 = 0.0025;
@@ -101,6 +103,8 @@ pub fn at(x: f32, y: f32, z: f32) -> Pose {
 pub struct Setup {
     pub parameters: Parameters,
     pub flasks: Vec<Profile>,
+    /// Boundary particles of each flask, instead of maps.
+    pub solids: Option<Vec<Vec<BoundaryParticle>>>,
     pub ground: Ground,
     pub particles: Vec<Particle>,
     pub loads: bool,
@@ -112,6 +116,7 @@ impl Setup {
         Self {
             parameters,
             flasks,
+            solids: None,
             ground: NOWHERE,
             particles,
             loads: false,
@@ -123,6 +128,7 @@ impl Setup {
         let spec = SolverSpec {
             parameters: self.parameters.clone(),
             flasks: &self.flasks,
+            solids: self.solids.as_deref(),
             ground: self.ground,
             particles: &self.particles,
             loads: self.loads,
@@ -232,24 +238,6 @@ impl List {
             origins: fields.list_origin.iter().map(origin).collect(),
             neighbours: (0..n).map(row).collect(),
         }
-    }
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014), as numbers in [0, 1).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A point of the cube of edge `size` around the origin.
-    pub fn point(&mut self, size: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| size * (self.number() - 0.5)))
     }
 }
 

@@ -70,7 +70,10 @@ pub fn scene(parameters: Parameters) -> Setup {
 
 pub fn reference(setup: &Setup, poses: &[Pose]) -> Reference {
     let vessels = setup.flasks.iter().cloned();
-    let vessels = vessels.map(|profile| Vessel::with_maps(profile, H));
+    let vessels = (0..).zip(vessels).map(|(k, profile)| match &setup.solids {
+        None => Vessel::with_maps(profile, H),
+        Some(solids) => Vessel::with_particles(profile, Vec::clone(&solids[k]), H),
+    });
     let table = setup.ground.table.map(|(top, centre, size)| Table {
         top,
         under: setup.ground.table_under(top),

@@ -103,6 +103,12 @@ fn flask_constraints_are_counted() {
         solver.counters().unwrap().flask_constraints
     };
     assert_eq!(run(vec![inside(DVec3::Y * 0.03)]), 0);
+    // What is predicted into the glass is put back uncounted.
+    let thrown = Particle {
+        velocity: DVec3::X * 5.0,
+        ..inside(DVec3::new(0.01, 0.03, 0.0))
+    };
+    assert_eq!(run(vec![thrown]), 0);
     let mut random = Random(6);
     let at_the_wall = DVec3::new(0.011, 0.03, 0.0);
     let lump = (0..60).map(|_| inside(at_the_wall + random.point(0.0038)));

@@ -15,4 +15,5 @@ mod open_space;
 mod passes;
 mod repeat;
 mod rest;
+mod solids;
 mod walls;

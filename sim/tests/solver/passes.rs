@@ -71,6 +71,21 @@ fn shaders_bind_what_the_scene_has() {
     assert_eq!(forces(&[("COHESION", 1.0)]), [false, false]);
     assert_eq!(forces(&[("CONFINEMENT", 1.0)]), [true, false]);
     assert_eq!(forces(&[("ADHESION", 1.0), ("PULL", 1.0)]), [false, true]);
+    // A wall is of maps or of solids, never of both.
+    for (shader, solids) in [sim::MULTIPLIER, sim::VISCOSITY, sim::DENSITY]
+        .into_iter()
+        .flat_map(|shader| [(shader, 0.0), (shader, 1.0)])
+    {
+        let bound = bindings(shader, &[("FLASKS", 1.0), ("SOLIDS", solids)]);
+        let walls = ["maps", "solids", "solid_starts", "solid_cells"];
+        let bound = walls.map(|name| bound.contains(&name.to_owned()));
+        let of_solids = solids > 0.0;
+        assert_eq!(
+            bound,
+            [!of_solids, of_solids, of_solids, of_solids],
+            "{shader}"
+        );
+    }
     // Without viscosity and forces, no neighbour is looked at and no wall.
     let idle = bindings(sim::VISCOSITY, &[("VISCOUS", 0.0), ("FLASKS", 1.0)]);
     let looks_at = |name: &&str| idle.contains(&(*name).to_owned());

@@ -2,8 +2,9 @@
 
 use crate::common::*;
 use glam::{DVec2, DVec3};
-use vitriol_sim::flask::Profile;
-use vitriol_sim::parameters::Parameters;
+use vitriol_sim::flask::particles::sample;
+use vitriol_sim::flask::{PlaneMap, Profile, Side, VolumeMap};
+use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Particle};
 use vitriol_tests::gpu;
@@ -56,8 +57,20 @@ fn glasses_that_touch_do_not_feel_each_other() {
             )
         })
         .collect();
-    let run = |groups: &[&[Particle]]| {
-        let setup = Setup::new(p.clone(), vec![thin_glass(); 2], groups.concat());
+    let solids = vec![sample(&thin_glass(), 0.5 * D, H); 2];
+    // Solids throw back what is as near to them as this, further than lists
+    // reach: relaxed less, they take their time.
+    let gently = Parameters {
+        relaxation: Relaxation::Jacobi { omega: 0.01 },
+        carry: 0.0,
+        ..p.clone()
+    };
+    let run = |groups: &[&[Particle]], solids: &Option<_>| {
+        let p = if solids.is_some() { &gently } else { &p };
+        let setup = Setup {
+            solids: Option::clone(solids),
+            ..Setup::new(p.clone(), vec![thin_glass(); 2], groups.concat())
+        };
         let solver = setup.solver(&device);
         frames(&device, &solver, &POSES, 2);
         let state = solver.snapshot().unwrap();
@@ -77,17 +90,88 @@ fn glasses_that_touch_do_not_feel_each_other() {
     };
     let facing = [near(&first, &second), near(&first, &outside)];
     assert!(facing[0] > 5 && facing[1] > 5, "{facing:?}");
-    let (alone, alone_density) = run(&[&first]);
-    for others in [[&second[..], &[]], [&[], &outside], [&second, &outside]] {
-        let (beside, beside_density) = run(&[&first, others[0], others[1]]);
-        for i in 0..first.len() {
-            // 24 substeps' growth of rounding; a neighbour through the glass
-            // would be felt by a hundredth of d at once.
-            let error = alone[i].position.distance(beside[i].position);
-            assert!(error < 1e-5, "{i} is off by {error} m");
-            let error = (alone_density[i] - beside_density[i]).abs();
-            assert!(error < 1e-3, "{i}'s density is off by {error}");
-            assert_eq!(beside[i].flask, Some(0));
+    for solids in [None, Some(solids)] {
+        let (alone, alone_density) = run(&[&first], &solids);
+        for others in [[&second[..], &[]], [&[], &outside], [&second, &outside]] {
+            let (beside, beside_density) = run(&[&first, others[0], others[1]], &solids);
+            for i in 0..first.len() {
+                // 24 substeps' growth of rounding; a neighbour through the glass
+                // would be felt by a hundredth of d at once.
+                let error = alone[i].position.distance(beside[i].position);
+                assert!(error < 1e-5, "{i} is off by {error} m");
+                let error = (alone_density[i] - beside_density[i]).abs();
+                assert!(error < 1e-3, "{i}'s density is off by {error}");
+                assert_eq!(beside[i].flask, Some(0));
+            }
+        }
+    }
+}
+
+/// Glass that moves along itself drags what touches it: by V of that glass
+/// and its velocity, or v_max where that is less; from inside, from outside,
+/// and between two that move against each other. Floors hold.
+#[test]
+fn moving_glass_drags_from_either_side_up_to_v_max() {
+    let device = gpu::device();
+    let profile = narrow_glass();
+    let (time, max_speed) = (1e-4, 8.0);
+    let p = Parameters {
+        gravity: [0.0; 3],
+        frame_time: time,
+        max_speed,
+        viscosity: 0.9,
+        ..single_substeps()
+    };
+    // 1 mm of air between the two.
+    let before = [at(0.0, 0.0, 0.0), at(0.031, 0.0, 0.0)];
+    let lone = |x: f64, flask| Particle {
+        flask,
+        ..drop_at(DVec3::new(x, 0.03, 0.0), DVec3::ZERO)
+    };
+    let floored = drop_at(DVec3::new(0.2, -0.05 + 0.3 * H, 0.0), DVec3::X);
+    let start = [
+        lone(-0.013 + 0.3 * H, Some(0)),
+        lone(-0.015 - 0.3 * H, None),
+        lone(0.0155, None),
+        floored,
+    ];
+    let share = p.substep_viscosity();
+    let volume = |side, r| VolumeMap::new(&profile, side, H).sample(r, 0.03).volume;
+    let inside = volume(Side::Inside, 0.013 - 0.3 * H);
+    let outside = volume(Side::Outside, 0.015 + 0.3 * H);
+    let between = volume(Side::Outside, 0.0155);
+    let floor = PlaneMap::new(H).volume(0.3 * H);
+    assert!(inside > 0.1 && outside > 0.1 && between > 0.1);
+    for (speed, other) in [(2.0, -1.0), (40.0, -1.0)] {
+        let setup = Setup {
+            ground: Ground {
+                floor: -0.05,
+                ..NOWHERE
+            },
+            ..Setup::new(p.clone(), vec![profile.clone(); 2], start.to_vec())
+        };
+        let solver = setup.solver(&device);
+        let moved = |pose: Pose, speed: f64| {
+            Pose::from_position(pose.position + glam::Vec3::Y * (speed * time) as f32)
+        };
+        let after = [moved(before[0], speed), moved(before[1], other)];
+        frame(&device, &solver, &before, &after);
+        let found = particles(&solver.snapshot().unwrap());
+        let dragged = f64::min(speed, max_speed);
+        let expected = [
+            DVec3::Y * (share * inside * dragged),
+            DVec3::Y * (share * outside * dragged),
+            DVec3::Y * (share * between * (dragged + other)),
+            DVec3::X * (1.0 - share * floor),
+        ];
+        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+            // Places of 0.03 m, rounded to 2 nm, over 0.1 ms.
+            let error = found.velocity.distance(expected);
+            assert!(
+                error < 2e-4,
+                "{i} at {speed}: {} for {expected}",
+                found.velocity
+            );
         }
     }
 }

@@ -17,6 +17,7 @@ use crate::flask::Profile;
 use crate::parameters::{Parameters, Relaxation};
 use crate::pose::Pose;
 use glam::DVec3;
+use vitriol_tests::random::Random;
 
 /// Spacing of real glass, metres.
 const D: f64 = 0.0025;
@@ -66,26 +67,4 @@ fn glass_of_water(parameters: Parameters, count: usize, pose: Pose) -> Reference
 fn in_the_open(parameters: Parameters, positions: Vec<DVec3>) -> Reference {
     let surroundings = Surroundings::new(Vec::new(), None, None, parameters.support_radius);
     Reference::new(parameters, surroundings, positions, &[])
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014), as numbers in [0, 1).
-struct Random(u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A point of the cube of edge `size` around the origin.
-    fn point(&mut self, size: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| size * (self.number() - 0.5)))
-    }
-
-    fn points(&mut self, count: usize, size: f64) -> Vec<DVec3> {
-        (0..count).map(|_| self.point(size)).collect()
-    }
 }

@@ -1,0 +1,190 @@
+//! The paper's boundary: solid particles in place of volume maps.
+
+use crate::common::*;
+use crate::leaning_glass::{PLACE, PLANE, both, glass_pose, reference, scene, worst};
+use glam::{Quat, Vec3};
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_sim::bodies::Hand;
+use vitriol_sim::flask::particles::{BoundaryParticle, sample};
+use vitriol_sim::parameters::{Parameters, Relaxation};
+use vitriol_sim::pose::Pose;
+use vitriol_sim::reference::measure::DensityError;
+use vitriol_sim::scene::{Boundary, Scene};
+use vitriol_sim::world::{StepInput, World};
+use vitriol_tests::gpu;
+
+/// The narrow glass's solids, half a fluid particle's spacing apart.
+fn solids() -> Vec<BoundaryParticle> {
+    sample(&narrow_glass(), 0.5 * D, H)
+}
+
+fn scene_of_solids(parameters: Parameters) -> Setup {
+    Setup {
+        solids: Some(vec![solids()]),
+        ..scene(parameters)
+    }
+}
+
+/// The report's density, at the places where the GPU has its particles.
+#[test]
+fn density_is_the_references() {
+    let device = gpu::device();
+    let setup = scene_of_solids(parameters());
+    let lanes = if device.info().features.subgroups {
+        8
+    } else {
+        1
+    };
+    for lanes in [1, lanes] {
+        let setup = Setup {
+            lanes: Some(lanes),
+            ..setup.clone()
+        };
+        let solver = setup.solver(&device);
+        let after = Pose::new(glass_pose().position, Quat::from_rotation_z(0.12));
+        frame(&device, &solver, &[glass_pose()], &[after]);
+        let state = solver.snapshot().unwrap();
+        let own = densities(&device, &solver);
+        let found = particles(&state);
+        let mut truth = reference(&setup, &[glass_pose()]);
+        // Sets where the glass is at the frame's end.
+        truth.step(&[after], &[after]);
+        truth.positions = found.iter().map(|p| p.position).collect();
+        truth.membership = found.iter().map(|p| p.flask).collect();
+        let truth = truth.densities(&truth.positions, &truth.neighbours(&truth.positions));
+        let (error, slot) = worst(0..own.len(), |slot| {
+            (own[slot] - truth[state.tags[slot][1] as usize]).abs()
+        });
+        assert!(error < PLANE, "{lanes}: {slot} is off by {error}");
+    }
+}
+
+/// A substep with a glass on its way: density, drag and adhesion by the solids.
+#[test]
+fn a_substep_is_the_references() {
+    let device = gpu::device();
+    let p = Parameters {
+        viscosity: 0.6,
+        adhesion: 0.072,
+        // Solids press harder on a filling lattice than maps do: relaxed less,
+        // the GPU would cut displacements to the list's margin.
+        relaxation: Relaxation::Jacobi { omega: 0.05 },
+        ..single_substeps()
+    };
+    let start = glass_pose();
+    let time = SUBSTEP as f32;
+    let after = Pose::new(
+        start.position + Vec3::new(0.5, 0.1, 0.0) * time,
+        Quat::from_rotation_y(2.0 * time) * start.orientation,
+    );
+    let (by_maps, _) = both(&device, &scene(p.clone()), after);
+    let (found, truth) = both(&device, &scene_of_solids(p), after);
+    let count = found.len();
+    let (other, _) = worst(0..count, |i| {
+        found[i].velocity.distance(by_maps[i].velocity)
+    });
+    let (error, i) = worst(0..count, |i| {
+        found[i].velocity.distance(truth.velocities[i])
+    });
+    assert!(other > 0.02, "{other}");
+    assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
+}
+
+/// What a boundary makes of water at rest.
+struct AtRest {
+    error: DensityError,
+    /// Radius of the widest particle's place and height of the highest one, metres.
+    widest: f64,
+    highest: f64,
+    /// Device time of the fastest multiplier pass, nanoseconds.
+    time: f64,
+}
+
+/// Half a second by `setup`, which has the glass alone.
+fn at_rest(gpu: &Gpu, setup: &Setup) -> AtRest {
+    let solver = setup.solver(gpu);
+    let mut time = f64::INFINITY;
+    for _ in 0..45 {
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        let poses = [Pose::IDENTITY];
+        solver.record(&mut rec, &poses, &poses).unwrap();
+        let ticket = gpu.submit(rec).unwrap();
+        ticket.wait().unwrap();
+        let timings = ticket.timings().unwrap();
+        let multipliers = timings
+            .iter()
+            .filter(|t| t.label.contains("sim/multiplier"));
+        time = multipliers.map(|t| t.nanoseconds).fold(time, f64::min);
+    }
+    let found = particles(&solver.snapshot().unwrap());
+    assert!(found.iter().all(|p| p.flask == Some(0)));
+    let counters = solver.counters().unwrap();
+    assert_eq!((counters.nan_particles, counters.speed_limited), (0, 0));
+    let radius = |i: usize| found[i].position.x.hypot(found[i].position.z);
+    AtRest {
+        error: DensityError::of(&densities(gpu, &solver)),
+        widest: worst(0..found.len(), radius).0,
+        highest: worst(0..found.len(), |i| found[i].position.y).0,
+        time,
+    }
+}
+
+/// Both boundaries hold water within the same density error. But solids make
+/// up a full density at their own places, where a half-space is one half: the
+/// liquid stands off from them, and the level is too high by as much; and a
+/// sheet of them costs a second neighbourhood.
+#[test]
+fn maps_keep_the_volume_that_solids_do_not() {
+    let device = gpu::another_device(|options| options.timestamps = true);
+    let p = Parameters {
+        substeps: 10,
+        iterations: 3,
+        carry: 0.005,
+        ..parameters()
+    };
+    let glass = narrow_glass();
+    let start = water(&glass, 0, Pose::IDENTITY, 800);
+    let maps = Setup::new(p, vec![glass.clone()], start);
+    let of_solids = Setup {
+        solids: Some(vec![solids()]),
+        ..maps.clone()
+    };
+    let (maps, solids) = (at_rest(&device, &maps), at_rest(&device, &of_solids));
+    for error in [maps.error, solids.error] {
+        assert!(error.mean < 0.002 && error.p99 < 0.01, "{error:?}");
+    }
+    // The uppermost particles' places are up to half a spacing under the
+    // level, and the surface is uneven by as much.
+    let level = glass.level_for_volume(800.0 * D.powi(3)).unwrap();
+    let off = (maps.highest + 0.5 * D - level).abs();
+    assert!(off < 0.5 * D, "{} {level}", maps.highest);
+    assert!(maps.widest > 0.013 - 0.1 * D, "{}", maps.widest);
+    assert!(solids.highest > level + D, "{} {level}", solids.highest);
+    assert!(solids.widest < 0.013 - 0.4 * D, "{}", solids.widest);
+    // Six times on the software driver.
+    assert!(maps.time < solids.time, "{} {}", maps.time, solids.time);
+}
+
+/// The world makes the solids that its scene asks for.
+#[test]
+fn a_scene_may_ask_for_solids() {
+    let device = gpu::device();
+    let run = |boundary: Boundary| {
+        let mut scene = Scene::load("beaker").unwrap();
+        scene.liquids[0].volume = 5e-6;
+        scene.solver.boundary = boundary;
+        let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
+        let hands = [Hand::ABSENT; 2];
+        world.step(&StepInput { hands }).unwrap();
+        let state = world.snapshot().unwrap().solver;
+        let found = particles(&state);
+        assert!(found.iter().all(|p| p.flask == Some(0)));
+        densities(&device, world.solver())
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    // Wet through: the lattice was filled up to the glass.
+    let (maps, solids) = (run(Boundary::Map), run(Boundary::Particles));
+    assert!(solids > maps + 0.01, "{maps} {solids}");
+}
