@@ -34,3 +34,6 @@ fn stirring(temperature: f32, agitation: f32) -> f32 {
     if (LITERAL_BOILING) { return -excess; }
     return -bounded_growth(BOILING_POWER * excess * step.time, agitation) / step.viscosity;
 }
+
+/// ν·Δt/h² that an XSPH coefficient of 1 amounts to: half of the cubic spline's second moment.
+const XSPH_MOMENT: f32 = 0.0375;

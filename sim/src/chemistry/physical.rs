@@ -15,6 +15,10 @@ pub const FLASH_STEPS: u32 = 3;
 /// throw liquid at some 3 m/s.
 pub const WORK_SHARE: f64 = 0.003;
 
+/// Most of a particle that is vapour: what is left has a composition and a
+/// temperature, however hot.
+const MOST_VAPOUR: f64 = 0.99;
+
 /// What a particle holds: liquid, and vapour in bubbles that have not left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Content {
@@ -100,7 +104,7 @@ impl Content {
     /// convex in y: the iteration overshoots once at most and then comes
     /// down. It ends at the azeotrope, however hot the liquid is.
     pub fn equilibrium(&self, table: &SolutionTable, steps: u32) -> f64 {
-        let most = (1.0 - self.acid / AZEOTROPE).max(0.0);
+        let most = (1.0 - self.acid / AZEOTROPE).clamp(0.0, MOST_VAPOUR);
         let mut vapour = self.vapour.clamp(0.0, most);
         for _ in 0..steps {
             let row = table.at(liquid_acid(self.acid, vapour));
@@ -109,8 +113,8 @@ impl Content {
             let boiling = liquid + vapour * (steam - liquid);
             let liquid_slope = row.slope_at(at) + row.capacity_at(at) * row.boiling_slope;
             let steam_slope = STEAM_CAPACITY * row.boiling_slope;
-            let slope = steam - liquid
-                + row.acid * (liquid_slope + steam_slope * vapour / (1.0 - vapour).max(1e-6));
+            let slope =
+                steam - liquid + row.acid * (liquid_slope + steam_slope * vapour / (1.0 - vapour));
             vapour = (vapour + (self.enthalpy - boiling) / slope).clamp(0.0, most);
         }
         vapour
@@ -147,7 +151,7 @@ impl Content {
 }
 
 fn liquid_acid(acid: f64, vapour: f64) -> f64 {
-    (acid / (1.0 - vapour).max(1e-6)).min(1.0)
+    (acid / (1.0 - vapour)).min(1.0)
 }
 
 /// What evaporation of the mass fraction `evaporated` at `temperature` (°C)

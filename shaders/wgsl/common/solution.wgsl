@@ -1,0 +1,126 @@
+// Sulfuric acid over composition: `chemistry/table.rs` in f32. h is relative
+// to the pure liquids at 25 °C; temperatures are in °C.
+
+/// Two rows per node: [h at 25 °C (J/kg), cp at 20 °C (J/(kg K)), T_b, ρ at 20 °C (kg/m³)],
+/// [dρ/dT, ln η (Pa·s) at 20, 60 and 100 °C].
+@group(0) @binding(18) var<storage, read> solution: array<vec4<f32>>;
+/// Intervals of the table from pure water to pure acid.
+override SOLUTION_INTERVALS: u32 = 1u;
+
+const ENTHALPY_ZERO: f32 = 25.0;
+const CAPACITY_AT: f32 = 20.0;
+const STEAM_ENTHALPY: f32 = 2.442e6;
+const STEAM_CAPACITY: f32 = 1.9e3;
+const ABSOLUTE_ZERO: f32 = -273.15;
+/// Slope of the heat capacity in temperature, J/(kg K²), from this fraction on.
+const CAPACITY_SLOPE: f32 = 1.0;
+const CAPACITY_SLOPE_FROM: f32 = 0.6;
+/// No more water boils out.
+const AZEOTROPE: f32 = 0.983;
+/// Vapour that a particle may hold at most: a trace of liquid stays.
+const MOST_VAPOUR: f32 = 0.99;
+
+/// Heat of one composition.
+struct Row {
+    acid: f32,
+    /// h at 25 °C, cp at 20 °C and T_b.
+    value: vec3<f32>,
+    /// Their slopes in c over the interval.
+    slope: vec3<f32>,
+}
+
+fn row_at(acid: f32) -> Row {
+    let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
+    let i = min(u32(place), SOLUTION_INTERVALS - 1u);
+    let low = solution[2u * i].xyz;
+    let rise = solution[2u * i + 2u].xyz - low;
+    return Row(acid, low + (place - f32(i)) * rise, rise * f32(SOLUTION_INTERVALS));
+}
+
+fn capacity_rise(acid: f32) -> f32 {
+    return CAPACITY_SLOPE * min(acid / CAPACITY_SLOPE_FROM, 1.0);
+}
+
+fn capacity_at(row: Row, temperature: f32) -> f32 {
+    return row.value.y + capacity_rise(row.acid) * (temperature - CAPACITY_AT);
+}
+
+/// ∫ dT and ∫ (T − 20) dT from 25 °C.
+fn warmth(temperature: f32) -> vec2<f32> {
+    let t = temperature - ENTHALPY_ZERO;
+    return vec2<f32>(t, t * (0.5 * t + ENTHALPY_ZERO - CAPACITY_AT));
+}
+
+fn enthalpy_at(row: Row, temperature: f32) -> f32 {
+    let w = warmth(temperature);
+    return row.value.x + row.value.y * w.x + capacity_rise(row.acid) * w.y;
+}
+
+/// ∂h/∂c at a temperature.
+fn slope_at(row: Row, temperature: f32) -> f32 {
+    let w = warmth(temperature);
+    let rise = select(0.0, CAPACITY_SLOPE / CAPACITY_SLOPE_FROM, row.acid < CAPACITY_SLOPE_FROM);
+    return row.slope.x + row.slope.y * w.x + rise * w.y;
+}
+
+fn steam_enthalpy(temperature: f32) -> f32 {
+    return STEAM_ENTHALPY + STEAM_CAPACITY * (temperature - ENTHALPY_ZERO);
+}
+
+/// T of this liquid with the fraction `vapour` of steam whose enthalpy together is `enthalpy`.
+fn temperature_with_steam(row: Row, enthalpy: f32, vapour: f32) -> f32 {
+    let liquid = 1.0 - vapour;
+    let linear = liquid * row.value.y + vapour * STEAM_CAPACITY;
+    let square = 0.5 * liquid * capacity_rise(row.acid);
+    let offset = ENTHALPY_ZERO - CAPACITY_AT;
+    let zero = liquid * row.value.x + vapour * STEAM_ENTHALPY;
+    let level = (enthalpy - zero) + offset * (linear + square * offset);
+    let root = sqrt(max(linear * linear + 4.0 * square * level, 0.0));
+    return max(CAPACITY_AT + 2.0 * level / (linear + root), ABSOLUTE_ZERO);
+}
+
+/// c/(1 − y): acid fraction of the liquid.
+fn liquid_acid(acid: f32, vapour: f32) -> f32 {
+    return min(acid / (1.0 - vapour), 1.0);
+}
+
+/// y at which liquid and vapour of composition `acid` and enthalpy `enthalpy` are in equilibrium at
+/// one atmosphere, by Newton's iteration from `start`.
+fn equilibrium(acid: f32, enthalpy: f32, start: f32) -> f32 {
+    let most = clamp(1.0 - acid / AZEOTROPE, 0.0, MOST_VAPOUR);
+    var vapour = clamp(start, 0.0, most);
+    for (var step = 0u; step < 3u; step++) {
+        let row = row_at(liquid_acid(acid, vapour));
+        let at = row.value.z;
+        let liquid = enthalpy_at(row, at);
+        let steam = steam_enthalpy(at);
+        let boiling = liquid + vapour * (steam - liquid);
+        let liquid_slope = slope_at(row, at) + capacity_at(row, at) * row.slope.z;
+        let steam_slope = STEAM_CAPACITY * row.slope.z;
+        let slope = steam - liquid + row.acid * (liquid_slope + steam_slope * vapour / (1.0 - vapour));
+        vapour = clamp(vapour + (enthalpy - boiling) / slope, 0.0, most);
+    }
+    return vapour;
+}
+
+/// ρ, kg/m³. Above 150 °C that of 150 °C: the table ends at 100 °C.
+fn density_of(acid: f32, temperature: f32) -> f32 {
+    let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
+    let i = min(u32(place), SOLUTION_INTERVALS - 1u);
+    let t = place - f32(i);
+    let cold = mix(solution[2u * i].w, solution[2u * i + 2u].w, t);
+    let slope = mix(solution[2u * i + 1u].x, solution[2u * i + 3u].x, t);
+    return cold + slope * (clamp(temperature, 0.0, 150.0) - 20.0);
+}
+
+/// η, Pa·s: ln η is linear in 1/T between 20, 60 and 100 °C, and on to either side.
+fn viscosity_of(acid: f32, temperature: f32) -> f32 {
+    let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
+    let i = min(u32(place), SOLUTION_INTERVALS - 1u);
+    let logs = mix(solution[2u * i + 1u].yzw, solution[2u * i + 3u].yzw, place - f32(i));
+    let nodes = 1.0 / (vec3<f32>(20.0, 60.0, 100.0) - ABSOLUTE_ZERO);
+    let at = 1.0 / (clamp(temperature, 0.0, 350.0) - ABSOLUTE_ZERO);
+    let cool = logs.x + (at - nodes.x) / (nodes.y - nodes.x) * (logs.y - logs.x);
+    let warm = logs.y + (at - nodes.y) / (nodes.z - nodes.y) * (logs.z - logs.y);
+    return exp(select(cool, warm, at < nodes.y));
+}
