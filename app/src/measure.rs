@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Boundary, Scene};
 use vitriol_sim::world::World;
 
 use crate::cli::BenchArgs;
@@ -57,7 +57,7 @@ fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Fa
     Ok(Row {
         scene: name.to_owned(),
         fluid_particles: whole.particles,
-        solid_particles: 0,
+        solid_particles: solid_particles(&scene),
         substeps: scene.solver.substeps,
         iterations: scene.solver.iterations,
         density_error_mean: whole.density_error.0,
@@ -68,6 +68,18 @@ fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Fa
         passes: passes.rows,
         paper: paper.map(|(_, row)| *row),
     })
+}
+
+/// Boundary particles of a scene whose walls are made of them.
+fn solid_particles(scene: &Scene) -> u64 {
+    match scene.solver.boundary {
+        Boundary::Map => 0,
+        Boundary::Particles => scene
+            .boundary_particles()
+            .iter()
+            .map(|solids| solids.len() as u64)
+            .sum(),
+    }
 }
 
 /// A frame as a whole.

@@ -110,3 +110,44 @@ impl CellTable {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::flask::{Profile, particles};
+    use vitriol_tests::random::Random;
+
+    /// Every solid within h of a point is in the list of the point's cell,
+    /// once; where there is no cell, there is none.
+    #[test]
+    fn a_cell_lists_all_in_reach() {
+        let support = 0.005;
+        let profile = Profile::new(&[[0.0, 0.012], [0.03, 0.006]], 0.002).unwrap();
+        let solids = particles::sample(&profile, 0.002, support);
+        let table = CellTable::new(&solids, support);
+        let mut random = Random(4);
+        let (mut inside, mut pairs) = (0, 0);
+        for _ in 0..3000 {
+            let point = random.point(0.07);
+            let near = |&index: &u32| solids[index as usize].position.distance(point) < support;
+            let expected: Vec<u32> = (0..solids.len() as u32).filter(near).collect();
+            let at = ((point - table.low) / support).floor();
+            let bound = table.counts.as_dvec3();
+            let mut listed = Vec::new();
+            if at.cmpge(DVec3::ZERO).all() && at.cmplt(bound).all() {
+                let cell = at.x + bound.x * (at.y + bound.y * at.z);
+                let ends = [0, 1].map(|next| table.starts[cell as usize + next] as usize);
+                listed.extend_from_slice(&table.listed[ends[0]..ends[1]]);
+                inside += 1;
+            }
+            listed.retain(near);
+            assert_eq!(listed, expected, "{point}");
+            pairs += listed.len();
+        }
+        assert!(
+            inside > 100 && inside < 2900 && pairs > 1000,
+            "{inside} {pairs}"
+        );
+    }
+}
