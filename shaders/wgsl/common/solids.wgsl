@@ -35,7 +35,8 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
     let counts = vec3<u32>(solid_cells[k].count_x, solid_cells[k].count_y, solid_cells[k].count_z);
     let at = floor((p - low) / SUPPORT);
     let edge = clamp(at, vec3<f32>(0.0), vec3<f32>(counts - 1u));
-    let c = vec3<u32>(edge);
+    // What is no number has no cell, and must not be an index either.
+    let c = min(vec3<u32>(edge), counts - 1u);
     let cell = solid_cells[k].first + c.x + counts.x * (c.y + counts.y * c.z);
     let begin = solid_starts[cell];
     let end = select(begin, solid_starts[cell + 1u], all(at == edge));
