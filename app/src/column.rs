@@ -63,6 +63,7 @@ impl Column {
         let spec = SolverSpec {
             parameters: parameters.clone(),
             flasks: &[],
+            solids: None,
             ground: Ground {
                 floor: 0.0,
                 table: None,
@@ -104,6 +105,8 @@ impl Column {
                     position: DVec3::new(site(i, x), height, site(k, z)),
                     velocity: DVec3::ZERO,
                     flask: None,
+                    temperature: 20.0,
+                    acid: 0.0,
                     carried: gravity * (height - f64::from(y) * d),
                 }));
             }

@@ -1,6 +1,6 @@
 //! What a scene states of itself, in the report's terms.
 
-use vitriol_sim::scene::{Boundary, Feature, Preset, Scene};
+use vitriol_sim::scene::{Boundary, Preset, Scene};
 
 use crate::cli::PresetName;
 use crate::report::{SceneStatement, SolverStatement};
@@ -24,7 +24,7 @@ pub fn of_scene(name: &str, scene: &Scene) -> SceneStatement {
         frame_time_s: scene.scale.frame_time,
         gravity_m_s2: scene.scale.gravity,
         length_scale: scene.scale.length_scale,
-        models: scene.model.iter().map(|f| feature(*f).into()).collect(),
+        models: scene.model.iter().map(|feature| feature.name()).collect(),
     }
 }
 
@@ -39,16 +39,5 @@ pub fn of_solver(scene: &Scene) -> SolverStatement {
             Boundary::Particles => "particles",
         }
         .into(),
-    }
-}
-
-/// A feature by its name in scene files.
-fn feature(feature: Feature) -> &'static str {
-    match feature {
-        Feature::Heat => "heat",
-        Feature::Dilution => "dilution",
-        Feature::Boiling => "boiling",
-        Feature::Cohesion => "cohesion",
-        Feature::Vorticity => "vorticity",
     }
 }

@@ -91,6 +91,7 @@ impl World {
             if self.is_lost(position, flask) {
                 measured.lost_particles += 1;
             }
+            let mass = mass * state.mass_of(slot);
             if let Some(flask) = flask {
                 measured.in_flasks[flask] += mass;
             } else if lies_on_table(scene, position, LYING * support) {
@@ -139,11 +140,10 @@ fn lies_on_table(scene: &Scene, position: DVec3, thickness: f64) -> bool {
 }
 
 fn kinetic_energy(state: &SolverState, mass: f64) -> f64 {
-    let squares = state
-        .velocities
-        .iter()
-        .map(|&[x, y, z, _]| f64::from(Vec3::new(x, y, z).length_squared()));
-    0.5 * mass * squares.sum::<f64>()
+    let doubled = (0..).zip(&state.velocities).map(|(slot, &[x, y, z, _])| {
+        state.mass_of(slot) * f64::from(Vec3::new(x, y, z).length_squared())
+    });
+    0.5 * mass * doubled.sum::<f64>()
 }
 
 /// Of sorted values, by nearest rank; 0 of none.

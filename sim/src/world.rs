@@ -2,10 +2,11 @@
 //! that step's inputs.
 
 use crate::bodies::{Bodies, BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
+use crate::chemistry::table::SolutionTable;
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
-use crate::scene::{Boundary, Scene};
+use crate::scene::{Boundary, Feature, Scene, StartParticle};
 use crate::solver::{
     Counters, FrameRecord, Ground, Particle, Solver, SolverError, SolverSpec, SolverState,
 };
@@ -290,20 +291,39 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
 /// column would first be squeezed while its multipliers build up.
 fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
     let start = scene.start(Some(seed))?;
-    let mut levels = vec![f64::NEG_INFINITY; scene.flasks.len()];
-    for particle in &start {
-        let level = &mut levels[particle.flask];
-        *level = level.max(particle.position.y);
+    let table = scene.models(Feature::Density).then(SolutionTable::new);
+    let rest_density = scene.scale.rest_density;
+    let density = |particle: &StartParticle| match &table {
+        Some(table) => table
+            .at(particle.acid_fraction)
+            .density_at(particle.temperature),
+        None => rest_density,
+    };
+    // Down each flask from its highest particle, ∫ ρ g dy.
+    let mut order: Vec<usize> = (0..start.len()).collect();
+    order.sort_by(|&a, &b| {
+        let by_flask = start[a].flask.cmp(&start[b].flask);
+        by_flask.then(start[b].position.y.total_cmp(&start[a].position.y))
+    });
+    let mut carried = vec![0.0; start.len()];
+    for pair in order.windows(2) {
+        let (above, below) = (&start[pair[0]], &start[pair[1]]);
+        if above.flask == below.flask {
+            let drop = above.position.y - below.position.y;
+            let mean = 0.5 * (density(above) + density(below)) / rest_density;
+            carried[pair[1]] = carried[pair[0]] - scene.scale.gravity * drop * mean;
+        }
     }
     Ok(start
         .iter()
-        .map(|particle| Particle {
+        .zip(carried)
+        .map(|(particle, carried)| Particle {
             position: particle.position,
             velocity: DVec3::ZERO,
             flask: Some(particle.flask),
             temperature: particle.temperature,
             acid: particle.acid_fraction,
-            carried: scene.scale.gravity * (particle.position.y - levels[particle.flask]),
+            carried,
         })
         .collect())
 }

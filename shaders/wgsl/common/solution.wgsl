@@ -12,6 +12,10 @@ const CAPACITY_AT: f32 = 20.0;
 const STEAM_ENTHALPY: f32 = 2.442e6;
 const STEAM_CAPACITY: f32 = 1.9e3;
 const ABSOLUTE_ZERO: f32 = -273.15;
+/// 1/T at 20, 60 and 100 °C, 1/K.
+const INVERSE_20: f32 = 1.0 / 293.15;
+const INVERSE_60: f32 = 1.0 / 333.15;
+const INVERSE_100: f32 = 1.0 / 373.15;
 /// Slope of the heat capacity in temperature, J/(kg K²), from this fraction on.
 const CAPACITY_SLOPE: f32 = 1.0;
 const CAPACITY_SLOPE_FROM: f32 = 0.6;
@@ -118,9 +122,8 @@ fn viscosity_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);
     let logs = mix(solution[2u * i + 1u].yzw, solution[2u * i + 3u].yzw, place - f32(i));
-    let nodes = 1.0 / (vec3<f32>(20.0, 60.0, 100.0) - ABSOLUTE_ZERO);
     let at = 1.0 / (clamp(temperature, 0.0, 350.0) - ABSOLUTE_ZERO);
-    let cool = logs.x + (at - nodes.x) / (nodes.y - nodes.x) * (logs.y - logs.x);
-    let warm = logs.y + (at - nodes.y) / (nodes.z - nodes.y) * (logs.z - logs.y);
-    return exp(select(cool, warm, at < nodes.y));
+    let cool = logs.x + (at - INVERSE_20) / (INVERSE_60 - INVERSE_20) * (logs.y - logs.x);
+    let warm = logs.y + (at - INVERSE_60) / (INVERSE_100 - INVERSE_60) * (logs.z - logs.y);
+    return exp(select(cool, warm, at < INVERSE_60));
 }

@@ -9,6 +9,10 @@
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(3) var<storage, read> list: array<u32>;
 @group(0) @binding(4) var<storage, read_write> density: array<f32>;
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+@group(0) @binding(5) var<storage, read> bulk: array<vec4<f32>>;
+/// Whether particles differ in volume and density.
+override DENSITY: bool = false;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -20,10 +24,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = 0.0;
     let count = list_counts[i];
     for (var k = lane; k < count; k += LANES) {
-        let offset = x - position[list[k * COUNT + i]].xyz;
-        sum += spline(sqrt(dot(offset, offset)) / SUPPORT);
+        let j = list[k * COUNT + i];
+        let offset = x - position[j].xyz;
+        var weight = spline(sqrt(dot(offset, offset)) / SUPPORT);
+        if (DENSITY) { weight *= bulk[j].x; }
+        sum += weight;
     }
-    sum = (lane_sum(sum) + spline(0.0)) * weight_scale();
+    var self_weight = spline(0.0);
+    if (DENSITY) { self_weight *= bulk[i].x; }
+    sum = (lane_sum(sum) + self_weight) * weight_scale();
     let wall = boundary_volume(tag, x, step.after, lane);
     if (lane == 0u) { density[i] = select(sum + wall.w, 0.0, tag == REMOVED); }
 }

@@ -15,6 +15,8 @@
 override COMMIT: bool = false;
 override CARRY: bool = false;
 override LOADS: bool = false;
+/// Whether particles differ in volume and density.
+override DENSITY: bool = false;
 /// Whether particles have a temperature.
 override HEAT: bool = false;
 /// v_max, m/s.
@@ -37,6 +39,8 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(11) var<storage, read> list_origin: array<vec4<f32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+@group(0) @binding(14) var<storage, read> bulk: array<vec4<f32>>;
 
 fn commit(i: u32, x_star: vec3<f32>) {
     let tag = tags[i];
@@ -97,16 +101,25 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
     for (var k = lane; k < count; k += LANES) {
-        let other = solved[list[k * COUNT + i]];
+        let j = list[k * COUNT + i];
+        let other = solved[j];
         let offset = own.xyz - other.xyz;
         let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
         let per_distance = inverseSqrt(square);
-        sum += offset * ((own.w + other.w) * per_distance * spline_slope(square * per_distance / SUPPORT));
+        var slope = per_distance * spline_slope(square * per_distance / SUPPORT);
+        if (DENSITY) { slope *= bulk[j].x; }
+        sum += offset * ((own.w + other.w) * slope);
     }
     sum = lane_sum3(sum);
     if (lane != 0u) { return; }
-    let wall = own.w * boundary[i].xyz;
-    let x_star = own.xyz + sum * (weight_scale() / SUPPORT) + wall;
+    var wall = own.w * boundary[i].xyz;
+    var pressed = sum * (weight_scale() / SUPPORT);
+    if (DENSITY) {
+        // The same pressure moves what is light further: water rises in acid.
+        wall *= bulk[i].y;
+        pressed *= bulk[i].y;
+    }
+    let x_star = own.xyz + pressed + wall;
     if (LOADS) { wall_push[i] += vec4<f32>(wall, 0.0); }
     if (COMMIT) {
         commit(i, x_star);

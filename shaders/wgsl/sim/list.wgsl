@@ -11,6 +11,8 @@
 override LOADS: bool = false;
 /// Whether particles have a temperature.
 override HEAT: bool = false;
+/// Whether the chemistry is the physical one.
+override PHYSICAL: bool = false;
 
 /// (x*, bits of the membership)
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
@@ -31,6 +33,10 @@ override HEAT: bool = false;
 @group(0) @binding(15) var<storage, read_write> wall_push: array<vec4<f32>>;
 @group(0) @binding(16) var<storage, read> sorted_heat: array<vec4<f32>>;
 @group(0) @binding(17) var<storage, read_write> heat: array<vec4<f32>>;
+@group(0) @binding(18) var<storage, read> sorted_matter: array<vec4<f32>>;
+@group(0) @binding(19) var<storage, read_write> matter: array<vec4<f32>>;
+@group(0) @binding(27) var<storage, read> sorted_bulk: array<vec4<f32>>;
+@group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
 
 fn start_of(cell: u32) -> u32 {
     if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
@@ -171,5 +177,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     tags[i] = tag;
     if (LOADS) { wall_push[i] = sorted_push[i]; }
     if (HEAT) { heat[i] = sorted_heat[i]; }
+    if (PHYSICAL) { matter[i] = sorted_matter[i]; }
+    if (PHYSICAL) { bulk[i] = sorted_bulk[i]; }
     if (i == 0u) { atomicAdd(&counters.rebuilds, 1u); }
 }

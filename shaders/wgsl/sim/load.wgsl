@@ -7,13 +7,15 @@
 
 /// Mass of a particle, kg.
 override MASS: f32 = 1.0;
+/// Whether particles differ in mass.
+override PHYSICAL: bool = false;
 
 struct LiquidLoad {
-    /// Impulse, N s; w: number of particles in the flask.
+    /// Impulse, N s; w: mass in the flask, in particles of rest density.
     impulse: vec4<f32>,
     /// Angular impulse about the flask's origin, N m s.
     angular: vec4<f32>,
-    /// Sum of the particles' offsets from the flask's origin, m, stage axes.
+    /// Sum of the particles' offsets from the flask's origin times their mass, m, stage axes.
     offsets: vec4<f32>,
 }
 
@@ -21,6 +23,8 @@ struct LiquidLoad {
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> wall_push: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> loads: array<LiquidLoad>;
+/// (c, h, y, mass over V0·ρ0).
+@group(0) @binding(4) var<storage, read> matter: array<vec4<f32>>;
 
 var<workgroup> impulses: array<vec4<f32>, 256>;
 var<workgroup> angulars: array<vec4<f32>, 256>;
@@ -33,18 +37,20 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     var tag = NOBODYS;
     var impulse = vec3<f32>(0.0);
     var x = vec3<f32>(0.0);
+    var mass = 1.0;
     if (i < COUNT) {
         tag = tags[i].x;
-        impulse = wall_push[i].xyz * (-MASS / step.time);
+        if (PHYSICAL) { mass = matter[i].w; }
+        impulse = wall_push[i].xyz * (-MASS * mass / step.time);
         x = position[i].xyz;
     }
     for (var k = 0u; k < FLASKS; k++) {
         let mine = tag == k + 1u;
         let arm = x - poses[step.after + k].position.xyz;
         let none = vec4<f32>(0.0);
-        impulses[local] = select(none, vec4<f32>(impulse, 1.0), mine);
+        impulses[local] = select(none, vec4<f32>(impulse, mass), mine);
         angulars[local] = select(none, vec4<f32>(cross(arm, impulse), 0.0), mine);
-        offsets[local] = select(none, vec4<f32>(arm, 0.0), mine);
+        offsets[local] = select(none, vec4<f32>(arm * mass, 0.0), mine);
         workgroupBarrier();
         for (var reach = 128u; reach > 0u; reach >>= 1u) {
             if (local < reach) {

@@ -6,6 +6,10 @@
 // pushed too far, which plain PBF's max(C, 0) cannot. The sum of squared
 // gradients is that of a full neighbourhood, a constant: the surface is
 // under-relaxed, and needs no ε.
+//
+// Where density follows composition, Σ V_j W is the share of space that is
+// filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
+// density: that of a neighbour of another liquid is its equal.
 //!include common/particle.wgsl
 //!include common/kernel.wgsl
 //!include common/step.wgsl
@@ -19,6 +23,8 @@ override CARRY: bool = false;
 override APPLY_CARRIED: bool = false;
 /// Whether the rebuild's dispatch sizes return to zero here.
 override CLEAR_LIST_ARGS: bool = false;
+/// Whether particles differ in volume and density.
+override DENSITY: bool = false;
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
@@ -31,6 +37,8 @@ override CLEAR_LIST_ARGS: bool = false;
 /// (∇V, V) of the walls at x*.
 @group(0) @binding(7) var<storage, read_write> boundary: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> list_args: array<u32>;
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+@group(0) @binding(9) var<storage, read> bulk: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -50,8 +58,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (!APPLY_CARRIED) {
         let count = list_counts[i];
         for (var k = lane; k < count; k += LANES) {
-            let offset = x - trial[list[k * COUNT + i]].xyz;
-            sum += spline(sqrt(dot(offset, offset)) / SUPPORT);
+            let j = list[k * COUNT + i];
+            let offset = x - trial[j].xyz;
+            var weight = spline(sqrt(dot(offset, offset)) / SUPPORT);
+            if (DENSITY) { weight *= bulk[j].x; }
+            sum += weight;
         }
         sum = lane_sum(sum);
     }
@@ -71,7 +82,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         solved[i] = vec4<f32>(x, carried);
         return;
     }
-    let constraint = (sum + spline(0.0)) * weight_scale() + wall.w - 1.0;
+    var self_weight = spline(0.0);
+    if (DENSITY) { self_weight *= bulk[i].x; }
+    let constraint = (sum + self_weight) * weight_scale() + wall.w - 1.0;
     var before = 0.0;
     var momentum = 0.0;
     if (FIRST) {

@@ -6,6 +6,8 @@
 override LOADS: bool = false;
 /// Whether particles have a temperature.
 override HEAT: bool = false;
+/// Whether the chemistry is the physical one.
+override PHYSICAL: bool = false;
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
@@ -22,6 +24,10 @@ override HEAT: bool = false;
 @group(0) @binding(12) var<storage, read_write> sorted_push: array<vec4<f32>>;
 @group(0) @binding(13) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> sorted_heat: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read> matter: array<vec4<f32>>;
+@group(0) @binding(16) var<storage, read_write> sorted_matter: array<vec4<f32>>;
+@group(0) @binding(17) var<storage, read> bulk: array<vec4<f32>>;
+@group(0) @binding(18) var<storage, read_write> sorted_bulk: array<vec4<f32>>;
 
 /// Index of the first particle of a cell; of the end of the table after the last.
 fn start_of(cell: u32) -> u32 {
@@ -49,4 +55,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sorted_tags[to] = tag;
     if (LOADS) { sorted_push[to] = wall_push[i]; }
     if (HEAT) { sorted_heat[to] = heat[i]; }
+    if (PHYSICAL) { sorted_matter[to] = matter[i]; }
+    if (PHYSICAL) { sorted_bulk[to] = bulk[i]; }
 }

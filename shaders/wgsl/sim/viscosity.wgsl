@@ -11,6 +11,7 @@
 //!include common/contact.wgsl
 //!include common/forces.wgsl
 //!include common/diffusion.wgsl
+//!include common/potential.wgsl
 //!include common/predict.wgsl
 
 /// Whether the next substep is predicted here.
@@ -22,6 +23,12 @@ override VISCOUS: bool = true;
 override HEAT: bool = false;
 override DILUTION: bool = false;
 override BOILING: bool = false;
+/// Whether the chemistry is the physical one.
+override PHYSICAL: bool = false;
+/// Whether volume and density follow composition and temperature.
+override DENSITY: bool = false;
+/// ρ0, kg/m³.
+override REST_DENSITY: f32 = 1000.0;
 /// D_c, m²/s.
 override ACID_DIFFUSION: f32 = 0.0;
 /// k_d of Eq. 13 for a particle's mass, K per J/kg.
@@ -39,10 +46,19 @@ const EPSILON: f32 = 1e-6;
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
 /// (T, c) after diffusion.
 @group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
-/// (c before, s_i in J/kg, coefficient of Eq. 17, –)
+/// (c before, s_i in J/kg, coefficient of Eq. 17, –); of the physical
+/// chemistry (α, coefficient, mass, –).
 @group(0) @binding(8) var<storage, read> mixing: array<vec4<f32>>;
-/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, –)
+/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, –), or a potential.
 @group(0) @binding(9) var<storage, read_write> heat: array<vec4<f32>>;
+/// (c, h in J/kg, y, mass over V0·ρ0) of what a particle holds.
+@group(0) @binding(10) var<storage, read_write> matter: array<vec4<f32>>;
+/// By identity: (kinetic energy paid for, heat exchanged, steam's mass and enthalpy).
+@group(0) @binding(11) var<storage, read_write> ledger: array<vec4<f32>>;
+/// By identity: ½ Σ w|v_ij|², J/kg.
+@group(0) @binding(12) var<storage, read_write> agitations: array<f32>;
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+@group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 
 /// What Eqs 8 and 11 make of a pair: the heat that i gets of it, J/kg.
 fn warming(own: vec4<f32>, other: vec4<f32>, q: f32) -> f32 {
@@ -60,14 +76,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var omega = vec4<f32>(0.0);
     if (CONFINEMENT > 0.0) { omega = vorticity[i]; }
     var mixed = vec4<f32>(0.0);
-    if (DILUTION || BOILING) { mixed = mixing[i]; }
+    if (DILUTION || BOILING || PHYSICAL) { mixed = mixing[i]; }
 
     var drag = vec3<f32>(0.0);
     var eta = vec3<f32>(0.0);
     var attraction = vec3<f32>(0.0);
     var agitation = 0.0;
     var warmed = 0.0;
-    if (VISCOUS || BOILING || DILUTION || CONFINEMENT > 0.0 || COHESION > 0.0) {
+    var push = vec3<f32>(0.0);
+    if (VISCOUS || BOILING || DILUTION || PHYSICAL || CONFINEMENT > 0.0 || COHESION > 0.0) {
         let count = list_counts[i];
         for (var k = lane; k < count; k += LANES) {
             let j = list[k * COUNT + i];
@@ -76,8 +93,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let per_distance = inverseSqrt(square);
             let q = square * per_distance / SUPPORT;
             var other = vec4<f32>(0.0);
-            if (DILUTION || BOILING) { other = mixing[j]; }
-            if (VISCOUS || BOILING) {
+            if (DILUTION || BOILING || PHYSICAL) { other = mixing[j]; }
+            if (PHYSICAL) {
+                let relative = new_velocity[j].xyz - own.xyz;
+                let weight = spline(q) * (2.0 * other.z / (mixed.z + other.z));
+                drag += relative * (weight * (0.5 * (mixed.y + other.y)));
+                if (BOILING) {
+                    push -= relative * (weight * (0.5 * (mixed.x + other.x)));
+                    agitation += weight * dot(relative, relative);
+                }
+            } else if (VISCOUS || BOILING) {
                 let relative = new_velocity[j].xyz - own.xyz;
                 let weight = spline(q);
                 // A coefficient of 1 throughout leaves the bits as they are without boiling.
@@ -94,7 +119,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
             if (COHESION > 0.0) { attraction -= offset * (per_distance * cohesion(q)); }
         }
-        if (VISCOUS || BOILING) { drag = lane_sum3(drag) * weight_scale(); }
+        if (VISCOUS || BOILING || PHYSICAL) { drag = lane_sum3(drag) * weight_scale(); }
+        if (PHYSICAL && BOILING) { push = lane_sum3(push) * weight_scale(); }
         if (BOILING) { agitation = lane_sum(agitation) * weight_scale(); }
         if (DILUTION) { warmed = lane_sum(warmed); }
         if (CONFINEMENT > 0.0) { eta = lane_sum3(eta) * (weight_scale() / SUPPORT); }
@@ -102,9 +128,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let tag = tags[i].x;
     var acceleration = attraction;
-    if (VISCOUS || ADHESION > 0.0) {
+    if (VISCOUS || PHYSICAL || ADHESION > 0.0) {
         let walls = contact(tag, x, own.xyz, lane);
-        if (BOILING) {
+        if (PHYSICAL) {
+            drag += walls.drag * mixed.y;
+        } else if (BOILING) {
             // Walls only ever slow down.
             drag += walls.drag * max(mixed.z, 0.0);
         } else if (VISCOUS) {
@@ -116,10 +144,34 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
     if (CONFINEMENT > 0.0) { acceleration += confinement(eta, omega); }
     var v = own.xyz;
-    if (VISCOUS || BOILING) { v += step.viscosity * drag; }
+    if (VISCOUS || BOILING || PHYSICAL) { v += step.viscosity * drag; }
+    if (PHYSICAL && BOILING) { v += push; }
     if (CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0) { v += step.time * acceleration; }
     velocity[i] = vec4<f32>(v, own.w);
-    if (HEAT) {
+    if (PHYSICAL) {
+        if (tag != REMOVED) {
+            var content = matter[i];
+            if (BOILING) {
+                // What the impulses gave in kinetic energy is taken from the enthalpy: over a
+                // pair, and so over the liquid, it is what they added.
+                let paid = dot(push, own.xyz) + 0.5 * dot(push, push);
+                content.y -= paid;
+                matter[i] = content;
+                let identity = tags[i].y;
+                ledger[identity].x += content.w * paid;
+                agitations[identity] = 0.5 * agitation;
+            }
+            let new_potential = potential(content.x, content.y, content.z, content.w);
+            heat[i] = new_potential;
+            var bulky = vec4<f32>(1.0, 1.0, content.w * content.z, 0.0);
+            if (DENSITY) {
+                let density = density_of(new_potential.y, new_potential.x) / REST_DENSITY;
+                bulky.x = content.w * (1.0 - content.z) / density;
+                bulky.y = 1.0 / density;
+            }
+            bulk[i] = bulky;
+        }
+    } else if (HEAT) {
         let after = diffused[i];
         heat[i] = vec4<f32>(after.x + HEATING * warmed, after.y, 0.5 * agitation, 0.0);
     }

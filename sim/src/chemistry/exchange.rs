@@ -3,8 +3,8 @@
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 
-/// What an undisturbed lattice's neighbours are multiplied by for the room
-/// of a neighbour list.
+/// Neighbours that a list has room for, over those of an undisturbed lattice:
+/// the liquid may be a third too dense before a neighbour is left out.
 const LIST_HEADROOM: f64 = 1.35;
 
 /// h²·∫ 2|x·∇W|/(x² + 0.01h²) dx′ over a solid, per V_b.

@@ -25,7 +25,7 @@ pub mod transport;
 mod tests;
 
 pub use error::{OutOfRange, check_content};
-pub use model::{Chemistry, Paper, PaperBoiling, PaperDilution};
+pub use model::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
 
 /// Absolute zero, °C.
 pub const ABSOLUTE_ZERO: f64 = -273.15;

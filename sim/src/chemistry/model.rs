@@ -1,13 +1,16 @@
 //! What of the chemistry a scene models, and with which numbers.
 
 use super::paper::Boiling;
-use crate::scene::{Feature, Scene};
+use super::transport::{Losses, Mixing};
+use crate::scene::{Feature, PaperChemistry, PhysicalChemistry, Scene};
 
 /// Chemistry of a scene that models heat.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chemistry {
     /// Sections 4.1 to 4.3 of the paper.
     Paper(Paper),
+    /// What section 8 misses.
+    Physical(Physical),
 }
 
 /// The paper's chemistry, Table 1.
@@ -43,36 +46,85 @@ pub struct PaperBoiling {
     pub law: Boiling,
 }
 
+/// The physical chemistry at real size; what is off is not computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Physical {
+    /// Mixing below the particles' size.
+    pub mixing: Mixing,
+    /// Whether density follows composition and temperature.
+    pub density: bool,
+    /// Whether viscosity follows them.
+    pub viscosity: bool,
+    /// Time constant of boiling and condensing, s, where water evaporates.
+    pub superheat_time: Option<f64>,
+    /// Speed of bubbles in the liquid, m/s, where they leave it as steam.
+    pub bubble_speed: Option<f64>,
+    /// η, where boiling moves the liquid.
+    pub work_share: Option<f64>,
+    /// Heat that leaves, where it does.
+    pub losses: Option<Losses>,
+}
+
 impl Chemistry {
     /// What `scene` models; a scene that is validated has all of the numbers.
     pub fn from_scene(scene: &Scene) -> Option<Self> {
         if !scene.models(Feature::Heat) {
             return None;
         }
-        let paper = scene.paper?;
-        let dilution = || {
-            Some(PaperDilution {
-                ambient: paper.T_a?,
-                heat_diffusivity: paper.D_T?,
-                acid_diffusivity: paper.D_c?,
-                heat_generation: paper.k_d?,
-            })
-        };
-        let boiling = || {
-            let literal = paper.literal_boiling.unwrap_or(false);
-            Some(PaperBoiling {
-                boiling_point: paper.T_B?,
-                intensity: paper.k_v?,
-                law: if literal {
-                    Boiling::Literal
-                } else {
-                    Boiling::Power
-                },
-            })
-        };
-        Some(Self::Paper(Paper {
-            dilution: dilution().filter(|_| scene.models(Feature::Dilution)),
-            boiling: boiling().filter(|_| scene.models(Feature::Boiling)),
-        }))
+        match (&scene.paper, &scene.physical) {
+            (Some(paper), _) => Some(Self::Paper(of_paper(scene, paper))),
+            (None, Some(physical)) => of_physical(scene, physical).map(Self::Physical),
+            (None, None) => None,
+        }
     }
+}
+
+fn of_paper(scene: &Scene, paper: &PaperChemistry) -> Paper {
+    let dilution = || {
+        Some(PaperDilution {
+            ambient: paper.T_a?,
+            heat_diffusivity: paper.D_T?,
+            acid_diffusivity: paper.D_c?,
+            heat_generation: paper.k_d?,
+        })
+    };
+    let boiling = || {
+        let literal = paper.literal_boiling.unwrap_or(false);
+        Some(PaperBoiling {
+            boiling_point: paper.T_B?,
+            intensity: paper.k_v?,
+            law: if literal {
+                Boiling::Literal
+            } else {
+                Boiling::Power
+            },
+        })
+    };
+    Paper {
+        dilution: dilution().filter(|_| scene.models(Feature::Dilution)),
+        boiling: boiling().filter(|_| scene.models(Feature::Boiling)),
+    }
+}
+
+fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> {
+    let where_modelled = |feature, value: Option<f64>| value.filter(|_| scene.models(feature));
+    let losses = || {
+        Some(Losses {
+            ambient: physical.ambient?,
+            glass: physical.glass_loss?,
+            surface: physical.surface_loss?,
+        })
+    };
+    Some(Physical {
+        mixing: Mixing {
+            turbulence: physical.mixing?,
+            lewis: physical.lewis?,
+        },
+        density: scene.models(Feature::Density),
+        viscosity: scene.models(Feature::Viscosity),
+        superheat_time: where_modelled(Feature::Evaporation, physical.superheat_time),
+        bubble_speed: where_modelled(Feature::Steam, physical.bubble_speed),
+        work_share: where_modelled(Feature::Boiling, physical.agitation),
+        losses: losses().filter(|_| scene.models(Feature::Losses)),
+    })
 }

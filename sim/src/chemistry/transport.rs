@@ -25,10 +25,10 @@ impl Default for Mixing {
 }
 
 /// Diffusivity of sulfuric acid in water, m²/s (25 °C, CRC Handbook).
-const ACID_DIFFUSIVITY: f64 = 1.7e-9;
+pub const ACID_DIFFUSIVITY: f64 = 1.7e-9;
 
 /// Thermal diffusivity of water, m²/s (20 °C); 98 % acid has 1.3e-7.
-const THERMAL_DIFFUSIVITY: f64 = 1.4e-7;
+pub const THERMAL_DIFFUSIVITY: f64 = 1.4e-7;
 
 impl Mixing {
     /// (D_T, D_c), m²/s, of a pair with the relative speed `speed` (m/s) for

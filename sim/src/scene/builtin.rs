@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 7] = [
+pub(super) const BUILTIN: [(&str, &str); 9] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -17,5 +17,13 @@ pub(super) const BUILTIN: [(&str, &str); 7] = [
         include_str!("../../scenes/triple-dilution.toml"),
     ),
     ("tomato-soup", include_str!("../../scenes/tomato-soup.toml")),
+    (
+        "water-into-acid",
+        include_str!("../../scenes/water-into-acid.toml"),
+    ),
+    (
+        "acid-into-water",
+        include_str!("../../scenes/acid-into-water.toml"),
+    ),
     ("vr-dilution", include_str!("../../scenes/vr-dilution.toml")),
 ];

@@ -79,6 +79,8 @@ pub struct PhysicalChemistry {
     pub lewis: Option<f64>,
     /// Time in which a superheat decays by evaporation, s; with `evaporation`.
     pub superheat_time: Option<f64>,
+    /// Speed at which bubbles rise through the liquid, m/s; with `steam`.
+    pub bubble_speed: Option<f64>,
     /// η: the share of the work R·T/M of the water that evaporates which
     /// becomes motion; with `boiling`.
     pub agitation: Option<f64>,
@@ -94,7 +96,10 @@ pub(super) const ABSOLUTE_ZERO: f64 = -273.15;
 impl PaperChemistry {
     pub(super) fn check(&self) -> Result<(), Problem> {
         temperature("paper.T_a", self.T_a)?;
-        temperature("paper.T_B", self.T_B)?;
+        if let Some(boiling_point) = self.T_B {
+            let must = "above 0 (°C; Eq. 17 divides by it)";
+            require("paper.T_B", boiling_point, boiling_point > 0.0, must)?;
+        }
         for (field, value) in [
             ("k_d", self.k_d),
             ("k_v", self.k_v),
@@ -122,9 +127,13 @@ impl PhysicalChemistry {
             let ok = (0.0..=1.0).contains(&lewis);
             require("physical.lewis", lewis, ok, "between 0 and 1")?;
         }
-        if let Some(time) = self.superheat_time {
-            let must = "above zero (seconds)";
-            require("physical.superheat_time", time, time > 0.0, must)?;
+        for (field, value, unit) in [
+            ("physical.superheat_time", self.superheat_time, "seconds"),
+            ("physical.bubble_speed", self.bubble_speed, "m/s"),
+        ] {
+            if let Some(value) = value {
+                require(field, value, value > 0.0, &format!("above zero ({unit})"))?;
+            }
         }
         Ok(())
     }
@@ -228,7 +237,7 @@ fn paper_fields(p: &PaperChemistry) -> [Field; 6] {
     ]
 }
 
-fn physical_fields(p: &PhysicalChemistry) -> [Field; 7] {
+fn physical_fields(p: &PhysicalChemistry) -> [Field; 8] {
     [
         ("physical.ambient", Feature::Heat, p.ambient.is_some()),
         ("physical.mixing", Feature::Dilution, p.mixing.is_some()),
@@ -237,6 +246,11 @@ fn physical_fields(p: &PhysicalChemistry) -> [Field; 7] {
             "physical.superheat_time",
             Feature::Evaporation,
             p.superheat_time.is_some(),
+        ),
+        (
+            "physical.bubble_speed",
+            Feature::Steam,
+            p.bubble_speed.is_some(),
         ),
         (
             "physical.agitation",

@@ -2,7 +2,10 @@
 //! every array is the same; it changes when the list is rebuilt.
 
 use super::pipelines::Grid;
+use super::vessels::upload;
 use super::{Counters, SolverSpec};
+use crate::chemistry::Chemistry;
+use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 
 /// Threads of the load pass's workgroups.
@@ -42,6 +45,16 @@ pub(super) struct Buffers {
     pub(super) diffused: Buffer,
     pub(super) mixing: Buffer,
     pub(super) sorted_heat: Buffer,
+    /// The physical chemistry's: what particles hold, and by identity what
+    /// they took and gave, and the agitation around them.
+    pub(super) matter: Buffer,
+    pub(super) sorted_matter: Buffer,
+    pub(super) ledger: Buffer,
+    pub(super) agitation: Buffer,
+    /// Volume, density and vapour.
+    pub(super) bulk: Buffer,
+    pub(super) sorted_bulk: Buffer,
+    pub(super) solution: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
     pub(super) wall_push: Buffer,
@@ -63,7 +76,16 @@ impl Buffers {
         let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
         let pushed = where_asked(spec.loads, n);
         let groups = u64::from(count.div_ceil(LOAD_GROUP));
-        let heated = where_asked(spec.parameters.chemistry.is_some(), n);
+        let chemistry = spec.parameters.chemistry.as_ref();
+        let heated = where_asked(chemistry.is_some(), n);
+        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
+        let held = where_asked(physical, n);
+        let diffused = where_asked(matches!(chemistry, Some(Chemistry::Paper(_))), n);
+        let table = if physical {
+            SolutionTable::new().rows()
+        } else {
+            Vec::new()
+        };
         let confined = spec.parameters.vorticity > 0.0;
         Ok(Self {
             position: words("position", 4 * n)?,
@@ -88,9 +110,16 @@ impl Buffers {
             cell_items: words("cell_items", n)?,
             list_args: words("list_args", 16)?,
             heat: words("heat", 4 * heated)?,
-            diffused: words("diffused", 2 * heated)?,
+            diffused: words("diffused", 2 * diffused)?,
             mixing: words("mixing", 4 * heated)?,
             sorted_heat: words("sorted_heat", 4 * heated)?,
+            matter: words("matter", 4 * held)?,
+            sorted_matter: words("sorted_matter", 4 * held)?,
+            ledger: words("ledger", 4 * held)?,
+            agitation: words("agitation", held)?,
+            bulk: words("bulk", 4 * held)?,
+            sorted_bulk: words("sorted_bulk", 4 * held)?,
+            solution: upload(gpu, "solution", &table)?,
             poses: words(
                 "poses",
                 8 * (u64::from(spec.parameters.substeps) + 1) * flasks,
@@ -123,6 +152,12 @@ impl Buffers {
             &self.diffused,
             &self.mixing,
             &self.sorted_heat,
+            &self.matter,
+            &self.sorted_matter,
+            &self.ledger,
+            &self.agitation,
+            &self.bulk,
+            &self.sorted_bulk,
             &self.wall_push,
             &self.density,
         ];

@@ -61,7 +61,7 @@ impl Solver {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
-            self.diffuse(rec, &step)?; // 26
+            self.dilute(rec, &step)?; // 26
             self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
             self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
         }
@@ -80,6 +80,7 @@ impl Solver {
             .read("tags", &b.tags)
             .read("list_counts", &b.list_counts)
             .read("list", &b.list)
+            .read("bulk", &b.bulk)
             .write("density", &b.density)
             .constants(&self.step(self.parameters.substeps - 1))
             .invocations(self.count * self.lanes)?;
@@ -167,6 +168,7 @@ impl Solver {
             .write("solved", &b.solved)
             .write("boundary", &b.boundary)
             .write("list_args", &b.list_args)
+            .read("bulk", &b.bulk)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())
@@ -195,28 +197,42 @@ impl Solver {
             .read("list_origin", &b.list_origin)
             .write("counters", &b.counters)
             .write("heat", &b.heat)
+            .read("bulk", &b.bulk)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())
     }
 
-    /// Line 26, but for the heat of solution, which [`Self::apply_forces`] adds.
-    fn diffuse(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
-        let Some(pass) = &self.pipelines.diffusion else {
+    /// Line 26; of the paper's chemistry but for the heat of solution, which
+    /// [`Self::apply_forces`] adds.
+    fn dilute(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let (Some(pass), Some(chemistry)) = (&self.pipelines.dilution, &self.parameters.chemistry)
+        else {
             return Ok(());
         };
         let b = &self.buffers;
-        rec.pass(pass)
+        let pass = rec
+            .pass(pass)
             .read("position", &b.position)
             .read("list_counts", &b.list_counts)
             .read("list", &b.list)
             .read("boundary", &b.boundary)
             .read("heat", &b.heat)
-            .write("diffused", &b.diffused)
             .write("mixing", &b.mixing)
             .write("counters", &b.counters)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
+            .constants(step);
+        let pass = match chemistry {
+            Chemistry::Paper(_) => pass.write("diffused", &b.diffused),
+            Chemistry::Physical(_) => pass
+                .read("new_velocity", &b.new_velocity)
+                .read("tags", &b.tags)
+                .read("agitation", &b.agitation)
+                .read("bulk", &b.bulk)
+                .read("solution", &b.solution)
+                .write("matter", &b.matter)
+                .write("ledger", &b.ledger),
+        };
+        pass.invocations(self.count * self.lanes)?;
         Ok(())
     }
 
@@ -251,7 +267,12 @@ impl Solver {
             .read("list", &b.list)
             .read("diffused", &b.diffused)
             .read("mixing", &b.mixing)
+            .read("solution", &b.solution)
             .write("heat", &b.heat)
+            .write("matter", &b.matter)
+            .write("ledger", &b.ledger)
+            .write("agitations", &b.agitation)
+            .write("bulk", &b.bulk)
             .write("velocity", &b.velocity)
             .constants(step)
             .invocations(self.count * self.lanes)?;
@@ -267,6 +288,7 @@ impl Solver {
             .read("position", &b.position)
             .read("tags", &b.tags)
             .read("wall_push", &b.wall_push)
+            .read("matter", &b.matter)
             .write("loads", &b.loads)
             .constants(&self.step(self.parameters.substeps - 1))
             .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;
@@ -305,7 +327,7 @@ impl Solver {
             Some(Chemistry::Paper(paper)) => paper
                 .boiling
                 .is_some_and(|boiling| boiling.law == Boiling::Literal),
-            None => false,
+            _ => false,
         };
         let viscosity = if literal {
             self.parameters.viscosity

@@ -14,6 +14,7 @@ mod buffers;
 mod counters;
 mod error;
 mod frame;
+mod matter;
 mod pipelines;
 mod search;
 mod solids;
@@ -126,7 +127,7 @@ impl Solver {
         solver.restore(&SolverState::start(
             spec.particles,
             &solver.grid,
-            spec.parameters.chemistry.is_some(),
+            &spec.parameters,
         ))?;
         Ok(solver)
     }

@@ -2,9 +2,12 @@
 
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
+use crate::chemistry::exchange::list_capacity;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
+use crate::chemistry::table::INTERVALS;
 use crate::chemistry::thomsen::JOULES_PER_CALORIE;
-use crate::chemistry::{Chemistry, Paper};
+use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
+use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
 use crate::parameters::Parameters;
 use crate::reference::forces::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
@@ -12,10 +15,6 @@ use vitriol_shaders::{Library, ShaderId, sim};
 
 /// Cells that one workgroup scans, as in `common/grid.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
-
-/// Neighbours a list has room for, over those of an undisturbed lattice: the
-/// liquid may be a third too dense before a neighbour is left out.
-const LIST_HEADROOM: f64 = 1.35;
 
 /// Part of the list's margin that a prediction may use up; the rest is left
 /// for the substep's corrections.
@@ -37,12 +36,11 @@ impl Grid {
     /// at h/d = 2, so most of the table is empty and distant cells rarely meet.
     pub fn new(parameters: &Parameters, count: u32) -> Self {
         let cell = parameters.support_radius * (1.0 + parameters.list_margin);
-        let sphere = 4.0 / 3.0 * std::f64::consts::PI * (cell / parameters.spacing).powi(3);
         let total = count.max(SCAN_BLOCK).next_power_of_two().ilog2();
         Self {
             cell,
             bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
-            list_capacity: (sphere * LIST_HEADROOM / 8.0).ceil() as u32 * 8,
+            list_capacity: list_capacity(parameters),
         }
     }
 
@@ -72,7 +70,7 @@ pub(super) struct Pipelines {
     pub(super) displacement: ComputePipeline,
     pub(super) commit: ComputePipeline,
     /// Where particles have a temperature.
-    pub(super) diffusion: Option<ComputePipeline>,
+    pub(super) dilution: Option<ComputePipeline>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<ComputePipeline>,
     pub(super) viscosity: ComputePipeline,
@@ -104,9 +102,10 @@ impl Pipelines {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
         };
-        let diffusion = match spec.parameters.chemistry {
+        let dilution = match spec.parameters.chemistry {
             None => None,
-            Some(_) => Some(make(sim::DIFFUSION, &[])?),
+            Some(Chemistry::Paper(_)) => Some(make(sim::DIFFUSION, &[])?),
+            Some(Chemistry::Physical(_)) => Some(make(sim::EXCHANGE, &[])?),
         };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
@@ -127,7 +126,7 @@ impl Pipelines {
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             commit: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
-            diffusion,
+            dilution,
             vorticity,
             viscosity: make(sim::VISCOSITY, &[pull, ("PREDICT", 1.0)])?,
             last_viscosity: make(sim::VISCOSITY, &[pull])?,
@@ -157,6 +156,42 @@ fn of_paper(paper: &Paper, p: &Parameters) -> Vec<(&'static str, f64)> {
             ("BOILING_INTENSITY", boiling.intensity),
             ("BOILING_POWER", REFERENCE_POWER),
             ("LITERAL_BOILING", flag(boiling.law == Boiling::Literal)),
+        ]);
+    }
+    own
+}
+
+/// Constants of the physical chemistry.
+fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> {
+    let mut own = vec![
+        ("HEAT", 1.0),
+        ("PHYSICAL", 1.0),
+        ("CALM", flag(p.viscosity > 0.0)),
+        ("SOLUTION_INTERVALS", INTERVALS as f64),
+        ("REST_DENSITY", p.rest_density),
+        ("DENSITY", flag(physical.density)),
+        ("VISCOSITY", flag(physical.viscosity)),
+        ("MIXING", physical.mixing.turbulence),
+        ("LEWIS", physical.mixing.lewis),
+        ("ACID_DIFFUSIVITY", ACID_DIFFUSIVITY),
+        ("THERMAL_DIFFUSIVITY", THERMAL_DIFFUSIVITY),
+    ];
+    if let Some(time) = physical.superheat_time {
+        own.extend([("EVAPORATION", 1.0), ("SUPERHEAT_TIME", time)]);
+    }
+    if let Some(speed) = physical.bubble_speed {
+        own.extend([("BUBBLE_SPEED", speed), ("SPACING", p.spacing)]);
+    }
+    if let Some(share) = physical.work_share {
+        let per_kelvin = share * GAS_CONSTANT / WATER_MOLAR_MASS;
+        own.extend([("BOILING", 1.0), ("AGITATION", per_kelvin)]);
+    }
+    if let Some(losses) = &physical.losses {
+        own.extend([
+            ("LOSSES", 1.0),
+            ("AMBIENT", losses.ambient),
+            ("GLASS_LOSS", losses.glass / p.rest_density),
+            ("SURFACE_LOSS", losses.surface / p.rest_density),
         ]);
     }
     own
@@ -218,8 +253,10 @@ impl Constants {
                 ("TABLE_HALF_Z", 0.5 * size.y),
             ]);
         }
-        if let Some(Chemistry::Paper(paper)) = &p.chemistry {
-            all.extend(of_paper(paper, p));
+        match &p.chemistry {
+            None => {}
+            Some(Chemistry::Paper(paper)) => all.extend(of_paper(paper, p)),
+            Some(Chemistry::Physical(physical)) => all.extend(of_physical(physical, p)),
         }
         Self(all)
     }

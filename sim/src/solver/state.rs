@@ -1,7 +1,11 @@
 //! The solver's state on the host: taken, compared, and put on a device again.
 
+use super::matter::Start;
 use super::pipelines::Grid;
 use super::{Counters, Particle, Solver, SolverError};
+use crate::chemistry::Chemistry;
+use crate::chemistry::table::SolutionTable;
+use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Buffer, Gpu};
 use xxhash_rust::xxh3::Xxh3;
@@ -21,6 +25,18 @@ pub struct SolverState {
     /// (temperature in °C, acid mass fraction, …) by slot; empty where no heat
     /// is modelled.
     pub heat: Vec<[f32; 4]>,
+    /// Of the physical chemistry: (acid fraction, enthalpy in J/kg, vapour
+    /// fraction, mass over that of a particle at rest density) of what a
+    /// particle holds, by slot.
+    pub matter: Vec<[f32; 4]>,
+    /// Likewise, by identity: (kinetic energy that was paid for, J; heat
+    /// gained from around, J; steam that left, kg, and its enthalpy, J), each
+    /// per kg of a particle at rest density.
+    pub ledger: Vec<[f32; 4]>,
+    /// ½ Σ w|v_ij|² of the last substep, J/kg, by identity.
+    agitation: Vec<f32>,
+    /// (volume over V0, ρ0 over density, vapour over V0·ρ0, –) by slot.
+    bulk: Vec<[f32; 4]>,
     /// Predicted positions when the list was built.
     list_origin: Vec<[f32; 4]>,
     list_counts: Vec<u32>,
@@ -33,11 +49,11 @@ const REMOVED: u32 = u32::MAX;
 
 impl SolverState {
     /// The state before the first frame: a list that is stale for all.
-    pub(super) fn start(particles: &[Particle], grid: &Grid, heated: bool) -> Self {
+    pub(super) fn start(particles: &[Particle], grid: &Grid, parameters: &Parameters) -> Self {
         let n = particles.len();
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
-        Self {
+        let mut state = Self {
             positions: particles.iter().map(|p| words(p.position, 1.0)).collect(),
             velocities: particles
                 .iter()
@@ -47,20 +63,41 @@ impl SolverState {
                 .zip(particles)
                 .map(|(i, p)| [membership(p), i])
                 .collect(),
-            heat: particles
-                .iter()
-                .filter(|_| heated)
-                .map(|p| [p.temperature as f32, p.acid as f32, 0.0, 0.0])
-                .collect(),
+            heat: Vec::new(),
+            matter: Vec::new(),
+            ledger: Vec::new(),
+            agitation: Vec::new(),
+            bulk: Vec::new(),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],
             counters: vec![0; size_of::<Counters>() / 4],
+        };
+        match &parameters.chemistry {
+            None => {}
+            Some(Chemistry::Paper(_)) => {
+                state.heat = particles
+                    .iter()
+                    .map(|p| [p.temperature as f32, p.acid as f32, 0.0, 0.0])
+                    .collect();
+            }
+            Some(Chemistry::Physical(_)) => {
+                let table = SolutionTable::new();
+                for particle in particles {
+                    let start = Start::of(&table, particle, parameters.rest_density);
+                    state.heat.push(start.heat);
+                    state.matter.push(start.matter);
+                    state.bulk.push(start.bulk);
+                }
+                state.ledger = vec![[0.0; 4]; n];
+                state.agitation = vec![0.0; n];
+            }
         }
+        state
     }
 
     /// Hash of what a replay must repeat: every particle's bits of position,
-    /// velocity, membership and heat, in the order of their identities.
+    /// velocity, membership, heat and content, in the order of their identities.
     pub fn hash(&self) -> u64 {
         let mut order: Vec<usize> = (0..self.tags.len()).collect();
         order.sort_by_key(|&slot| self.tags[slot][1]);
@@ -72,6 +109,9 @@ impl SolverState {
             if let Some(heat) = self.heat.get(slot) {
                 hash.update(bytemuck::bytes_of(heat));
             }
+            if let Some(matter) = self.matter.get(slot) {
+                hash.update(bytemuck::bytes_of(matter));
+            }
         }
         hash.digest()
     }
@@ -79,6 +119,11 @@ impl SolverState {
     /// Whether the particle in a slot is still there.
     pub fn is_present(&self, slot: usize) -> bool {
         self.tags[slot][0] != REMOVED
+    }
+
+    /// Mass of the particle in a slot over that of one at rest density.
+    pub fn mass_of(&self, slot: usize) -> f64 {
+        self.matter.get(slot).map_or(1.0, |held| held[3].into())
     }
 
     /// Index of the flask that the particle in a slot is in.
@@ -98,11 +143,16 @@ impl Solver {
     pub fn snapshot(&self) -> Result<SolverState, SolverError> {
         let (b, gpu) = (&self.buffers, &self.gpu);
         let n = self.count as usize;
+        let Lengths { heat, matter } = self.lengths();
         Ok(SolverState {
             positions: read(gpu, &b.position, n)?,
             velocities: read(gpu, &b.velocity, n)?,
             tags: read(gpu, &b.tags, n)?,
-            heat: read(gpu, &b.heat, self.heated())?,
+            heat: read(gpu, &b.heat, heat)?,
+            matter: read(gpu, &b.matter, matter)?,
+            ledger: read(gpu, &b.ledger, matter)?,
+            agitation: read(gpu, &b.agitation, matter)?,
+            bulk: read(gpu, &b.bulk, matter)?,
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
             list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
@@ -118,11 +168,16 @@ impl Solver {
     pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
+        let lengths = self.lengths();
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
             ("tags", state.tags.len(), n),
-            ("heat", state.heat.len(), self.heated()),
+            ("heat", state.heat.len(), lengths.heat),
+            ("contents", state.matter.len(), lengths.matter),
+            ("ledger", state.ledger.len(), lengths.matter),
+            ("agitation", state.agitation.len(), lengths.matter),
+            ("bulk", state.bulk.len(), lengths.matter),
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
@@ -141,6 +196,10 @@ impl Solver {
         write(gpu, &b.velocity, &state.velocities)?;
         write(gpu, &b.tags, &state.tags)?;
         write(gpu, &b.heat, &state.heat)?;
+        write(gpu, &b.matter, &state.matter)?;
+        write(gpu, &b.ledger, &state.ledger)?;
+        write(gpu, &b.agitation, &state.agitation)?;
+        write(gpu, &b.bulk, &state.bulk)?;
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
@@ -153,11 +212,14 @@ impl Solver {
         Ok(())
     }
 
-    /// Particles that have a temperature: all or none.
-    fn heated(&self) -> usize {
-        match self.parameters.chemistry {
-            Some(_) => self.count as usize,
-            None => 0,
+    /// How long the arrays are that only some scenes have.
+    fn lengths(&self) -> Lengths {
+        let of = |asked: bool| if asked { self.count as usize } else { 0 };
+        let chemistry = self.parameters.chemistry.as_ref();
+        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
+        Lengths {
+            heat: of(chemistry.is_some()),
+            matter: of(physical),
         }
     }
 
@@ -169,6 +231,11 @@ impl Solver {
         let words = read::<Counters>(&self.gpu, &self.buffers.counters, 1)?;
         Ok(words.first().copied().unwrap_or_default())
     }
+}
+
+struct Lengths {
+    heat: usize,
+    matter: usize,
 }
 
 /// The first `count` elements; buffers are a few bytes longer where a scene is empty.
