@@ -292,9 +292,9 @@ fn bad_input_is_refused_before_anything_is_written() {
             &["scale.spacing", "larger"],
         ),
         (
-            "boundary = \"map\"",
-            "boundary = \"particles\"",
-            &["solver.boundary", "use \"map\""],
+            "\"beaker-400\"",
+            "\"beaker-401\"",
+            &["flask[1].profile", "beaker-400"],
         ),
     ] {
         assert!(scene.contains(from), "{from}");
