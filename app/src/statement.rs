@@ -24,7 +24,7 @@ pub fn of_scene(name: &str, scene: &Scene) -> SceneStatement {
         frame_time_s: scene.scale.frame_time,
         gravity_m_s2: scene.scale.gravity,
         length_scale: scene.scale.length_scale,
-        models: scene.model.iter().map(|f| feature(*f).into()).collect(),
+        models: scene.model.iter().map(feature).collect(),
     }
 }
 
@@ -42,13 +42,10 @@ pub fn of_solver(scene: &Scene) -> SolverStatement {
     }
 }
 
-/// A feature by its name in scene files.
-fn feature(feature: Feature) -> &'static str {
-    match feature {
-        Feature::Heat => "heat",
-        Feature::Dilution => "dilution",
-        Feature::Boiling => "boiling",
-        Feature::Cohesion => "cohesion",
-        Feature::Vorticity => "vorticity",
+/// A feature by its name in scene files, which is the scene's to know.
+fn feature(feature: &Feature) -> String {
+    match serde_json::to_value(feature) {
+        Ok(serde_json::Value::String(name)) => name,
+        _ => format!("{feature:?}"),
     }
 }
