@@ -20,10 +20,10 @@ const DRAWN_RADIUS: f64 = 0.6;
 /// map: about that from one flask's lip to another's floor.
 const COLOURED_FALL: f64 = 0.075;
 
-/// Vertical field of view from the head, degrees: 80° across at 16:9. A
-/// headset's own 90° and more, flattened into a film, makes the bench small
-/// and its edges long.
-const HEAD_FIELD: f32 = 50.0;
+/// Vertical field of view from the head, degrees: 66° across at 16:9. A
+/// headset's own 90° and more, flattened into a film, makes the glass small
+/// and the bench's edges long.
+const HEAD_FIELD: f32 = 40.0;
 
 /// Takes pictures of a world.
 pub struct Camera {

@@ -9,7 +9,7 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::bodies;
 use vitriol_sim::measure::Measurement;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame};
 
@@ -26,9 +26,6 @@ use crate::report::{Counters, MassByPlace, Sample};
 /// [`Failure::NoDevice`]; [`Failure::Input`] for a device that is not there or
 /// a liquid that does not fit.
 pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
-    if setup.scene.models(Feature::Heat) {
-        tracing::warn!("heat, dilution and boiling are not simulated yet: the scene runs without");
-    }
     on_device(&device::open(setup.device, false)?, setup)
 }
 
@@ -38,7 +35,15 @@ pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
 /// [`Failure::Input`] for a liquid that does not fit.
 pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
     let library = &setup.shaders;
-    let world = World::new(gpu, library, setup.scene, setup.seed).map_err(blame_world)?;
+    let world = World::new(gpu, library, setup.scene, setup.seed).map_err(|error| {
+        match blame_world(error) {
+            // What is wrong with a scene is said with its file.
+            Failure::Input(cause) => {
+                Failure::Input(format!("{}: {cause}", setup.scene_name).into())
+            }
+            failure => failure,
+        }
+    })?;
     let mut film = match setup.picture {
         Some((width, height)) => Some(Camera::new(gpu, library, setup.scene, [width, height])?),
         None => None,
@@ -52,6 +57,7 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
         follows_head: setup.head.is_some(),
         seed: setup.seed,
         shaders: setup.shaders.clone(),
+        lost: 0,
         picture: Vec::new(),
     }))
 }
@@ -62,6 +68,8 @@ struct Laboratory {
     follows_head: bool,
     seed: u64,
     shaders: Arc<Library>,
+    /// Most particles on the wrong side of a wall in any measurement.
+    lost: u64,
     picture: Vec<u8>,
 }
 
@@ -123,6 +131,7 @@ impl Experiment for Laboratory {
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
         let measured = self.world.measure().map_err(blame_world)?;
+        self.lost = self.lost.max(measured.lost_particles);
         Ok(Sample {
             t_s: t,
             density_error_mean: measured.density_error_mean,
@@ -155,7 +164,7 @@ impl Experiment for Laboratory {
         ];
         Ok(Outcome {
             fluid_particles: self.world.solver().count().into(),
-            lost_particles: measured.lost_particles,
+            lost_particles: self.lost.max(measured.lost_particles),
             nan_particles: measured.nan_particles,
             state_hash: state.solver.hash(),
             device: device::statement(self.world.gpu()),

@@ -19,8 +19,8 @@ use std::thread::JoinHandle;
 use muxide::api::{Muxer, MuxerBuilder, MuxerError, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{
-    ColorPrimaries, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod,
-    MatrixCoefficients, RateControlMode, TransferCharacteristics, VuiConfig,
+    BitRate, ColorPrimaries, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod,
+    MatrixCoefficients, QpRange, RateControlMode, TransferCharacteristics, VuiConfig,
 };
 use openh264::formats::{RgbaSliceU8, YUVBuffer};
 
@@ -29,6 +29,12 @@ use crate::output::Staged;
 /// Frames that may wait for the encoder: enough to even out a slow key frame,
 /// few enough (2 MB each at 960×540) not to matter.
 const QUEUED_FRAMES: usize = 4;
+
+/// H.264's quantiser, 0 to 51. At 20 a film of 10 s has 2 MB.
+const QUANTISER: u8 = 20;
+
+/// More bits a second than any film here has (one of 960 × 540 has 1.6 million).
+const MOST_BITS: u32 = 100_000_000;
 
 /// A key frame at least every two seconds, so that seeking stays quick.
 const SECONDS_BETWEEN_KEY_FRAMES: u32 = 2;
@@ -63,6 +69,15 @@ pub enum FilmError {
     /// The film would have no frame at all, which no player opens.
     #[error("the film has no frame: run for at least one frame or give --no-video")]
     Empty,
+    /// A frame was left out, which would shift all that follow.
+    #[error(
+        "frame {number} of the film has more detail than its {MOST_BITS} bits a second hold; make \
+         a smaller film, or none with --no-video"
+    )]
+    TooRich {
+        /// The frame, from 0.
+        number: u32,
+    },
     /// The H.264 encoder refused.
     #[error("the H.264 encoder failed")]
     Encode(#[from] openh264::Error),
@@ -235,6 +250,9 @@ impl Shape {
             // A full basket only means that one buffer more is freed.
             let _ = give_back.try_send(frame);
             let stream = encoder.encode(&picture)?;
+            if matches!(stream.frame_type(), FrameType::Skip) {
+                return Err(FilmError::TooRich { number });
+            }
             coded.clear();
             stream.write_vec(&mut coded);
             let key = matches!(stream.frame_type(), FrameType::IDR);
@@ -259,13 +277,19 @@ impl Shape {
     fn config(self) -> EncoderConfig {
         EncoderConfig::new()
             .max_frame_rate(FrameRate::from_hz(self.fps as f32))
-            // Constant quantiser (OpenH264's 26): a file has no line to keep
-            // within, so a splash may cost more bits than still water, and it
-            // stays as sharp.
-            .rate_control_mode(RateControlMode::Off)
-            // A skipped frame would come back as an empty one and shift all
-            // that follow.
-            .skip_frames(false)
+            // One quantiser: a file has no line to keep within, so a splash may
+            // cost more bits than still water, and it stays as sharp. Without
+            // rate control it would be 26, where what a moving edge leaves
+            // behind falls below the quantiser, and stays as dark dots on the
+            // wall until the next key frame. This mode heeds the range.
+            .rate_control_mode(RateControlMode::Quality)
+            .qp(QpRange::new(QUANTISER, QUANTISER))
+            // So high that no frame is skipped for it. With skipping off, the
+            // encoder would print a warning.
+            .bitrate(BitRate::from_bps(MOST_BITS))
+            .skip_frames(true)
+            // It takes such dots for the background, and keeps them too.
+            .background_detection(false)
             .intra_frame_period(IntraFramePeriod::from_num_frames(
                 self.fps * SECONDS_BETWEEN_KEY_FRAMES,
             ))

@@ -41,7 +41,8 @@ pub trait Experiment {
 pub struct Outcome {
     /// Fluid particles at the start.
     pub fluid_particles: u64,
-    /// Particles that went through a wall or out of bounds.
+    /// Most particles that were on the wrong side of a wall in any measurement
+    /// of the run (ten a second) or at its end.
     pub lost_particles: u64,
     /// Particles taken out because they turned non-finite.
     pub nan_particles: u64,

@@ -75,6 +75,8 @@ fn help_names_every_subcommand_and_its_options() {
         ("track", &["--output", "--list"]),
         ("scenes", &[]),
         ("bench", &["--scene", "--paper", "--frames", "--device"]),
+        ("fig5", &["--out", "--device"]),
+        ("dam-break", &["--out", "--preset", "--device"]),
         ("doctor", &[]),
     ] {
         assert!(all.contains(command), "{all}");
@@ -256,4 +258,109 @@ fn a_replay_watches_the_shaders_that_it_is_told() {
     }
     let report = fs::read_to_string(folder.path().join("new/report.json")).unwrap();
     assert!(report.contains("--camera head"), "{report}");
+}
+
+/// The list, case by case, each by the file that a user would have.
+#[test]
+fn bad_input_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let scene = fs::read_to_string(repository.join("sim/scenes/two-flasks.toml")).unwrap();
+    let own = |points: &str| format!("points = {points}\nwall = 0.001");
+    for (from, to, parts) in [
+        ("gravity = 9.81", "", &["missing field `gravity`"][..]),
+        ("gravity = 9.81", "gravity = nan", &["scale.gravity", "NaN"]),
+        (
+            "[-0.12, 0.75, -0.40]",
+            "[inf, 0.75, -0.40]",
+            &["flask[0].position"],
+        ),
+        (
+            "profile = \"beaker-400\"",
+            &own("[[0.0, 0.001], [0.06, 0.001]]"),
+            &["flask[1].points", "narrower than a particle", "0.0025 m"],
+        ),
+        (
+            "volume_ml = 150.0",
+            "volume_ml = 1500.0",
+            &["liquid", "fit", "use less"],
+        ),
+        (
+            "spacing = 0.0025 ",
+            "spacing = 0.00001 ",
+            &["scale.spacing", "larger"],
+        ),
+        (
+            "\"beaker-400\"",
+            "\"beaker-401\"",
+            &["flask[1].profile", "beaker-400"],
+        ),
+    ] {
+        assert!(scene.contains(from), "{from}");
+        fs::write(here.join("bad.toml"), scene.replacen(from, to, 1)).unwrap();
+        let arguments = [
+            "replay",
+            "two-flasks",
+            "--scene",
+            "bad.toml",
+            "--out",
+            "new",
+        ];
+        refuses(here, &arguments, 2, &[&["bad.toml: "], parts].concat());
+        assert!(!here.join("new").exists(), "{to}");
+    }
+
+    let keyframes = fs::read_to_string(repository.join("xr/tracks/two-flasks.toml")).unwrap();
+    for (from, to, parts) in [
+        (
+            "[0.00, 1.20, 0.00]",
+            "[nan, 1.20, 0.00]",
+            &["head.position", "NaN"],
+        ),
+        (
+            "{ pitch = -40 }",
+            "[0.0, 0.0, 0.0, 1.5]",
+            &["line 34", "rotation"],
+        ),
+        ("t = 2.5", "t = 9.0", &["head.t", "order of time"]),
+    ] {
+        assert!(keyframes.contains(from), "{from}");
+        fs::write(here.join("bad.toml"), keyframes.replacen(from, to, 1)).unwrap();
+        refuses(
+            here,
+            &["track", "bad.toml", "-o", "new"],
+            2,
+            &[&["bad.toml:"], &parts[..]].concat(),
+        );
+        refuses(here, &["replay", "bad.toml", "--out", "new"], 2, parts);
+        assert!(!here.join("new").exists(), "{to}");
+    }
+
+    object(here, &["track", "two-flasks", "-o", "whole.mcap"]);
+    let whole = fs::read(here.join("whole.mcap")).unwrap();
+    let mut flipped = whole.clone();
+    flipped[whole.len() / 3] ^= 0x10;
+    fs::write(here.join("flipped.mcap"), flipped).unwrap();
+    refuses(
+        here,
+        &["replay", "flipped.mcap", "--out", "new"],
+        2,
+        &["flipped.mcap", "intact"],
+    );
+    fs::write(here.join("cut.mcap"), &whole[..whole.len() / 2]).unwrap();
+    let parts = ["cut.mcap: breaks off after 4.", "vitriol track cut.mcap -o"];
+    refuses(here, &["replay", "cut.mcap", "--out", "new"], 2, &parts);
+    refuses(
+        here,
+        &["replay", ".", "--out", "new"],
+        2,
+        &[".: cannot read"],
+    );
+    assert!(!here.join("new").exists());
+    // As the message says.
+    let saved = object(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
+    let info = object(here, &["track", "saved.mcap"]);
+    assert_eq!(info["recovered"], false);
+    assert_eq!(info["frames"], saved["frames"]);
 }

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use openh264::decoder::Decoder;
+use openh264::decoder::{DecodedYUV, Decoder};
 use openh264::formats::YUVSource;
 use vitriol::film::{Film, FilmError};
 use vitriol_tests::browser;
@@ -75,6 +75,19 @@ fn annex_b(mp4: &[u8]) -> Vec<u8> {
     }
 }
 
+/// Shows each picture of a stream to `look`, in order.
+fn decode(stream: &[u8], mut look: impl FnMut(&DecodedYUV<'_>)) {
+    let mut decoder = Decoder::new().unwrap();
+    for unit in openh264::nal_units(stream) {
+        if let Some(picture) = decoder.decode(unit).unwrap() {
+            look(&picture);
+        }
+    }
+    for picture in decoder.flush_remaining().unwrap() {
+        look(&picture);
+    }
+}
+
 /// BT.601, limited range, to RGB (ITU-R BT.601-7, 2.5.1–2.5.3).
 fn rgb_of(y: u8, cb: u8, cr: u8) -> [f64; 3] {
     let y = (f64::from(y) - 16.0) / 219.0;
@@ -95,9 +108,8 @@ fn every_frame_decodes_to_its_picture() {
     make_film(&path);
     let stream = annex_b(&fs::read(&path).unwrap());
 
-    let mut decoder = Decoder::new().unwrap();
     let mut frame = 0;
-    let mut check = |picture: &openh264::decoder::DecodedYUV| {
+    decode(&stream, |picture| {
         assert_eq!(picture.dimensions(), (WIDTH as usize, HEIGHT as usize));
         let (luma, chroma, _) = picture.strides();
         for column in 0..WIDTH / BLOCK {
@@ -116,15 +128,7 @@ fn every_frame_decodes_to_its_picture() {
             }
         }
         frame += 1;
-    };
-    for unit in openh264::nal_units(&stream) {
-        if let Some(picture) = decoder.decode(unit).unwrap() {
-            check(&picture);
-        }
-    }
-    for picture in decoder.flush_remaining().unwrap() {
-        check(&picture);
-    }
+    });
     assert_eq!(frame, FRAMES);
 }
 
@@ -228,22 +232,61 @@ fn impossible_films_are_refused() {
     ));
 }
 
-#[test]
-#[ignore = "a measurement: run it with --ignored --nocapture"]
-fn speed_at_the_films_usual_size() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut film = Film::create(&folder.path().join("f.mp4"), 960, 540, 30).unwrap();
-    let begin = std::time::Instant::now();
-    let mut rgba = vec![0u8; 960 * 540 * 4];
-    for frame in 0..270u32 {
-        for (i, pixel) in rgba.chunks_exact_mut(4).enumerate() {
-            let (x, y) = (i as u32 % 960, i as u32 / 960);
-            let v = ((x + 3 * frame) ^ y) as u8;
-            pixel.copy_from_slice(&[v, (y / 3) as u8, (x / 4) as u8, 255]);
+/// Where the ring's middle is.
+fn middle(frame: u32) -> (f64, f64) {
+    (40.0 + 2.6 * f64::from(frame), 60.0 + 0.9 * f64::from(frame))
+}
+
+/// A wall's grey with a slow gradient and a step of dither, and a dark ring that
+/// wanders over it: what a flask's edge is to the film's background.
+fn wall_and_ring(frame: u32) -> Vec<u8> {
+    let centre = middle(frame);
+    let mut noise = u64::from(frame);
+    let mut rgba = Vec::with_capacity((WIDTH * HEIGHT * 4) as usize);
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            // Knuth's linear congruential generator (MMIX).
+            noise = noise
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let wall = 180 + (x / 16) as u8 + (noise >> 63) as u8;
+            let r = (f64::from(x) - centre.0).hypot(f64::from(y) - centre.1);
+            let grey = if (r - 30.0).abs() < 0.8 {
+                wall - 40
+            } else {
+                wall
+            };
+            rgba.extend([grey, grey, grey, 255]);
         }
-        film.push_rgba(&rgba).unwrap();
     }
-    let path = film.finish().unwrap();
-    let bytes = fs::metadata(path).unwrap().len();
-    eprintln!("270 frames: {:?}, {bytes} bytes", begin.elapsed());
+    rgba
+}
+
+#[test]
+fn what_moves_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    for frame in 0..FRAMES {
+        film.push_rgba(&wall_and_ring(frame)).unwrap();
+    }
+    film.finish().unwrap();
+    let mut frame = 0;
+    decode(&annex_b(&fs::read(&path).unwrap()), |picture| {
+        let centre = middle(frame);
+        let stride = picture.strides().0;
+        for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+            let r = (f64::from(x) - centre.0).hypot(f64::from(y) - centre.1);
+            if (r - 30.0).abs() < 5.0 {
+                continue;
+            }
+            let got = f64::from(picture.y()[y as usize * stride + x as usize]);
+            let wall = 16.0 + f64::from(180 + x / 16) * 219.0 / 255.0;
+            // Dither and a quantiser of 20 (steps of 6.5); a dot is darker.
+            let off = got - wall;
+            assert!(off.abs() < 7.0, "frame {frame} ({x}, {y}): {got}, {wall}");
+        }
+        frame += 1;
+    });
+    assert_eq!(frame, FRAMES);
 }

@@ -36,6 +36,8 @@ struct Replayed {
 pub struct Setup<'a> {
     /// The scene, its preset applied.
     pub scene: &'a Scene,
+    /// Name or file that it was loaded from, for messages.
+    pub scene_name: &'a str,
     /// Seed of the initial jitter.
     pub seed: u64,
     /// Number or part of the name of the device; the best one without.
@@ -61,6 +63,7 @@ pub fn run(
     prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let track = track::load(&args.track)?;
+    whole(args, &track)?;
     let name = scene_of(args, &track)?;
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
     let head = head(args, &track)?;
@@ -68,6 +71,7 @@ pub fn run(
     let seed = args.seed.unwrap_or(track.metadata.seed);
     let mut experiment = prepare(&Setup {
         scene: &scene,
+        scene_name: &name,
         seed,
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
@@ -116,6 +120,22 @@ pub fn run(
     let folder = out.path().to_owned();
     out.complete();
     emit(format, &replayed, |done| describe(done, &folder))
+}
+
+/// Refuses a track that breaks off: what its film shows would not be what was
+/// recorded, and nothing would say so.
+fn whole(args: &ReplayArgs, track: &Track) -> Result<(), Failure> {
+    if !track.recovered {
+        return Ok(());
+    }
+    let name = &args.track;
+    let end = three_digits(track.duration());
+    Err(format!(
+        "{name}: breaks off after {end} s, since the file was cut or its recorder stopped hard; \
+         a track has an end: copy it again, or save what is there with `vitriol track {name} -o \
+         NEW.mcap`"
+    ))
+    .input()
 }
 
 fn scene_of(args: &ReplayArgs, track: &Track) -> Result<String, Failure> {

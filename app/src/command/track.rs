@@ -135,9 +135,8 @@ fn describe(info: &TrackInfo) -> String {
 
 fn blame(error: TrackError) -> Failure {
     match &error {
-        TrackError::Io { source, .. } if source.kind() != std::io::ErrorKind::NotFound => {
-            Failure::Other(error.into())
-        }
+        // A folder, or a file that this user may not read, was named.
+        TrackError::Io { action, .. } if *action != "read" => Failure::Other(error.into()),
         _ => Failure::Input(error.into()),
     }
 }

@@ -66,7 +66,7 @@ impl Report {
                 (figure("density_error_p99", "Density error, 99th percentile",
                     &percent(self.density_error_p99), "worst moment of the run", false))
                 (figure("lost_particles", "Lost particles",
-                    &grouped(self.lost_particles), "through a wall or out of bounds",
+                    &grouped(self.lost_particles), "through a wall, the most at any sample",
                     self.lost_particles > 0))
                 (figure("nan_particles", "Non-finite particles",
                     &grouped(self.nan_particles), "taken out of the run",

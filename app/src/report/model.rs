@@ -19,7 +19,8 @@ pub struct Report {
     pub seed: u64,
     /// Fluid particles at the start.
     pub fluid_particles: u64,
-    /// Particles that went through a wall or left the scene's bounds.
+    /// Particles on the wrong side of a wall: the most in any of the run's
+    /// samples (ten a second) or at its end.
     pub lost_particles: u64,
     /// Particles that turned non-finite and were taken out.
     pub nan_particles: u64,

@@ -25,6 +25,7 @@ pub fn scene() -> Scene {
 pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Experiment> {
     let setup = Setup {
         scene: &scene(),
+        scene_name: "beaker",
         seed: 1,
         device: None,
         picture: Some(SIZE),

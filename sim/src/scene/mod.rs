@@ -80,6 +80,10 @@ pub struct StartParticle {
     pub acid_fraction: f64,
 }
 
+/// Most particles that a flask may hold when it is full: what a device's
+/// buffers hold, and the lattice is walked in seconds.
+const MOST_SITES: usize = 50_000_000;
+
 /// A scene, validated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -294,6 +298,14 @@ impl Scene {
             let spacing = self.scale.spacing;
             let volume: f64 = of().map(|liquid| liquid.volume).sum();
             let capacity = flask.profile.capacity();
+            if fill::count_for_volume(capacity, spacing) > MOST_SITES {
+                let problem = format!(
+                    "{spacing} m puts more than {MOST_SITES} particles into a full flask \
+                     ({:?}); take a larger spacing",
+                    flask.name
+                );
+                return Err(Problem::new("scale.spacing", problem));
+            }
             // Before the lattice is walked: a volume that is absurd must not
             // cost memory.
             let sites = if volume > capacity {

@@ -56,6 +56,11 @@ fn malformed_scenes_name_file_field_and_remedy() {
     let cases = [
         (
             "spacing = 0.005\n",
+            "spacing = 0.00005\n",
+            &["scale.spacing", "larger spacing"][..],
+        ),
+        (
+            "spacing = 0.005\n",
             "",
             &["missing field `spacing`", "line 5"][..],
         ),

@@ -38,6 +38,7 @@
 //! hand's keyframes those of a point fixed in the grip frame, such as the lip of the flask
 //! that the hand holds. The hand then turns about that point.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
@@ -140,12 +141,35 @@ impl From<HeadKey> for HandKey {
     }
 }
 
+/// By way of a table: a struct would take three numbers of a list too, and a
+/// quaternion written here would turn into something else.
 #[derive(Clone, Copy, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(try_from = "BTreeMap<String, f64>")]
 struct Rotation {
     yaw: f64,
     pitch: f64,
     roll: f64,
+}
+
+impl TryFrom<BTreeMap<String, f64>> for Rotation {
+    type Error = String;
+
+    fn try_from(angles: BTreeMap<String, f64>) -> Result<Self, String> {
+        let mut rotation = Self::default();
+        for (name, angle) in angles {
+            match name.as_str() {
+                "yaw" => rotation.yaw = angle,
+                "pitch" => rotation.pitch = angle,
+                "roll" => rotation.roll = angle,
+                _ => {
+                    return Err(format!(
+                        "unknown field `{name}`, expected one of `yaw`, `pitch`, `roll`, degrees"
+                    ));
+                }
+            }
+        }
+        Ok(rotation)
+    }
 }
 
 #[derive(Deserialize)]

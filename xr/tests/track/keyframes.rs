@@ -251,6 +251,17 @@ fn bad_keyframes_are_refused_with_their_line() {
             "yaw = nan",
             &["test.toml:8", "head.rotation has NaN"],
         ),
+        // Not a quaternion, and not three angles of which nobody says which.
+        (
+            "rotation = { yaw = 90, pitch = -30, roll = 10 }",
+            "rotation = [0.0, 0.0, 0.0, 1.5]",
+            &["line 11", "sequence", "map"],
+        ),
+        (
+            "yaw = 90",
+            "yaww = 90",
+            &["`yaww`", "`yaw`, `pitch`, `roll`"],
+        ),
         (
             "squeeze = 1.0",
             "squeeze = 1.5",
