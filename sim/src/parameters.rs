@@ -9,6 +9,10 @@ use crate::scene::{RelaxationKind, Scene};
 /// of the paper's setting, 60 Hz with 3 substeps.
 pub const REFERENCE_TIME: f64 = 1.0 / 180.0;
 
+/// ν·Δt/h² that an XSPH coefficient of 1 amounts to: half of ∫ W·x² dV/h² of
+/// the cubic spline, along one axis.
+pub const XSPH_MOMENT: f64 = 0.0375;
+
 /// Parameters of Algorithm 1, SI units.
 ///
 /// The substep has a limit that no number of iterations lifts. A liquid of

@@ -22,6 +22,7 @@ const GROWTH_LIMIT: f32 = 0.3;
 /// α for the specific energy `budget` (J/kg) to be injected at the agitation e
 /// (J/kg).
 fn bounded_growth(budget: f32, agitation: f32) -> f32 {
+    if (budget <= 0.0) { return 0.0; }
     return select(GROWTH_LIMIT, budget / max(agitation, 1e-30), budget < GROWTH_LIMIT * agitation);
 }
 
@@ -29,9 +30,10 @@ fn bounded_growth(budget: f32, agitation: f32) -> f32 {
 /// ½ Σ w |v_i − v_j|² (J/kg) of the substep before: this substep's is known
 /// to nobody before the pass that needs it.
 fn stirring(temperature: f32, agitation: f32) -> f32 {
+    // Not by the excess: at k_v = 0 that of cold liquid is zero as well.
+    if (temperature < BOILING_POINT) { return CALM; }
     let excess = BOILING_INTENSITY * (temperature - BOILING_POINT) / BOILING_POINT;
-    if (excess < 0.0) { return CALM; }
-    if (LITERAL_BOILING) { return -excess; }
+    if (LITERAL_BOILING) { return -excess * CALM; }
     return -bounded_growth(BOILING_POWER * excess * step.time, agitation) / step.viscosity;
 }
 

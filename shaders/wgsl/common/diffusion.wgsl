@@ -3,6 +3,8 @@
 // gets. The printed m_j/ρ_j·4ρ_i/(ρ_i + ρ_j) is not. `chemistry/exchange.rs`
 // is the same in f64, and says why no D, Δt or h makes it unstable.
 
+//!include common/decay.wgsl
+
 /// −x·∇W/(|x|² + 0.01 h²)·h²/σ at q = |x|/h, never negative.
 fn diffusion_weight(q: f32) -> f32 {
     return -spline_slope(q) * q / (q * q + 0.01);
@@ -18,5 +20,5 @@ fn pair_share(rate: f32, weight: f32) -> f32 {
 /// Share of the difference to a wall that fills `volume` of a particle's
 /// support which the particle gives up in a substep.
 fn wall_share(rate: f32, volume: f32) -> f32 {
-    return 1.0 - exp(-rate * (24.0 / (SUPPORT * SUPPORT)) * max(volume, 0.0));
+    return decayed(rate * (24.0 / (SUPPORT * SUPPORT)) * max(volume, 0.0));
 }

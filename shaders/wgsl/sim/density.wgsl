@@ -9,7 +9,7 @@
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(3) var<storage, read> list: array<u32>;
 @group(0) @binding(4) var<storage, read_write> density: array<f32>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(5) var<storage, read> bulk: array<vec4<f32>>;
 /// Whether particles differ in volume and density.
 override DENSITY: bool = false;

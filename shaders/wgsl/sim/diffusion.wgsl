@@ -9,6 +9,7 @@
 //!include common/diffusion.wgsl
 //!include common/thomsen.wgsl
 //!include common/boiling.wgsl
+//!include common/compensated.wgsl
 
 /// Whether heat and acid diffuse; else this pass has no neighbours.
 override DILUTION: bool = false;
@@ -24,11 +25,11 @@ override AMBIENT: f32 = 20.0;
 @group(0) @binding(3) var<storage, read> list: array<u32>;
 /// (∇V, V) of the walls.
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
-/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, –)
+/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, what c lacks)
 @group(0) @binding(5) var<storage, read> heat: array<vec4<f32>>;
 /// (T, c) after diffusion.
 @group(0) @binding(6) var<storage, read_write> diffused: array<vec2<f32>>;
-/// (c before, s_i in J/kg, coefficient of Eq. 17, –)
+/// (c before, s_i in J/kg, coefficient of Eq. 17, what c after diffusion lacks)
 @group(0) @binding(7) var<storage, read_write> mixing: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> counters: Counters;
 
@@ -57,7 +58,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         limited = lane_sum(limited);
     }
     if (lane != 0u) { return; }
-    var after = own.xy + change;
+    let acid = compensated(own.y, own.w, change.y);
+    var after = vec2<f32>(own.x + change.x, acid.x);
     var slope = 0.0;
     if (DILUTION) {
         after.x += (AMBIENT - after.x) * wall_share(step.time * HEAT_DIFFUSION, boundary[i].w);
@@ -67,5 +69,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var coefficient = CALM;
     if (BOILING) { coefficient = stirring(after.x, own.z); }
     diffused[i] = after;
-    mixing[i] = vec4<f32>(own.y, slope, coefficient, 0.0);
+    mixing[i] = vec4<f32>(own.y, slope, coefficient, acid.y);
 }

@@ -39,7 +39,7 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(11) var<storage, read> list_origin: array<vec4<f32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(14) var<storage, read> bulk: array<vec4<f32>>;
 
 fn commit(i: u32, x_star: vec3<f32>) {

@@ -8,6 +8,7 @@
 //!include common/diffusion.wgsl
 //!include common/potential.wgsl
 //!include common/boiling.wgsl
+//!include common/compensated.wgsl
 
 override BOILING: bool = false;
 override EVAPORATION: bool = false;
@@ -43,9 +44,9 @@ override AMBIENT: f32 = 20.0;
 @group(0) @binding(6) var<storage, read> new_velocity: array<vec4<f32>>;
 /// (c, h in J/kg, y, mass over V0·ρ0) of what a particle holds.
 @group(0) @binding(7) var<storage, read_write> matter: array<vec4<f32>>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –)
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack)
 @group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
-/// (α, XSPH coefficient over the substep's, mass, –)
+/// (α, XSPH coefficient over the substep's, mass, what c and h lack)
 @group(0) @binding(8) var<storage, read_write> mixing: array<vec4<f32>>;
 /// By identity: (kinetic energy paid for, heat exchanged, steam's mass and enthalpy), in J and kg
 /// per V0·ρ0.
@@ -56,7 +57,7 @@ override AMBIENT: f32 = 20.0;
 
 /// A pair's share of what the two can hold, and whether it was cut short.
 fn conductance(rate: f32, weight: f32, a: f32, b: f32) -> vec2<f32> {
-    let wanted = rate * (2.0 / (SUPPORT * SUPPORT)) * weight_scale() * weight * (2.0 * (a * b) / (a + b));
+    let wanted = rate * (2.0 / (SUPPORT * SUPPORT)) * weight_scale() * weight * (2.0 * (a * b) / max(a + b, 1e-30));
     let most = min(a, b) / f32(LIST_CAPACITY);
     return vec2<f32>(min(wanted, most), select(0.0, 1.0, wanted > most));
 }
@@ -64,7 +65,7 @@ fn conductance(rate: f32, weight: f32, a: f32, b: f32) -> vec2<f32> {
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
 /// around.
 fn rising() -> f32 {
-    return 1.0 - exp(-step.time * BUBBLE_SPEED / SPACING);
+    return decayed(step.time * BUBBLE_SPEED / SPACING);
 }
 
 /// What of it goes to a neighbour `up` (share of the distance that is upwards): by the kernel, over
@@ -127,13 +128,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var account = ledger[tag.y];
     if (LOSSES) {
         let glass = boundary[i].xyz;
-        let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / own_held.y;
-        let gained = (AMBIENT - own.x) * own_held.y * (1.0 - exp(-rate * step.time));
+        let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(own_held.y, 1e-3);
+        let gained = (AMBIENT - own.x) * own_held.y * decayed(rate * step.time);
         flux.y += gained;
         account.y += gained;
     }
-    content.x = clamp(content.x + flux.x / content.w, 0.0, 1.0);
-    content.y += flux.y / content.w;
+    let lacking = unpack_rests(bulk[i].w);
+    var acid = compensated(content.x, lacking.x, flux.x / content.w);
+    var enthalpy = compensated(content.y, lacking.y, flux.y / content.w);
 
     var budget = 0.0;
     if (BUBBLE_SPEED > 0.0) {
@@ -143,28 +145,37 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let specific = steam_enthalpy(own.x);
         let passed = held_vapour * rising() * bubbles.z;
         let gone = held_vapour * rising() * max(1.0 - bubbles.z / COVERED, 0.0);
-        let mass = content.w + bubbles.x - passed - gone;
-        let vapour = content.z * content.w + bubbles.x - passed - gone;
-        let enthalpy = content.y * content.w + bubbles.y - (passed + gone) * specific;
+        let gained = bubbles.x - passed - gone;
+        let mass = content.w + gained;
+        // What the rounded mass became, and increments: where none rises, c and h keep their bits.
+        let change = mass - content.w;
+        acid = compensated(acid.x, acid.y, -acid.x * change / mass);
+        let carried = bubbles.y - (passed + gone) * specific;
+        enthalpy = compensated(enthalpy.x, enthalpy.y, (carried - enthalpy.x * change) / mass);
         account.z += gone;
         account.w += gone * specific;
         if (BOILING) { budget = AGITATION * (gone / content.w) * (own.x - ABSOLUTE_ZERO); }
-        content = vec4<f32>(content.x * content.w / mass, enthalpy / mass, max(vapour / mass, 0.0), mass);
+        content.z = max((content.z * content.w + gained) / mass, 0.0);
+        content.w = mass;
     }
+    let bounded = clamp(acid.x, 0.0, 1.0);
+    content.x = bounded;
+    content.y = enthalpy.x;
     if (EVAPORATION) {
         content.z += (equilibrium(content.x, content.y, content.z) - content.z)
             * (1.0 - exp(-step.time / SUPERHEAT_TIME));
     }
     matter[i] = content;
     ledger[tag.y] = account;
+    let rests = pack_rests(acid.x - bounded + acid.y, enthalpy.y);
 
     var growth = 0.0;
     if (BOILING) { if (budget > 0.0) { growth = bounded_growth(budget, agitation[tag.y]); } }
     var coefficient = CALM;
     if (VISCOSITY) {
         let diffusivity = viscosity_of(own.y, own.x) / density_of(own.y, own.x);
-        let real = 1.0 - exp(-diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
+        let real = decayed(diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
         coefficient = (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
     }
-    mixing[i] = vec4<f32>(growth, select(coefficient, 0.0, growth > 0.0), content.w, 0.0);
+    mixing[i] = vec4<f32>(growth, select(coefficient, 0.0, growth > 0.0), content.w, rests);
 }

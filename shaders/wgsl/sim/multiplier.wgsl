@@ -37,7 +37,7 @@ override DENSITY: bool = false;
 /// (∇V, V) of the walls at x*.
 @group(0) @binding(7) var<storage, read_write> boundary: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> list_args: array<u32>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(9) var<storage, read> bulk: array<vec4<f32>>;
 
 @compute @workgroup_size(64)

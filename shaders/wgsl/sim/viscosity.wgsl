@@ -13,6 +13,7 @@
 //!include common/diffusion.wgsl
 //!include common/potential.wgsl
 //!include common/predict.wgsl
+//!include common/compensated.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;
@@ -46,10 +47,10 @@ const EPSILON: f32 = 1e-6;
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
 /// (T, c) after diffusion.
 @group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
-/// (c before, s_i in J/kg, coefficient of Eq. 17, –); of the physical
-/// chemistry (α, coefficient, mass, –).
+/// (c before, s_i in J/kg, coefficient of Eq. 17, what c lacks); of the
+/// physical chemistry (α, coefficient, mass, what c and h lack).
 @group(0) @binding(8) var<storage, read> mixing: array<vec4<f32>>;
-/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, –), or a potential.
+/// (T in °C, c, ½ Σ w|v_ij|² in J/kg, what c lacks), or a potential.
 @group(0) @binding(9) var<storage, read_write> heat: array<vec4<f32>>;
 /// (c, h in J/kg, y, mass over V0·ρ0) of what a particle holds.
 @group(0) @binding(10) var<storage, read_write> matter: array<vec4<f32>>;
@@ -57,7 +58,7 @@ const EPSILON: f32 = 1e-6;
 @group(0) @binding(11) var<storage, read_write> ledger: array<vec4<f32>>;
 /// By identity: ½ Σ w|v_ij|², J/kg.
 @group(0) @binding(12) var<storage, read_write> agitations: array<f32>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, –).
+/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 
 /// What Eqs 8 and 11 make of a pair: the heat that i gets of it, J/kg.
@@ -151,11 +152,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (PHYSICAL) {
         if (tag != REMOVED) {
             var content = matter[i];
+            var rests = mixed.w;
             if (BOILING) {
                 // What the impulses gave in kinetic energy is taken from the enthalpy: over a
                 // pair, and so over the liquid, it is what they added.
                 let paid = dot(push, own.xyz) + 0.5 * dot(push, push);
-                content.y -= paid;
+                let lacking = unpack_rests(rests);
+                let enthalpy = compensated(content.y, lacking.y, -paid);
+                content.y = enthalpy.x;
+                rests = pack_rests(lacking.x, enthalpy.y);
                 matter[i] = content;
                 let identity = tags[i].y;
                 ledger[identity].x += content.w * paid;
@@ -163,7 +168,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
             let new_potential = potential(content.x, content.y, content.z, content.w);
             heat[i] = new_potential;
-            var bulky = vec4<f32>(1.0, 1.0, content.w * content.z, 0.0);
+            var bulky = vec4<f32>(1.0, 1.0, content.w * content.z, rests);
             if (DENSITY) {
                 let density = density_of(new_potential.y, new_potential.x) / REST_DENSITY;
                 bulky.x = content.w * (1.0 - content.z) / density;
@@ -173,7 +178,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     } else if (HEAT) {
         let after = diffused[i];
-        heat[i] = vec4<f32>(after.x + HEATING * warmed, after.y, 0.5 * agitation, 0.0);
+        heat[i] = vec4<f32>(after.x + HEATING * warmed, after.y, 0.5 * agitation, mixed.w);
     }
     if (PREDICT) { predict(i, x, v, tag, step.after, step.next); }
 }

@@ -1,11 +1,17 @@
 //! Diffusion between pairs of particles (Eq. 5), stable whatever D, Δt, h.
 
+use super::Chemistry;
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 
 /// Neighbours that a list has room for, over those of an undisturbed lattice:
 /// the liquid may be a third too dense before a neighbour is left out.
 const LIST_HEADROOM: f64 = 1.35;
+
+/// Least volume of a particle over V₀ for which lists have room where density
+/// follows composition: equal volumes of water and acid contract by 8 %, and
+/// what boils loses water.
+const LEAST_VOLUME: f64 = 0.75;
 
 /// h²·∫ 2|x·∇W|/(x² + 0.01h²) dx′ over a solid, per V_b.
 ///
@@ -18,7 +24,12 @@ const WALL_FACTOR: f64 = 24.0;
 pub fn list_capacity(parameters: &Parameters) -> u32 {
     let reach = parameters.support_radius * (1.0 + parameters.list_margin);
     let sphere = 4.0 / 3.0 * std::f64::consts::PI * (reach / parameters.spacing).powi(3);
-    (sphere * LIST_HEADROOM / 8.0).ceil() as u32 * 8
+    let contracts = match &parameters.chemistry {
+        Some(Chemistry::Physical(physical)) => physical.density,
+        _ => false,
+    };
+    let closer = if contracts { 1.0 / LEAST_VOLUME } else { 1.0 };
+    (sphere * LIST_HEADROOM * closer / 8.0).ceil() as u32 * 8
 }
 
 /// The exchange of a substep.

@@ -32,7 +32,7 @@ pub struct Content {
     pub vapour: f64,
 }
 
-/// Vapour that has left a particle.
+/// Vapour on its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Steam {
     /// Its mass, kg.
@@ -130,23 +130,15 @@ impl Content {
         change
     }
 
-    /// Lets the share `share` (0 to 1) of the vapour leave.
-    pub fn release(&mut self, table: &SolutionTable, share: f64) -> Steam {
-        let gone = self.vapour * share;
-        if gone <= 0.0 {
-            return Steam::default();
-        }
-        let specific = steam_enthalpy(self.temperature(table));
-        let steam = Steam {
-            mass: self.mass * gone,
-            enthalpy: self.mass * gone * specific,
-        };
-        let left = 1.0 - gone;
-        self.mass *= left;
-        self.acid /= left;
-        self.enthalpy = (self.enthalpy - gone * specific) / left;
-        self.vapour = (self.vapour - gone) / left;
-        steam
+    /// Vapour that comes; what leaves is negative. No more can leave than is
+    /// there; beyond that it is water that goes.
+    pub fn take_up(&mut self, steam: &Steam) {
+        let mass = self.mass + steam.mass;
+        let vapour = self.mass * self.vapour + steam.mass;
+        self.acid *= self.mass / mass;
+        self.enthalpy = (self.mass * self.enthalpy + steam.enthalpy) / mass;
+        self.vapour = (vapour / mass).max(0.0);
+        self.mass = mass;
     }
 }
 

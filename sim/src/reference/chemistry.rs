@@ -1,15 +1,16 @@
 //! What a scene's chemistry keeps per particle, and its part of a substep.
 
 use super::boiling::Coefficients;
+use super::bubbles::{Bubbles, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::retain;
 use super::surroundings::WallSum;
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Flux, Losses, Mixing, Potential, contact_area, flux};
-use crate::chemistry::{OutOfRange, check_content, paper};
-use crate::parameters::Parameters;
+use crate::chemistry::transport::{Flux, Potential, contact_area, flux};
+use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
+use crate::parameters::{Parameters, XSPH_MOMENT};
 use glam::DVec3;
 
 /// What is modelled beyond a fluid with viscosity.
@@ -34,6 +35,7 @@ impl Chemistry {
                 retain(&mut physical.contents, keep);
                 retain(&mut physical.agitation, keep);
                 retain(&mut physical.budgets, keep);
+                retain(&mut physical.viscosities, keep);
             }
         }
     }
@@ -151,26 +153,11 @@ pub struct Ledger {
     pub kinetic: f64,
 }
 
-/// Constants of the physical chemistry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhysicalLaw {
-    /// Mixing below the particles' size.
-    pub mixing: Mixing,
-    /// Heat that leaves; none in an insulated vessel.
-    pub losses: Option<Losses>,
-    /// Time constant of boiling and condensing, s.
-    pub settling: f64,
-    /// Time constant with which bubbles leave, s.
-    pub escape: f64,
-    /// η.
-    pub work_share: f64,
-}
-
 /// The physical chemistry.
 #[derive(Clone, Debug)]
 pub struct Physical {
     /// Its constants.
-    pub law: PhysicalLaw,
+    pub law: Law,
     /// Properties of the liquid.
     pub table: SolutionTable,
     /// What each particle holds.
@@ -179,6 +166,8 @@ pub struct Physical {
     pub agitation: Vec<f64>,
     /// What may become motion in this substep, J/kg.
     pub budgets: Vec<f64>,
+    /// ν at the substep's start, m²/s; 0 where it does not follow composition.
+    pub viscosities: Vec<f64>,
     /// Balance since the start.
     pub ledger: Ledger,
 }
@@ -189,11 +178,7 @@ impl Physical {
     ///
     /// # Errors
     /// [`OutOfRange`] for what no liquid has.
-    pub fn new(
-        law: PhysicalLaw,
-        volume: f64,
-        particles: &[(f64, f64)],
-    ) -> Result<Self, OutOfRange> {
+    pub fn new(law: Law, volume: f64, particles: &[(f64, f64)]) -> Result<Self, OutOfRange> {
         let table = SolutionTable::new();
         let content = |&(temperature, acid): &(f64, f64)| {
             let mass = volume * table.at(acid).density_at(temperature);
@@ -207,6 +192,7 @@ impl Physical {
             law,
             agitation: vec![0.0; contents.len()],
             budgets: vec![0.0; contents.len()],
+            viscosities: vec![0.0; contents.len()],
             contents,
             table,
             ledger: Ledger::default(),
@@ -214,15 +200,16 @@ impl Physical {
     }
 
     /// Line 26: acid and enthalpy between particles, heat to what is around,
-    /// boiling. `surfaces` are each particle's areas of glass and of free
-    /// surface, m².
+    /// bubbles that rise, boiling. `surfaces` are each particle's areas of
+    /// glass and of free surface, m².
     pub fn dilute(
         &mut self,
         pairs: &Pairs,
-        (support, time): (f64, f64),
+        parameters: &Parameters,
         velocities: &[DVec3],
         surfaces: &[(f64, f64)],
     ) {
+        let (support, time) = (parameters.support_radius, parameters.substep_time());
         let potentials: Vec<_> = self
             .contents
             .iter()
@@ -240,6 +227,10 @@ impl Physical {
                 &potentials[j],
             )
         });
+        let rises = match self.law.bubble_speed {
+            None => vec![Rise::default(); self.contents.len()],
+            Some(speed) => Bubbles::new(parameters, speed).rise(pairs, &self.contents, &potentials),
+        };
         for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
             let (glass, surface) = surfaces[i];
             let gained = self.law.losses.map_or(0.0, |losses| {
@@ -249,28 +240,53 @@ impl Physical {
             let content = &mut self.contents[i];
             content.acid += acid / content.mass;
             content.enthalpy += (enthalpy + gained) / content.mass;
-            let evaporated = content.boil(&self.table, time, self.law.settling);
-            let temperature = content.temperature(&self.table);
-            self.budgets[i] = motion_budget(self.law.work_share, evaporated, temperature);
-            let share = -(-time / self.law.escape).exp_m1();
-            let steam = content.release(&self.table, share);
-            self.ledger.steam.mass += steam.mass;
-            self.ledger.steam.enthalpy += steam.enthalpy;
+            let Rise { gained, gone } = rises[i];
+            // Only where bubbles leave does their vapour push the liquid out of
+            // the air's way.
+            let share = self.law.work_share.unwrap_or(0.0);
+            let temperature = potentials[i].temperature;
+            self.budgets[i] = motion_budget(share, gone.mass / content.mass, temperature);
+            content.take_up(&gained);
+            self.ledger.steam.mass += gone.mass;
+            self.ledger.steam.enthalpy += gone.enthalpy;
+            if let Some(settling) = self.law.superheat_time {
+                content.boil(&self.table, time, settling);
+            }
+            if self.law.viscosity {
+                let row = self.table.at(potentials[i].acid);
+                self.viscosities[i] = row.viscosity_at(temperature) / row.density_at(temperature);
+            }
         }
     }
 
-    /// μ_i and α_i of line 27: the budget over the agitation, bounded.
+    /// V_i, m³, and ρ₀/ρ_i of the liquid for ρ₀ = `rest_density` (kg/m³).
+    pub fn bulk(&self, rest_density: f64) -> (Vec<f64>, Vec<f64>) {
+        let of = |content: &Content| {
+            let volume = content.liquid_volume(&self.table);
+            (volume, rest_density * volume / content.liquid_mass())
+        };
+        self.contents.iter().map(of).unzip()
+    }
+
+    /// μ_i and α_i of line 27: the budget over the agitation, bounded; the
+    /// scene's viscosity and the liquid's one after the other.
     pub fn coefficients(&self, parameters: &Parameters) -> Coefficients {
         let usual = parameters.substep_viscosity();
+        let per_area =
+            parameters.substep_time() / (XSPH_MOMENT * parameters.support_radius.powi(2));
         let growth: Vec<_> = self
             .budgets
             .iter()
             .zip(&self.agitation)
             .map(|(&budget, &agitation)| paper::bounded_growth(budget, agitation))
             .collect();
-        let viscosity = growth
-            .iter()
-            .map(|&growth| if growth > 0.0 { 0.0 } else { usual });
+        let viscosity = growth.iter().zip(&self.viscosities).map(|(&growth, nu)| {
+            if growth > 0.0 {
+                0.0
+            } else {
+                1.0 - (1.0 - usual) * (-nu * per_area).exp()
+            }
+        });
         Coefficients {
             viscosity: viscosity.collect(),
             growth,

@@ -11,12 +11,12 @@ use glam::DVec3;
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
 
-/// ρ_i/ρ₀ = V₀W(0) + Σ_j V₀W_ij + V_b (Eq. 1 with m = ρ₀V₀), the particle
+/// ρ_i/ρ₀ = V_i·W(0) + Σ_j V_j·W_ij + V_b (Eq. 1 with m = ρ₀V₀), the particle
 /// itself included: without it a liquid at rest would be compressed by a
-/// third.
+/// third. Where `volumes` (m³) differ it is the share of space that is filled.
 pub fn densities(
     kernel: &Kernel,
-    volume: f64,
+    volumes: &[f64],
     positions: &[DVec3],
     neighbours: &Neighbours,
     walls: &[WallSum],
@@ -24,9 +24,9 @@ pub fn densities(
     let density = |i: usize| {
         let around: f64 = neighbours
             .of(i)
-            .map(|j| kernel.w(positions[i].distance(positions[j])))
+            .map(|j| volumes[j] * kernel.w(positions[i].distance(positions[j])))
             .sum();
-        volume * (kernel.w(0.0) + around) + walls[i].volume
+        volumes[i] * kernel.w(0.0) + around + walls[i].volume
     };
     (0..positions.len()).map(density).collect()
 }
@@ -54,7 +54,9 @@ pub fn multipliers(
     }
 }
 
-/// Δx_i = Σ_j (Δλ_i + Δλ_j)·V₀∇W_ij + Δλ_i·∇V_b, metres.
+/// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres, for
+/// `volumes` V_i (m³) and `lightness` ρ₀/ρ_i: the same pressure moves what is
+/// light further, and a pair's momenta stay opposite.
 ///
 /// The wall's term has Δλ_i once: it is the gradient of C_i, so that no work
 /// is created. Mirroring it (2 Δλ_i), as Akinci et al. 2012 do with the
@@ -62,7 +64,7 @@ pub fn multipliers(
 /// growing, against 0.016 m/s and falling).
 pub fn displacements(
     kernel: &Kernel,
-    volume: f64,
+    (volumes, lightness): (&[f64], &[f64]),
     positions: &[DVec3],
     ids: &[u32],
     neighbours: &Neighbours,
@@ -74,10 +76,10 @@ pub fn displacements(
             .of(i)
             .map(|j| {
                 let gradient = gradient(kernel, positions[i] - positions[j], ids[i], ids[j]);
-                gradient * (volume * (change[i] + change[j]))
+                gradient * (volumes[j] * (change[i] + change[j]))
             })
             .sum();
-        by_liquid + walls[i].gradient * change[i]
+        (by_liquid + walls[i].gradient * change[i]) * lightness[i]
     };
     (0..positions.len()).map(displacement).collect()
 }

@@ -8,6 +8,7 @@
 //! cache.
 
 pub mod boiling;
+pub mod bubbles;
 pub mod chemistry;
 pub mod density;
 pub mod dilution;
@@ -184,16 +185,34 @@ impl Reference {
         let walls = self
             .surroundings
             .sums(positions, &self.membership, &self.motion);
-        let volume = self.parameters.particle_volume();
-        density::densities(&self.kernel(), volume, positions, neighbours, &walls)
+        let (volumes, _) = self.bulk();
+        density::densities(&self.kernel(), &volumes, positions, neighbours, &walls)
+    }
+
+    /// V_i, m³, and ρ₀/ρ_i of every particle: V₀ and 1 where density does not
+    /// follow composition.
+    fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
+        match &self.chemistry {
+            Some(Chemistry::Physical(physical)) if physical.law.density => {
+                physical.bulk(self.parameters.rest_density)
+            }
+            _ => {
+                let count = self.positions.len();
+                (
+                    vec![self.parameters.particle_volume(); count],
+                    vec![1.0; count],
+                )
+            }
+        }
     }
 
     /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask.
     pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
         let walls = self.surroundings.sums(at, &self.membership, &self.motion);
+        let (volumes, lightness) = self.bulk();
         let displacements = density::displacements(
             &self.kernel(),
-            self.parameters.particle_volume(),
+            (&volumes, &lightness),
             at,
             &self.ids,
             neighbours,

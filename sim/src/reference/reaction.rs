@@ -40,11 +40,7 @@ impl Reference {
                     apart.normalize_or_zero() * (volume * kernel.dw(apart.length()))
                 });
                 let surfaces = surfaces(volume, &walls, &slopes);
-                let scales = (
-                    self.parameters.support_radius,
-                    self.parameters.substep_time(),
-                );
-                physical.dilute(&pairs, scales, &self.velocities, &surfaces);
+                physical.dilute(&pairs, &self.parameters, &self.velocities, &surfaces);
             }
         }
         self.chemistry = Some(chemistry);

@@ -16,7 +16,7 @@ pub(super) struct Start {
     pub heat: [f32; 4],
     /// c, h (J/kg), y, mass over V0·ρ0.
     pub matter: [f32; 4],
-    /// Volume over V0, ρ0 over density, vapour over V0·ρ0, and nothing.
+    /// Volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack.
     pub bulk: [f32; 4],
 }
 

@@ -35,7 +35,7 @@ pub struct SolverState {
     pub ledger: Vec<[f32; 4]>,
     /// ½ Σ w|v_ij|² of the last substep, J/kg, by identity.
     agitation: Vec<f32>,
-    /// (volume over V0, ρ0 over density, vapour over V0·ρ0, –) by slot.
+    /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     bulk: Vec<[f32; 4]>,
     /// Predicted positions when the list was built.
     list_origin: Vec<[f32; 4]>,
