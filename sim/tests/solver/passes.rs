@@ -96,7 +96,7 @@ fn shaders_bind_what_the_scene_has() {
 }
 
 /// Labels of the passes of one frame, in their order.
-fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
+pub fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
     let device = gpu::another_device(|options| options.timestamps = true);
     let solver = setup.solver(&device);
     let mut rec = device.recorder(QueueKind::Main).unwrap();
