@@ -3,7 +3,7 @@
 
 use super::setup::*;
 use crate::common::*;
-use crate::passes::passes;
+use crate::passes::{PASSES, bindings, passes};
 use vitriol_sim::chemistry::Chemistry;
 use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::parameters::Parameters;
@@ -101,6 +101,46 @@ fn water_and_water_have_no_heat() {
     assert!(solver.heat().is_none());
     let state = solver.snapshot().unwrap();
     assert!(state.heat.is_empty() && state.matter.is_empty() && state.ledger.is_empty());
+}
+
+/// No pass touches what its scene has not.
+#[test]
+fn passes_bind_the_chemistry_of_their_scene() {
+    let of_any = ["heat", "sorted_heat", "mixing"];
+    let of_paper = ["diffused"];
+    let of_physical = [
+        "matter",
+        "sorted_matter",
+        "bulk",
+        "sorted_bulk",
+        "ledger",
+        "agitations",
+        "solution",
+    ];
+    let all = [&of_any[..], &of_paper, &of_physical].concat();
+    let mut seen: Vec<String> = Vec::new();
+    for shader in PASSES {
+        let last = [("COMMIT", 1.0), ("LOADS", 1.0), ("FLASKS", 1.0)];
+        let mut bound = |own: &[(&str, f64)]| {
+            let bound = bindings(shader, &[&last[..], own].concat());
+            let bound: Vec<_> = bound.into_iter().filter(|n| all.contains(&&**n)).collect();
+            seen.extend(bound.clone());
+            bound
+        };
+        let none = bound(&[]);
+        assert!(none.is_empty(), "{shader}: {none:?}");
+        let heat = bound(&[("HEAT", 1.0), ("DILUTION", 1.0), ("BOILING", 1.0)]);
+        let others = heat.iter().find(|name| of_physical.contains(&&***name));
+        assert_eq!(others, None, "{shader}");
+        let physical = [("HEAT", 1.0), ("PHYSICAL", 1.0), ("BOILING", 1.0)];
+        let physical = bound(&[&physical[..], &[("DENSITY", 1.0)]].concat());
+        let others = physical.iter().find(|name| of_paper.contains(&&***name));
+        assert_eq!(others, None, "{shader}");
+    }
+    // Names that are in none would have proved nothing.
+    for name in all {
+        assert!(seen.iter().any(|n| n == name), "{name}");
+    }
 }
 
 /// Bytes a particle: what each chemistry has, and none of the other's.
