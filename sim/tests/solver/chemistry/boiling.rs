@@ -50,7 +50,6 @@ fn the_stated_power_is_injected_whatever_the_substeps() {
     let stated = 0.5 * REFERENCE_POWER * 2.0 / 60.0;
     for substeps in 2..=8 {
         let gained = gain(Boiling::Power, substeps, 1.0);
-        println!("{substeps}: {}", gained / stated);
         assert!(
             (gained / stated - 1.0).abs() < 0.2,
             "{substeps}: {gained} {stated}"
@@ -61,7 +60,6 @@ fn the_stated_power_is_injected_whatever_the_substeps() {
 #[test]
 fn the_literal_equation_depends_on_the_substeps() {
     let gains = [2, 8].map(|substeps| gain(Boiling::Literal, substeps, 1.0));
-    println!("{gains:?}");
     assert!(gains[1] > 4.0 * gains[0] && gains[0] > 0.0, "{gains:?}");
 }
 
@@ -71,7 +69,6 @@ fn one_substep_stays_bounded() {
     let stated = 0.5 * REFERENCE_POWER * 2.0 / 60.0;
     for speed in [0.01, 0.3, 1.0, 2.0, 4.0] {
         let gained = gain(Boiling::Power, 1, speed);
-        println!("{speed}: {}", gained / stated);
         // By half more than stated: e_i is that of a frame ago, in which a
         // particle goes by more than its spacing.
         assert!(gained < 1.5 * stated, "{speed}: {gained} {stated}");
@@ -81,6 +78,5 @@ fn one_substep_stays_bounded() {
     let solver = soup(Boiling::Power, 1, 0.01).solver(&device);
     frames(&device, &solver, &[], 60);
     let end = energy(&solver.snapshot().unwrap());
-    println!("{end}");
     assert!(end < 0.5 * REFERENCE_POWER, "{end}");
 }

@@ -64,7 +64,6 @@ fn acid_does_not_drift_where_the_liquid_is_stirred() {
             no_list_was_full(&solver);
             let end = solver.snapshot().unwrap();
             let drift = acid(&end) / acid(&start) - 1.0;
-            println!("{lanes}: {drift:e} {:?}", solver.counters().unwrap());
             assert!(drift.abs() < 1e-6, "{lanes}: {drift}");
             assert!(in_range(&end));
         }
@@ -96,7 +95,6 @@ fn acid_does_not_drift_where_hardly_any_diffuses() {
         let drift = acid(&end) / acid(&start) - 1.0;
         let gained = end.heat.iter().filter(|row| row[1] > 0.0 && row[1] < 0.1);
         let gained = gained.count();
-        println!("{drift:e} {gained}");
         // Water next to the acid has gained some.
         assert!(gained > 40 || gravity != 0.0, "{gained}");
         // The sum is of numbers that were rounded once, at the end.
@@ -146,7 +144,6 @@ fn no_diffusivity_makes_new_extremes() {
             assert!(bounds.1.contains(&acid), "{times}: {acid}");
         }
         let limited = solver.counters().unwrap().diffusion_limited;
-        println!("{times}: {limited}");
         assert_eq!(limited > 0, times > 0.5, "{times}: {limited}");
         let spread = state.heat.iter().fold([1.0f32, 0.0], |[low, high], row| {
             [low.min(row[1]), high.max(row[1])]

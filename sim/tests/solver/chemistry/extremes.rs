@@ -23,7 +23,6 @@ fn run(chemistry: &Chemistry, of: impl Fn(usize) -> (f64, f64)) -> (Counters, Ve
     frames(&device, &solver, &[Pose::IDENTITY], 6);
     let state = solver.snapshot().unwrap();
     let counters = solver.counters().unwrap();
-    println!("{counters:?}");
     assert_eq!(counters.nan_particles, 0, "{chemistry:?}");
     for found in particles_of(&state) {
         assert!(found.present && found.position.is_finite(), "{found:?}");

@@ -136,7 +136,6 @@ fn density_of_one_liquid_at_rest_density() {
     let apart = without.iter().zip(&with_density);
     let apart = apart.map(|(a, b)| a.position.distance(b.position));
     let error = apart.fold(0.0, f64::max);
-    println!("{error}");
     // Two substeps of rounding, as in `leaning_glass`.
     assert!(error < 2e-7, "{error}");
 }

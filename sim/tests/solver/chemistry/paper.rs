@@ -76,7 +76,6 @@ fn against_the_reference() {
         let chemistry = paper(Some(dilution()), Some(anti_viscosity(law)));
         for lanes in lanes(&gpu::device()) {
             let one = errors(with(chemistry.clone(), single_substeps()), lanes);
-            println!("{law:?} {one:?}");
             // T near 150 has its last bit at 1.5e-5 K, and gets some twenty
             // terms of a kelvin.
             assert!(one.inner < 1e-4, "{law:?} {lanes} {one:?}");
@@ -89,7 +88,6 @@ fn against_the_reference() {
             let [heated, diluted, pushed] = one.changed;
             assert!(heated > 2.0 && diluted > 3e-3 && pushed > 0.02, "{one:?}");
             let frame = errors(with(chemistry.clone(), parameters()), lanes);
-            println!("{law:?} {frame:?}");
             // Twelve substeps. Errors of velocity grow as in
             // `against_reference`, more where it boils, and by the last bits
             // of who is at T_B; half a percent of all that changes.
@@ -132,7 +130,6 @@ fn pair_heats_sum_to_the_change_of_enthalpy() {
         let released = heat(&after.heat) - heat(&before.heat);
         let warming = sum(&after.heat, |row| row[0]) - sum(&before.heat, |row| row[0]);
         let error = warming / (released * per_joule) - 1.0;
-        println!("{lanes}: {warming} {error}");
         // 1e-4 is asked for; there are 240 substeps of additions in f32.
         assert!(error.abs() < 1e-4, "{lanes}: {warming} {released} {error}");
         assert!(warming > 729.0, "{warming}");

@@ -81,7 +81,6 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
 fn against_the_reference() {
     for lanes in lanes(&gpu::device()) {
         let one = errors(everything(), single_substeps(), lanes, 1);
-        println!("{one:?}");
         let [acid, enthalpy, vapour, mass] = one.matter;
         // Masses and capacities are of 11 bits: 5e-4 of what a pair
         // exchanges, some 1e-3 of c and 1 kJ/kg.
@@ -96,7 +95,6 @@ fn against_the_reference() {
         assert!(one.changed[2] > 1e-4, "{one:?}");
         for count in [2, 12] {
             let more = errors(everything(), single_substeps(), lanes, count);
-            println!("{more:?}");
             // Errors of velocity grow as in `against_reference`, and
             // anti-viscosity adds to them.
             let grown = if count == 2 { 4.0 } else { 80.0 };
@@ -140,10 +138,6 @@ fn the_ledger_closes_while_it_boils() {
         let [kinetic, exchanged, steam, left] = [0, 1, 2, 3].map(|k| sum(&state.ledger, |r| r[k]));
         let open = enthalpy(&state.matter) + left + kinetic - exchanged - enthalpy(&before);
         let scale = sum(&before, |row| (row[1] * row[3]).abs());
-        println!(
-            "{lanes}: open {} of {scale}, {kinetic} {exchanged} {steam} {left}",
-            open / scale
-        );
         assert!((open / scale).abs() < 1e-4, "{lanes}: {open} of {scale}");
         let lost = mass(&before) - mass(&state.matter);
         // Masses step by 1.2e-7 in each of 360 substeps.
@@ -190,7 +184,6 @@ fn motion_is_paid_for() {
         frames(&device, &solver, &[], 1);
         let (energy, taken) = kinetic();
         let ratio = (energy - start) / taken;
-        println!("{start} {energy} {taken} {ratio}");
         // Steam takes its share of the motion along, 2 % of the mass.
         assert!(ratio < 1.0 + 1e-4 && ratio > 0.9, "{ratio}");
         assert!(taken > 0.05 * start, "{taken} of {start}");
@@ -236,7 +229,6 @@ fn the_order_of_pouring_does_not_matter() {
     let formula = mix(&table, &[feed(300.0, 0.0), feed(150.0, 0.98)]).unwrap();
     for heat in &ends {
         let mean = [0, 1].map(|k| sum(heat, |row| row[k]) / heat.len() as f64);
-        println!("{mean:?} {formula:?}");
         for &[temperature, acid, ..] in heat {
             // What the stirring left uneven.
             let off = (f64::from(temperature) - formula.temperature_unboiled).abs();
