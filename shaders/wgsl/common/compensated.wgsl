@@ -2,11 +2,18 @@
 // the next one: acid that diffuses through liquid at rest comes by 1e-8 of a
 // substep, which is gone beside c = 0.9 (its last bit is 6e-8) and not beside
 // c = 0, so that the liquid would gain acid.
+//!include common/step.wgsl
+
+/// A sum as it was rounded. Compilers may take (x + w) − x for w, and Mesa's
+/// does; they do not know that no scene has 2³¹ poses.
+fn rounded(sum: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(sum) ^ (step.next >> 31u));
+}
 
 /// (x + change, rounded; what that lacks) for x that lacks `rest`.
 fn compensated(x: f32, rest: f32, change: f32) -> vec2<f32> {
     let wanted = change + rest;
-    let sum = x + wanted;
+    let sum = rounded(x + wanted);
     return vec2<f32>(sum, wanted - (sum - x));
 }
 

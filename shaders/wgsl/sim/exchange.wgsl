@@ -146,7 +146,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let passed = held_vapour * rising() * bubbles.z;
         let gone = held_vapour * rising() * max(1.0 - bubbles.z / COVERED, 0.0);
         let gained = bubbles.x - passed - gone;
-        let mass = content.w + gained;
+        let mass = rounded(content.w + gained);
         // What the rounded mass became, and increments: where none rises, c and h keep their bits.
         let change = mass - content.w;
         acid = compensated(acid.x, acid.y, -acid.x * change / mass);

@@ -5,6 +5,7 @@
 
 mod against_reference;
 mod chaos;
+mod chemistry;
 mod common;
 mod forces;
 mod leaning_glass;

@@ -7,7 +7,7 @@ use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_tests::gpu;
 
-const PASSES: [ShaderId; 13] = [
+pub const PASSES: [ShaderId; 13] = [
     sim::PREDICT,
     sim::CELL_COUNT,
     sim::CELL_SCAN,
@@ -24,7 +24,7 @@ const PASSES: [ShaderId; 13] = [
 ];
 
 /// Names of the buffers that a pass binds under these constants.
-fn bindings(shader: ShaderId, constants: &[(&str, f64)]) -> Vec<String> {
+pub fn bindings(shader: ShaderId, constants: &[(&str, f64)]) -> Vec<String> {
     let library = Library::watching();
     let declared = library.constants(&shader).unwrap();
     let own: Vec<_> = constants
@@ -96,7 +96,7 @@ fn shaders_bind_what_the_scene_has() {
 }
 
 /// Labels of the passes of one frame, in their order.
-fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
+pub fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
     let device = gpu::another_device(|options| options.timestamps = true);
     let solver = setup.solver(&device);
     let mut rec = device.recorder(QueueKind::Main).unwrap();

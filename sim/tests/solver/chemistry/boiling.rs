@@ -1,0 +1,82 @@
+//! Anti-viscosity of the paper's chemistry (Eq. 17).
+
+use super::setup::*;
+use crate::common::*;
+use vitriol_sim::chemistry::paper::{Boiling, REFERENCE_POWER};
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::SolverState;
+use vitriol_tests::gpu;
+
+/// Soup at 150 °C without weight, too thin to push: line 27 is alone.
+fn soup(law: Boiling, substeps: u32, speed: f64) -> Setup {
+    let p = Parameters {
+        substeps,
+        gravity: [0.0; 3],
+        ..with(
+            paper(None, Some(anti_viscosity(law))),
+            Parameters::from_scene(&Scene::load("tomato-soup").unwrap()),
+        )
+    };
+    let mut particles = loose(9, p.spacing, &mut Random(5), speed);
+    fill(&mut particles, |_| (150.0, 0.0));
+    Setup::new(p, Vec::new(), particles)
+}
+
+/// ½ Σ v², J/kg.
+fn energy(state: &SolverState) -> f64 {
+    let squares = sum(&state.velocities, |[x, y, z, _]| x * x + y * y + z * z);
+    0.5 * squares / state.velocities.len() as f64
+}
+
+/// What two frames add, J/kg, from when each particle knows what moves
+/// around it, `speed` m/s at the start.
+fn gain(law: Boiling, substeps: u32, speed: f64) -> f64 {
+    let device = gpu::device();
+    let solver = soup(law, substeps, speed).solver(&device);
+    let mut state = solver.snapshot().unwrap();
+    state.heat.iter_mut().for_each(|row| row[2] = 1e30);
+    solver.restore(&state).unwrap();
+    frames(&device, &solver, &[], 1);
+    let before = energy(&solver.snapshot().unwrap());
+    frames(&device, &solver, &[], 2);
+    assert_eq!(solver.counters().unwrap().speed_limited, 0);
+    energy(&solver.snapshot().unwrap()) - before
+}
+
+#[test]
+fn the_stated_power_is_injected_whatever_the_substeps() {
+    // 150 °C at k_v = 1: P = 0.5 P₀.
+    let stated = 0.5 * REFERENCE_POWER * 2.0 / 60.0;
+    for substeps in 2..=8 {
+        let gained = gain(Boiling::Power, substeps, 1.0);
+        assert!(
+            (gained / stated - 1.0).abs() < 0.2,
+            "{substeps}: {gained} {stated}"
+        );
+    }
+}
+
+#[test]
+fn the_literal_equation_depends_on_the_substeps() {
+    let gains = [2, 8].map(|substeps| gain(Boiling::Literal, substeps, 1.0));
+    assert!(gains[1] > 4.0 * gains[0] && gains[0] > 0.0, "{gains:?}");
+}
+
+/// One substep a frame, from nearly at rest and from a storm.
+#[test]
+fn one_substep_stays_bounded() {
+    let stated = 0.5 * REFERENCE_POWER * 2.0 / 60.0;
+    for speed in [0.01, 0.3, 1.0, 2.0, 4.0] {
+        let gained = gain(Boiling::Power, 1, speed);
+        // By half more than stated: e_i is that of a frame ago, in which a
+        // particle goes by more than its spacing.
+        assert!(gained < 1.5 * stated, "{speed}: {gained} {stated}");
+    }
+    // A second of it.
+    let device = gpu::device();
+    let solver = soup(Boiling::Power, 1, 0.01).solver(&device);
+    frames(&device, &solver, &[], 60);
+    let end = energy(&solver.snapshot().unwrap());
+    assert!(end < 0.5 * REFERENCE_POWER, "{end}");
+}

@@ -1,0 +1,11 @@
+//! Lines 26 and 27 of a liquid with a chemistry, the paper's and the physical one.
+
+mod boiling;
+mod conserved;
+mod extremes;
+mod idle;
+mod paper;
+mod physical;
+mod repeat;
+mod scenes;
+mod setup;

@@ -1,0 +1,242 @@
+//! The physical chemistry by the f64 reference, and by the balance of what
+//! goes in.
+
+use super::setup::*;
+use crate::common::*;
+use crate::leaning_glass::*;
+use vitriol_sim::chemistry::adiabatic::{Feed, mix};
+use vitriol_sim::chemistry::table::SolutionTable;
+use vitriol_sim::chemistry::transport::Mixing;
+use vitriol_sim::chemistry::{Chemistry, Physical};
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::reference::chemistry as reference;
+use vitriol_tests::gpu;
+
+/// Largest differences after `frames` frames of `law`, and the largest
+/// changes: of c, h (J/kg), y and the mass over V0·ρ0, T (K), v (m/s).
+#[derive(Debug)]
+struct Errors {
+    matter: [f64; 4],
+    changed: [f64; 4],
+    temperature: f64,
+    velocity: f64,
+    /// J and kg per kg of a particle at rest density: (kinetic, exchanged,
+    /// steam, its enthalpy), by the GPU and by the reference.
+    ledger: [[f64; 4]; 2],
+}
+
+fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Errors {
+    let device = gpu::device();
+    let setup = Setup {
+        lanes: Some(lanes),
+        ..leaning_scene(with(Chemistry::Physical(law), parameters))
+    };
+    let poses = [glass_pose()];
+    let solver = setup.solver(&device);
+    let before = solver.snapshot().unwrap();
+    let start = by_identity(&before, &before.matter);
+    let mut truth = leaning_reference(&setup, &poses);
+    for _ in 0..count {
+        frame(&device, &solver, &poses, &poses);
+        truth.step(&poses, &poses);
+    }
+    no_limiter_acted(&solver);
+    let state = solver.snapshot().unwrap();
+    let found = particles(&state);
+    let matter = by_identity(&state, &state.matter);
+    let heat = by_identity(&state, &state.heat);
+    let Some(reference::Chemistry::Physical(physical)) = &truth.chemistry else {
+        panic!("has the physical chemistry")
+    };
+    let unit = setup.parameters.particle_mass();
+    let theirs = |i: usize| {
+        let c = &physical.contents[i];
+        [c.acid, c.enthalpy, c.vapour, c.mass / unit]
+    };
+    let all = 0..found.len();
+    let matters = |of: &dyn Fn(usize) -> [f64; 4]| {
+        [0, 1, 2, 3].map(|k| worst(all.clone(), |i| (matter[i][k] - of(i)[k]).abs()).0)
+    };
+    let ledger = physical.ledger;
+    let own = [0, 1, 2, 3].map(|k| sum(&state.ledger, |row| row[k]));
+    let steam = ledger.steam;
+    let theirs_ledger = [ledger.kinetic, ledger.exchanged, steam.mass, steam.enthalpy];
+    Errors {
+        matter: matters(&theirs),
+        changed: matters(&|i| start[i]),
+        temperature: worst(all.clone(), |i| {
+            let truth = physical.contents[i].temperature(&physical.table);
+            (heat[i][0] - truth).abs()
+        })
+        .0,
+        velocity: worst(all, |i| found[i].velocity.distance(truth.velocities[i])).0,
+        ledger: [own, theirs_ledger.map(|value| value / unit)],
+    }
+}
+
+/// A substep, in which all but the bubbles has something to do; two, with
+/// them; a frame.
+#[test]
+fn against_the_reference() {
+    for lanes in lanes(&gpu::device()) {
+        let one = errors(everything(), single_substeps(), lanes, 1);
+        let [acid, enthalpy, vapour, mass] = one.matter;
+        // Masses and capacities are of 11 bits: 5e-4 of what a pair
+        // exchanges, some 1e-3 of c and 1 kJ/kg.
+        assert!(acid < 2e-6, "{lanes} {one:?}");
+        assert!(enthalpy < 2.0, "{lanes} {one:?}");
+        assert!(one.temperature < 2e-3, "{lanes} {one:?}");
+        // h's last bit is 0.03 J/kg of 2 MJ/kg; y by Newton's iteration in
+        // f32.
+        assert!(vapour < 1e-6 && mass < 2e-7, "{lanes} {one:?}");
+        assert!(one.velocity < PLACE / SUBSTEP, "{lanes} {one:?}");
+        assert!(one.changed[0] > 5e-4 && one.changed[1] > 500.0, "{one:?}");
+        assert!(one.changed[2] > 1e-4, "{one:?}");
+        for count in [2, 12] {
+            let more = errors(everything(), single_substeps(), lanes, count);
+            // Errors of velocity grow as in `against_reference`, and
+            // anti-viscosity adds to them.
+            let grown = if count == 2 { 4.0 } else { 80.0 };
+            let [acid, enthalpy, vapour, mass] = more.matter;
+            assert!(acid < grown * 2e-6, "{lanes} {more:?}");
+            assert!(enthalpy < grown * 2.0, "{lanes} {more:?}");
+            assert!(vapour < grown * 1e-6, "{lanes} {more:?}");
+            assert!(mass < grown * 1e-6, "{lanes} {more:?}");
+            let velocity = grown * PLACE / SUBSTEP;
+            assert!(more.velocity < velocity, "{lanes} {more:?}");
+            assert!(more.changed[3] > 1e-5, "{more:?}");
+            let [own, theirs] = more.ledger;
+            for (own, theirs) in own.iter().zip(theirs) {
+                assert!(theirs != 0.0, "{more:?}");
+                // The wall is where it was before the last displacement.
+                let error = (own / theirs - 1.0).abs();
+                assert!(error < 0.01, "{lanes} {count} {more:?}");
+            }
+        }
+    }
+}
+
+/// What boils in the glass: initial + exchanged = held + steam + kinetic.
+#[test]
+fn the_ledger_closes_while_it_boils() {
+    let device = gpu::device();
+    let p = with(Chemistry::Physical(everything()), parameters());
+    let particles = glass_of(600, |height| (115.0, 0.6 * (1.0 - height)));
+    let setup = Setup::new(p, vec![narrow_glass()], particles);
+    for lanes in lanes(&device) {
+        let solver = Setup {
+            lanes: Some(lanes),
+            ..setup.clone()
+        }
+        .solver(&device);
+        let enthalpy = |rows: &[[f32; 4]]| sum(rows, |row| row[1] * row[3]);
+        let mass = |rows: &[[f32; 4]]| sum(rows, |row| row[3]);
+        let before = solver.snapshot().unwrap().matter;
+        frames(&device, &solver, &[Pose::IDENTITY], 30);
+        let state = solver.snapshot().unwrap();
+        let [kinetic, exchanged, steam, left] = [0, 1, 2, 3].map(|k| sum(&state.ledger, |r| r[k]));
+        let open = enthalpy(&state.matter) + left + kinetic - exchanged - enthalpy(&before);
+        let scale = sum(&before, |row| (row[1] * row[3]).abs());
+        assert!((open / scale).abs() < 1e-4, "{lanes}: {open} of {scale}");
+        let lost = mass(&before) - mass(&state.matter);
+        // Masses step by 1.2e-7 in each of 360 substeps.
+        assert!(
+            (lost - steam).abs() < 1e-6 * mass(&before),
+            "{lost} {steam}"
+        );
+        // All of the entries are such as would be missed.
+        assert!(left > 1e-3 * scale && exchanged < -1e-3 * scale, "{left}");
+        assert!(kinetic > 0.0 && steam > 1e-3 * mass(&before), "{steam}");
+        assert_eq!(solver.counters().unwrap().nan_particles, 0);
+    }
+}
+
+/// Where nothing else changes velocities, the kinetic energy is what was
+/// taken from the enthalpy for it.
+#[test]
+fn motion_is_paid_for() {
+    let device = gpu::device();
+    let p = Parameters {
+        gravity: [0.0; 3],
+        viscosity: 0.0,
+        ..with(
+            Chemistry::Physical(Physical {
+                viscosity: false,
+                ..boiling()
+            }),
+            parameters(),
+        )
+    };
+    let mut particles = loose(7, D, &mut Random(5), 0.1);
+    fill(&mut particles, |_| (112.0, 0.2));
+    let solver = Setup::new(p, Vec::new(), particles).solver(&device);
+    let kinetic = || {
+        let state = solver.snapshot().unwrap();
+        let energy = (0..state.tags.len()).map(|slot| {
+            let [x, y, z, _] = state.velocities[slot].map(f64::from);
+            0.5 * state.mass_of(slot) * (x * x + y * y + z * z)
+        });
+        (energy.sum::<f64>(), sum(&state.ledger, |row| row[0]))
+    };
+    let (start, _) = kinetic();
+    for _ in 0..4 {
+        frames(&device, &solver, &[], 1);
+        let (energy, taken) = kinetic();
+        let ratio = (energy - start) / taken;
+        // Steam takes its share of the motion along, 2 % of the mass.
+        assert!(ratio < 1.0 + 1e-4 && ratio > 0.9, "{ratio}");
+        assert!(taken > 0.05 * start, "{taken} of {start}");
+    }
+}
+
+/// A stirred glass, insulated: the balance's end state, whichever was below.
+#[test]
+fn the_order_of_pouring_does_not_matter() {
+    let device = gpu::device();
+    let table = SolutionTable::new();
+    // Mixing by eddies as fast as pairs may: the end is what is asked for.
+    let law = Physical {
+        mixing: Mixing {
+            turbulence: 10.0,
+            lewis: 0.7,
+        },
+        density: true,
+        ..mixing_alone()
+    };
+    let p = with(Chemistry::Physical(law), parameters());
+    let ends = [true, false].map(|acid_below| {
+        let mut particles = glass_of(450, |_| (20.0, 0.0));
+        particles.sort_by(|a, b| a.position.y.total_cmp(&b.position.y));
+        if !acid_below {
+            particles.reverse();
+        }
+        fill(&mut particles[..150], |_| (20.0, 0.98));
+        let solver = Setup::new(p.clone(), vec![narrow_glass()], particles).solver(&device);
+        let mut random = Random(11);
+        for _ in 0..60 {
+            stir(&device, &solver, &mut random, 0.3);
+        }
+        let counters = solver.counters().unwrap();
+        assert_eq!((counters.list_overflows, counters.nan_particles), (0, 0));
+        solver.snapshot().unwrap().heat
+    });
+    let feed = |volume: f64, acid: f64| Feed {
+        mass: volume * table.at(acid).density_at(20.0),
+        acid,
+        temperature: 20.0,
+    };
+    let formula = mix(&table, &[feed(300.0, 0.0), feed(150.0, 0.98)]).unwrap();
+    for heat in &ends {
+        let mean = [0, 1].map(|k| sum(heat, |row| row[k]) / heat.len() as f64);
+        for &[temperature, acid, ..] in heat {
+            // What the stirring left uneven.
+            let off = (f64::from(temperature) - formula.temperature_unboiled).abs();
+            assert!(off < 0.5, "{temperature} {formula:?}");
+            let off = (f64::from(acid) - formula.acid).abs();
+            assert!(off < 5e-3, "{acid} {formula:?}");
+        }
+        // Rounding of h.
+        assert!((mean[0] - formula.temperature_unboiled).abs() < 0.02);
+    }
+}

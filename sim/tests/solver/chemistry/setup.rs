@@ -1,0 +1,195 @@
+//! Liquids with a chemistry for both solvers.
+
+use crate::common::*;
+use crate::leaning_glass;
+use glam::DVec3;
+use vitriol_gpu::Gpu;
+use vitriol_sim::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
+use vitriol_sim::chemistry::transport::{Losses, Mixing};
+use vitriol_sim::chemistry::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::reference::Reference;
+use vitriol_sim::reference::chemistry as reference;
+use vitriol_sim::solver::{Particle, Solver, SolverState};
+
+/// Table 1 at real size: a pair's share of a substep and the heat of a
+/// particle as in the paper's world.
+pub fn dilution() -> PaperDilution {
+    PaperDilution {
+        ambient: 20.0,
+        heat_diffusivity: 1.5e-4,
+        acid_diffusivity: 1.05e-4,
+        heat_generation: 136.0,
+    }
+}
+
+pub fn anti_viscosity(law: Boiling) -> PaperBoiling {
+    PaperBoiling {
+        boiling_point: 100.0,
+        intensity: 1.0,
+        law,
+    }
+}
+
+pub fn paper(dilution: Option<PaperDilution>, boiling: Option<PaperBoiling>) -> Chemistry {
+    Chemistry::Paper(Paper { dilution, boiling })
+}
+
+/// Nothing but mixing: an insulated vessel whose liquid does not boil.
+pub fn mixing_alone() -> Physical {
+    Physical {
+        mixing: Mixing::default(),
+        density: false,
+        viscosity: false,
+        superheat_time: None,
+        bubble_speed: None,
+        work_share: None,
+        losses: None,
+    }
+}
+
+/// All of it, as the built-in scenes have it, but insulated.
+pub fn boiling() -> Physical {
+    Physical {
+        density: true,
+        viscosity: true,
+        superheat_time: Some(0.01),
+        bubble_speed: Some(0.25),
+        work_share: Some(0.003),
+        ..mixing_alone()
+    }
+}
+
+/// All of it, and losses a hundred times those to air, so that they are seen.
+pub fn everything() -> Physical {
+    Physical {
+        losses: Some(Losses {
+            ambient: 20.0,
+            glass: 1200.0,
+            surface: 1200.0,
+        }),
+        ..boiling()
+    }
+}
+
+pub fn with(chemistry: impl Into<Option<Chemistry>>, parameters: Parameters) -> Parameters {
+    Parameters {
+        chemistry: chemistry.into(),
+        ..parameters
+    }
+}
+
+/// Gives each particle the (temperature, acid fraction) of its place, as f32.
+pub fn fill(particles: &mut [Particle], of: impl Fn(DVec3) -> (f64, f64)) {
+    for particle in particles {
+        let (temperature, acid) = of(particle.position);
+        particle.temperature = f64::from(temperature as f32);
+        particle.acid = f64::from(acid as f32);
+    }
+}
+
+/// The leaning glass with water over acid, mixed where they meet, and hot in
+/// the middle.
+pub fn leaning_scene(parameters: Parameters) -> Setup {
+    let mut setup = leaning_glass::scene(parameters);
+    fill(&mut setup.particles, |at| {
+        let height = ((at.y - 0.006) / 0.012).clamp(0.0, 1.0);
+        let middle = (-(at.y - 0.014).powi(2) / 2e-5).exp();
+        (20.0 + 130.0 * middle, 0.98 * (1.0 - height))
+    });
+    setup
+}
+
+/// The reference of `setup` in the leaning glass, with its chemistry.
+pub fn leaning_reference(setup: &Setup, poses: &[Pose]) -> Reference {
+    let mut truth = leaning_glass::reference(setup, poses);
+    let p = &setup.parameters;
+    let particles: Vec<_> = setup
+        .particles
+        .iter()
+        .map(|particle| (particle.temperature, particle.acid))
+        .collect();
+    truth.chemistry = match p.chemistry.as_ref().unwrap() {
+        Chemistry::Paper(paper) => {
+            let law = paper.dilution.map(|d| reference::DilutionLaw {
+                heat: Dilution::new(d.heat_generation, p.particle_mass()),
+                temperature_diffusivity: d.heat_diffusivity,
+                acid_diffusivity: d.acid_diffusivity,
+                ambient: d.ambient,
+                scheme: Diffusion::Conservative,
+            });
+            let boiling = paper.boiling.map(|b| {
+                let law = AntiViscosity::new(b.boiling_point, b.intensity).unwrap();
+                (law, b.law)
+            });
+            let paper = reference::Paper::new(law, boiling, &particles).unwrap();
+            Some(reference::Chemistry::Paper(paper))
+        }
+        Chemistry::Physical(law) => {
+            let physical = reference::Physical::new(*law, p.particle_volume(), &particles);
+            Some(reference::Chemistry::Physical(Box::new(physical.unwrap())))
+        }
+    };
+    truth
+}
+
+/// 1, and as many lanes as a GPU takes for a small scene, if the device can.
+pub fn lanes(gpu: &Gpu) -> Vec<u32> {
+    if gpu.info().features.subgroups {
+        vec![1, 8]
+    } else {
+        vec![1]
+    }
+}
+
+/// `rows` by slot in the order of the particles' identities.
+pub fn by_identity(state: &SolverState, rows: &[[f32; 4]]) -> Vec<[f64; 4]> {
+    let mut sorted = vec![[f64::NAN; 4]; rows.len()];
+    for (row, tag) in rows.iter().zip(&state.tags) {
+        sorted[tag[1] as usize] = row.map(f64::from);
+    }
+    sorted
+}
+
+/// Σ of `of` over the rows.
+pub fn sum(rows: &[[f32; 4]], of: impl Fn([f64; 4]) -> f64) -> f64 {
+    rows.iter().map(|row| of(row.map(f64::from))).sum()
+}
+
+/// Particles of a glass that stands upright, filled by `of` of the height
+/// over the filling's, 0 to 1.
+pub fn glass_of(count: usize, of: impl Fn(f64) -> (f64, f64)) -> Vec<Particle> {
+    let mut particles = water(&narrow_glass(), 0, Pose::IDENTITY, count);
+    let top = particles.iter().fold(0.0, |a: f64, p| a.max(p.position.y));
+    fill(&mut particles, |at| of(at.y / top));
+    particles
+}
+
+/// A glass of half acid, half water, and the frame in which it is stirred by
+/// giving every particle another velocity, up to `speed` m/s.
+pub fn stir(gpu: &Gpu, solver: &Solver, random: &mut Random, speed: f64) {
+    let mut state = solver.snapshot().unwrap();
+    for velocity in &mut state.velocities {
+        let [x, y, z] = random.point(speed).as_vec3().to_array();
+        *velocity = [x, y, z, velocity[3]];
+    }
+    solver.restore(&state).unwrap();
+    frames(gpu, solver, &[Pose::IDENTITY], 1);
+}
+
+/// A loose lattice of `side`³ particles in the open, 1.2 `spacing` apart: too
+/// thin for the density solve, so that line 27 alone changes velocities.
+pub fn loose(side: u32, spacing: f64, random: &mut Random, speed: f64) -> Vec<Particle> {
+    (0..side.pow(3))
+        .map(|i| {
+            let site = DVec3::new(
+                (i % side).into(),
+                (i / side % side).into(),
+                (i / side / side).into(),
+            );
+            let position = site * (1.2 * spacing);
+            drop_at(position, random.point(speed).as_vec3().as_dvec3())
+        })
+        .collect()
+}
