@@ -140,3 +140,18 @@ fn blame(error: TrackError) -> Failure {
         _ => Failure::Input(error.into()),
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_sim::scene::Scene;
+
+    #[test]
+    fn each_built_in_track_names_a_built_in_scene() {
+        for name in builtin::NAMES {
+            let scene = look_into(name).unwrap().scene;
+            assert!(Scene::builtin_names().contains(&scene.as_str()), "{name}");
+        }
+    }
+}

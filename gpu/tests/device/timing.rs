@@ -8,7 +8,7 @@ use crate::common::{DOUBLE, assert_silent, compile, open, open_with};
 fn every_pass_is_timed_under_its_label() {
     let gpu = open_with(|options| options.timestamps = true);
     let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
-    let count = 1_000_000_u32;
+    let count = 4_000_000_u32;
     let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 4 * u64::from(count)).unwrap());
     let [c, d] = ["c", "d"].map(|l| Buffer::storage(&gpu, l, 256).unwrap());
     let [mut large, mut small, mut closing] = [f64::INFINITY; 3];
@@ -50,9 +50,10 @@ fn every_pass_is_timed_under_its_label() {
         small = small.min(time(2));
         closing = closing.min(1.0 - sum / time(603));
     }
-    // 15,625 times the work, with a margin of 1,000 for fixed costs. The best
-    // of several, since other tests share the processor.
-    assert!(large > 10.0 * small, "{large} ns against {small} ns");
+    // 62,500 times the work; on a large GPU 12 µs for a quarter of it against
+    // 3 µs, which are a dispatch's fixed cost. The best of several, since other
+    // tests share the processor.
+    assert!(large > 4.0 * small, "{large} ns against {small} ns");
     // The stamps abut; only what closes the submission is nobody's.
     assert!(closing < 0.1, "{closing} of the total");
     assert_silent(&gpu);

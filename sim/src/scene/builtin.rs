@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 9] = [
+pub(super) const BUILTIN: [(&str, &str); 10] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -17,6 +17,10 @@ pub(super) const BUILTIN: [(&str, &str); 9] = [
         include_str!("../../scenes/triple-dilution.toml"),
     ),
     ("tomato-soup", include_str!("../../scenes/tomato-soup.toml")),
+    (
+        "three-flasks",
+        include_str!("../../scenes/three-flasks.toml"),
+    ),
     (
         "water-into-acid",
         include_str!("../../scenes/water-into-acid.toml"),

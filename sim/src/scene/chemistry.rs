@@ -165,15 +165,22 @@ pub(super) fn check_features(
             return Err(Problem::new(format!("model[{i}]"), problem));
         }
     }
-    let chemical = model.contains(&Feature::Heat);
+    let chemical = model
+        .iter()
+        .find(|feature| !matches!(feature, Feature::Cohesion | Feature::Vorticity));
     match (paper, physical) {
         (Some(_), Some(_)) => {
             let problem = "the scene has [paper] and [physical]; keep one chemistry";
             return Err(Problem::new("physical", problem.to_owned()));
         }
-        (None, None) if chemical => {
-            let problem = "missing; `model` names \"heat\", which needs [paper] or [physical]";
-            return Err(Problem::new("paper", problem.to_owned()));
+        (None, None) => {
+            if let Some(feature) = chemical {
+                let problem = format!(
+                    "missing; `model` names {:?}, which needs [paper] or [physical]",
+                    feature.name()
+                );
+                return Err(Problem::new("paper", problem));
+            }
         }
         _ => {}
     }

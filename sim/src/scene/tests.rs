@@ -90,7 +90,27 @@ fn malformed_scenes_name_file_field_and_remedy() {
         (
             "model = []",
             "model = [\"boiling\"]",
-            &["paper.T_B", "missing"],
+            &["paper", "missing", "boiling", "[physical]"],
+        ),
+        (
+            "[floor]",
+            "[paper]\nT_a = 20.0\n[physical]\nambient = 20.0\n[floor]",
+            &["physical", "keep one chemistry"],
+        ),
+        (
+            "[floor]",
+            "[physical]\nlewis = 1.43\n[floor]",
+            &["physical.lewis", "between 0 and 1"],
+        ),
+        (
+            "[floor]",
+            "[paper]\nT_B = 0.0\n[floor]",
+            &["paper.T_B", "above 0"],
+        ),
+        (
+            "[floor]",
+            "[physical]\nambient = 20.0\n[floor]",
+            &["physical.ambient", "not used", "heat"],
         ),
         (
             "viscosity = 0.1",

@@ -22,6 +22,11 @@ pub struct SolverState {
     /// (membership, identity) by slot: 0 for nobody's, k + 1 for flask k's,
     /// `u32::MAX` for one taken out; and the particle's index at the start.
     pub tags: Vec<[u32; 2]>,
+    /// Predicted positions when the list was built.
+    list_origin: Vec<[f32; 4]>,
+    list_counts: Vec<u32>,
+    list: Vec<u32>,
+    counters: Vec<u32>,
     /// (temperature in °C, acid mass fraction, …) by slot; empty where no heat
     /// is modelled.
     pub heat: Vec<[f32; 4]>,
@@ -37,11 +42,6 @@ pub struct SolverState {
     agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     bulk: Vec<[f32; 4]>,
-    /// Predicted positions when the list was built.
-    list_origin: Vec<[f32; 4]>,
-    list_counts: Vec<u32>,
-    list: Vec<u32>,
-    counters: Vec<u32>,
 }
 
 /// Membership of a particle that was taken out.

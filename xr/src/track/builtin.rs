@@ -6,7 +6,13 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 4] = ["two-flasks", "shake", "three-flasks", "slow-pour"];
+pub const NAMES: [&str; 5] = [
+    "two-flasks",
+    "shake",
+    "three-flasks",
+    "slow-pour",
+    "hands-off",
+];
 
 /// The keyframe file of the built-in track `name`.
 pub fn text(name: &str) -> Option<&'static str> {
@@ -15,6 +21,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "shake" => Some(include_str!("../../tracks/shake.toml")),
         "three-flasks" => Some(include_str!("../../tracks/three-flasks.toml")),
         "slow-pour" => Some(include_str!("../../tracks/slow-pour.toml")),
+        "hands-off" => Some(include_str!("../../tracks/hands-off.toml")),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which
 //! viewers draw without being told how. [`Keyframes`] is the short text form that people
-//! write, and [`builtin`] holds three tracks made from it.
+//! write, and [`builtin`] holds the tracks made from it.
 
 pub mod builtin;
 mod check;

@@ -173,7 +173,7 @@ fn each_is_valid_and_survives_conversion() {
     let dir = tempfile::tempdir().unwrap();
     for name in builtin::NAMES {
         let track = load(name).unwrap();
-        assert_eq!(track.metadata.scene, name);
+        assert!(!track.metadata.scene.is_empty(), "{name}");
         let file = dir.path().join(format!("{name}.mcap"));
         convert(name, &file, Existing::Refuse).unwrap();
         assert_eq!(Track::open(&file).unwrap(), track);
