@@ -151,3 +151,31 @@ fn no_diffusivity_makes_new_extremes() {
         assert_eq!(spread[0] == 0.1 && spread[1] == 0.98, times == 0.0);
     }
 }
+
+/// The same of the physical one: a liquid of one composition, some of it hot,
+/// whose eddies mix up to ten thousand times as fast as they should.
+#[test]
+fn no_eddies_make_new_extremes() {
+    let device = gpu::device();
+    for times in [0.0, 1.0, 1e4] {
+        let mut law = mixing_alone();
+        law.mixing.turbulence *= times;
+        let p = with(Chemistry::Physical(law), parameters());
+        let particles = glass_of(400, |height| (if height < 0.5 { 80.0 } else { 20.0 }, 0.4));
+        let solver = Setup::new(p, vec![narrow_glass()], particles).solver(&device);
+        let mut random = Random(6);
+        for _ in 0..4 {
+            stir(&device, &solver, &mut random, 0.5);
+        }
+        let state = solver.snapshot().unwrap();
+        for &[temperature, acid, ..] in &state.heat {
+            // T is found from h, whose last bit is 0.03 J/kg: 1e-5 K in each
+            // of 48 substeps.
+            let range = 20.0 - 1e-3..=80.0 + 1e-3;
+            assert!(range.contains(&temperature), "{times}: {temperature}");
+            assert!((acid - 0.4).abs() < 1e-6, "{times}: {acid}");
+        }
+        let limited = solver.counters().unwrap().diffusion_limited;
+        assert_eq!(limited > 0, times > 0.0, "{times}: {limited}");
+    }
+}

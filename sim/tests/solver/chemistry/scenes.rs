@@ -60,6 +60,7 @@ fn each_scene_has_its_passes_and_no_other() {
         ("beaker", None),
         ("two-flasks", None),
         ("moving-flask", None),
+        ("three-flasks", None),
         ("single-dilution", Some("diffusion")),
         ("triple-dilution", Some("diffusion")),
         ("vr-dilution", Some("diffusion")),
