@@ -12,7 +12,7 @@ override BOILING_INTENSITY: f32 = 0.0;
 /// Eq. 17 as printed, per substep however long that is.
 override LITERAL_BOILING: bool = false;
 /// P₀: power at twice T_B and k_v = 1, W/kg.
-override BOILING_POWER: f32 = 30.0;
+override BOILING_POWER: f32 = 400.0;
 /// Coefficient of what does not boil: 1, or 0 where the liquid has no viscosity.
 override CALM: f32 = 1.0;
 /// Most that is added to a relative velocity in a substep, as a share: with
@@ -34,7 +34,7 @@ fn stirring(temperature: f32, agitation: f32) -> f32 {
     if (temperature < BOILING_POINT) { return CALM; }
     let excess = BOILING_INTENSITY * (temperature - BOILING_POINT) / BOILING_POINT;
     if (LITERAL_BOILING) { return -excess * CALM; }
-    return -bounded_growth(BOILING_POWER * excess * step.time, agitation) / step.viscosity;
+    return -bounded_growth(BOILING_POWER * excess * excess * step.time, agitation) / step.viscosity;
 }
 
 /// ν·Δt/h² that an XSPH coefficient of 1 amounts to: half of the cubic spline's second moment.

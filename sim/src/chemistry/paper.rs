@@ -10,10 +10,12 @@ const EPSILON: f64 = 1e-6;
 /// P₀: specific power at twice T_B and k_v = 1, W/kg, in a world of the
 /// paper's size.
 ///
-/// Chosen such that Fig. 7's soup at the paper's 3 × 2 moves as under Eq. 17
-/// as printed: that gives it 105 J at k_v = 0.75 and 250 J at 0.9, in a
-/// steady state; this 170 and 200.
-pub const REFERENCE_POWER: f64 = 8.0;
+/// Eq. 17 as printed injects in proportion to the superheat and to the
+/// energy that is there, which itself grows with the superheat; hence the
+/// square in [`AntiViscosity::power`]. Of one constant for both, 400 lets
+/// Fig. 7's soup (10 K above T_B) simmer and Fig. 6's acid (50 to 150 K
+/// above) splash.
+pub const REFERENCE_POWER: f64 = 400.0;
 
 /// Most that anti-viscosity adds to a particle's relative velocity in a
 /// substep, as a share. It decides where little moves yet, and for how long
@@ -132,7 +134,7 @@ impl AntiViscosity {
 
     /// P_i, W/kg: what is injected into a particle of `temperature` (°C).
     pub fn power(&self, temperature: f64) -> f64 {
-        REFERENCE_POWER * self.excess(temperature)
+        REFERENCE_POWER * self.excess(temperature).powi(2)
     }
 
     /// α_i = min(0.3, P_i·Δt/e_i): strength with which relative velocities
