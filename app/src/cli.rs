@@ -54,6 +54,8 @@ pub enum Command {
     /// The collapse of a column of water against Martin and Moyce's
     /// measurements of 1952
     DamBreak(DamBreakArgs),
+    /// Mix water and acid in a closed, insulated vessel until it is even
+    Calorimeter(CalorimeterArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
 }
@@ -181,6 +183,84 @@ pub struct DamBreakArgs {
     /// Trade of speed for accuracy
     #[arg(long, value_enum, default_value_t)]
     pub preset: PresetName,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Which liquid is in the vessel when the other one comes in on top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum OrderName {
+    /// Acid onto water
+    #[default]
+    WaterFirst,
+    /// Water onto acid
+    AcidFirst,
+}
+
+impl OrderName {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WaterFirst => "water-first",
+            Self::AcidFirst => "acid-first",
+        }
+    }
+}
+
+/// The chemistries that have real amounts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum RealChemistry {
+    /// Enthalpy, evaporation and densities from tables
+    #[default]
+    Physical,
+}
+
+/// Arguments of `vitriol calorimeter`.
+#[derive(Debug, Args)]
+pub struct CalorimeterArgs {
+    /// Water, millilitres
+    #[arg(long, value_name = "ML", allow_negative_numbers = true)]
+    pub water_ml: f64,
+    /// Acid, millilitres
+    #[arg(long, value_name = "ML", allow_negative_numbers = true)]
+    pub acid_ml: f64,
+    /// Acid in it, per cent by mass
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 98.0,
+        allow_negative_numbers = true
+    )]
+    pub acid_percent: f64,
+    /// Temperature of the water, °C
+    #[arg(
+        long,
+        value_name = "C",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub water_c: f64,
+    /// Temperature of the acid, °C
+    #[arg(
+        long,
+        value_name = "C",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub acid_c: f64,
+    /// Which liquid is in the vessel when the other one comes in on top
+    #[arg(long, value_enum, default_value_t)]
+    pub order: OrderName,
+    /// Chemistry: the paper's has no real amounts
+    #[arg(long, value_enum, default_value_t)]
+    pub chemistry: RealChemistry,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
+    /// Seed of the particles' initial jitter
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

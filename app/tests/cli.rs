@@ -77,6 +77,21 @@ fn help_names_every_subcommand_and_its_options() {
         ("bench", &["--scene", "--paper", "--frames", "--device"]),
         ("fig5", &["--out", "--device"]),
         ("dam-break", &["--out", "--preset", "--device"]),
+        (
+            "calorimeter",
+            &[
+                "--water-ml",
+                "--acid-ml",
+                "--acid-percent",
+                "--water-c",
+                "--acid-c",
+                "--order",
+                "--chemistry",
+                "--preset",
+                "--seed",
+                "--device",
+            ],
+        ),
         ("doctor", &[]),
     ] {
         assert!(all.contains(command), "{all}");
@@ -107,7 +122,64 @@ fn bad_arguments_are_refused() {
     refuses(&["replay", "nowhere.mcap"], &["nowhere.mcap", "two-flasks"]);
     refuses(&["bench", "--frames", "0"], &["--frames"]);
     refuses(&["bench", "--paper", "--scene", "x"], &["--paper"]);
+    let calorimeter = |more: &[&str], parts: &[&str]| {
+        let amounts = ["calorimeter", "--water-ml", "10", "--acid-ml", "10"];
+        refuses(&[&amounts, more].concat(), parts);
+    };
+    refuses(&["calorimeter", "--water-ml", "10"], &["--acid-ml"]);
+    for (water, acid, part) in [
+        ("0", "0", "0 mL in all"),
+        ("-1", "10", "--water-ml -1"),
+        ("10", "nan", "--acid-ml NaN"),
+        ("1e30", "1", "1000000000"),
+    ] {
+        let amounts = ["calorimeter", "--water-ml", water, "--acid-ml", acid];
+        refuses(&amounts, &[part]);
+    }
+    calorimeter(&["--acid-percent", "101"], &["--acid-percent 101"]);
+    calorimeter(&["--water-c", "101"], &["--water-c 101", "100 °C"]);
+    calorimeter(&["--acid-c", "-1"], &["--acid-c -1", "333 °C"]);
+    calorimeter(&["--chemistry", "paper"], &["paper", "physical"]);
+    calorimeter(&["--order", "both"], &["both", "water-first"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_calorimeter_of_one_liquid_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = object(
+        folder.path(),
+        &[
+            "calorimeter",
+            "--preset",
+            "fast",
+            "--water-ml",
+            "0",
+            "--acid-ml",
+            "50",
+            "--acid-percent",
+            "30",
+            "--acid-c",
+            "60",
+        ],
+    );
+    let number = |key: &str| told[key].as_f64().unwrap();
+    // f32 of what went in.
+    assert!((number("final_c") - 60.0).abs() < 1e-3, "{told}");
+    assert!((number("mass_percent") - 30.0).abs() < 1e-4, "{told}");
+    // 1.191 g/mL at 60 °C (the table of densities).
+    assert!((number("mass_g") - 59.55).abs() < 0.01, "{told}");
+    for key in [
+        "evaporated_g",
+        "time_to_even_s",
+        "peak_superheat_k",
+        "mass_drift",
+        "acid_drift",
+        "enthalpy_drift",
+        "lost_particles",
+    ] {
+        assert_eq!(number(key), 0.0, "{key}: {told}");
+    }
 }
 
 #[test]

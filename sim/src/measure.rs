@@ -1,5 +1,9 @@
 //! What a report says of a world at one moment.
 
+mod heat;
+
+pub use heat::{HeatMeasurement, Ledger, Superheat, measure as measure_heat};
+
 use crate::flask::Region;
 use crate::scene::Scene;
 use crate::solver::SolverState;

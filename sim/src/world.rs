@@ -287,9 +287,12 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
     }
 }
 
-/// The liquid at the start, under the pressure of its depth: from none, the
-/// column would first be squeezed while its multipliers build up.
-fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
+/// The liquid of a scene at the start, under the pressure of its depth: from
+/// none, the column would first be squeezed while its multipliers build up.
+///
+/// # Errors
+/// [`FillError`] where a liquid does not fit.
+pub fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
     let start = scene.start(Some(seed))?;
     let table = scene.models(Feature::Density).then(SolutionTable::new);
     let rest_density = scene.scale.rest_density;

@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 pub mod bench;
+pub mod calorimeter;
 pub mod dam_break;
 pub mod doctor;
 pub mod fig5;
@@ -26,6 +27,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Scenes => scenes::run(format),
         Command::Fig5(args) => fig5::run(args, format),
         Command::DamBreak(args) => dam_break::run(args, format),
+        Command::Calorimeter(args) => calorimeter::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }

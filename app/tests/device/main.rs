@@ -2,6 +2,7 @@
 //! validation layer on.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod calorimeter;
 mod camera;
 mod common;
 mod dam_break;

@@ -1,0 +1,219 @@
+//! What the particles of a scene with heat hold, all together and at their
+//! extremes.
+
+use super::percentile;
+use crate::chemistry::Chemistry;
+use crate::chemistry::table::SolutionTable;
+use crate::parameters::Parameters;
+use crate::solver::SolverState;
+use serde::Serialize;
+
+/// Temperature, composition and, of the physical chemistry, enthalpy of the
+/// liquid at one moment. Means are by mass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HeatMeasurement {
+    /// Mean temperature, °C.
+    pub temperature_mean: f64,
+    /// Standard deviation of the temperature, K.
+    pub temperature_spread: f64,
+    /// 99th percentile of the temperature over particles, °C.
+    pub temperature_p99: f64,
+    /// Highest temperature, °C.
+    pub temperature_max: f64,
+    /// Mean acid mass fraction.
+    pub acid_mean: f64,
+    /// Standard deviation of the acid fraction.
+    pub acid_spread: f64,
+    /// Least acid fraction.
+    pub acid_min: f64,
+    /// Largest acid fraction.
+    pub acid_max: f64,
+    /// Temperature above the boiling point, where there is one.
+    pub superheat: Option<Superheat>,
+    /// What the liquid holds and what became of it, of the physical chemistry.
+    pub ledger: Option<Ledger>,
+}
+
+/// Temperature above the boiling point: T_B of the paper, or that of each
+/// particle's composition.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Superheat {
+    /// Largest, K; negative where nothing is above its boiling point.
+    pub max: f64,
+    /// Particles above it.
+    pub particles: u64,
+}
+
+/// Mass and energy of the physical chemistry. Enthalpies are relative to the
+/// pure liquids at 25 °C.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Ledger {
+    /// Mass of liquid and of vapour that is still in it, kg.
+    pub mass: f64,
+    /// Mass of acid, kg.
+    pub acid: f64,
+    /// Mass of vapour that is still in the liquid, kg.
+    pub vapour: f64,
+    /// Enthalpy that is held, J.
+    pub held: f64,
+    /// Heat gained from around, J; negative where it was lost.
+    pub exchanged: f64,
+    /// Mass of the steam that left, kg.
+    pub steam: f64,
+    /// Enthalpy that it took along, J.
+    pub steam_enthalpy: f64,
+    /// Enthalpy that was paid for motion, J.
+    pub kinetic: f64,
+    /// Σ m|h|, J: what an error is compared with.
+    pub turnover: f64,
+}
+
+impl Ledger {
+    /// held + steam + kinetic − exchanged, J: what does not change.
+    pub fn balance(&self) -> f64 {
+        self.held + self.steam_enthalpy + self.kinetic - self.exchanged
+    }
+
+    /// What the balance is off from that of `start`, over the enthalpy that
+    /// was there, or over what warms as much water by 1 K where that is more.
+    pub fn closure(&self, start: &Self) -> f64 {
+        let least = start.mass * WATER_KELVIN;
+        (self.balance() - start.balance()) / start.turnover.max(least).max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Heat that warms water by 1 K at 20 °C, J/kg.
+const WATER_KELVIN: f64 = 4184.0;
+
+/// Measures a state; `None` where no heat is modelled. Masses are in kg of
+/// the scene, particles that were taken out do not count.
+pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasurement> {
+    let boils = Boils::of(parameters.chemistry.as_ref()?);
+    let present: Vec<usize> = (0..state.heat.len())
+        .filter(|&slot| state.is_present(slot))
+        .collect();
+    let of = |axis: usize| {
+        let values = present.iter().map(|&slot| {
+            let value = state.heat[slot][axis];
+            (state.mass_of(slot), f64::from(value))
+        });
+        Spread::of(values)
+    };
+    let (temperature, acid) = (of(0), of(1));
+    let mut sorted: Vec<f32> = present.iter().map(|&slot| state.heat[slot][0]).collect();
+    sorted.sort_by(f32::total_cmp);
+    Some(HeatMeasurement {
+        temperature_mean: temperature.mean,
+        temperature_spread: temperature.deviation,
+        temperature_p99: percentile(&sorted, 0.99),
+        temperature_max: temperature.max,
+        acid_mean: acid.mean,
+        acid_spread: acid.deviation,
+        acid_min: acid.min,
+        acid_max: acid.max,
+        superheat: boils.superheat(state, &present),
+        ledger: ledger(state, &present, parameters.particle_mass()),
+    })
+}
+
+/// Of values with weights; all zero without any.
+#[derive(Clone, Copy, Default)]
+struct Spread {
+    mean: f64,
+    deviation: f64,
+    min: f64,
+    max: f64,
+}
+
+impl Spread {
+    fn of(values: impl Iterator<Item = (f64, f64)> + Clone) -> Self {
+        let weight: f64 = values.clone().map(|(weight, _)| weight).sum();
+        if weight <= 0.0 {
+            return Self::default();
+        }
+        let mean = values.clone().map(|(w, value)| w * value).sum::<f64>() / weight;
+        let square = |(w, value): (f64, f64)| w * (value - mean).powi(2);
+        let extreme = |start: f64, pick: fn(f64, f64) -> f64| {
+            values.clone().map(|(_, value)| value).fold(start, pick)
+        };
+        Self {
+            mean,
+            deviation: (values.clone().map(square).sum::<f64>() / weight).sqrt(),
+            min: extreme(f64::INFINITY, f64::min),
+            max: extreme(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+/// What a particle's boiling point follows from.
+enum Boils {
+    Never,
+    At(f64),
+    ByComposition(Box<SolutionTable>),
+}
+
+impl Boils {
+    fn of(chemistry: &Chemistry) -> Self {
+        match chemistry {
+            Chemistry::Paper(paper) => paper
+                .boiling
+                .map_or(Self::Never, |boiling| Self::At(boiling.boiling_point)),
+            Chemistry::Physical(_) => Self::ByComposition(Box::default()),
+        }
+    }
+
+    fn superheat(&self, state: &SolverState, present: &[usize]) -> Option<Superheat> {
+        let point = |slot: usize| match self {
+            Self::Never => None,
+            Self::At(point) => Some(*point),
+            // A particle's acid fraction there is that of its liquid.
+            Self::ByComposition(table) => Some(table.at(state.heat[slot][1].into()).boiling_point),
+        };
+        let mut found: Option<Superheat> = None;
+        for &slot in present {
+            let superheat = f64::from(state.heat[slot][0]) - point(slot)?;
+            let so_far = found.get_or_insert(Superheat {
+                max: superheat,
+                particles: 0,
+            });
+            so_far.max = so_far.max.max(superheat);
+            so_far.particles += u64::from(superheat > 0.0);
+        }
+        found
+    }
+}
+
+fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<Ledger> {
+    if state.matter.is_empty() {
+        return None;
+    }
+    let mut sum = Ledger::default();
+    for &slot in present {
+        let [acid, enthalpy, vapour, mass] = state.matter[slot].map(f64::from);
+        sum.mass += mass;
+        sum.acid += mass * acid;
+        sum.vapour += mass * vapour;
+        sum.held += mass * enthalpy;
+        sum.turnover += mass * enthalpy.abs();
+    }
+    // Also of particles that were taken out: what they spent is spent.
+    for &entry in &state.ledger {
+        let [kinetic, exchanged, steam, steam_enthalpy] = entry.map(f64::from);
+        sum.kinetic += kinetic;
+        sum.exchanged += exchanged;
+        sum.steam += steam;
+        sum.steam_enthalpy += steam_enthalpy;
+    }
+    let m = particle_mass;
+    Some(Ledger {
+        mass: m * sum.mass,
+        acid: m * sum.acid,
+        vapour: m * sum.vapour,
+        held: m * sum.held,
+        exchanged: m * sum.exchanged,
+        steam: m * sum.steam,
+        steam_enthalpy: m * sum.steam_enthalpy,
+        kinetic: m * sum.kinetic,
+        turnover: m * sum.turnover,
+    })
+}
