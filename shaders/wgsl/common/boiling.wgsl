@@ -12,7 +12,7 @@ override BOILING_INTENSITY: f32 = 0.0;
 /// Eq. 17 as printed, per substep however long that is.
 override LITERAL_BOILING: bool = false;
 /// P₀: power at twice T_B and k_v = 1, W/kg.
-override BOILING_POWER: f32 = 400.0;
+override BOILING_POWER: f32 = 200.0;
 /// Coefficient of what does not boil: 1, or 0 where the liquid has no viscosity.
 override CALM: f32 = 1.0;
 /// Most that is added to a relative velocity in a substep, as a share: with

@@ -12,10 +12,10 @@ const EPSILON: f64 = 1e-6;
 ///
 /// Eq. 17 as printed injects in proportion to the superheat and to the
 /// energy that is there, which itself grows with the superheat; hence the
-/// square in [`AntiViscosity::power`]. Of one constant for both, 400 lets
+/// square in [`AntiViscosity::power`]. Of one constant for both, 200 lets
 /// Fig. 7's soup (10 K above T_B) simmer and Fig. 6's acid (50 to 150 K
 /// above) splash.
-pub const REFERENCE_POWER: f64 = 400.0;
+pub const REFERENCE_POWER: f64 = 200.0;
 
 /// Most that anti-viscosity adds to a particle's relative velocity in a
 /// substep, as a share. It decides where little moves yet, and for how long
