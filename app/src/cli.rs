@@ -152,6 +152,10 @@ pub struct BenchArgs {
     /// Table 2 of the paper: its rows as far as they exist, beside its times
     #[arg(long)]
     pub paper: bool,
+    /// What each feature of the scene costs: with it, and without it and what
+    /// is built upon it
+    #[arg(long, conflicts_with = "paper")]
+    pub features: bool,
     /// Trade of speed for accuracy
     #[arg(long, value_enum, default_value_t)]
     pub preset: PresetName,

@@ -1,11 +1,14 @@
 //! Measures what `vitriol bench` prints: a scene at rest in its flasks, frame
 //! by frame on the device's own clock.
 
+mod features;
+
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
+use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::{Boundary, Scene};
 use vitriol_sim::world::World;
 
@@ -36,14 +39,21 @@ pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
         (Some(scene), false) => vec![scene.clone()],
         (None, false) => vec!["beaker".to_owned()],
     };
-    let rows = names
-        .iter()
-        .map(|name| row(&timed, &plain, name, args))
-        .collect::<Result<_, _>>()?;
+    let (mut rows, mut costs) = (Vec::new(), Vec::new());
+    if args.features {
+        for name in &names {
+            costs.extend(features::costs(&timed, &plain, name, args)?);
+        }
+    } else {
+        for name in &names {
+            rows.push(row(&timed, &plain, name, args)?);
+        }
+    }
     Ok(Bench {
         device: device::statement(&timed),
         frames: args.frames,
         rows,
+        features: costs,
     })
 }
 
@@ -99,19 +109,7 @@ impl Whole {
         let poses = world.poses().to_vec();
         let (mut total, mut cpu) = (Vec::new(), Vec::new());
         for _ in 0..frames.div_ceil(QUEUED) {
-            let begin = Instant::now();
-            let mut last = None;
-            for _ in 0..QUEUED {
-                let recording = Instant::now();
-                let mut rec = gpu.recorder(QueueKind::Main).other()?;
-                world.solver().record(&mut rec, &poses, &poses).other()?;
-                last = Some(gpu.submit(rec).other()?);
-                cpu.push(milliseconds(recording));
-            }
-            if let Some(ticket) = last {
-                ticket.wait().other()?;
-            }
-            total.push(milliseconds(begin) / f64::from(QUEUED));
+            total.push(queued(gpu, &world, &poses, &mut cpu)?);
         }
         let measured = world.measure().other()?;
         Ok(Self {
@@ -121,6 +119,24 @@ impl Whole {
             cpu: Timing::of(&cpu),
         })
     }
+}
+
+/// A frame's share, ms, of [`QUEUED`] frames at rest; `cpu` gets the time that
+/// each took to record and submit.
+fn queued(gpu: &Gpu, world: &World, poses: &[Pose], cpu: &mut Vec<f64>) -> Result<f64, Failure> {
+    let begin = Instant::now();
+    let mut last = None;
+    for _ in 0..QUEUED {
+        let recording = Instant::now();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        world.solver().record(&mut rec, poses, poses).other()?;
+        last = Some(gpu.submit(rec).other()?);
+        cpu.push(milliseconds(recording));
+    }
+    if let Some(ticket) = last {
+        ticket.wait().other()?;
+    }
+    Ok(milliseconds(begin) / f64::from(QUEUED))
 }
 
 /// Passes of a frame on the device's clock.

@@ -20,6 +20,26 @@ pub struct Bench {
     pub frames: u32,
     /// One row for each scene.
     pub rows: Vec<Row>,
+    /// What each feature of the scene costs, where it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<FeatureRow>,
+}
+
+/// What a feature costs: the scene with it less the scene without it.
+#[derive(Debug, Clone, Serialize)]
+pub struct FeatureRow {
+    /// The feature.
+    pub feature: String,
+    /// What was off with it, being built upon it.
+    pub also_off: Vec<String>,
+    /// Median over several rounds of the difference of two frames' times, ms.
+    pub cost_ms: f64,
+    /// Least and greatest difference of the rounds, ms.
+    pub range_ms: [f64; 2],
+    /// Dispatches in a frame.
+    pub dispatches: i64,
+    /// Bytes of device memory for each particle.
+    pub bytes_per_particle: i64,
 }
 
 /// One scene's times.
@@ -210,6 +230,26 @@ fn describe(bench: &Bench) -> String {
                 grouped(paper.solid_particles)
             );
         }
+    }
+    if !bench.features.is_empty() {
+        let _ = writeln!(
+            text,
+            "\n{:<14} {:>10} {:>20} {:>10} {:>12}  off with it",
+            "feature", "cost ms", "from to", "dispatches", "B a particle"
+        );
+    }
+    for row in &bench.features {
+        let range = format!("{:.3} {:.3}", row.range_ms[0], row.range_ms[1]);
+        let _ = writeln!(
+            text,
+            "{:<14} {:>10.3} {:>20} {:>10} {:>12}  {}",
+            row.feature,
+            row.cost_ms,
+            range,
+            row.dispatches,
+            row.bytes_per_particle,
+            row.also_off.join(", ")
+        );
     }
     text
 }

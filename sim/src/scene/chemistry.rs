@@ -277,27 +277,47 @@ fn physical_fields(p: &PhysicalChemistry) -> [Field; 8] {
     ]
 }
 
-/// What a feature is built upon.
-fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
-    let needs: &[(Feature, Feature)] = if physical {
-        &[
-            (Feature::Heat, Feature::Dilution),
-            (Feature::Boiling, Feature::Evaporation),
-            (Feature::Steam, Feature::Evaporation),
-        ]
-    } else {
-        &[]
-    };
-    let all = needs.iter().chain(&[
+/// What features are built upon: (one, what it needs).
+fn needs(physical: bool) -> Vec<(Feature, Feature)> {
+    let mut needs = vec![
         (Feature::Dilution, Feature::Heat),
         (Feature::Boiling, Feature::Heat),
         (Feature::Density, Feature::Dilution),
         (Feature::Viscosity, Feature::Dilution),
         (Feature::Evaporation, Feature::Dilution),
         (Feature::Losses, Feature::Dilution),
-    ]);
+    ];
+    if physical {
+        needs.extend([
+            (Feature::Heat, Feature::Dilution),
+            // Only vapour that leaves does work that can become motion.
+            (Feature::Boiling, Feature::Steam),
+            (Feature::Steam, Feature::Evaporation),
+        ]);
+    }
+    needs
+}
+
+/// `feature` and what of `model` cannot be without it.
+pub(super) fn built_upon(model: &[Feature], feature: Feature, physical: bool) -> Vec<Feature> {
+    let mut gone = vec![feature];
+    let mut known = 0;
+    while known < gone.len() {
+        let lost = gone[known];
+        known += 1;
+        for (one, needed) in needs(physical) {
+            if needed == lost && model.contains(&one) && !gone.contains(&one) {
+                gone.push(one);
+            }
+        }
+    }
+    gone
+}
+
+fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
+    let all = needs(physical);
     for (feature, needed) in all {
-        if model.contains(feature) && !model.contains(needed) {
+        if model.contains(&feature) && !model.contains(&needed) {
             let (feature, needed) = (feature.name(), needed.name());
             let problem = format!("{feature:?} needs {needed:?}; name it too");
             return Err(Problem::new("model", problem));

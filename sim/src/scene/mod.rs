@@ -181,6 +181,20 @@ impl Scene {
         self.model.contains(&feature)
     }
 
+    /// The scene without `feature` and what is built upon it, and these.
+    pub fn without(&self, feature: Feature) -> (Self, Vec<Feature>) {
+        let gone = chemistry::built_upon(&self.model, feature, self.physical.is_some());
+        let mut scene = self.clone();
+        scene.model.retain(|feature| !gone.contains(feature));
+        if gone.contains(&Feature::Vorticity) {
+            scene.solver.vorticity = None;
+        }
+        if gone.contains(&Feature::Cohesion) {
+            (scene.solver.cohesion, scene.solver.adhesion) = (None, None);
+        }
+        (scene, gone)
+    }
+
     /// Fluid particles that represent `liquid`.
     pub fn particle_count(&self, liquid: &Liquid) -> usize {
         fill::count_for_volume(liquid.volume, self.scale.spacing)

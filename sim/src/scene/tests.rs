@@ -329,3 +329,16 @@ fn presets_keep_the_volume() {
     assert_eq!((fine.solver.iterations, fine.solver.substeps), (7, 3));
     assert_eq!(scene.with_preset(Preset::Fast), scene);
 }
+
+#[test]
+fn what_is_built_upon_a_feature_goes_with_it() {
+    let scene = Scene::load("water-into-acid").unwrap();
+    let (less, gone) = scene.without(Feature::Evaporation);
+    assert_eq!(
+        gone,
+        [Feature::Evaporation, Feature::Steam, Feature::Boiling]
+    );
+    assert!(gone.iter().all(|&feature| !less.models(feature)));
+    assert!(less.models(Feature::Density));
+    assert!(scene.without(Feature::Dilution).0.model.is_empty());
+}
