@@ -65,10 +65,13 @@ impl Experiment for Toy {
                 air: 0.2 * spilled,
             },
             neighbour_rebuilds: (t * 40.0) as u64,
+            left_kg: BTreeMap::new(),
+            above_rim_kg: BTreeMap::new(),
+            heat: None,
         })
     }
 
-    fn picture(&mut self) -> Result<&[u8], Failure> {
+    fn picture(&mut self, _film: usize) -> Result<&[u8], Failure> {
         let shade = (self.steps % 256) as u8;
         self.picture = [shade, 90, 160, 255].repeat(960 * 540);
         Ok(&self.picture)
