@@ -177,7 +177,7 @@ impl Mixed {
     fn note(&mut self) {
         let end = &self.end;
         self.even = end.temperature_spread <= EVEN[0] && end.acid_spread <= EVEN[1];
-        if let Some(superheat) = end.superheat {
+        if let Some(superheat) = &end.superheat {
             self.peak_superheat = self.peak_superheat.max(superheat.max);
         }
         if let (Some(start), Some(now)) = (&self.start.ledger, &end.ledger) {

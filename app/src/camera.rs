@@ -7,11 +7,15 @@ use vitriol_render::{
     SceneDesc, VesselDesc, View,
 };
 use vitriol_shaders::{Library, ShaderId};
+use vitriol_sim::chemistry::adiabatic::{Feed, mix};
+use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Scene, TableTop};
+use vitriol_sim::scene::{Liquid, Scene, TableTop};
 use vitriol_sim::world::World;
 
+use crate::cli::ColourName;
 use crate::failure::{Blame, Failure};
+use crate::legend::Legend;
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -29,6 +33,8 @@ const HEAD_FIELD: f32 = 40.0;
 pub struct Camera {
     renderer: Renderer,
     view: View,
+    /// What the colours of temperature run over.
+    temperatures: ColourBy,
 }
 
 impl Camera {
@@ -48,6 +54,7 @@ impl Camera {
         Ok(Self {
             renderer,
             view: view(scene, extent[0] as f32 / extent[1] as f32),
+            temperatures: temperatures(scene),
         })
     }
 
@@ -72,26 +79,35 @@ impl Camera {
         };
     }
 
-    /// The world as it is now: rows from the top, sRGB-encoded RGBA bytes.
+    /// The world as it is now, coloured by speed where it has not what is asked
+    /// for: rows from the top, sRGB-encoded RGBA bytes.
     /// Waits for the device.
     ///
     /// # Errors
     /// What the device says.
-    pub fn shoot(&self, world: &World) -> Result<Vec<u8>, Failure> {
+    pub fn shoot(&self, world: &World, colour: ColourName) -> Result<Vec<u8>, Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
-        let fastest = (2.0 * scale.gravity.abs() * COLOURED_FALL / scale.length_scale).sqrt();
         let solver = world.solver();
+        let (colour_by, attributes) = match (colour, solver.heat()) {
+            (ColourName::Temperature, Some(heat)) => (self.temperatures, heat),
+            (ColourName::Acid, Some(heat)) => (ColourBy::Acid, heat),
+            _ => {
+                let fall = COLOURED_FALL / scale.length_scale;
+                let fastest = (2.0 * scale.gravity.abs() * fall).sqrt();
+                (ColourBy::Speed(fastest as f32), solver.velocities())
+            }
+        };
         let frame = FrameDesc {
             views: &[self.view],
             vessels: &vessels,
             particles: Some(ParticleSource {
                 positions: solver.positions(),
-                velocities: solver.velocities(),
+                attributes,
                 count: solver.count(),
                 radius: (DRAWN_RADIUS * scale.spacing) as f32,
             }),
-            colour_by: ColourBy::Speed(fastest as f32),
+            colour_by,
             length_scale: scale.length_scale as f32,
         };
         let draw = || -> Result<Vec<u8>, RenderError> {
@@ -102,8 +118,48 @@ impl Camera {
             gpu.submit(rec)?.wait()?;
             picture.first_view()
         };
-        draw().other()
+        let mut picture = draw().other()?;
+        if let Some(legend) = Legend::of(colour_by) {
+            legend.draw(&mut picture, self.renderer.extent()[0] as usize);
+        }
+        Ok(picture)
     }
+}
+
+/// The range of a scene's temperatures: from the coldest that there is at the
+/// start to half as much again as the paper's boiling point, or to the hottest
+/// that its liquids can make of each other; whole tens.
+fn temperatures(scene: &Scene) -> ColourBy {
+    let liquids = || scene.liquids.iter();
+    let ambient = [
+        scene.paper.and_then(|paper| paper.T_a),
+        scene.physical.and_then(|physical| physical.ambient),
+    ];
+    let starts = || liquids().map(|liquid| liquid.temperature);
+    let coldest = starts()
+        .chain(ambient.into_iter().flatten())
+        .fold(f64::INFINITY, f64::min);
+    let mut hottest = starts().fold(coldest + 60.0, f64::max);
+    if let Some(boiling_point) = scene.paper.and_then(|paper| paper.T_B) {
+        hottest = hottest.max(1.5 * boiling_point);
+    } else if scene.physical.is_some() {
+        let table = SolutionTable::new();
+        for (a, b) in liquids().flat_map(|a| liquids().map(move |b| (a, b))) {
+            for share in (1..20).map(|n| 0.05 * f64::from(n)) {
+                let feed = |liquid: &Liquid, mass: f64| Feed {
+                    mass,
+                    acid: liquid.acid_fraction,
+                    temperature: liquid.temperature,
+                };
+                let mixed = mix(&table, &[feed(a, share), feed(b, 1.0 - share)]);
+                hottest = mixed.map_or(hottest, |mixed| hottest.max(mixed.temperature));
+            }
+        }
+    }
+    ColourBy::Temperature(
+        (10.0 * (coldest / 10.0).floor()) as f32,
+        (10.0 * (hottest / 10.0).ceil()) as f32,
+    )
 }
 
 /// The scene's vessels on their table in the room.

@@ -94,6 +94,28 @@ pub enum CameraName {
     Head,
 }
 
+/// What a film's colours stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ColourName {
+    /// Speed of the particles
+    Speed,
+    /// Temperature, where the scene models heat
+    Temperature,
+    /// Acid mass fraction, where the scene models heat
+    Acid,
+}
+
+impl ColourName {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Temperature => "temperature",
+            Self::Acid => "acid",
+        }
+    }
+}
+
 /// Arguments of `vitriol replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
@@ -122,6 +144,10 @@ pub struct ReplayArgs {
     /// Where the film is seen from
     #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
     pub camera: CameraName,
+    /// One film only, coloured by this; without it one by speed, and where the
+    /// scene models heat a second one by temperature
+    #[arg(long, value_enum, value_name = "COLOUR", conflicts_with = "no_video")]
+    pub colour: Option<ColourName>,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,

@@ -7,18 +7,19 @@ use std::sync::Arc;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::bodies;
-use vitriol_sim::measure::Measurement;
+use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame};
 
 use crate::camera::Camera;
+use crate::cli::ColourName;
 use crate::command::replay::Setup;
 use crate::device;
 use crate::failure::{Blame, Failure};
 use crate::replay::{Experiment, Outcome};
-use crate::report::{Counters, MassByPlace, Sample};
+use crate::report::{Counters, HeatSample, LedgerSample, MassByPlace, Sample};
 
 /// The experiment of a scene on the device that was asked for.
 ///
@@ -45,7 +46,10 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
         }
     })?;
     let mut film = match setup.picture {
-        Some((width, height)) => Some(Camera::new(gpu, library, setup.scene, [width, height])?),
+        Some((width, height)) => {
+            let extent = [width, height];
+            Some(Camera::new(gpu, library, setup.scene, extent)?)
+        }
         None => None,
     };
     if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
@@ -58,6 +62,9 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
         seed: setup.seed,
         shaders: setup.shaders.clone(),
         lost: 0,
+        departures: Departures::default(),
+        start: None,
+        colours: setup.colours.clone(),
         picture: Vec::new(),
     }))
 }
@@ -70,6 +77,10 @@ struct Laboratory {
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
     lost: u64,
+    departures: Departures,
+    /// The ledger at the first sample.
+    start: Option<Ledger>,
+    colours: Vec<ColourName>,
     picture: Vec<u8>,
 }
 
@@ -130,8 +141,15 @@ impl Experiment for Laboratory {
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
-        let measured = self.world.measure().map_err(blame_world)?;
+        let state = self.world.solver().snapshot().other()?;
+        let measured = self.world.measure_state(&state).map_err(blame_world)?;
         self.lost = self.lost.max(measured.lost_particles);
+        let scene = self.world.scene();
+        let mass = self.world.solver().parameters().particle_mass();
+        let poses = self.world.poses();
+        let departed = self.departures.observe(&state, &scene.flasks, poses, mass);
+        let ledger = measured.heat.as_ref().and_then(|heat| heat.ledger);
+        let start = *self.start.get_or_insert(ledger.unwrap_or_default());
         Ok(Sample {
             t_s: t,
             density_error_mean: measured.density_error_mean,
@@ -139,12 +157,15 @@ impl Experiment for Laboratory {
             kinetic_energy_j: measured.kinetic_energy,
             mass_kg: by_place(self.world.scene(), &measured),
             neighbour_rebuilds: measured.list_rebuilds.into(),
+            left_kg: by_flask(scene, &departed.left),
+            above_rim_kg: by_flask(scene, &departed.above_rim),
+            heat: measured.heat.map(|heat| of_heat(scene, &heat, &start)),
         })
     }
 
-    fn picture(&mut self) -> Result<&[u8], Failure> {
-        if let Some(camera) = &self.film {
-            self.picture = camera.shoot(&self.world)?;
+    fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
+        if let (Some(camera), Some(&colour)) = (&self.film, self.colours.get(film)) {
+            self.picture = camera.shoot(&self.world, colour)?;
         }
         Ok(&self.picture)
     }
@@ -161,6 +182,10 @@ impl Experiment for Laboratory {
                 counted.list_limited,
             ),
             ("speed cut to v_max", counted.speed_limited),
+            (
+                "diffusion cut to what pairs may exchange",
+                counted.diffusion_limited,
+            ),
         ];
         Ok(Outcome {
             fluid_particles: self.world.solver().count().into(),
@@ -193,11 +218,44 @@ fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     }
 }
 
-fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
+fn by_flask<T: Copy>(scene: &Scene, values: &[T]) -> BTreeMap<String, T> {
     let names = scene.flasks.iter().map(|flask| flask.name.clone());
-    let flasks: BTreeMap<_, _> = names.zip(measured.in_flasks.iter().copied()).collect();
+    names.zip(values.iter().copied()).collect()
+}
+
+fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample {
+    let superheat = heat.superheat.as_ref();
+    let boiling_in_flasks = superheat.map(|superheat| {
+        let mut counts = superheat.in_flasks.clone();
+        counts.resize(scene.flasks.len(), 0);
+        by_flask(scene, &counts)
+    });
+    HeatSample {
+        temperature_mean_c: heat.temperature_mean,
+        temperature_p99_c: heat.temperature_p99,
+        temperature_max_c: heat.temperature_max,
+        acid_mean: heat.acid_mean,
+        acid_min: heat.acid_min,
+        acid_max: heat.acid_max,
+        superheat_max_k: superheat.map(|superheat| superheat.max),
+        boiling_particles: superheat.map(|superheat| superheat.particles),
+        boiling_in_flasks: boiling_in_flasks.unwrap_or_default(),
+        ledger: heat.ledger.map(|ledger| LedgerSample {
+            initial_j: start.balance(),
+            exchanged_j: ledger.exchanged,
+            held_j: ledger.held,
+            steam_j: ledger.steam_enthalpy,
+            kinetic_j: ledger.kinetic,
+            closure: ledger.closure(start),
+            steam_kg: ledger.steam,
+            vapour_kg: ledger.vapour,
+        }),
+    }
+}
+
+fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
     MassByPlace {
-        flasks,
+        flasks: by_flask(scene, &measured.in_flasks),
         table: measured.on_table,
         floor: measured.on_floor,
         air: measured.in_air,

@@ -10,6 +10,7 @@ mod device;
 pub mod experiment;
 pub mod failure;
 pub mod film;
+mod legend;
 mod measure;
 pub mod output;
 pub mod recorder;

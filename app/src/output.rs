@@ -15,6 +15,8 @@ pub const REPORT_JSON: &str = "report.json";
 pub const REPORT_HTML: &str = "report.html";
 /// The film's name in the output folder.
 pub const FILM: &str = "film.mp4";
+/// Likewise of the film coloured by temperature.
+pub const FILM_TEMPERATURE: &str = "film-temperature.mp4";
 
 /// What can go wrong with the place of the results.
 #[derive(Debug, thiserror::Error)]
@@ -238,7 +240,7 @@ impl OutDir {
     fn named(path: &Path) -> Result<Self, OutputError> {
         let dir = path.to_owned();
         if path.is_dir() {
-            for found in [REPORT_JSON, REPORT_HTML, FILM] {
+            for found in [REPORT_JSON, REPORT_HTML, FILM, FILM_TEMPERATURE] {
                 if path.join(found).symlink_metadata().is_ok() {
                     return Err(OutputError::Taken { dir, found });
                 }

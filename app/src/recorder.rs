@@ -24,7 +24,7 @@ const SAMPLES_PER_SECOND: f64 = 10.0;
 #[derive(Debug)]
 pub struct Recorder {
     span: Span,
-    film: Option<Film>,
+    films: Vec<Film>,
     film_frames: u64,
     samples: Vec<Sample>,
     bar: ProgressBar,
@@ -34,8 +34,10 @@ pub struct Recorder {
 /// What a recorder kept.
 #[derive(Debug)]
 pub struct Recording {
-    /// The film's path and number of frames.
-    pub film: Option<(PathBuf, u64)>,
+    /// The films' paths, in the order in which they were asked for.
+    pub films: Vec<PathBuf>,
+    /// Frames in each.
+    pub film_frames: u64,
     /// Samples over time; the first is of the start, the last of the end.
     pub samples: Vec<Sample>,
     /// Wall-clock time of the run, its film's included.
@@ -44,10 +46,10 @@ pub struct Recording {
 
 impl Recorder {
     /// A recorder for a run of that span; its clock starts now.
-    pub fn new(span: Span, film: Option<Film>) -> Self {
+    pub fn new(span: Span, films: Vec<Film>) -> Self {
         Self {
             span,
-            film,
+            films,
             film_frames: 0,
             samples: Vec::new(),
             bar: progress_bar(span.steps),
@@ -62,14 +64,14 @@ impl Recorder {
     pub fn observe(&mut self, done: u64, experiment: &mut dyn Experiment) -> Result<(), Failure> {
         let time = done as f64 * self.span.frame_time;
         let due = self.film_frames_due(done);
-        if let Some(film) = &mut self.film
-            && due > self.film_frames
-        {
-            let picture = experiment.picture()?;
-            // More than one where a step is longer than a film frame: the film
-            // keeps real time.
-            for _ in self.film_frames..due {
-                film.push_rgba(picture).other()?;
+        if due > self.film_frames {
+            for (index, film) in self.films.iter_mut().enumerate() {
+                let picture = experiment.picture(index)?;
+                // More than one where a step is longer than a film frame: the
+                // film keeps real time.
+                for _ in self.film_frames..due {
+                    film.push_rgba(picture).other()?;
+                }
             }
             self.film_frames = due;
         }
@@ -80,18 +82,16 @@ impl Recorder {
         Ok(())
     }
 
-    /// Ends the film and hands over what was kept.
+    /// Ends the films and hands over what was kept.
     ///
     /// # Errors
-    /// What the film says.
+    /// What a film says.
     pub fn finish(self) -> Result<Recording, Failure> {
-        let film = match self.film {
-            Some(film) => Some((film.finish().other()?, self.film_frames)),
-            None => None,
-        };
+        let films: Result<_, _> = self.films.into_iter().map(Film::finish).collect();
         self.bar.finish_and_clear();
         Ok(Recording {
-            film,
+            films: films.other()?,
+            film_frames: self.film_frames,
             samples: self.samples,
             wall: self.begin.elapsed(),
         })

@@ -22,12 +22,13 @@ pub trait Experiment {
     /// What the device says.
     fn sample(&mut self, t: f64) -> Result<Sample, Failure>;
 
-    /// Draws the state now: rows from the top, sRGB-encoded RGBA bytes of the
-    /// film's size. Waits for the device.
+    /// Draws the state now for one of the films, counted as they were asked
+    /// for: rows from the top, sRGB-encoded RGBA bytes of the film's size.
+    /// Waits for the device.
     ///
     /// # Errors
     /// What the device says.
-    fn picture(&mut self) -> Result<&[u8], Failure>;
+    fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
 
     /// What came of it, and on what device.
     ///

@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         vessels: &vessels,
         particles: Some(ParticleSource {
             positions: &position_buffer,
-            velocities: &velocity_buffer,
+            attributes: &velocity_buffer,
             count: positions.len() as u32,
             radius: 0.6 * SPACING,
         }),

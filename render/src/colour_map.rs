@@ -1,4 +1,5 @@
-//! The colours that stand for a particle's attribute.
+//! The colours that stand for a particle's attribute: a map for each, so that no
+//! film is taken for another.
 
 /// Entries of a colour map; the shader interpolates linearly between them.
 pub const ENTRIES: usize = 17;
@@ -31,9 +32,89 @@ const LAPAZ: [[f32; 3]; ENTRIES] = [
     [0.9971, 0.9498, 0.9512],
 ];
 
-/// The map in linear light, evenly spaced over the attribute's range.
-pub fn linear_entries() -> [[f32; 4]; ENTRIES] {
-    LAPAZ.map(|[red, green, blue]| [linear(red), linear(green), linear(blue), 1.0])
+/// "plasma": indigo over magenta to yellow, perceptually even and its lightness
+/// rising throughout, so that colour-blind readers and grey prints have the same
+/// order: cold is dark, hot is light.
+///
+/// Source: N. Smith and S. van der Walt, matplotlib 1.5 (CC0), sRGB, sampled
+/// evenly from its 256 entries.
+const PLASMA: [[f32; 3]; ENTRIES] = [
+    [0.0504, 0.0298, 0.5280],
+    [0.1929, 0.0184, 0.5901],
+    [0.2991, 0.0096, 0.6314],
+    [0.3983, 0.0009, 0.6560],
+    [0.4934, 0.0115, 0.6580],
+    [0.5827, 0.0672, 0.6335],
+    [0.6633, 0.1369, 0.5869],
+    [0.7342, 0.2075, 0.5295],
+    [0.7964, 0.2780, 0.4713],
+    [0.8515, 0.3490, 0.4157],
+    [0.9000, 0.4222, 0.3618],
+    [0.9410, 0.4992, 0.3081],
+    [0.9722, 0.5817, 0.2541],
+    [0.9908, 0.6706, 0.2010],
+    [0.9934, 0.7663, 0.1566],
+    [0.9762, 0.8684, 0.1434],
+    [0.9400, 0.9752, 0.1313],
+];
+
+/// "viridis": violet over green to yellow; by the same authors, with the same
+/// properties and terms.
+const VIRIDIS: [[f32; 3]; ENTRIES] = [
+    [0.2670, 0.0049, 0.3294],
+    [0.2823, 0.0946, 0.4170],
+    [0.2789, 0.1749, 0.4830],
+    [0.2593, 0.2507, 0.5244],
+    [0.2302, 0.3213, 0.5455],
+    [0.2000, 0.3864, 0.5545],
+    [0.1733, 0.4474, 0.5579],
+    [0.1497, 0.5064, 0.5573],
+    [0.1281, 0.5651, 0.5509],
+    [0.1203, 0.6238, 0.5343],
+    [0.1554, 0.6815, 0.5032],
+    [0.2415, 0.7366, 0.4545],
+    [0.3629, 0.7867, 0.3866],
+    [0.5081, 0.8292, 0.2992],
+    [0.6694, 0.8622, 0.1954],
+    [0.8359, 0.8861, 0.1025],
+    [0.9932, 0.9062, 0.1439],
+];
+
+/// A perceptually even map that colour-blind readers can follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColourMap {
+    /// For speed: blue to cream.
+    Lapaz,
+    /// For temperature: indigo to yellow.
+    Plasma,
+    /// For acid: violet to yellow by way of green.
+    Viridis,
+}
+
+impl ColourMap {
+    /// sRGB-encoded, evenly spaced over the attribute's range.
+    pub fn entries(self) -> &'static [[f32; 3]; ENTRIES] {
+        match self {
+            Self::Lapaz => &LAPAZ,
+            Self::Plasma => &PLASMA,
+            Self::Viridis => &VIRIDIS,
+        }
+    }
+
+    /// The same in linear light.
+    pub fn linear_entries(self) -> [[f32; 4]; ENTRIES] {
+        self.entries()
+            .map(|[red, green, blue]| [linear(red), linear(green), linear(blue), 1.0])
+    }
+
+    /// The sRGB-encoded colour at `place`, 0 to 1.
+    pub fn at(self, place: f32) -> [f32; 3] {
+        let place = place.clamp(0.0, 1.0) * (ENTRIES - 1) as f32;
+        let low = (place as usize).min(ENTRIES - 2);
+        let share = place - low as f32;
+        let (a, b) = (self.entries()[low], self.entries()[low + 1]);
+        std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
+    }
 }
 
 /// Decodes an sRGB component (IEC 61966-2-1).
@@ -55,13 +136,25 @@ mod tests {
         116.0 * luminance.cbrt() - 16.0
     }
 
-    /// A mistyped entry shows as a kink: "lapaz" rises in L* by about 4 a step.
+    /// A mistyped entry shows as a kink: the maps rise in L* by about 4 a step.
     #[test]
     fn lightness_rises_evenly() {
-        let map = linear_entries();
-        for pair in map.windows(2) {
-            let step = lightness(pair[1]) - lightness(pair[0]);
-            assert!((1.0..7.0).contains(&step), "{step}");
+        for map in [ColourMap::Lapaz, ColourMap::Plasma, ColourMap::Viridis] {
+            for pair in map.linear_entries().windows(2) {
+                let step = lightness(pair[1]) - lightness(pair[0]);
+                assert!((1.0..7.0).contains(&step), "{map:?}: {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn between_entries_is_between_colours() {
+        let map = ColourMap::Plasma;
+        assert_eq!(map.at(-1.0), map.entries()[0]);
+        assert_eq!(map.at(2.0), map.entries()[ENTRIES - 1]);
+        let (middle, a, b) = (map.at(2.5 / 16.0), map.entries()[2], map.entries()[3]);
+        for i in 0..3 {
+            assert!((middle[i] - 0.5 * (a[i] + b[i])).abs() < 1e-6);
         }
     }
 

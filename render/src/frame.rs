@@ -6,7 +6,7 @@ use vitriol_shaders::layout;
 
 use crate::RenderError;
 use crate::camera::View;
-use crate::colour_map;
+use crate::colour_map::ColourMap;
 use crate::scene::Scene;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
@@ -19,8 +19,10 @@ pub struct ParticleSource<'a> {
     /// `array<vec4<f32>>`: xyz in the stage, in the scene's unit; w < 0 marks
     /// a particle that was taken out.
     pub positions: &'a Buffer,
-    /// `array<vec4<f32>>`: xyz, in the scene's unit per second.
-    pub velocities: &'a Buffer,
+    /// `array<vec4<f32>>` in the same order, that [`FrameDesc::colour_by`] reads:
+    /// velocities (xyz, the scene's unit per second), or temperature (°C) and
+    /// acid fraction in x and y.
+    pub attributes: &'a Buffer,
     /// How many of them are drawn.
     pub count: u32,
     /// Radius of a sphere, in the scene's unit. 0.6 of the particle spacing
@@ -34,6 +36,39 @@ pub enum ColourBy {
     /// Its speed: the map runs from rest to this speed (scene's unit per
     /// second) and stays at its end beyond.
     Speed(f32),
+    /// Its temperature: the map runs from the first to the second, °C.
+    Temperature(f32, f32),
+    /// Its acid mass fraction: the map runs from 0 to 1.
+    Acid,
+}
+
+impl ColourBy {
+    /// The attribute's map.
+    pub fn map(self) -> ColourMap {
+        match self {
+            Self::Speed(_) => ColourMap::Lapaz,
+            Self::Temperature(..) => ColourMap::Plasma,
+            Self::Acid => ColourMap::Viridis,
+        }
+    }
+
+    /// The attribute's values at the map's ends.
+    pub fn range(self) -> [f32; 2] {
+        match self {
+            Self::Speed(fastest) => [0.0, fastest],
+            Self::Temperature(coldest, hottest) => [coldest, hottest],
+            Self::Acid => [0.0, 1.0],
+        }
+    }
+
+    /// As the shader counts them.
+    pub(crate) fn attribute(self) -> u32 {
+        match self {
+            Self::Speed(_) => 0,
+            Self::Temperature(..) => 1,
+            Self::Acid => 2,
+        }
+    }
 }
 
 /// One frame.
@@ -72,7 +107,7 @@ impl FrameDesc<'_> {
         let Some(particles) = self.particles else {
             return Ok(());
         };
-        for buffer in [particles.positions, particles.velocities] {
+        for buffer in [particles.positions, particles.attributes] {
             let held = buffer.bytes() / 16;
             if u64::from(particles.count) > held {
                 return Err(RenderError::TooManyParticles {
@@ -88,7 +123,7 @@ impl FrameDesc<'_> {
     /// The frame's uniforms.
     pub(crate) fn uniforms(&self, scene: &Scene) -> layout::Frame {
         let mut frame = layout::Frame {
-            colour_map: colour_map::linear_entries(),
+            colour_map: self.colour_by.map().linear_entries(),
             metres_per_unit: self.length_scale,
             ..layout::Frame::default()
         };

@@ -35,6 +35,7 @@ mod renderer;
 mod scene;
 
 pub use camera::{Fov, View};
+pub use colour_map::ColourMap;
 pub use error::RenderError;
 pub use frame::{ColourBy, FrameDesc, ParticleSource};
 pub use renderer::{PictureReadback, RenderDesc, Renderer};

@@ -171,15 +171,17 @@ impl Renderer {
         particles: &ParticleSource<'_>,
         colour_by: ColourBy,
     ) -> Result<(), vitriol_gpu::GpuError> {
-        let ColourBy::Speed(range) = colour_by;
+        let [start, end] = colour_by.range();
         raster
             .draw(&self.pipelines.particles)
             .uniform("frame", &self.frame)
             .read("positions", particles.positions)
-            .read("velocities", particles.velocities)
+            .read("attributes", particles.attributes)
             .constants(&layout::ParticleDraw {
                 radius: particles.radius,
-                inverse_range: range.max(f32::MIN_POSITIVE).recip(),
+                colour_by: colour_by.attribute(),
+                start,
+                inverse_range: (end - start).max(f32::MIN_POSITIVE).recip(),
             })
             .vertices(3 * particles.count)
     }

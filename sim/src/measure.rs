@@ -1,7 +1,9 @@
 //! What a report says of a world at one moment.
 
+mod departures;
 mod heat;
 
+pub use departures::{Departed, Departures};
 pub use heat::{HeatMeasurement, Ledger, Superheat, measure as measure_heat};
 
 use crate::flask::Region;
@@ -29,6 +31,8 @@ pub struct Measurement {
     pub density_error_p99: f64,
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
+    /// Temperature and composition, where heat is modelled.
+    pub heat: Option<HeatMeasurement>,
     /// Mass in each flask, kg.
     pub in_flasks: Vec<f64>,
     /// Mass on the table beside the flasks, kg.
@@ -51,8 +55,15 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn measure(&self) -> Result<Measurement, WorldError> {
+        self.measure_state(&self.solver().snapshot()?)
+    }
+
+    /// The same for who has a snapshot already: `state` is that of now.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn measure_state(&self, state: &SolverState) -> Result<Measurement, WorldError> {
         let solver = self.solver();
-        let state = solver.snapshot()?;
         let counters = solver.counters()?;
         let mut errors = Vec::new();
         if solver.count() > 0 {
@@ -71,7 +82,8 @@ impl World {
         let mut measured = Measurement {
             density_error_mean: errors.iter().map(|&e| f64::from(e)).sum::<f64>() / count as f64,
             density_error_p99: percentile(&errors, 0.99),
-            kinetic_energy: kinetic_energy(&state, mass),
+            kinetic_energy: kinetic_energy(state, mass),
+            heat: measure_heat(solver.parameters(), state),
             in_flasks: vec![0.0; self.scene().flasks.len()],
             on_table: 0.0,
             on_floor: 0.0,
@@ -80,7 +92,7 @@ impl World {
             nan_particles: u64::from(counters.nan_particles),
             list_rebuilds: counters.list_rebuilds,
         };
-        self.place(&state, mass, &mut measured);
+        self.place(state, mass, &mut measured);
         Ok(measured)
     }
 

@@ -18,7 +18,7 @@ use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::{StepInput, World};
 
 use crate::camera::Camera;
-use crate::cli::Fig5Args;
+use crate::cli::{ColourName, Fig5Args};
 use crate::console::{Format, emit};
 use crate::device;
 use crate::failure::{Blame, Failure};
@@ -187,7 +187,7 @@ fn regions<'a>(
 fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let (width, height) = FILM_SIZE;
     let camera = Camera::new(gpu, &Library::embedded(), world.scene(), [width, height])?;
-    let picture = camera.shoot(world)?;
+    let picture = camera.shoot(world, ColourName::Speed)?;
     let mut png = Vec::new();
     PngEncoder::new(&mut png)
         .write_image(&picture, width, height, ExtendedColorType::Rgba8)

@@ -1,24 +1,25 @@
 //! `vitriol replay`: a track through the simulation to film and report.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Track, TrackSource};
 
-use crate::cli::{CameraName, ReplayArgs};
+use crate::cli::{CameraName, ColourName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
-use crate::output::{FILM, OutDir, REPORT_HTML, REPORT_JSON, blame};
+use crate::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON, blame};
 use crate::recorder::{FILM_FPS, FILM_SIZE, Recorder, Recording};
 use crate::replay::{self, Experiment, Outcome, Span};
 use crate::report::units::{grouped, mass, percent, three_digits, with_unit};
-use crate::report::{FilmStatement, Report, SceneStatement, SolverStatement};
+use crate::report::{FilmStatement, Report, Sample, SceneStatement, SolverStatement};
 use crate::statement;
 
 /// What `vitriol replay --json` prints: the report without its time series, and
@@ -44,6 +45,8 @@ pub struct Setup<'a> {
     pub device: Option<&'a str>,
     /// Width and height of the pictures, pixels; `None` where none is asked for.
     pub picture: Option<(u32, u32)>,
+    /// What each film's colours stand for, in the films' order.
+    pub colours: Vec<ColourName>,
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
@@ -67,6 +70,7 @@ pub fn run(
     let name = scene_of(args, &track)?;
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
     let head = head(args, &track)?;
+    let colours = colours(args, &scene, &name)?;
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
     let seed = args.seed.unwrap_or(track.metadata.seed);
     let mut experiment = prepare(&Setup {
@@ -75,19 +79,20 @@ pub fn run(
         seed,
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
+        colours: colours.clone(),
         head,
         shaders: Arc::new(Library::watching()),
     })?;
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let span = Span::covering(seconds, scene.scale.frame_time);
 
-    let film = if args.no_video {
-        None
-    } else {
-        let (width, height) = FILM_SIZE;
-        Some(Film::create(&out.join(FILM), width, height, FILM_FPS).other()?)
-    };
-    let mut recorder = Recorder::new(span, film);
+    let (width, height) = FILM_SIZE;
+    let films = colours.iter().enumerate().map(|(index, _)| {
+        let path = out.join(film_name(index));
+        Film::create(&path, width, height, FILM_FPS)
+    });
+    let films = films.collect::<Result<_, _>>().other()?;
+    let mut recorder = Recorder::new(span, films);
     replay::run(
         &mut TrackSource::new(track),
         experiment.as_mut(),
@@ -95,7 +100,7 @@ pub fn run(
         &mut recorder,
     )?;
     let recording = recorder.finish()?;
-    if let Some((film, _)) = &recording.film {
+    for film in &recording.films {
         out.adopt(film.clone());
     }
     let statements = (
@@ -104,6 +109,7 @@ pub fn run(
     );
     let report = assemble(
         args,
+        &colours,
         seed,
         span,
         statements,
@@ -150,6 +156,28 @@ fn scene_of(args: &ReplayArgs, track: &Track) -> Result<String, Failure> {
     }
 }
 
+/// What the films' colours stand for; the first is the film, the second, if
+/// there is one, that of temperature.
+fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<ColourName>, Failure> {
+    let heat = scene.models(Feature::Heat);
+    match args.colour {
+        _ if args.no_video => Ok(Vec::new()),
+        None if heat => Ok(vec![ColourName::Speed, ColourName::Temperature]),
+        None => Ok(vec![ColourName::Speed]),
+        Some(colour) if heat || colour == ColourName::Speed => Ok(vec![colour]),
+        Some(colour) => Err(format!(
+            "--colour {}: the scene {name} models no heat; take --colour speed",
+            colour.name()
+        ))
+        .input(),
+    }
+}
+
+/// A film's name in the output folder.
+fn film_name(index: usize) -> &'static str {
+    if index == 0 { FILM } else { FILM_TEMPERATURE }
+}
+
 /// Where the head is at the start, if the film is to show what it sees.
 fn head(args: &ReplayArgs, track: &Track) -> Result<Option<Pose>, Failure> {
     match (args.camera, track.frames.first()) {
@@ -171,6 +199,7 @@ fn stem(track: &str) -> String {
 
 fn assemble(
     args: &ReplayArgs,
+    colours: &[ColourName],
     seed: u64,
     span: Span,
     (scene, solver): (SceneStatement, SolverStatement),
@@ -182,6 +211,16 @@ fn assemble(
     let solved = || samples.iter().skip(1);
     let count = solved().count().max(1) as f64;
     let (width, height) = FILM_SIZE;
+    let film = |index: usize| {
+        colours.get(index).map(|colour| FilmStatement {
+            path: film_name(index).into(),
+            width,
+            height,
+            fps: FILM_FPS,
+            frames: recording.film_frames,
+            colour: colour.name().into(),
+        })
+    };
     Report {
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
         command: command_line(args, seed),
@@ -201,19 +240,28 @@ fn assemble(
             .last()
             .map(|s| s.mass_kg.clone())
             .unwrap_or_default(),
-        film: recording.film.map(|(_, frames)| FilmStatement {
-            path: FILM.into(),
-            width,
-            height,
-            fps: FILM_FPS,
-            frames,
-        }),
+        boiling_particle_seconds: boiling(&samples),
+        film: film(0),
+        film_temperature: film(1),
         device: outcome.device,
         scene,
         solver,
         counters: outcome.counters,
         series: samples,
     }
+}
+
+/// Particles above their boiling point times the time since the sample before,
+/// by flask.
+fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
+    let mut sums = BTreeMap::new();
+    for pair in samples.windows(2) {
+        let flasks = pair[1].heat.iter().flat_map(|heat| &heat.boiling_in_flasks);
+        for (flask, &count) in flasks {
+            *sums.entry(flask.clone()).or_insert(0.0) += count as f64 * (pair[1].t_s - pair[0].t_s);
+        }
+    }
+    sums
 }
 
 /// The command line that makes the run again; without `--out`, since that
@@ -232,6 +280,9 @@ fn command_line(args: &ReplayArgs, seed: u64) -> String {
     }
     if args.camera == CameraName::Head {
         line += " --camera head";
+    }
+    if let Some(colour) = args.colour {
+        line += &format!(" --colour {}", colour.name());
     }
     if args.no_video {
         line += " --no-video";
@@ -285,7 +336,7 @@ fn describe(done: &Replayed, out: &Path) -> String {
         format!("state {}", report.state_hash),
         String::new(),
     ];
-    if let Some(film) = &report.film {
+    for film in report.film.iter().chain(&report.film_temperature) {
         lines.push(format!("film    {}", out.join(&film.path).display()));
     }
     lines.push(format!("report  {}", done.report_html));

@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::model::{Report, Sample};
+use super::model::{LedgerSample, Report, Sample};
 use super::plot::{CURVE_COLOURS, Curve, Plot, over_time};
 use super::units::{self, grouped, percent, three_digits, with_unit};
 
@@ -71,6 +71,15 @@ impl Report {
                 (figure("nan_particles", "Non-finite particles",
                     &grouped(self.nan_particles), "taken out of the run",
                     self.nan_particles > 0))
+                @if let Some(hottest) = self.hottest() {
+                    (figure("temperature_max_c", "Highest temperature",
+                        &format!("{hottest:.1} °C"), "of a particle at any sample", false))
+                }
+                @if let Some(ledger) = self.ledger_at_end() {
+                    (figure("ledger_closure", "Ledger",
+                        &format!("{:.1e}", ledger.closure.abs()),
+                        "enthalpy that does not add up at the end, relative", ledger.closure.abs() > 1e-4))
+                }
                 (figure("frames", "Frames",
                     &grouped(self.frames), "of the simulation's fixed clock", false))
                 (figure("wall_s", "Time taken",
@@ -80,13 +89,27 @@ impl Report {
         }
     }
 
+    fn hottest(&self) -> Option<f64> {
+        let heats = self.series.iter().filter_map(|sample| sample.heat.as_ref());
+        heats.map(|heat| heat.temperature_max_c).reduce(f64::max)
+    }
+
+    fn ledger_at_end(&self) -> Option<&LedgerSample> {
+        self.series.last()?.heat.as_ref()?.ledger.as_ref()
+    }
+
     fn film(&self) -> Markup {
         html! {
             @if let Some(film) = &self.film {
                 section {
                     h2 { "Film" }
-                    video src=(film.path) controls loop muted playsinline
-                        width=(film.width) height=(film.height) {}
+                    @for film in self.film.iter().chain(&self.film_temperature) {
+                        figure.film {
+                            figcaption { "Coloured by " (film.colour) }
+                            video src=(film.path) controls loop muted playsinline
+                                width=(film.width) height=(film.height) {}
+                        }
+                    }
                     p.note {
                         (film.width) " × " (film.height) ", " (film.fps) " Hz, "
                         (grouped(film.frames))
@@ -132,10 +155,7 @@ impl Report {
     }
 
     fn plots(&self) -> Markup {
-        let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| Curve {
-            label: label.into(),
-            points: self.series.iter().map(|s| (s.t_s, value(s))).collect(),
-        };
+        let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| self.curve(label, value);
         let largest = |value: &dyn Fn(&Sample) -> f64| {
             let values = self.series.iter().map(value);
             values.filter(|v| v.is_finite()).fold(0.0, f64::max)
@@ -164,6 +184,9 @@ impl Report {
                         curve("kinetic energy", &|s| s.kinetic_energy_j * energy.factor),
                     ]))
                     (plot("Mass by place", mass.symbol, &places))
+                    @for plotted in self.chemistry().iter().chain(&self.departures()) {
+                        (plot(plotted.title, plotted.unit, &plotted.curves))
+                    }
                     (plot("Neighbour list rebuilt", "times since the start", &[
                         curve("rebuilds", &|s| s.neighbour_rebuilds as f64),
                     ]))

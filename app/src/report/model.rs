@@ -41,8 +41,15 @@ pub struct Report {
     pub state_hash: String,
     /// What is where at the end, kg.
     pub mass_kg: MassByPlace,
-    /// The film, where one was made.
+    /// Particle-seconds above the boiling point by flask: what was above it at
+    /// the run's samples, times the time between them. Empty where nothing boils.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub boiling_particle_seconds: BTreeMap<String, f64>,
+    /// The film, where one was made: coloured by speed, unless asked otherwise.
     pub film: Option<FilmStatement>,
+    /// The film coloured by temperature, where heat is modelled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film_temperature: Option<FilmStatement>,
     /// The device that ran it.
     pub device: DeviceStatement,
     /// The scene's scale and content.
@@ -100,6 +107,8 @@ pub struct FilmStatement {
     pub fps: u32,
     /// Frames in the film.
     pub frames: u64,
+    /// What its colours stand for: `speed`, `temperature` or `acid`.
+    pub colour: String,
 }
 
 /// The device and driver of a run.
@@ -171,6 +180,64 @@ pub struct Sample {
     pub mass_kg: MassByPlace,
     /// Rebuilds of the neighbour list since the start.
     pub neighbour_rebuilds: u64,
+    /// By flask: mass that has left it so far, each particle once, kg.
+    #[serde(default)]
+    pub left_kg: BTreeMap<String, f64>,
+    /// By flask: mass above its rim's plane, in no flask, that left it last, kg.
+    #[serde(default)]
+    pub above_rim_kg: BTreeMap<String, f64>,
+    /// Temperature and composition, where heat is modelled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatSample>,
+}
+
+/// Temperature and composition at one moment. Means are by mass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeatSample {
+    /// Mean temperature, °C.
+    pub temperature_mean_c: f64,
+    /// 99th percentile of the temperature over particles, °C.
+    pub temperature_p99_c: f64,
+    /// Highest temperature, °C.
+    pub temperature_max_c: f64,
+    /// Mean acid mass fraction.
+    pub acid_mean: f64,
+    /// Least acid fraction.
+    pub acid_min: f64,
+    /// Largest acid fraction.
+    pub acid_max: f64,
+    /// Largest temperature above the boiling point, K (negative below it);
+    /// where there is a boiling point.
+    pub superheat_max_k: Option<f64>,
+    /// Particles above it.
+    pub boiling_particles: Option<u64>,
+    /// Of these, the members of each flask.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub boiling_in_flasks: BTreeMap<String, u64>,
+    /// Mass and energy; of the physical chemistry.
+    pub ledger: Option<LedgerSample>,
+}
+
+/// Where the enthalpy is that there was at the start: initial + exchanged =
+/// held + steam + kinetic. Relative to the pure liquids at 25 °C.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LedgerSample {
+    /// Enthalpy at the start, J.
+    pub initial_j: f64,
+    /// Heat gained from around, J; negative where it was lost.
+    pub exchanged_j: f64,
+    /// Enthalpy of what is still there, J.
+    pub held_j: f64,
+    /// Enthalpy that steam took along, J.
+    pub steam_j: f64,
+    /// Enthalpy that was paid for motion, J.
+    pub kinetic_j: f64,
+    /// By how much the two sides differ, over the sum of |h| at the start.
+    pub closure: f64,
+    /// Water that left as steam, kg.
+    pub steam_kg: f64,
+    /// Vapour that is still in the liquid, kg.
+    pub vapour_kg: f64,
 }
 
 impl Report {

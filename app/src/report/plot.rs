@@ -42,7 +42,7 @@ pub struct Plot {
     pub time: (f64, f64),
 }
 
-/// Draws curves over time, from zero up; `None` where there is nothing to
+/// Draws curves over time, zero included; `None` where there is nothing to
 /// draw.
 pub fn over_time(curves: &[Curve]) -> Option<Plot> {
     let finite = |curve: &Curve| -> Vec<(f64, f64)> {
@@ -58,10 +58,13 @@ pub fn over_time(curves: &[Curve]) -> Option<Plot> {
     if end <= 0.0 {
         return None;
     }
-    let top = if top > 0.0 { top * 1.06 } else { 1.0 };
+    let bottom = all().map(|point| point.1).fold(0.0, f64::min);
+    let top = if top > 0.0 || bottom < 0.0 { top } else { 1.0 };
+    let room = 0.06 * (top - bottom);
+    let bottom = if bottom < 0.0 { bottom - room } else { 0.0 };
 
     let mut svg = String::new();
-    let span = draw(&mut svg, &curves, end, top).ok()?;
+    let span = draw(&mut svg, &curves, end, [bottom, top + room]).ok()?;
     Some(Plot {
         svg,
         span,
@@ -75,14 +78,14 @@ fn draw(
     svg: &mut String,
     curves: &[Vec<(f64, f64)>],
     end: f64,
-    top: f64,
+    [bottom, top]: [f64; 2],
 ) -> Result<(i32, i32), DrawError> {
     let area = SVGBackend::with_string(svg, (WIDTH, HEIGHT)).into_drawing_area();
     let mut chart = ChartBuilder::on(&area)
         .margin(MARGIN)
         .x_label_area_size(BOTTOM)
         .y_label_area_size(LEFT)
-        .build_cartesian_2d(0.0..end, 0.0..top)?;
+        .build_cartesian_2d(0.0..end, bottom..top)?;
     chart
         .configure_mesh()
         .disable_x_mesh()

@@ -1,8 +1,10 @@
-// Ties the plots to the film: a line marks the film's moment in each plot, a
-// click into a plot goes there. Without a film the plots simply stand.
+// Ties the plots to the films: a line marks in each plot the moment of the film
+// that moved last, a click into a plot goes there in all. Without a film the
+// plots simply stand.
 (() => {
-  const film = document.querySelector("video");
-  if (!film) return;
+  const films = [...document.querySelectorAll("video")];
+  if (!films.length) return;
+  let film = films[0];
   const marks = [...document.querySelectorAll(".canvas")].map((canvas) => {
     const svg = canvas.querySelector("svg");
     const { left, right, from, to } = canvas.dataset;
@@ -16,7 +18,7 @@
       const box = svg.getBoundingClientRect();
       const x = ((event.clientX - box.left) / box.width) * svg.viewBox.baseVal.width;
       const share = Math.min(1, Math.max(0, (x - left) / (right - left)));
-      film.currentTime = Number(from) + share * (to - from);
+      for (const each of films) each.currentTime = Number(from) + share * (to - from);
     });
     return { line, left: Number(left), right: Number(right), from: Number(from), to: Number(to) };
   });
@@ -28,6 +30,11 @@
     }
     if (!film.paused) requestAnimationFrame(show);
   };
-  for (const name of ["play", "seeked", "timeupdate"]) film.addEventListener(name, show);
+  for (const each of films)
+    for (const name of ["play", "seeked", "timeupdate"])
+      each.addEventListener(name, () => {
+        film = each;
+        show();
+      });
   show();
 })();

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use vitriol::cli::ColourName;
 use vitriol::command::replay::Setup;
 use vitriol::experiment::on_device;
 use vitriol::replay::Experiment;
@@ -29,6 +30,7 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
         seed: 1,
         device: None,
         picture: Some(SIZE),
+        colours: vec![ColourName::Speed],
         head,
         shaders: Arc::new(shaders),
     };

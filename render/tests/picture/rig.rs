@@ -79,7 +79,7 @@ impl Rig {
         self.draw(&FrameDesc {
             particles: Some(ParticleSource {
                 positions: &positions_buffer,
-                velocities: &velocities_buffer,
+                attributes: &velocities_buffer,
                 count: positions.len() as u32,
                 radius,
             }),

@@ -63,7 +63,7 @@ fn colour_follows_speed_and_stays_at_its_end() {
         let picture = rig.draw(&FrameDesc {
             particles: Some(ParticleSource {
                 positions: &positions,
-                velocities: &velocities,
+                attributes: &velocities,
                 count: 1,
                 radius: 0.05,
             }),
@@ -86,6 +86,48 @@ fn colour_follows_speed_and_stays_at_its_end() {
         "{shades:?}"
     );
     assert_eq!(centre(2.0), centre(50.0));
+}
+
+/// Of one buffer, what is asked for is shown, from its own start to its own end.
+#[test]
+fn colour_follows_temperature_or_acid() {
+    let rig = Rig::new(EXTENT, 1);
+    let views = [View::bench(ASPECT)];
+    let positions = rig.buffer("positions", &[[0.0, 0.855, -0.40, 1.0]]);
+    let centre = |temperature: f32, acid: f32, colour_by: ColourBy| {
+        let heat = rig.buffer("heat", &[[temperature, acid, 7e8, -3e5]]);
+        let picture = rig.draw(&FrameDesc {
+            particles: Some(ParticleSource {
+                positions: &positions,
+                attributes: &heat,
+                count: 1,
+                radius: 0.05,
+            }),
+            colour_by,
+            ..without_particles(&views)
+        });
+        let index = (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
+        picture.colour[0][4 * index..][..4].to_vec()
+    };
+    let heat = ColourBy::Temperature(20.0, 180.0);
+    let warmer: Vec<f64> = [20.0, 60.0, 100.0, 140.0, 180.0]
+        .map(|t| luminance(&centre(t, 0.4, heat)))
+        .to_vec();
+    let sourer: Vec<f64> = [0.0, 0.25, 0.5, 0.75, 1.0]
+        .map(|c| luminance(&centre(20.0, c, ColourBy::Acid)))
+        .to_vec();
+    for shades in [&warmer, &sourer] {
+        assert!(
+            shades.windows(2).all(|pair| pair[1] > pair[0] + 10.0),
+            "{shades:?}"
+        );
+    }
+    assert_eq!(centre(20.0, 0.1, heat), centre(-40.0, 0.9, heat));
+    assert_eq!(centre(180.0, 0.1, heat), centre(900.0, 0.9, heat));
+    assert_eq!(
+        centre(20.0, 0.3, ColourBy::Acid),
+        centre(99.0, 0.3, ColourBy::Acid)
+    );
 }
 
 #[test]
@@ -161,7 +203,7 @@ fn another_length_scale_gives_the_same_picture() {
             vessels: &vessels,
             particles: Some(ParticleSource {
                 positions: &positions,
-                velocities: &velocities,
+                attributes: &velocities,
                 count: 1,
                 radius: 0.02 / scale,
             }),
@@ -212,7 +254,7 @@ fn a_frame_that_does_not_fit_is_refused() {
         views: std::slice::from_ref(&view),
         particles: Some(ParticleSource {
             positions: &buffer,
-            velocities: &buffer,
+            attributes: &buffer,
             count: 5,
             radius: 0.01,
         }),

@@ -18,7 +18,10 @@
 struct ParticleDraw {
     /// Radius as drawn, in the scene's unit.
     radius: f32,
-    /// The attribute's value at the colour map's end is its inverse; its start is 0.
+    /// What colours stand for: 0 speed, 1 temperature, 2 acid.
+    colour_by: u32,
+    /// The attribute's value where the colour map starts, and one over the way to its end.
+    start: f32,
     inverse_range: f32,
 }
 
@@ -26,8 +29,8 @@ var<immediate> particles: ParticleDraw;
 
 /// Position in the stage; w < 0 marks a particle that was taken out.
 @group(0) @binding(1) var<storage, read> positions: array<vec4<f32>>;
-/// Velocity, in the scene's unit per second.
-@group(0) @binding(2) var<storage, read> velocities: array<vec4<f32>>;
+/// Velocity, in the scene's unit per second; or temperature (°C) and acid fraction in x and y.
+@group(0) @binding(2) var<storage, read> attributes: array<vec4<f32>>;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -84,8 +87,11 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> V
     out.clip = frame.views[eye].clip_from_stage * vec4<f32>(point, 1.0);
     out.plane = vec4<f32>(corner, y_axis.y, to_eye.y);
 
-    let speed = length(velocities[index / 3u].xyz);
-    let place = min(speed * particles.inverse_range, 1.0) * 16.0;
+    let values = attributes[index / 3u];
+    var value = values.x;
+    if particles.colour_by == 0u { value = length(values.xyz); }
+    if particles.colour_by == 2u { value = values.y; }
+    let place = clamp((value - particles.start) * particles.inverse_range, 0.0, 1.0) * 16.0;
     let entry = min(u32(place), 15u);
     let colour = mix(
         frame.colour_map[entry].rgb,

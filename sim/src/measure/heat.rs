@@ -36,12 +36,14 @@ pub struct HeatMeasurement {
 
 /// Temperature above the boiling point: T_B of the paper, or that of each
 /// particle's composition.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Superheat {
     /// Largest, K; negative where nothing is above its boiling point.
     pub max: f64,
     /// Particles above it.
     pub particles: u64,
+    /// Of these, the members of each flask, up to the last one that has any.
+    pub in_flasks: Vec<u64>,
 }
 
 /// Mass and energy of the physical chemistry. Enthalpies are relative to the
@@ -175,9 +177,17 @@ impl Boils {
             let so_far = found.get_or_insert(Superheat {
                 max: superheat,
                 particles: 0,
+                in_flasks: Vec::new(),
             });
             so_far.max = so_far.max.max(superheat);
-            so_far.particles += u64::from(superheat > 0.0);
+            if superheat > 0.0 {
+                so_far.particles += 1;
+                if let Some(flask) = state.flask_of(slot) {
+                    let flasks = so_far.in_flasks.len().max(flask + 1);
+                    so_far.in_flasks.resize(flasks, 0);
+                    so_far.in_flasks[flask] += 1;
+                }
+            }
         }
         found
     }

@@ -1,0 +1,204 @@
+//! The scale of a film's colours, drawn into its pictures: a bar of the map with
+//! numbers and unit.
+
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use vitriol_render::{ColourBy, ColourMap};
+
+/// Distance of the panel from the picture's left and upper edge, and of what is
+/// in it from its own, pixels.
+const MARGIN: usize = 16;
+const PADDING: usize = 12;
+/// The bar, pixels.
+const BAR: [usize; 2] = [280, 14];
+/// Height of a tick below the bar, pixels.
+const TICK: usize = 5;
+/// Share of the panel's white over the picture.
+const WHITENESS: u32 = 215;
+/// Text and ticks, sRGB grey.
+const INK: u32 = 30;
+
+const SIZE: RasterHeight = RasterHeight::Size16;
+
+/// The scale of an attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Legend {
+    title: &'static str,
+    map: ColourMap,
+    range: [f32; 2],
+    step: f32,
+    decimals: usize,
+}
+
+impl Legend {
+    /// That of temperature or acid; speed has none, since its colours only set
+    /// what moves off from what rests.
+    pub fn of(colour_by: ColourBy) -> Option<Self> {
+        let (title, step, decimals) = match colour_by {
+            ColourBy::Speed(_) => return None,
+            ColourBy::Temperature(coldest, hottest) => {
+                ("temperature, °C", tick_step(hottest - coldest), 0)
+            }
+            ColourBy::Acid => ("acid, mass fraction", 0.2, 1),
+        };
+        Some(Self {
+            title,
+            map: colour_by.map(),
+            range: colour_by.range(),
+            step,
+            decimals,
+        })
+    }
+
+    /// Draws it into the upper left corner of `picture` (RGBA rows of `width`
+    /// pixels, from the top); into none where it has no room.
+    pub fn draw(&self, picture: &mut [u8], width: usize) {
+        let text = SIZE.val();
+        let panel = [
+            BAR[0] + 2 * PADDING,
+            2 * text + BAR[1] + TICK + 2 * PADDING + 4,
+        ];
+        let height = picture.len() / 4 / width.max(1);
+        if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
+            return;
+        }
+        let mut canvas = Canvas { picture, width };
+        for y in 0..panel[1] {
+            for x in 0..panel[0] {
+                canvas.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
+            }
+        }
+        let left = MARGIN + PADDING;
+        let mut top = MARGIN + PADDING;
+        canvas.write(left, top, self.title);
+        top += text + 4;
+        for x in 0..BAR[0] {
+            let place = x as f32 / (BAR[0] - 1) as f32;
+            let colour = self
+                .map
+                .at(place)
+                .map(|share| (255.0 * share).round() as u32);
+            for y in 0..BAR[1] {
+                canvas.blend(left + x, top + y, colour, 255);
+            }
+        }
+        top += BAR[1];
+        for value in self.ticks() {
+            let share = (value - self.range[0]) / (self.range[1] - self.range[0]);
+            let at = left + (share * (BAR[0] - 1) as f32).round() as usize;
+            for y in 0..TICK {
+                canvas.blend(at, top + y, [INK; 3], 255);
+            }
+            let label = format!("{value:.*}", self.decimals);
+            let wide = label.chars().count() * get_raster_width(FontWeight::Regular, SIZE);
+            let start = (at.saturating_sub(wide / 2)).clamp(MARGIN, left + BAR[0] + PADDING - wide);
+            canvas.write(start, top + TICK, &label);
+        }
+    }
+
+    /// Values that have a number: multiples of the step.
+    fn ticks(&self) -> Vec<f32> {
+        let first = (self.range[0] / self.step - 1e-4).ceil() as i32;
+        let last = (self.range[1] / self.step + 1e-4).floor() as i32;
+        (first..=last).map(|n| n as f32 * self.step).collect()
+    }
+}
+
+/// Three to seven numbers over a range of temperatures.
+fn tick_step(range: f32) -> f32 {
+    let steps = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
+    let fits = steps.into_iter().find(|step| range / step <= 7.0);
+    fits.unwrap_or(1000.0)
+}
+
+struct Canvas<'a> {
+    picture: &'a mut [u8],
+    width: usize,
+}
+
+impl Canvas<'_> {
+    /// Lays `colour` over a pixel; `alpha` is 0 to 255.
+    fn blend(&mut self, x: usize, y: usize, colour: [u32; 3], alpha: u32) {
+        let first = 4 * (y * self.width + x);
+        let Some(pixel) = self.picture.get_mut(first..first + 3) else {
+            return;
+        };
+        for (old, new) in pixel.iter_mut().zip(colour) {
+            let mixed = (u32::from(*old) * (255 - alpha) + new * alpha + 127) / 255;
+            *old = mixed.min(255) as u8;
+        }
+    }
+
+    fn write(&mut self, x: usize, y: usize, text: &str) {
+        let advance = get_raster_width(FontWeight::Regular, SIZE);
+        for (index, letter) in text.chars().enumerate() {
+            // The font has all letters that titles and numbers are made of.
+            let Some(raster) = get_raster(letter, FontWeight::Regular, SIZE) else {
+                continue;
+            };
+            for (dy, row) in raster.rows().enumerate() {
+                for (dx, &ink) in row.iter().enumerate() {
+                    self.blend(x + index * advance + dx, y + dy, [INK; 3], ink.into());
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const WIDTH: usize = 960;
+    const GREY: u8 = 128;
+
+    fn drawn(colour_by: ColourBy) -> Vec<u8> {
+        let mut picture = vec![GREY; 4 * WIDTH * 540];
+        Legend::of(colour_by).unwrap().draw(&mut picture, WIDTH);
+        picture
+    }
+
+    /// A hue that a particle's colour has is where the scale has its value.
+    #[test]
+    fn the_bar_is_the_map_from_end_to_end() {
+        let picture = drawn(ColourBy::Temperature(20.0, 180.0));
+        let row = MARGIN + PADDING + SIZE.val() + 4 + BAR[1] / 2;
+        for x in 0..BAR[0] {
+            let place = x as f32 / (BAR[0] - 1) as f32;
+            let first = 4 * (row * WIDTH + MARGIN + PADDING + x);
+            let expected = ColourMap::Plasma.at(place);
+            for (byte, share) in picture[first..first + 3].iter().zip(expected) {
+                assert!((f32::from(*byte) - 255.0 * share).abs() <= 0.51);
+            }
+        }
+        // Nothing elsewhere.
+        assert!(picture[4 * WIDTH * 140..].iter().all(|&byte| byte == GREY));
+        assert!(
+            picture[..4 * WIDTH * MARGIN]
+                .iter()
+                .all(|&byte| byte == GREY)
+        );
+    }
+
+    #[test]
+    fn numbers_are_round_and_within() {
+        let ticks = |coldest, hottest| {
+            let colour_by = ColourBy::Temperature(coldest, hottest);
+            Legend::of(colour_by).unwrap().ticks()
+        };
+        assert_eq!(
+            ticks(20.0, 150.0),
+            [20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0]
+        );
+        assert_eq!(ticks(15.0, 105.0), [20.0, 40.0, 60.0, 80.0, 100.0]);
+        assert_eq!(Legend::of(ColourBy::Acid).unwrap().ticks().len(), 6);
+        assert!(Legend::of(ColourBy::Speed(1.0)).is_none());
+    }
+
+    #[test]
+    fn a_picture_without_room_stays_as_it_is() {
+        let mut small = vec![GREY; 4 * 200 * 100];
+        Legend::of(ColourBy::Acid).unwrap().draw(&mut small, 200);
+        assert!(small.iter().all(|&byte| byte == GREY));
+    }
+}

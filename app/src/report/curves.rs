@@ -1,0 +1,188 @@
+//! The plots that a scene's chemistry and its flasks have.
+
+use std::collections::BTreeMap;
+
+use super::model::{HeatSample, LedgerSample, Report, Sample};
+use super::plot::Curve;
+use super::units;
+
+/// A plot's title, unit and curves.
+pub struct Plotted {
+    /// Title.
+    pub title: &'static str,
+    /// The unit's symbol.
+    pub unit: &'static str,
+    /// Its curves.
+    pub curves: Vec<Curve>,
+}
+
+impl Report {
+    /// What left the flasks and flies above their rims, and what is spilled and
+    /// evaporated; of runs in which anything did.
+    pub(super) fn departures(&self) -> Vec<Plotted> {
+        let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
+        let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
+        let mut lost = vec![(self.curve("spilled", &spilled), largest(self, &spilled))];
+        if self.series.iter().any(|sample| ledger(sample).is_some()) {
+            lost.push((self.curve("evaporated", &steam), largest(self, &steam)));
+        }
+        let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
+        let curves = lost.into_iter().map(|(curve, _)| curve).collect();
+        [
+            self.by_flask("Mass above the rim, by the flask that it left", |s| {
+                &s.above_rim_kg
+            }),
+            self.by_flask("Mass that has left a flask", |s| &s.left_kg),
+            self.scaled("Spilled and evaporated", units::mass(most), most, curves),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Temperature, acid, superheat and ledger; none where no heat is modelled.
+    pub(super) fn chemistry(&self) -> Vec<Plotted> {
+        let first = self.series.iter().find_map(|sample| sample.heat.as_ref());
+        let Some(first) = first else {
+            return Vec::new();
+        };
+        let heat = |label: &str, value: &dyn Fn(&HeatSample) -> f64| {
+            self.curve(label, &|s| s.heat.as_ref().map_or(f64::NAN, value))
+        };
+        let mut plots = vec![
+            Plotted {
+                title: "Temperature",
+                unit: "°C",
+                curves: vec![
+                    heat("mean", &|h| h.temperature_mean_c),
+                    heat("99th percentile", &|h| h.temperature_p99_c),
+                    heat("maximum", &|h| h.temperature_max_c),
+                ],
+            },
+            Plotted {
+                title: "Acid",
+                unit: "% by mass",
+                curves: vec![
+                    heat("mean", &|h| 100.0 * h.acid_mean),
+                    heat("least", &|h| 100.0 * h.acid_min),
+                    heat("most", &|h| 100.0 * h.acid_max),
+                ],
+            },
+        ];
+        if first.superheat_max_k.is_some() {
+            plots.push(Plotted {
+                title: "Above the boiling point, at most",
+                unit: "K",
+                curves: vec![heat("superheat", &|h| {
+                    h.superheat_max_k
+                        .map_or(f64::NAN, |superheat| superheat.max(0.0))
+                })],
+            });
+            plots.push(Plotted {
+                title: "Particles above the boiling point",
+                unit: "",
+                curves: vec![heat("particles", &|h| {
+                    h.boiling_particles.map_or(f64::NAN, |count| count as f64)
+                })],
+            });
+        }
+        if first.ledger.is_some() {
+            plots.extend(self.ledger());
+        }
+        plots
+    }
+
+    /// Enthalpy, and what of it became what.
+    fn ledger(&self) -> Vec<Plotted> {
+        type Term = (&'static str, fn(&LedgerSample) -> f64);
+        let terms: [Term; 3] = [
+            ("lost from what is there", |l| l.initial_j - l.held_j),
+            ("given to the surroundings", |l| -l.exchanged_j),
+            ("steam", |l| l.steam_j),
+        ];
+        let kinetic: Term = ("paid for motion", |l| l.kinetic_j);
+        let of = |(label, value): Term, factor: f64| {
+            self.curve(label, &|s| {
+                ledger(s).map_or(f64::NAN, |l| factor * value(l))
+            })
+        };
+        let most = |(_, value): Term| {
+            let values = self.series.iter().filter_map(ledger).map(value);
+            values.fold(0.0, |most: f64, value| most.max(value.abs()))
+        };
+        let energy = units::energy(terms.into_iter().map(most).fold(0.0, f64::max));
+        let motion = units::energy(most(kinetic));
+        vec![
+            Plotted {
+                title: "Enthalpy",
+                unit: energy.symbol,
+                curves: terms
+                    .into_iter()
+                    .map(|term| of(term, energy.factor))
+                    .collect(),
+            },
+            Plotted {
+                title: "Enthalpy that boiling paid for motion",
+                unit: motion.symbol,
+                curves: vec![of(kinetic, motion.factor)],
+            },
+            Plotted {
+                title: "Ledger: what does not add up",
+                unit: "millionths of the enthalpy at the start",
+                curves: vec![of(("closure", |l| 1e6 * l.closure), 1.0)],
+            },
+        ]
+    }
+
+    /// A curve over the run.
+    pub(super) fn curve(&self, label: &str, value: &dyn Fn(&Sample) -> f64) -> Curve {
+        Curve {
+            label: label.into(),
+            points: self.series.iter().map(|s| (s.t_s, value(s))).collect(),
+        }
+    }
+
+    fn by_flask(
+        &self,
+        title: &'static str,
+        masses: fn(&Sample) -> &BTreeMap<String, f64>,
+    ) -> Option<Plotted> {
+        let of = |flask: &str, sample: &Sample| masses(sample).get(flask).copied();
+        let names = self.mass_kg.flasks.keys();
+        let curves: Vec<Curve> = names
+            .map(|flask| self.curve(flask, &|s| of(flask, s).unwrap_or(f64::NAN)))
+            .collect();
+        let values = self
+            .series
+            .iter()
+            .flat_map(|sample| masses(sample).values());
+        let most = values.copied().fold(0.0, f64::max);
+        self.scaled(title, units::mass(most), most, curves)
+    }
+
+    /// In a unit; none where all is zero.
+    fn scaled(
+        &self,
+        title: &'static str,
+        unit: units::Scaled,
+        most: f64,
+        mut curves: Vec<Curve>,
+    ) -> Option<Plotted> {
+        let values = curves.iter_mut().flat_map(|curve| &mut curve.points);
+        values.for_each(|(_, value)| *value *= unit.factor);
+        (most > 0.0).then_some(Plotted {
+            title,
+            unit: unit.symbol,
+            curves,
+        })
+    }
+}
+
+fn ledger(sample: &Sample) -> Option<&LedgerSample> {
+    sample.heat.as_ref()?.ledger.as_ref()
+}
+
+fn largest(report: &Report, value: &dyn Fn(&Sample) -> f64) -> f64 {
+    let values = report.series.iter().map(value);
+    values.filter(|v| v.is_finite()).fold(0.0, f64::max)
+}

@@ -1,0 +1,75 @@
+//! What has left which flask, and what flies above its rim.
+
+use crate::pose::Pose;
+use crate::scene::Flask;
+use crate::solver::SolverState;
+use glam::Vec3;
+
+/// Follows the particles of a run from look to look.
+///
+/// A particle belongs to the flask whose member it last was. One that leaves and
+/// comes back between two looks is not seen to leave.
+#[derive(Clone, Debug, Default)]
+pub struct Departures {
+    /// By identity: the flask whose member it was last.
+    last: Vec<Option<usize>>,
+    /// By flask: whether each identity has left it.
+    left: Vec<Vec<bool>>,
+    /// By flask: mass of those, over that of a particle at rest density.
+    masses: Vec<f64>,
+}
+
+/// Mass that is not in its flask, by flask, kg of the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Departed {
+    /// Has left at any time so far, each particle once: poured, thrown or
+    /// splashed, whether it came back or not.
+    pub left: Vec<f64>,
+    /// Is above the rim's plane now and in no flask, having left this one last.
+    pub above_rim: Vec<f64>,
+}
+
+impl Departures {
+    /// Takes a state into account, in which flasks are at `poses`; a particle at
+    /// rest density has `particle_mass` kg.
+    pub fn observe(
+        &mut self,
+        state: &SolverState,
+        flasks: &[Flask],
+        poses: &[Pose],
+        particle_mass: f64,
+    ) -> Departed {
+        let count = state.tags.len();
+        self.last.resize(count, None);
+        self.left.resize(flasks.len(), vec![false; count]);
+        self.masses.resize(flasks.len(), 0.0);
+        let mut above_rim = vec![0.0; flasks.len()];
+        let flask_from_stage: Vec<Pose> = poses.iter().map(|pose| pose.inverse()).collect();
+        for slot in (0..count).filter(|&slot| state.is_present(slot)) {
+            let identity = state.tags[slot][1] as usize;
+            let now = state.flask_of(slot);
+            if let Some(flask) = self.last[identity]
+                && now != Some(flask)
+            {
+                if !self.left[flask][identity] {
+                    self.left[flask][identity] = true;
+                    self.masses[flask] += state.mass_of(slot);
+                }
+                let [x, y, z, _] = state.positions[slot];
+                let local = flask_from_stage[flask].transform_point(Vec3::new(x, y, z));
+                if now.is_none() && f64::from(local.y) > flasks[flask].profile.rim_height() {
+                    above_rim[flask] += particle_mass * state.mass_of(slot);
+                }
+            }
+            self.last[identity] = now.or(self.last[identity]);
+        }
+        Departed {
+            left: self
+                .masses
+                .iter()
+                .map(|mass| particle_mass * mass)
+                .collect(),
+            above_rim,
+        }
+    }
+}
