@@ -70,6 +70,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--out",
                 "--no-video",
                 "--camera",
+                "--colour",
             ][..],
         ),
         ("track", &["--output", "--list"]),
@@ -119,6 +120,10 @@ fn bad_arguments_are_refused() {
         refuses(&["replay", "x", seconds], &["above 0"]);
     }
     refuses(&["replay", "x", "--seed=-1"], &["--seed"]);
+    refuses(
+        &["replay", "two-flasks", "--colour", "acid"],
+        &["--colour acid", "two-flasks models no heat"],
+    );
     refuses(&["replay", "nowhere.mcap"], &["nowhere.mcap", "two-flasks"]);
     refuses(&["bench", "--frames", "0"], &["--frames"]);
     refuses(&["bench", "--paper", "--scene", "x"], &["--paper"]);

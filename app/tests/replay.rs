@@ -6,12 +6,14 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use vitriol::cli::{Cli, Command};
+use vitriol::cli::{Cli, ColourName, Command};
 use vitriol::command::replay::run;
 use vitriol::console::Format;
 use vitriol::failure::{Blame, Failure};
 use vitriol::replay::{Experiment, Outcome};
-use vitriol::report::{Counters, DeviceStatement, MassByPlace, Report, Sample};
+use vitriol::report::{
+    Counters, DeviceStatement, HeatSample, LedgerSample, MassByPlace, Report, Sample,
+};
 use vitriol_tests::browser::{self, Look};
 use vitriol_xr::PoseFrame;
 
@@ -21,7 +23,37 @@ struct Toy {
     steps: u64,
     /// The step that fails; 0 for the end, after the film.
     fails_at: u64,
+    /// Whether its scene models heat.
+    hot: bool,
     picture: Vec<u8>,
+}
+
+/// Boils from second 2 on; half of what it loses is steam.
+fn heat(t: f64) -> HeatSample {
+    HeatSample {
+        temperature_mean_c: 20.0 + 20.0 * t,
+        temperature_p99_c: 30.0 + 20.0 * t,
+        temperature_max_c: 40.0 + 20.0 * t,
+        acid_mean: 0.5,
+        acid_min: 0.0,
+        acid_max: 0.98,
+        superheat_max_k: Some(10.0 * (t - 2.0)),
+        boiling_particles: Some(if t > 2.05 { 100 } else { 0 }),
+        boiling_in_flasks: BTreeMap::from([
+            ("erlenmeyer".into(), 0),
+            (FLASK.into(), if t > 2.05 { 90 } else { 0 }),
+        ]),
+        ledger: Some(LedgerSample {
+            initial_j: -9000.0,
+            exchanged_j: -50.0 * t,
+            held_j: -9000.0 - 100.0 * t,
+            steam_j: 49.9 * t,
+            kinetic_j: 0.1 * t,
+            closure: 2e-7,
+            steam_kg: 1e-5 * t,
+            vapour_kg: 0.0,
+        }),
+    }
 }
 
 /// A name that breaks a page which does not escape it.
@@ -32,6 +64,7 @@ impl Toy {
         Self {
             steps: 0,
             fails_at,
+            hot: false,
             picture: Vec::new(),
         }
     }
@@ -65,9 +98,9 @@ impl Experiment for Toy {
                 air: 0.2 * spilled,
             },
             neighbour_rebuilds: (t * 40.0) as u64,
-            left_kg: BTreeMap::new(),
-            above_rim_kg: BTreeMap::new(),
-            heat: None,
+            left_kg: BTreeMap::from([("erlenmeyer".into(), poured), (FLASK.into(), 0.0)]),
+            above_rim_kg: BTreeMap::from([("erlenmeyer".into(), 0.0), (FLASK.into(), 0.0)]),
+            heat: self.hot.then(|| heat(t)),
         })
     }
 
@@ -172,6 +205,67 @@ fn a_run_longer_than_its_track_holds_the_last_pose() {
 }
 
 #[test]
+fn a_scene_with_heat_has_two_films_and_its_chemistry() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let hot = |setup: &vitriol::command::replay::Setup<'_>| {
+        assert_eq!(setup.colours, [ColourName::Speed, ColourName::Temperature]);
+        let toy = Toy {
+            hot: true,
+            ..Toy::new(u64::MAX)
+        };
+        Ok(Box::new(toy) as Box<dyn Experiment>)
+    };
+    let arguments = "vitriol replay two-flasks --scene water-into-acid --seconds 4 --out";
+    let arguments = arguments.split(' ').chain([out.to_str().unwrap()]);
+    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
+        panic!("replay is parsed as another command");
+    };
+    run(&args, Format::Json, hot).unwrap();
+    let report = report_of(&out);
+    let films = [report.film.clone(), report.film_temperature.clone()].map(Option::unwrap);
+    let coloured = films.each_ref().map(|film| film.colour.as_str());
+    assert_eq!(coloured, ["speed", "temperature"]);
+    for film in films {
+        assert_eq!(film.frames, 120);
+        assert!(fs::metadata(out.join(&film.path)).unwrap().len() > 1000);
+    }
+    // 2.1, 2.2, … 4.0 s of 90 particles.
+    let boiling = &report.boiling_particle_seconds;
+    assert!((boiling[FLASK] - 90.0 * 2.0).abs() < 9.01, "{boiling:?}");
+    assert_eq!(boiling["erlenmeyer"], 0.0);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert_eq!(page.matches("<video").count(), 2);
+    for part in [
+        "film-temperature.mp4",
+        "Coloured by temperature",
+        "120.0 °C",
+        "Above the boiling point",
+        "Enthalpy that boiling paid for motion",
+        "evaporated",
+    ] {
+        assert!(page.contains(part), "{part} is missing");
+    }
+    // Refused as a whole, since one of its films is there.
+    fs::remove_file(out.join("report.json")).unwrap();
+    fs::remove_file(out.join("report.html")).unwrap();
+    fs::remove_file(out.join("film.mp4")).unwrap();
+    let refused = run(&args, Format::Json, hot).unwrap_err();
+    assert!(refused.to_string().contains("film-temperature.mp4"));
+    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
+        fs::write(out.join("report.html"), page).unwrap();
+        let picture = Path::new(&keep).join("heat.png");
+        browser::photograph(
+            &out.join("report.html"),
+            (1200, 4300),
+            Look::Light,
+            &picture,
+        )
+        .unwrap();
+    }
+}
+
+#[test]
 fn a_failed_run_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
@@ -234,7 +328,8 @@ fn the_report_reads_in_a_browser() {
     assert_eq!(value("lost_particles"), "0");
     let mean = format!("{:.2} %", report.density_error_mean * 100.0);
     assert_eq!(value("density_error_mean"), mean);
-    assert_eq!(told["plots"], 4);
+    // And what has left the flasks, and what is spilled.
+    assert_eq!(told["plots"], 6);
     assert_eq!(told["wide"], 0, "nothing sticks out sideways");
     let duration = told["duration"].as_f64().unwrap();
     assert!((duration - film.frames as f64 / 30.0).abs() < 2e-3);

@@ -15,7 +15,7 @@ fn the_picture_follows_the_head() {
     let level = Pose::new(BEFORE, Quat::IDENTITY);
     let mut laboratory = experiment(&device, Some(level), Library::embedded());
     // What is straight ahead is in the middle, before the first step too.
-    let (x, y) = liquid(laboratory.picture().unwrap());
+    let (x, y) = liquid(laboratory.picture(0).unwrap());
     assert!(x.abs() < 1.0 && y.abs() < 15.0, "{x} {y}");
 
     // Pixels from the axis: tangents, half a picture being tan(20°) high.
@@ -41,7 +41,7 @@ fn the_picture_follows_the_head() {
         (level, (0.0, 0.0)),
     ] {
         laboratory.step(&frame(0, head)).unwrap();
-        let (new_x, new_y) = liquid(laboratory.picture().unwrap());
+        let (new_x, new_y) = liquid(laboratory.picture(0).unwrap());
         // The liquid settles, and its near side is nearer than its middle; what
         // is asked for is 44 pixels.
         let off = (new_x - x - moves.0).hypot(new_y - y - moves.1);
@@ -56,10 +56,10 @@ fn the_picture_follows_the_head() {
 fn a_fixed_camera_stays() {
     let device = gpu::device();
     let mut laboratory = experiment(&device, None, Library::embedded());
-    let before = liquid(laboratory.picture().unwrap());
+    let before = liquid(laboratory.picture(0).unwrap());
     let away = Pose::new(BEFORE, Quat::from_rotation_y(0.5));
     laboratory.step(&frame(0, away)).unwrap();
-    let after = liquid(laboratory.picture().unwrap());
+    let after = liquid(laboratory.picture(0).unwrap());
     // Settling in a small picture; a head turned by 0.5 rad moves it out of
     // the picture.
     let moved = (after.0 - before.0).hypot(after.1 - before.1);

@@ -79,7 +79,7 @@ impl MakeWriter<'_> for Messages {
 fn step(laboratory: &mut dyn Experiment) -> Vec<u8> {
     let level = Pose::new(BEFORE, Quat::IDENTITY);
     laboratory.step(&frame(0, level)).unwrap();
-    laboratory.picture().unwrap().to_vec()
+    laboratory.picture(0).unwrap().to_vec()
 }
 
 /// How many pixels are more red than blue: liquid at rest is blue.
