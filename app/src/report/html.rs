@@ -76,6 +76,9 @@ impl Report {
                         &format!("{hottest:.1} °C"), "of a particle at any sample", false))
                 }
                 @if let Some(ledger) = self.ledger_at_end() {
+                    (figure("steam_kg", "Evaporated",
+                        &with_unit(ledger.steam_kg, units::mass(ledger.steam_kg)),
+                        "water that left as steam", false))
                     (figure("ledger_closure", "Ledger",
                         &format!("{:.1e}", ledger.closure.abs()),
                         "enthalpy that does not add up at the end, relative", ledger.closure.abs() > 1e-4))
