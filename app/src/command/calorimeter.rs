@@ -87,8 +87,8 @@ pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
 pub fn resolution(preset: PresetName) -> Resolution {
     let (particles, iterations) = match preset {
         PresetName::Fast => (1_000, 2),
-        PresetName::Balanced => (4_000, 3),
-        PresetName::Reference => (12_000, 4),
+        PresetName::Balanced => (2_500, 3),
+        PresetName::Reference => (6_000, 4),
     };
     Resolution {
         particles,
