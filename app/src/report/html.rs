@@ -12,7 +12,7 @@ const SCRIPT: &str = include_str!("report.js");
 impl Report {
     /// The report as a web page. Every string in it is escaped.
     pub fn to_html(&self) -> String {
-        let title = format!("{} · Vitriol", self.track);
+        let title = format!("{} · Vitriol", self.heading());
         html! {
             (DOCTYPE)
             html lang="en" {
@@ -44,7 +44,7 @@ impl Report {
         html! {
             header {
                 p.kicker { "Vitriol · replay of a recorded pour" }
-                h1 { (self.track) }
+                h1 { (self.heading()) }
                 p.lead {
                     (grouped(self.fluid_particles)) " particles of "
                     (with_unit(self.scene.d_m, units::length(self.scene.d_m)))
@@ -249,6 +249,15 @@ impl Report {
                     }
                 }
             }
+        }
+    }
+
+    /// The track, and the scene where that is not the track's own.
+    fn heading(&self) -> String {
+        if self.scene.name == self.track {
+            self.track.clone()
+        } else {
+            format!("{}, {}", self.scene.name, self.track)
         }
     }
 

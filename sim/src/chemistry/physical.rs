@@ -10,11 +10,6 @@ use super::{ABSOLUTE_ZERO, GAS_CONSTANT, OutOfRange, WATER_MOLAR_MASS, check_con
 /// energy is lost by it.
 pub const FLASH_STEPS: u32 = 3;
 
-/// η: share of the work that vapour does against the air, p·ΔV = R·T/M, that
-/// becomes motion of the liquid. Fitted, not data: 10 K of superheat then
-/// throw liquid at some 3 m/s.
-pub const WORK_SHARE: f64 = 0.003;
-
 /// Most of a particle that is vapour: what is left has a composition and a
 /// temperature, however hot.
 const MOST_VAPOUR: f64 = 0.99;

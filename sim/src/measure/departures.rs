@@ -73,3 +73,55 @@ impl Departures {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::flask::Profile;
+
+    /// Particles 0 and 1 as (height in metres, membership); by slot, in the order of `slots`.
+    fn state(particles: [(f32, u32); 2], slots: [usize; 2]) -> SolverState {
+        let positions = slots.map(|i| [0.0, particles[i].0, 0.0, 1.0]).to_vec();
+        let tags: Vec<[u32; 2]> = slots.map(|i| [particles[i].1, i as u32]).to_vec();
+        let none: Vec<[f32; 4]> = Vec::new();
+        let words: Vec<u32> = Vec::new();
+        let plain: Vec<f32> = Vec::new();
+        // A state's fields in their order; what is not looked at is empty.
+        let fields = (
+            (positions, &none, tags, &none, &words, &words, &words),
+            (&none, &none, &none, &plain, &none),
+        );
+        postcard::from_bytes(&postcard::to_allocvec(&fields).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn what_leaves_counts_once_and_what_flies_while_it_does() {
+        let flask = Flask {
+            name: "glass".into(),
+            profile: Profile::new(&[[0.0, 0.03], [0.1, 0.03]], 0.002).unwrap(),
+            mass: 0.1,
+            stage_from_flask: Pose::IDENTITY,
+            fixed: true,
+        };
+        let poses = [flask.stage_from_flask];
+        let mut departures = Departures::default();
+        let mut look = |particles, slots| {
+            let seen = departures.observe(
+                &state(particles, slots),
+                std::slice::from_ref(&flask),
+                &poses,
+                0.5,
+            );
+            (seen.left[0], seen.above_rim[0])
+        };
+        assert_eq!(look([(0.05, 1), (0.05, 1)], [0, 1]), (0.0, 0.0));
+        // One flies; slots change, identities do not.
+        assert_eq!(look([(0.2, 0), (0.05, 1)], [1, 0]), (0.5, 0.5));
+        // It falls beside, then the other flies while the first is back in.
+        assert_eq!(look([(0.01, 0), (0.05, 1)], [0, 1]), (0.5, 0.0));
+        assert_eq!(look([(0.05, 1), (0.2, 0)], [1, 0]), (1.0, 0.5));
+        // It leaves again: not counted twice.
+        assert_eq!(look([(0.2, 0), (0.2, 0)], [0, 1]), (1.0, 1.0));
+    }
+}
