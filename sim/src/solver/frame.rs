@@ -115,6 +115,7 @@ impl Solver {
             .read("position", &b.position)
             .read("velocity", &b.velocity)
             .read("tags", &b.tags)
+            .read("bulk", &b.bulk)
             .constants(&self.step(0))
             .invocations(self.count)?;
         Ok(())
@@ -168,7 +169,6 @@ impl Solver {
             .write("solved", &b.solved)
             .write("boundary", &b.boundary)
             .write("list_args", &b.list_args)
-            .read("bulk", &b.bulk)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())

@@ -143,7 +143,8 @@ impl Solver {
     }
 
     /// Positions as `array<vec4<f32>>`, stage frame, metres; w is −1 for a
-    /// particle that was taken out. For the renderer, in place.
+    /// particle that was taken out, else the vapour that it holds over V0·ρ0.
+    /// For the renderer, in place.
     pub fn positions(&self) -> &Buffer {
         &self.buffers.position
     }

@@ -15,7 +15,8 @@ use xxhash_rust::xxh3::Xxh3;
 /// would have the same pairs in another order, and sums other bits.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SolverState {
-    /// Positions in the stage (m) by slot; w is −1 for one taken out.
+    /// Positions in the stage (m) by slot; w is −1 for one taken out, else the
+    /// vapour that it holds over V0·ρ0.
     pub positions: Vec<[f32; 4]>,
     /// Velocities (m/s) by slot; w is the carried multiplier −p/ρ (m²/s²).
     pub velocities: Vec<[f32; 4]>,
@@ -54,7 +55,7 @@ impl SolverState {
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
         let mut state = Self {
-            positions: particles.iter().map(|p| words(p.position, 1.0)).collect(),
+            positions: particles.iter().map(|p| words(p.position, 0.0)).collect(),
             velocities: particles
                 .iter()
                 .map(|p| words(p.velocity, p.carried as f32))
