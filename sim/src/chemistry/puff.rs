@@ -46,6 +46,9 @@ pub const HUMIDITY: f64 = 0.5;
 /// a cup is 4 to 6 µm.
 pub const DROPLET_RADIUS: f64 = 5e-6;
 
+/// Dry air over steam in a puff that begins.
+pub const FIRST_AIR: f64 = 0.1;
+
 /// Density of the droplets, kg/m³.
 const WATER_DENSITY: f64 = 1000.0;
 
@@ -128,19 +131,25 @@ pub struct Puff {
 
 impl Puff {
     /// `mass` kg of steam whose specific enthalpy is `enthalpy` (J/kg, as the
-    /// liquid's ledger has it: relative to water at 25 °C) at `height`.
-    pub fn of_steam(mass: f64, enthalpy: f64, height: f64) -> Self {
+    /// liquid's ledger has it: relative to water at 25 °C) at `height`, with
+    /// the first of the `room`'s air in it, [`FIRST_AIR`]: of none there is no
+    /// dew point.
+    pub fn of_steam(mass: f64, enthalpy: f64, height: f64, room: &Room) -> Self {
         // The ledger's tables and the air's meet in the steam's temperature.
         let temperature = (enthalpy - steam_enthalpy(0.0)) / STEAM_CAPACITY;
-        Self {
+        let air = FIRST_AIR * mass;
+        let steam = VAPORISATION + VAPOUR_CAPACITY * temperature;
+        let mut puff = Self {
             height,
             momentum: 0.0,
-            air: 0.0,
-            water: mass,
-            enthalpy: mass * (VAPORISATION + VAPOUR_CAPACITY * temperature),
+            air,
+            water: mass + air * room.humidity,
+            enthalpy: mass * steam + air * room.enthalpy,
             temperature,
             mist: 0.0,
-        }
+        };
+        puff.condense();
+        puff
     }
 
     /// Its volume, m³.

@@ -65,6 +65,7 @@ impl Solver {
             self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
             self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
         }
+        self.vent(rec)?;
         self.sum_loads(rec)
     }
 

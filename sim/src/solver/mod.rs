@@ -19,12 +19,14 @@ mod pipelines;
 mod search;
 mod solids;
 mod state;
+mod steam;
 mod vessels;
 
 pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
 pub use state::SolverState;
+pub use steam::PUFFS;
 pub use vessels::Ground;
 
 use crate::flask::Profile;
@@ -32,7 +34,8 @@ use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
 use buffers::Buffers;
 use glam::DVec3;
-use pipelines::{Grid, Pipelines};
+use pipelines::{Constants, Grid, Pipelines};
+use steam::Steam;
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu, vk};
 use vitriol_shaders::Library;
@@ -92,6 +95,7 @@ pub struct Solver {
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
+    steam: Option<Steam>,
 }
 
 impl Solver {
@@ -107,7 +111,9 @@ impl Solver {
         let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
-        let pipelines = Pipelines::new(gpu, library, spec, count, &grid, lanes)?;
+        let constants = Constants::new(spec, count, &grid, lanes);
+        let pipelines = Pipelines::new(gpu, library, spec, &constants)?;
+        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants)?;
         let solver = Self {
             gpu: gpu.clone(),
             coefficients: spec
@@ -123,6 +129,7 @@ impl Solver {
             buffers,
             vessels,
             pipelines,
+            steam,
         };
         solver.restore(&SolverState::start(
             spec.particles,

@@ -2,12 +2,13 @@
 
 use super::matter::Start;
 use super::pipelines::Grid;
+use super::steam::{Steam, SteamState};
 use super::{Counters, Particle, Solver, SolverError};
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::{Buffer, Gpu};
+use vitriol_gpu::{Buffer, Gpu, GpuError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
@@ -43,6 +44,7 @@ pub struct SolverState {
     agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     bulk: Vec<[f32; 4]>,
+    steam: SteamState,
 }
 
 /// Membership of a particle that was taken out.
@@ -69,6 +71,7 @@ impl SolverState {
             ledger: Vec::new(),
             agitation: Vec::new(),
             bulk: Vec::new(),
+            steam: Steam::start(parameters, n),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],
@@ -117,6 +120,11 @@ impl SolverState {
         hash.digest()
     }
 
+    /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.
+    pub fn mist(&self) -> f64 {
+        self.steam.mist()
+    }
+
     /// Whether the particle in a slot is still there.
     pub fn is_present(&self, slot: usize) -> bool {
         self.tags[slot][0] != REMOVED
@@ -154,6 +162,10 @@ impl Solver {
             ledger: read(gpu, &b.ledger, matter)?,
             agitation: read(gpu, &b.agitation, matter)?,
             bulk: read(gpu, &b.bulk, matter)?,
+            steam: match &self.steam {
+                Some(steam) => steam.snapshot(gpu, n)?,
+                None => SteamState::default(),
+            },
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
             list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
@@ -170,6 +182,7 @@ impl Solver {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
         let lengths = self.lengths();
+        let puffs = Steam::start(&self.parameters, n).elements();
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -182,6 +195,7 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
+            ("puffs", state.steam.elements(), puffs),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {
@@ -201,6 +215,9 @@ impl Solver {
         write(gpu, &b.ledger, &state.ledger)?;
         write(gpu, &b.agitation, &state.agitation)?;
         write(gpu, &b.bulk, &state.bulk)?;
+        if let Some(steam) = &self.steam {
+            steam.restore(gpu, &state.steam)?;
+        }
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
@@ -240,7 +257,7 @@ struct Lengths {
 }
 
 /// The first `count` elements; buffers are a few bytes longer where a scene is empty.
-fn read<T: bytemuck::AnyBitPattern>(
+pub(super) fn read<T: bytemuck::AnyBitPattern>(
     gpu: &Gpu,
     buffer: &Buffer,
     count: usize,
@@ -250,7 +267,11 @@ fn read<T: bytemuck::AnyBitPattern>(
     Ok(all)
 }
 
-fn write<T: bytemuck::NoUninit>(gpu: &Gpu, buffer: &Buffer, data: &[T]) -> Result<(), SolverError> {
+pub(super) fn write<T: bytemuck::NoUninit>(
+    gpu: &Gpu,
+    buffer: &Buffer,
+    data: &[T],
+) -> Result<(), GpuError> {
     if !data.is_empty() {
         gpu.write(buffer, data)?;
     }
