@@ -1,7 +1,7 @@
 //! The film's camera: on a tripod, or where the user's eyes were.
 
 use glam::{Affine3A, Vec3};
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
     BoxDesc, ColourBy, Fov, FrameDesc, LiquidDesc, LiquidSource, Neighbours, ParticleSource,
     RenderDesc, RenderError, Renderer, SceneDesc, SurfaceFilter, VesselDesc, VesselTables, View,
@@ -119,6 +119,11 @@ impl Camera {
         };
     }
 
+    /// Puts the camera elsewhere.
+    pub fn set_view(&mut self, view: View) {
+        self.view = view;
+    }
+
     /// The world as it is now, coloured by speed where it has not what is asked
     /// for: rows from the top, sRGB-encoded RGBA bytes.
     /// Waits for the device.
@@ -126,18 +131,37 @@ impl Camera {
     /// # Errors
     /// What the device says.
     pub fn shoot(&self, world: &World, colour: ColourName) -> Result<Vec<u8>, Failure> {
+        let gpu = world.gpu();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        self.record(&mut rec, world, colour)?;
+        let picture = self.renderer.read_back(&mut rec).other()?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+        let mut picture = picture.side_by_side().other()?;
+        let width = (self.eyes * self.renderer.extent()[0]) as usize;
+        if let Some(legend) = self.legend(world, colour) {
+            legend.draw(&mut picture, width);
+        }
+        Ok(picture)
+    }
+
+    /// Records the picture of the world as it is after what was recorded
+    /// before on that queue.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record(
+        &self,
+        rec: &mut Recorder,
+        world: &World,
+        colour: ColourName,
+    ) -> Result<(), Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
         let solver = world.solver();
-        let liquid = (colour == ColourName::Liquid).then(|| liquid_of(world));
-        let (colour_by, attributes) = match (colour, solver.heat()) {
-            (ColourName::Temperature, Some(heat)) => (self.temperatures, heat),
-            (ColourName::Acid, Some(heat)) => (ColourBy::Acid, heat),
-            _ => {
-                let fall = COLOURED_FALL / scale.length_scale;
-                let fastest = (2.0 * scale.gravity.abs() * fall).sqrt();
-                (ColourBy::Speed(fastest as f32), solver.velocities())
-            }
+        let colour_by = self.colour_by(world, colour);
+        let attributes = match (colour_by, solver.heat()) {
+            (ColourBy::Temperature(..) | ColourBy::Acid, Some(heat)) => heat,
+            _ => solver.velocities(),
         };
         let particles = ParticleSource {
             positions: solver.positions(),
@@ -145,29 +169,38 @@ impl Camera {
             count: solver.count(),
             radius: (DRAWN_RADIUS * scale.spacing) as f32,
         };
-        let views = self.views();
+        let liquid = (colour == ColourName::Liquid).then(|| liquid_of(world));
         let frame = FrameDesc {
-            views: &views,
+            views: &self.views(),
             vessels: &vessels,
             particles: liquid.is_none().then_some(particles),
             liquid,
             colour_by,
             length_scale: scale.length_scale as f32,
         };
-        let draw = || -> Result<Vec<u8>, RenderError> {
-            let gpu = world.gpu();
-            let mut rec = gpu.recorder(QueueKind::Main)?;
-            self.renderer.record(&mut rec, &frame)?;
-            let picture = self.renderer.read_back(&mut rec)?;
-            gpu.submit(rec)?.wait()?;
-            picture.side_by_side()
-        };
-        let mut picture = draw().other()?;
-        let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        if let Some(legend) = Legend::of(colour_by).filter(|_| liquid.is_none()) {
-            legend.draw(&mut picture, width);
+        self.renderer.record(rec, &frame).other()
+    }
+
+    /// What particles' colours stand for: speed where the world has not what is
+    /// asked for.
+    fn colour_by(&self, world: &World, colour: ColourName) -> ColourBy {
+        match (colour, world.solver().heat()) {
+            (ColourName::Temperature, Some(_)) => self.temperatures,
+            (ColourName::Acid, Some(_)) => ColourBy::Acid,
+            _ => {
+                let scale = &world.scene().scale;
+                let fall = COLOURED_FALL / scale.length_scale;
+                ColourBy::Speed((2.0 * scale.gravity.abs() * fall).sqrt() as f32)
+            }
         }
-        Ok(picture)
+    }
+
+    /// What stands in the picture's corner.
+    fn legend(&self, world: &World, colour: ColourName) -> Option<Legend> {
+        match colour {
+            ColourName::Liquid => None,
+            _ => Legend::of(self.colour_by(world, colour)),
+        }
     }
 
     /// The camera's view, or that of the eyes to its left and right.
