@@ -19,6 +19,8 @@ pub(crate) struct Pipelines {
     pub(crate) glass_far: RasterPipeline,
     /// Those that look at it.
     pub(crate) glass_near: RasterPipeline,
+    /// The finished picture with its edges smoothed.
+    pub(crate) edges: RasterPipeline,
 }
 
 impl Pipelines {
@@ -56,6 +58,7 @@ impl Pipelines {
             surfaces: make(render::SURFACES, Cull::Back, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
+            edges: edges(gpu, library, format, view_mask)?,
         })
     }
 
@@ -63,6 +66,34 @@ impl Pipelines {
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed
             .iter()
-            .any(|id| [render::PARTICLES, render::SURFACES, render::GLASS].contains(id))
+            .any(|id| USED.contains(id))
     }
+}
+
+const USED: [ShaderId; 4] = [
+    render::PARTICLES,
+    render::SURFACES,
+    render::GLASS,
+    render::EDGES,
+];
+
+fn edges(
+    gpu: &Gpu,
+    library: &Library,
+    format: vk::Format,
+    view_mask: u32,
+) -> Result<RasterPipeline, RenderError> {
+    let desc = RasterDesc {
+        vertex: &library.compile(&render::EDGES, "vertex", &[])?,
+        fragment: Some(&library.compile(&render::EDGES, "fragment", &[])?),
+        colours: &[ColourFormat {
+            format,
+            blend: Blend::Replace,
+        }],
+        depth: None,
+        topology: Topology::Triangles,
+        cull: Cull::None,
+        view_mask,
+    };
+    Ok(RasterPipeline::new(gpu, &desc)?)
 }

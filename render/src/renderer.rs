@@ -2,8 +2,8 @@
 
 use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
-    RasterTarget, Readback, Recorder, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster,
+    RasterPipeline, RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -54,6 +54,9 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
+    /// The picture before its edges are smoothed.
+    drawn: Image,
+    between: Sampler,
     colour: Image,
     depth: Image,
 }
@@ -90,6 +93,18 @@ impl Renderer {
                 }
                 None => None,
             },
+            drawn: image(
+                "drawn",
+                desc.format,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+            )?,
+            between: Sampler::new(
+                gpu,
+                SamplerDesc {
+                    filter: Filter::Linear,
+                    ..SamplerDesc::default()
+                },
+            )?,
             colour: image(
                 "picture",
                 desc.format,
@@ -160,7 +175,7 @@ impl Renderer {
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {
-                image: &self.colour,
+                image: &self.drawn,
                 load: Load::Clear(BACKGROUND),
             }],
             depth: Some(DepthTarget {
@@ -184,6 +199,26 @@ impl Renderer {
                 self.draw_glass(raster, pipeline, frame)?;
             }
             Ok(())
+        })?;
+        self.smooth_edges(rec)
+    }
+
+    fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
+        let target = RasterTarget {
+            label: "edges",
+            colours: &[ColourTarget {
+                image: &self.colour,
+                load: Load::Discard,
+            }],
+            depth: None,
+            view_mask: view_mask(self.desc.views),
+        };
+        rec.raster(&target, |raster| {
+            raster
+                .draw(&self.pipelines.edges)
+                .sampled("drawn", &self.drawn)
+                .sampler("between", &self.between)
+                .vertices(3)
         })?;
         Ok(())
     }
