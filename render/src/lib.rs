@@ -34,6 +34,7 @@ mod mesh;
 mod pipelines;
 mod renderer;
 mod scene;
+mod tiles;
 
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;

@@ -21,6 +21,8 @@ pub(crate) struct Pipelines {
     pub(crate) glass_near: RasterPipeline,
     /// The finished picture with its edges smoothed.
     pub(crate) edges: RasterPipeline,
+    /// Its tiles, brought back as they are.
+    pub(crate) copy: RasterPipeline,
 }
 
 impl Pipelines {
@@ -58,7 +60,8 @@ impl Pipelines {
             surfaces: make(render::SURFACES, Cull::Back, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
-            edges: edges(gpu, library, format, view_mask)?,
+            edges: edges(gpu, library, format, view_mask, 0.0)?,
+            copy: edges(gpu, library, format, view_mask, 1.0)?,
         })
     }
 
@@ -70,7 +73,8 @@ impl Pipelines {
     }
 }
 
-const USED: [ShaderId; 4] = [
+const USED: [ShaderId; 5] = [
+    render::TILES,
     render::PARTICLES,
     render::SURFACES,
     render::GLASS,
@@ -82,10 +86,11 @@ fn edges(
     library: &Library,
     format: vk::Format,
     view_mask: u32,
+    copy: f64,
 ) -> Result<RasterPipeline, RenderError> {
     let desc = RasterDesc {
         vertex: &library.compile(&render::EDGES, "vertex", &[])?,
-        fragment: Some(&library.compile(&render::EDGES, "fragment", &[])?),
+        fragment: Some(&library.compile(&render::EDGES, "fragment", &[("COPY", copy)])?),
         colours: &[ColourFormat {
             format,
             blend: Blend::Replace,

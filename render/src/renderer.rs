@@ -12,6 +12,7 @@ use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
 use crate::frame::{ColourBy, FrameDesc, ParticleSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
 use crate::scene::{Scene, SceneDesc};
+use crate::tiles::Tiles;
 
 /// Where there is nothing: the walls' own colour, roughly. Linear.
 const BACKGROUND: [f32; 4] = [0.38, 0.37, 0.35, 1.0];
@@ -54,8 +55,11 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
-    /// The picture before its edges are smoothed.
-    drawn: Image,
+    tiles: Tiles,
+    /// Bound where no ellipsoids are.
+    nothing: Buffer,
+    /// Tiles with smooth edges.
+    smoothed: Image,
     between: Sampler,
     colour: Image,
     depth: Image,
@@ -93,8 +97,10 @@ impl Renderer {
                 }
                 None => None,
             },
-            drawn: image(
-                "drawn",
+            tiles: Tiles::new(gpu, library, desc.extent, desc.views)?,
+            nothing: Buffer::storage(gpu, "no ellipsoids", 0)?,
+            smoothed: image(
+                "smoothed",
                 desc.format,
                 vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
@@ -108,7 +114,7 @@ impl Renderer {
             colour: image(
                 "picture",
                 desc.format,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
             depth: image(
                 "picture depth",
@@ -128,6 +134,7 @@ impl Renderer {
             fluid.reload(library)?;
         }
         if Pipelines::uses(changed) {
+            self.tiles.reload(&self.gpu, library)?;
             let mask = view_mask(self.desc.views);
             self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
         }
@@ -170,12 +177,14 @@ impl Renderer {
         rec.upload(&self.frame, &[uniforms])?;
         let liquid = self.liquid(frame)?;
         if let Some((fluid, source)) = &liquid {
-            fluid.record_surface(rec, frame, source, &self.frame)?;
+            fluid.record_surface(rec, frame, source, &self.frame, &self.tiles)?;
+        } else {
+            self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
         }
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {
-                image: &self.drawn,
+                image: &self.colour,
                 load: Load::Clear(BACKGROUND),
             }],
             depth: Some(DepthTarget {
@@ -190,7 +199,7 @@ impl Renderer {
             }
             self.draw_surfaces(raster)?;
             if let Some((fluid, _)) = &liquid {
-                fluid.shade(raster, &self.frame)?;
+                fluid.shade(raster, &self.frame, &self.tiles)?;
             }
             // Blending is right only from far to near. A vessel's own far wall
             // comes first; vessels that hide each other are close enough to
@@ -203,23 +212,32 @@ impl Renderer {
         self.smooth_edges(rec)
     }
 
+    /// Smooths edges into the second image, and brings those tiles back.
     fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
-        let target = RasterTarget {
-            label: "edges",
-            colours: &[ColourTarget {
-                image: &self.colour,
-                load: Load::Discard,
-            }],
-            depth: None,
-            view_mask: view_mask(self.desc.views),
-        };
-        rec.raster(&target, |raster| {
-            raster
-                .draw(&self.pipelines.edges)
-                .sampled("drawn", &self.drawn)
-                .sampler("between", &self.between)
-                .vertices(3)
-        })?;
+        let passes = [
+            (&self.pipelines.edges, &self.colour, &self.smoothed, Load::Discard),
+            (&self.pipelines.copy, &self.smoothed, &self.colour, Load::Keep),
+        ];
+        for (pipeline, from, to, load) in passes {
+            let target = RasterTarget {
+                label: "edges",
+                colours: &[ColourTarget { image: to, load }],
+                depth: None,
+                view_mask: view_mask(self.desc.views),
+            };
+            rec.raster(&target, |raster| {
+                raster
+                    .draw(pipeline)
+                    .uniform("frame", &self.frame)
+                    .read("tiles", self.tiles.marks())
+                    .sampled("drawn", from)
+                    .sampler("between", &self.between)
+                    .constants(&layout::EdgeDraw {
+                        views: self.desc.views,
+                    })
+                    .vertices(self.tiles.vertices())
+            })?;
+        }
         Ok(())
     }
 

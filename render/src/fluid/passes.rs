@@ -27,7 +27,6 @@ pub(super) struct Passes {
     pub(super) anisotropy: ComputePipeline,
     /// Invocations of it that share a particle.
     pub(super) lanes: u32,
-    pub(super) tiles: ComputePipeline,
     pub(super) splat: RasterPipeline,
     pub(super) thickness: RasterPipeline,
     pub(super) filter: Vec<RasterPipeline>,
@@ -80,7 +79,6 @@ impl Passes {
         Ok(Self {
             anisotropy: compute(fluid::ANISOTROPY, &[("LANES", lanes.into())])?,
             lanes,
-            tiles: compute(fluid::TILES, &[])?,
             splat: raster(fluid::SPLAT, &[], &[], depth)?,
             thickness: raster(
                 fluid::THICKNESS,
