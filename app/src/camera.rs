@@ -10,7 +10,7 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Liquid, PictureFilter, Scene, TableTop};
+use vitriol_sim::scene::{Flask, Liquid, PictureFilter, Scene, TableTop};
 use vitriol_sim::world::World;
 
 use crate::cli::ColourName;
@@ -175,6 +175,7 @@ impl Camera {
             vessels: &vessels,
             particles: liquid.is_none().then_some(particles),
             liquid,
+            steam: None,
             colour_by,
             length_scale: scale.length_scale as f32,
         };
@@ -299,11 +300,30 @@ fn table(scene: &Scene) -> Option<BoxDesc> {
     })
 }
 
+/// Heights of a vessel's graduation marks: where whole multiples of a round
+/// volume, as drawn, would stand. A funnel, which hangs upside down, has none.
+fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
+    let upright = flask.stage_from_flask.orientation * Vec3::Y;
+    let capacity = flask.profile.capacity() * length_scale.powi(3);
+    let steps = [1e-6, 2e-6, 5e-6, 10e-6, 25e-6, 50e-6, 100e-6, 250e-6];
+    let step = steps.into_iter().find(|step| capacity / step < 9.0);
+    let Some(step) = step.filter(|_| upright.y > 0.9) else {
+        return Vec::new();
+    };
+    // The uppermost tenth is left free.
+    (1..)
+        .map(|n| f64::from(n) * step)
+        .take_while(|volume| *volume < 0.9 * capacity)
+        .filter_map(|volume| flask.profile.level_for_volume(volume / length_scale.powi(3)))
+        .collect()
+}
+
 /// The scene's vessels on their table in the room.
 fn laboratory(scene: &Scene) -> SceneDesc {
     let vessels = scene.flasks.iter().map(|flask| VesselDesc {
         inner: flask.profile.inner_outline().to_vec(),
         outer: flask.profile.outer_outline().to_vec(),
+        marks: marks(flask, scene.scale.length_scale),
     });
     let length_scale = scene.scale.length_scale;
     let top = scene.table.map_or(0.0, |table| table.top) * length_scale;

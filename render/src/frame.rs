@@ -32,6 +32,16 @@ pub struct ParticleSource<'a> {
     pub radius: f32,
 }
 
+/// Puffs of steam.
+#[derive(Clone, Copy)]
+pub struct SteamSource<'a> {
+    /// `array<Puff>` ([`layout::Puff`]): centre and radius in the scene's unit,
+    /// and opacity. A radius of 0 draws nothing.
+    pub puffs: &'a Buffer,
+    /// How many of them are drawn.
+    pub count: u32,
+}
+
 /// What a particle's colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourBy {
@@ -86,6 +96,8 @@ pub struct FrameDesc<'a> {
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,
+    /// Steam over all that; `None` for none.
+    pub steam: Option<SteamSource<'a>>,
     /// What the particles' colours stand for.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
@@ -106,6 +118,16 @@ impl FrameDesc<'_> {
                     what,
                     given,
                     wanted,
+                });
+            }
+        }
+        if let Some(steam) = self.steam {
+            let held = steam.puffs.bytes() / size_of::<layout::Puff>() as u64;
+            if u64::from(steam.count) > held {
+                return Err(RenderError::TooManyParticles {
+                    count: steam.count,
+                    buffer: steam.puffs.label().to_owned(),
+                    held,
                 });
             }
         }

@@ -42,6 +42,6 @@ pub use error::RenderError;
 pub use fluid::{
     LiquidDesc, LiquidSource, Neighbours, Surface, SurfaceFilter, SurfaceReadback, VesselTables,
 };
-pub use frame::{ColourBy, FrameDesc, ParticleSource};
+pub use frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
 pub use renderer::{PictureReadback, RenderDesc, Renderer};
 pub use scene::{BoxDesc, SceneDesc, VesselDesc};

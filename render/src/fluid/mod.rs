@@ -122,10 +122,11 @@ impl Fluid {
         source: &LiquidSource<'_>,
         uniforms: &Buffer,
         tiles: &Tiles,
+        mask: Option<&Buffer>,
     ) -> Result<(), RenderError> {
         self.record_shapes(rec, frame, source)?;
         tiles.record(rec, uniforms, &self.ellipsoids, source.count)?;
-        self.draw_depth(rec, source.count, uniforms)?;
+        self.draw_depth(rec, source.count, uniforms, mask)?;
         self.draw_thickness(rec, source.count, uniforms)?;
         self.filter(rec, uniforms, tiles)
     }
@@ -170,7 +171,13 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_depth(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn draw_depth(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+        mask: Option<&Buffer>,
+    ) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid depth",
             colours: &[],
@@ -181,6 +188,12 @@ impl Fluid {
             view_mask: view_mask(self.views),
         };
         rec.raster(&target, |raster| {
+            if let Some(mask) = mask {
+                raster
+                    .draw(&self.passes.mask)
+                    .read("hidden", mask)
+                    .vertices((mask.bytes() / 16) as u32)?;
+            }
             raster
                 .draw(&self.passes.splat)
                 .uniform("frame", uniforms)

@@ -35,6 +35,8 @@ fn depth(pixel: vec2<i32>, eye: u32, middle: f32) -> f32 {
     let at = clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
     var reversed = 0.0;
     if (FIRST) { reversed = textureLoad(splatted, at, eye, 0); } else { reversed = textureLoad(before, at, eye, 0).x; }
+    // What the lens hides is at the near plane: no liquid.
+    reversed = select(reversed, 0.0, reversed >= 1.0);
     let z = frame.views[eye].near / max(reversed, 1e-9);
     return select(middle, z, abs(z - middle) < EDGE * frame.spacing || middle == 0.0);
 }
