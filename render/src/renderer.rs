@@ -2,15 +2,17 @@
 
 use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
-    RasterTarget, Readback, Recorder, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
+    RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
-use crate::frame::{ColourBy, FrameDesc, ParticleSource};
+use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
+use crate::frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
 use crate::scene::{Scene, SceneDesc};
+use crate::tiles::Tiles;
 
 /// Where there is nothing: the walls' own colour, roughly. Linear.
 const BACKGROUND: [f32; 4] = [0.38, 0.37, 0.35, 1.0];
@@ -25,15 +27,18 @@ pub struct RenderDesc {
     /// Format of the colour image. One of sRGB, which encodes what the shaders
     /// write.
     pub format: vk::Format,
+    /// The liquid surface that frames may ask for; `None` for none.
+    pub liquid: Option<LiquidDesc>,
 }
 
 impl RenderDesc {
-    /// One view of `extent` in 8-bit sRGB: a film.
+    /// One view of `extent` in 8-bit sRGB, without a liquid surface: a film.
     pub const fn film(extent: [u32; 2]) -> Self {
         Self {
             extent,
             views: 1,
             format: vk::Format::R8G8B8A8_SRGB,
+            liquid: None,
         }
     }
 }
@@ -49,6 +54,15 @@ pub struct Renderer {
     pipelines: Pipelines,
     scene: Scene,
     frame: Buffer,
+    fluid: Option<Fluid>,
+    /// Corners of the triangles that no eye sees.
+    mask: Option<Buffer>,
+    tiles: Tiles,
+    /// Bound where no ellipsoids are.
+    nothing: Buffer,
+    /// Tiles with smooth edges.
+    smoothed: Image,
+    between: Sampler,
     colour: Image,
     depth: Image,
 }
@@ -78,15 +92,44 @@ impl Renderer {
             pipelines: Pipelines::new(gpu, library, desc.format, view_mask(desc.views))?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
+            fluid: match desc.liquid {
+                Some(liquid) => {
+                    let (extent, views) = (desc.extent, desc.views);
+                    Some(Fluid::new(
+                        gpu,
+                        library,
+                        liquid,
+                        extent,
+                        views,
+                        desc.format,
+                    )?)
+                }
+                None => None,
+            },
+            mask: None,
+            tiles: Tiles::new(gpu, library, desc.extent, desc.views)?,
+            nothing: Buffer::storage(gpu, "no ellipsoids", 0)?,
+            smoothed: image(
+                "smoothed",
+                desc.format,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+            )?,
+            between: Sampler::new(
+                gpu,
+                SamplerDesc {
+                    filter: Filter::Linear,
+                    ..SamplerDesc::default()
+                },
+            )?,
             colour: image(
                 "picture",
                 desc.format,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
             depth: image(
                 "picture depth",
                 DEPTH_FORMAT,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
         })
     }
@@ -97,7 +140,11 @@ impl Renderer {
     /// # Errors
     /// [`RenderError::Shader`], [`RenderError::Gpu`].
     pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
+        if let Some(fluid) = self.fluid.as_mut().filter(|_| Fluid::uses(changed)) {
+            fluid.reload(library)?;
+        }
         if Pipelines::uses(changed) {
+            self.tiles.reload(&self.gpu, library)?;
             let mask = view_mask(self.desc.views);
             self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
         }
@@ -110,6 +157,37 @@ impl Renderer {
     /// [`RenderError::Gpu`] out of memory or on device loss.
     pub fn set_scene(&mut self, desc: &SceneDesc) -> Result<(), RenderError> {
         self.scene = Scene::new(&self.gpu, desc)?;
+        Ok(())
+    }
+
+    /// Takes a mesh of what each view's lens hides, as a runtime gives it: the
+    /// corners of triangles, three each, at places of the picture from (0, 0)
+    /// at its upper left to (1, 1). They stay black, and their pixels are not
+    /// lit. Views without a mesh have an empty slice; waits for the upload.
+    ///
+    /// # Errors
+    /// [`RenderError::Count`] for another number of views,
+    /// [`RenderError::Gpu`].
+    pub fn set_visibility_mask(&mut self, views: &[&[[f32; 2]]]) -> Result<(), RenderError> {
+        if views.len() != self.desc.views as usize {
+            return Err(RenderError::Count {
+                what: "masks",
+                given: views.len(),
+                wanted: self.desc.views as usize,
+            });
+        }
+        let corners = |(view, mesh): (usize, &&[[f32; 2]])| {
+            let corner = move |&[x, y]: &[f32; 2]| [x, y, view as f32, 0.0];
+            mesh.iter().map(corner).collect::<Vec<_>>()
+        };
+        let corners: Vec<[f32; 4]> = views.iter().enumerate().flat_map(corners).collect();
+        self.mask = None;
+        if !corners.is_empty() {
+            let bytes = size_of_val(&corners[..]) as u64;
+            let buffer = Buffer::storage(&self.gpu, "hidden area", bytes)?;
+            self.gpu.write(&buffer, &corners)?;
+            self.mask = Some(buffer);
+        }
         Ok(())
     }
 
@@ -136,7 +214,15 @@ impl Renderer {
     /// frame does not fit; [`RenderError::Gpu`].
     pub fn record(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
         frame.check(&self.scene, self.desc.views)?;
-        rec.upload(&self.frame, &[frame.uniforms(&self.scene)])?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
+        rec.upload(&self.frame, &[uniforms])?;
+        let liquid = self.liquid(frame)?;
+        if let Some((fluid, source)) = &liquid {
+            let mask = self.mask.as_ref();
+            fluid.record_surface(rec, frame, source, &self.frame, &self.tiles, mask)?;
+        } else {
+            self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
+        }
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {
@@ -150,10 +236,19 @@ impl Renderer {
             view_mask: view_mask(self.desc.views),
         };
         rec.raster(&target, |raster| {
+            if let Some(mask) = &self.mask {
+                raster
+                    .draw(&self.pipelines.mask)
+                    .read("hidden", mask)
+                    .vertices((mask.bytes() / 16) as u32)?;
+            }
             if let Some(particles) = &frame.particles {
                 self.draw_particles(raster, particles, frame.colour_by)?;
             }
             self.draw_surfaces(raster)?;
+            if let Some((fluid, _)) = &liquid {
+                fluid.shade(raster, &self.frame, &self.tiles)?;
+            }
             // Blending is right only from far to near. A vessel's own far wall
             // comes first; vessels that hide each other are close enough to
             // clear that their order does not show.
@@ -162,7 +257,86 @@ impl Renderer {
             }
             Ok(())
         })?;
+        self.smooth_edges(rec)?;
+        // Steam has no edges, and comes over those of what is behind it.
+        frame
+            .steam
+            .map_or(Ok(()), |steam| self.draw_steam(rec, &steam))
+    }
+
+    /// Smooths edges into the second image, and brings those tiles back.
+    fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
+        let passes = [
+            (
+                &self.pipelines.edges,
+                &self.colour,
+                &self.smoothed,
+                Load::Discard,
+            ),
+            (
+                &self.pipelines.copy,
+                &self.smoothed,
+                &self.colour,
+                Load::Keep,
+            ),
+        ];
+        for (pipeline, from, to, load) in passes {
+            let target = RasterTarget {
+                label: "edges",
+                colours: &[ColourTarget { image: to, load }],
+                depth: None,
+                view_mask: view_mask(self.desc.views),
+            };
+            rec.raster(&target, |raster| {
+                raster
+                    .draw(pipeline)
+                    .uniform("frame", &self.frame)
+                    .read("tiles", self.tiles.marks())
+                    .sampled("drawn", from)
+                    .sampler("between", &self.between)
+                    .constants(&layout::EdgeDraw {
+                        views: self.desc.views,
+                    })
+                    .vertices(self.tiles.vertices())
+            })?;
+        }
         Ok(())
+    }
+
+    fn draw_steam(&self, rec: &mut Recorder, steam: &SteamSource<'_>) -> Result<(), RenderError> {
+        let target = RasterTarget {
+            label: "steam",
+            colours: &[ColourTarget {
+                image: &self.colour,
+                load: Load::Keep,
+            }],
+            depth: None,
+            view_mask: view_mask(self.desc.views),
+        };
+        rec.raster(&target, |raster| {
+            raster
+                .draw(&self.pipelines.steam)
+                .uniform("frame", &self.frame)
+                .read("puffs", steam.puffs)
+                .sampled("depth", &self.depth)
+                .vertices(6 * steam.count)
+        })?;
+        Ok(())
+    }
+
+    /// The liquid surface of a frame that has one.
+    fn liquid<'a>(
+        &self,
+        frame: &FrameDesc<'a>,
+    ) -> Result<Option<(&Fluid, LiquidSource<'a>)>, RenderError> {
+        let Some(source) = frame.liquid else {
+            return Ok(None);
+        };
+        let Some(fluid) = &self.fluid else {
+            return Err(RenderError::NoLiquid);
+        };
+        fluid.check(&source)?;
+        Ok(Some((fluid, source)))
     }
 
     fn draw_particles(
@@ -227,7 +401,23 @@ impl Renderer {
         Ok(PictureReadback {
             readback: rec.read_back_image(&self.colour)?,
             views: self.desc.views as usize,
+            row_bytes: 4 * self.desc.extent[0] as usize,
         })
+    }
+
+    /// Records the copy of the liquid's surface, as it was filtered, to the
+    /// host, after [`Renderer::record`] of that frame: for measurements.
+    ///
+    /// # Errors
+    /// [`RenderError::NoLiquid`] for a renderer without one;
+    /// [`RenderError::Gpu`] out of memory.
+    pub fn read_back_surface(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+    ) -> Result<SurfaceReadback, RenderError> {
+        let fluid = self.fluid.as_ref().ok_or(RenderError::NoLiquid)?;
+        fluid.read_back(rec, frame.nears())
     }
 }
 
@@ -235,6 +425,8 @@ impl Renderer {
 pub struct PictureReadback {
     readback: Readback,
     views: usize,
+    /// Bytes of a row of one view.
+    row_bytes: usize,
 }
 
 impl PictureReadback {
@@ -248,9 +440,23 @@ impl PictureReadback {
         bytes.truncate(bytes.len() / self.views);
         Ok(bytes)
     }
-}
 
-/// A bit per view.
-fn view_mask(views: u32) -> u32 {
-    (1 << views) - 1
+    /// All views in one picture, the first to the left; else as
+    /// [`PictureReadback::first_view`].
+    ///
+    /// # Errors
+    /// [`RenderError::Gpu`] before the submission has finished.
+    pub fn side_by_side(&self) -> Result<Vec<u8>, RenderError> {
+        let bytes = self.readback.get::<u8>()?;
+        if self.views == 1 {
+            return Ok(bytes);
+        }
+        let view = bytes.len() / self.views;
+        let rows = (0..view).step_by(self.row_bytes);
+        let parts = rows.flat_map(|row| (0..self.views).map(move |index| index * view + row));
+        Ok(parts
+            .flat_map(|start| &bytes[start..start + self.row_bytes])
+            .copied()
+            .collect())
+    }
 }

@@ -2,9 +2,13 @@
 
 use glam::{Vec2, Vec3};
 use vitriol_gpu::{Buffer, Gpu, Recorder, bytes_of_elements};
+use vitriol_shaders::layout;
 
 use crate::RenderError;
 use crate::mesh::{Material, Mesh};
+
+/// Heights at which the shaders have a vessel's inner radius.
+const INNER_RADII: usize = 16;
 
 /// A vessel's glass, in the vessel's frame (+Y along its axis).
 #[derive(Clone, Debug, PartialEq)]
@@ -14,10 +18,23 @@ pub struct VesselDesc {
     pub inner: Vec<[f64; 2]>,
     /// The outer surface: points (r, y), metres, from the axis up to the rim.
     pub outer: Vec<[f64; 2]>,
+    /// Heights of its graduation marks, from the lowest up; every second one
+    /// is longer.
+    pub marks: Vec<f64>,
 }
 
+/// Length of a long and of a short mark over the outer radius.
+const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
+
+/// Width of a mark's strip over the outer radius: 1.4 mm, a line of 0.7 mm, on
+/// a beaker of 250 mL.
+const MARK_WIDTH: f32 = 0.04;
+
+/// How far enamel stands off the glass, over the outer radius.
+const MARK_LIFT: f32 = 1.003;
+
 impl VesselDesc {
-    /// The wall as a closed surface of revolution.
+    /// The wall as a closed surface of revolution, and its marks.
     fn mesh(&self) -> Mesh {
         let outline: Vec<Vec2> = self
             .outer
@@ -27,7 +44,37 @@ impl VesselDesc {
             .collect();
         let mut mesh = Mesh::default();
         mesh.add_revolution(&outline, Material::Glass);
+        for (&height, long) in self.marks.iter().zip([0, 1].into_iter().cycle()) {
+            let radius = radius_at(&self.outer, height) as f32;
+            let length = MARK_LENGTHS[long] * radius;
+            mesh.add_mark(
+                MARK_LIFT * radius,
+                height as f32,
+                length,
+                MARK_WIDTH * radius,
+            );
+        }
         mesh
+    }
+
+    /// The inner surface as rays meet it, without its pose.
+    fn inner(&self) -> layout::Vessel {
+        let ends = (self.inner.first(), self.inner.last());
+        let (low, high) = (ends.0.map_or(0.0, |p| p[1]), ends.1.map_or(0.0, |p| p[1]));
+        let radius = |index: usize| {
+            // The floor's own disc has the radius that the wall begins with.
+            let share = (index as f64).max(0.05) / (INNER_RADII - 1) as f64;
+            radius_at(&self.inner, low + share * (high - low)) as f32
+        };
+        let bounds = self.bounds();
+        layout::Vessel {
+            radii: std::array::from_fn(|row| std::array::from_fn(|n| radius(4 * row + n))),
+            inner_floor: low as f32,
+            rim: high as f32,
+            outer: bounds.radius,
+            wall: low as f32 - bounds.bottom,
+            ..layout::Vessel::default()
+        }
     }
 
     /// Largest radius, lowest and highest point.
@@ -43,6 +90,17 @@ impl VesselDesc {
             bounds.top = bounds.top.max(y as f32);
         }
         bounds
+    }
+}
+
+/// Radius of an outline at a height.
+fn radius_at(outline: &[[f64; 2]], y: f64) -> f64 {
+    let above = outline.partition_point(|p| p[1] < y);
+    let below = above.checked_sub(1).and_then(|below| outline.get(below));
+    match (below, outline.get(above)) {
+        (Some(a), Some(b)) => a[0] + (y - a[1]) / (b[1] - a[1]).max(1e-12) * (b[0] - a[0]),
+        (Some(end), None) | (None, Some(end)) => end[0],
+        (None, None) => 0.0,
     }
 }
 
@@ -121,6 +179,8 @@ impl DeviceMesh {
 pub(crate) struct Vessel {
     pub(crate) mesh: DeviceMesh,
     pub(crate) bounds: Bounds,
+    /// Its inner surface, without the pose.
+    pub(crate) inner: layout::Vessel,
 }
 
 /// The scene on the device.
@@ -128,6 +188,8 @@ pub(crate) struct Scene {
     /// Bench and room, if there is either.
     pub(crate) surfaces: Option<DeviceMesh>,
     pub(crate) vessels: Vec<Vessel>,
+    pub(crate) table: Option<BoxDesc>,
+    pub(crate) room: Option<BoxDesc>,
 }
 
 impl Scene {
@@ -154,9 +216,12 @@ impl Scene {
                     Ok(Vessel {
                         mesh: DeviceMesh::new(gpu, &mut rec, "vessel", &vessel.mesh())?,
                         bounds: vessel.bounds(),
+                        inner: vessel.inner(),
                     })
                 })
                 .collect::<Result<_, RenderError>>()?,
+            table: desc.table,
+            room: desc.room,
         };
         gpu.submit(rec)?.wait()?;
         Ok(scene)

@@ -2,7 +2,7 @@
 // of a share of the particles, and lets it rise from one of them: that with
 // the most, by lot, so that the puffs come from all over the surface.
 //!include common/particle.wgsl
-//!include common/puff.wgsl
+//!include common/condensation.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;

@@ -35,6 +35,7 @@ use crate::parameters::Parameters;
 use buffers::Buffers;
 use glam::DVec3;
 use pipelines::{Constants, Grid, Pipelines};
+use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu, vk};
@@ -92,6 +93,8 @@ pub struct Solver {
     grid: Grid,
     lanes: u32,
     loads: bool,
+    /// Whether a frame has been recorded, which makes the neighbour list.
+    listed: AtomicBool,
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
@@ -126,6 +129,7 @@ impl Solver {
             grid,
             lanes,
             loads: spec.loads,
+            listed: AtomicBool::new(false),
             buffers,
             vessels,
             pipelines,
@@ -169,6 +173,20 @@ impl Solver {
             .chemistry
             .as_ref()
             .map(|_| &self.buffers.heat)
+    }
+
+    /// Neighbours of each particle as `array<u32>`, and the list itself: the k-th
+    /// neighbour of particle i of n is at k·n + i. It is complete within the
+    /// support radius at the positions after a frame; `None` before the first.
+    pub fn neighbours(&self) -> Option<(&Buffer, &Buffer)> {
+        let listed = self.listed.load(Ordering::Relaxed);
+        listed.then_some((&self.buffers.list_counts, &self.buffers.list))
+    }
+
+    /// The flasks' shapes and their distances to the glass over (r, y), as
+    /// `common/glass_distance.wgsl` reads them.
+    pub fn flask_tables(&self) -> (&Buffer, &Buffer) {
+        (&self.vessels.flasks, &self.vessels.distances)
     }
 
     /// Bytes of device memory that a particle takes.

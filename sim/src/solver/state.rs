@@ -8,6 +8,7 @@ use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::Ordering;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use xxhash_rust::xxh3::Xxh3;
 
@@ -206,6 +207,8 @@ impl Solver {
                 });
             }
         }
+        let any = state.list_counts.iter().any(|&count| count > 0);
+        self.listed.store(any, Ordering::Relaxed);
         let (b, gpu) = (&self.buffers, &self.gpu);
         write(gpu, &b.position, &state.positions)?;
         write(gpu, &b.velocity, &state.velocities)?;
