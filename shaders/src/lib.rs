@@ -18,6 +18,7 @@ mod chains;
 mod check;
 mod compile;
 mod error;
+mod exact;
 mod files;
 mod fold;
 mod include;
