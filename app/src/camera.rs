@@ -73,12 +73,7 @@ impl Camera {
     ///
     /// # Errors
     /// What the device says.
-    pub fn new(
-        gpu: &Gpu,
-        library: &Library,
-        scene: &Scene,
-        shot: &Shot,
-    ) -> Result<Self, Failure> {
+    pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, shot: &Shot) -> Result<Self, Failure> {
         let extent = shot.extent;
         let desc = RenderDesc {
             views: shot.eyes,
@@ -314,7 +309,11 @@ fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
     (1..)
         .map(|n| f64::from(n) * step)
         .take_while(|volume| *volume < 0.9 * capacity)
-        .filter_map(|volume| flask.profile.level_for_volume(volume / length_scale.powi(3)))
+        .filter_map(|volume| {
+            flask
+                .profile
+                .level_for_volume(volume / length_scale.powi(3))
+        })
         .collect()
 }
 

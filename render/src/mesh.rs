@@ -66,8 +66,14 @@ impl Mesh {
         }
         for step in 0..MARK_FACETS {
             let corner = first + 2 * step;
-            self.indices
-                .extend([corner, corner + 2, corner + 1, corner + 2, corner + 3, corner + 1]);
+            self.indices.extend([
+                corner,
+                corner + 2,
+                corner + 1,
+                corner + 2,
+                corner + 3,
+                corner + 1,
+            ]);
         }
     }
 

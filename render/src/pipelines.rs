@@ -72,9 +72,7 @@ impl Pipelines {
 
     /// Whether any of these shaders is one of this crate's.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| USED.contains(id))
+        changed.iter().any(|id| USED.contains(id))
     }
 }
 

@@ -2,8 +2,8 @@
 
 use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster,
-    RasterPipeline, RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
+    RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -95,7 +95,14 @@ impl Renderer {
             fluid: match desc.liquid {
                 Some(liquid) => {
                     let (extent, views) = (desc.extent, desc.views);
-                    Some(Fluid::new(gpu, library, liquid, extent, views, desc.format)?)
+                    Some(Fluid::new(
+                        gpu,
+                        library,
+                        liquid,
+                        extent,
+                        views,
+                        desc.format,
+                    )?)
                 }
                 None => None,
             },
@@ -151,6 +158,13 @@ impl Renderer {
     pub fn set_scene(&mut self, desc: &SceneDesc) -> Result<(), RenderError> {
         self.scene = Scene::new(&self.gpu, desc)?;
         Ok(())
+    }
+
+    /// The ellipsoids of the last frame with liquid, as `array<Ellipsoid>`
+    /// ([`layout::Ellipsoid`]) in the particles' order; `None` for a renderer
+    /// without liquid.
+    pub fn ellipsoids(&self) -> Option<&Buffer> {
+        self.fluid.as_ref().map(Fluid::ellipsoids)
     }
 
     /// Takes a mesh of what each view's lens hides, as a runtime gives it: the
@@ -252,14 +266,26 @@ impl Renderer {
         })?;
         self.smooth_edges(rec)?;
         // Steam has no edges, and comes over those of what is behind it.
-        frame.steam.map_or(Ok(()), |steam| self.draw_steam(rec, &steam))
+        frame
+            .steam
+            .map_or(Ok(()), |steam| self.draw_steam(rec, &steam))
     }
 
     /// Smooths edges into the second image, and brings those tiles back.
     fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
         let passes = [
-            (&self.pipelines.edges, &self.colour, &self.smoothed, Load::Discard),
-            (&self.pipelines.copy, &self.smoothed, &self.colour, Load::Keep),
+            (
+                &self.pipelines.edges,
+                &self.colour,
+                &self.smoothed,
+                Load::Discard,
+            ),
+            (
+                &self.pipelines.copy,
+                &self.smoothed,
+                &self.colour,
+                Load::Keep,
+            ),
         ];
         for (pipeline, from, to, load) in passes {
             let target = RasterTarget {

@@ -47,7 +47,12 @@ impl VesselDesc {
         for (&height, long) in self.marks.iter().zip([0, 1].into_iter().cycle()) {
             let radius = radius_at(&self.outer, height) as f32;
             let length = MARK_LENGTHS[long] * radius;
-            mesh.add_mark(MARK_LIFT * radius, height as f32, length, MARK_WIDTH * radius);
+            mesh.add_mark(
+                MARK_LIFT * radius,
+                height as f32,
+                length,
+                MARK_WIDTH * radius,
+            );
         }
         mesh
     }

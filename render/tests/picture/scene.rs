@@ -204,7 +204,7 @@ fn another_length_scale_gives_the_same_picture() {
             views: &views,
             vessels: &vessels,
             liquid: None,
-        steam: None,
+            steam: None,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,
