@@ -15,7 +15,7 @@ use vitriol_sim::world::World;
 
 use crate::cli::ColourName;
 use crate::failure::{Blame, Failure};
-use crate::legend::Legend;
+use crate::legend::{Legend, draw_tints};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -133,8 +133,12 @@ impl Camera {
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
         let mut picture = picture.side_by_side().other()?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        if let Some(legend) = self.legend(world, colour) {
-            legend.draw(&mut picture, width);
+        match self.legend(world, colour) {
+            Some(legend) => legend.draw(&mut picture, width),
+            None if colour == ColourName::Liquid && has_acid(world.scene()) => {
+                draw_tints(&mut picture, width)
+            }
+            None => {}
         }
         Ok(picture)
     }
@@ -211,6 +215,14 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
+}
+
+/// Whether there is any acid, which is drawn in another tint than water.
+fn has_acid(scene: &Scene) -> bool {
+    scene
+        .liquids
+        .iter()
+        .any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the
