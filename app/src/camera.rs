@@ -16,7 +16,7 @@ use vitriol_sim::world::World;
 
 use crate::cli::ColourName;
 use crate::failure::{Blame, Failure};
-use crate::legend::Legend;
+use crate::legend::{Legend, draw_tints};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -134,8 +134,12 @@ impl Camera {
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
         let mut picture = picture.side_by_side().other()?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        if let Some(legend) = self.legend(world, colour) {
-            legend.draw(&mut picture, width);
+        match self.legend(world, colour) {
+            Some(legend) => legend.draw(&mut picture, width),
+            None if colour == ColourName::Liquid && has_acid(world.scene()) => {
+                draw_tints(&mut picture, width)
+            }
+            None => {}
         }
         Ok(picture)
     }
@@ -150,6 +154,33 @@ impl Camera {
         rec: &mut Recorder,
         world: &World,
         colour: ColourName,
+    ) -> Result<(), Failure> {
+        self.with_frame(world, colour, |frame| self.renderer.record(rec, frame))
+    }
+
+    /// Records the two parts of a picture of liquid for two queues, as
+    /// [`Renderer::record_shapes`] tells.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record_apart(
+        &self,
+        shapes: &mut Recorder,
+        picture: &mut Recorder,
+        world: &World,
+        slot: usize,
+    ) -> Result<(), Failure> {
+        self.with_frame(world, ColourName::Liquid, |frame| {
+            self.renderer.record_shapes(shapes, frame, slot)?;
+            self.renderer.record_picture(picture, frame, slot)
+        })
+    }
+
+    fn with_frame(
+        &self,
+        world: &World,
+        colour: ColourName,
+        f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
     ) -> Result<(), Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
@@ -181,7 +212,7 @@ impl Camera {
             colour_by,
             length_scale: scale.length_scale as f32,
         };
-        self.renderer.record(rec, &frame).other()
+        f(&frame).other()
     }
 
     /// What particles' colours stand for: speed where the world has not what is
@@ -218,6 +249,14 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
+}
+
+/// Whether there is any acid, which is drawn in another tint than water.
+fn has_acid(scene: &Scene) -> bool {
+    scene
+        .liquids
+        .iter()
+        .any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the

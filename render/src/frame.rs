@@ -10,6 +10,7 @@ use crate::colour_map::ColourMap;
 use crate::fluid::LiquidSource;
 use crate::scene::Scene;
 use crate::tiles::tiles_of;
+use crate::tints;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.
@@ -162,6 +163,8 @@ impl FrameDesc<'_> {
             extent: extent.map(|side| side as f32),
             tile_columns,
             tile_rows,
+            water: tints::absorption(tints::WATER),
+            acid: tints::absorption(tints::ACID),
             ..layout::Frame::default()
         };
         for (slot, view) in frame.views.iter_mut().zip(self.views) {

@@ -35,6 +35,7 @@ mod pipelines;
 mod renderer;
 mod scene;
 mod tiles;
+pub mod tints;
 
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;

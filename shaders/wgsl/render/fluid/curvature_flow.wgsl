@@ -20,7 +20,7 @@ override STEPS: f32 = 40.0;
 @group(0) @binding(3) var before: texture_2d_array<f32>;
 
 /// Standard deviation of the smoothing, in spacings.
-const SMOOTHED = 1.0;
+const SMOOTHED = 0.8;
 /// Depth difference to a neighbour, in spacings, at which the surface ends.
 const EDGE = 2.0;
 
