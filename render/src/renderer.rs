@@ -405,14 +405,10 @@ impl Renderer {
     }
 
     fn draw_surfaces(&self, raster: &mut Raster<'_>) -> Result<(), vitriol_gpu::GpuError> {
-        let Some(mesh) = &self.scene.surfaces else {
-            return Ok(());
-        };
         raster
             .draw(&self.pipelines.surfaces)
             .uniform("frame", &self.frame)
-            .read("vertices", &mesh.vertices)
-            .indexed(&mesh.indices, mesh.index_count, 1)
+            .vertices(6)
     }
 
     fn draw_glass(
