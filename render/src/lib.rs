@@ -31,6 +31,7 @@ mod error;
 mod frame;
 mod mesh;
 mod pipelines;
+pub mod reference;
 mod renderer;
 mod scene;
 

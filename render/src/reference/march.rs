@@ -1,0 +1,223 @@
+//! Rays against the surface, and what an eye sees of it.
+
+use glam::{DMat3, DVec3};
+
+use super::field::{Field, SURFACE};
+use super::parallel;
+use crate::camera::{NEAR, View};
+
+/// Step of the march, in the sharpest kernel's half-widths: what a ray enters
+/// and leaves within one step is missed.
+const STEP: f64 = 0.5;
+
+/// Precision of a surface's place, particle spacings.
+const PRECISION: f64 = 1e-4;
+
+/// An eye's rays, one through each pixel's centre, in the scene's unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
+    /// Where the eye is.
+    pub eye: DVec3,
+    stage_from_eye: DMat3,
+    eye_from_stage: DMat3,
+    /// Tangents at the left, right, upper and lower plane.
+    tangents: [f64; 4],
+    /// Depth of the near plane.
+    near: f64,
+    size: [usize; 2],
+}
+
+impl Rays {
+    /// Rays of `view` at `size` pixels, in a scene whose unit is
+    /// `length_scale` metres of the stage.
+    pub fn new(view: &View, size: [u32; 2], length_scale: f64) -> Self {
+        let fov = view.fov;
+        let stage_from_eye = view.stage_from_eye.matrix3.as_dmat3();
+        Self {
+            eye: DVec3::from(view.stage_from_eye.translation.as_dvec3()) / length_scale,
+            stage_from_eye,
+            // Not the transpose: a rotation of f32 is one to 7 digits only.
+            eye_from_stage: stage_from_eye.inverse(),
+            tangents: [fov.left, fov.right, fov.up, fov.down].map(|angle| f64::from(angle).tan()),
+            near: f64::from(NEAR) / length_scale,
+            size: size.map(|count| count as usize),
+        }
+    }
+
+    /// Width and height, pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// Ray through (x, y) in pixels, (0.5, 0.5) being the first one's centre:
+    /// its length along the eye's axis is 1, so that a multiple of it is a view
+    /// depth.
+    pub fn direction(&self, x: f64, y: f64) -> DVec3 {
+        let [left, right, up, down] = self.tangents;
+        self.stage_from_eye
+            * DVec3::new(
+                left + (right - left) * x / self.size[0] as f64,
+                up + (down - up) * y / self.size[1] as f64,
+                -1.0,
+            )
+    }
+
+    /// Ray through the centre of a pixel, counted by rows from the top.
+    pub fn through(&self, pixel: usize) -> DVec3 {
+        let (x, y) = (pixel % self.size[0], pixel / self.size[0]);
+        self.direction(x as f64 + 0.5, y as f64 + 0.5)
+    }
+
+    /// Where a point of the stage is seen: pixels, and view depth; none behind
+    /// the eye.
+    pub fn project(&self, point: DVec3) -> Option<(f64, f64, f64)> {
+        let [left, right, up, down] = self.tangents;
+        let at = self.eye_from_stage * (point - self.eye);
+        let depth = -at.z;
+        (depth > 0.0).then(|| {
+            (
+                (at.x / depth - left) / (right - left) * self.size[0] as f64,
+                (at.y / depth - up) / (down - up) * self.size[1] as f64,
+                depth,
+            )
+        })
+    }
+
+    /// Area of a pixel at view depth 1.
+    pub fn pixel_area(&self) -> f64 {
+        let [left, right, up, down] = self.tangents;
+        (right - left) * (up - down) / (self.size[0] * self.size[1]) as f64
+    }
+}
+
+/// What an eye sees of a liquid.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Its rays.
+    pub rays: Rays,
+    /// View depth of the first surface of each pixel, by rows from the top;
+    /// infinite where there is none. Scene's unit.
+    pub depth: Vec<f64>,
+    /// Unit normal there, stage's axes, towards the eye; 0 where there is none.
+    pub normal: Vec<DVec3>,
+    /// Way through the liquid along the ray, scene's unit.
+    pub thickness: Vec<f64>,
+    /// ∫ z² dz of that way in view depth: times a pixel's area at depth 1 the
+    /// volume that the pixel sees.
+    pub solid: Vec<f64>,
+}
+
+impl Picture {
+    /// Marches each pixel's ray; through all of the liquid where `whole`, else
+    /// to its first surface only, which leaves `thickness` and `solid` at 0.
+    pub fn new(field: &Field, rays: &Rays, whole: bool) -> Self {
+        let hits = parallel::map(rays.size[0] * rays.size[1], |pixel| {
+            let hit = march(field, rays, rays.through(pixel), whole)?;
+            let at = rays.eye + rays.through(pixel) * hit.depth;
+            Some((hit, -field.gradient(at).normalize_or_zero()))
+        });
+        let way = |pixel: usize| rays.through(pixel).length();
+        let of = |value: &dyn Fn(usize, &Hit) -> f64, none: f64| {
+            let each = hits.iter().enumerate();
+            each.map(|(pixel, hit)| hit.as_ref().map_or(none, |(hit, _)| value(pixel, hit)))
+                .collect()
+        };
+        Self {
+            rays: *rays,
+            depth: of(&|_, hit| hit.depth, f64::INFINITY),
+            normal: hits
+                .iter()
+                .map(|hit| hit.as_ref().map_or(DVec3::ZERO, |(_, normal)| *normal))
+                .collect(),
+            thickness: of(&|pixel, hit| hit.inside * way(pixel), 0.0),
+            solid: of(&|_, hit| hit.solid, 0.0),
+        }
+    }
+}
+
+/// A ray's way through a liquid, in view depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Hit {
+    depth: f64,
+    /// Total length inside.
+    inside: f64,
+    /// ∫ z² dz inside.
+    solid: f64,
+}
+
+/// The ray's first surface and, where `whole`, its way through the liquid. An
+/// eye in the liquid sees it from its near plane on.
+fn march(field: &Field, rays: &Rays, direction: DVec3, whole: bool) -> Option<Hit> {
+    let eye = rays.eye;
+    let (start, end) = enter(field.bounds(), eye, direction)?;
+    let length = direction.length();
+    let step = STEP * field.shortest() / length;
+    let stride = field.spacing() / length;
+    let inside = |t: f64| field.value(eye + direction * t) > SURFACE;
+    // The place between one in the air and one in the liquid.
+    let surface = |mut a: f64, mut b: f64, entering: bool| {
+        while (b - a) * length > PRECISION * field.spacing() {
+            let middle = 0.5 * (a + b);
+            if inside(middle) == entering {
+                b = middle;
+            } else {
+                a = middle;
+            }
+        }
+        0.5 * (a + b)
+    };
+    let start = start.max(rays.near);
+    let mut hit: Option<Hit> = None;
+    let mut entered = inside(start).then_some(start);
+    let mut t = start;
+    while t < end {
+        // No kernel within a stride: nothing to miss.
+        let ahead = eye + direction * (t + 0.5 * stride);
+        let next = if entered.is_none() && field.is_empty(ahead, 0.5 * stride * length) {
+            t += stride;
+            continue;
+        } else {
+            t + step
+        };
+        match (entered, inside(next)) {
+            (None, true) => entered = Some(surface(t, next, true)),
+            (Some(from), false) => {
+                add(&mut hit, from, surface(t, next, false));
+                entered = None;
+            }
+            _ => {}
+        }
+        if let (Some(from), false) = (entered, whole) {
+            add(&mut hit, from, from);
+            return hit;
+        }
+        t = next;
+    }
+    if let Some(from) = entered {
+        add(&mut hit, from, end);
+    }
+    hit
+}
+
+/// Adds the way from view depth `from` to `to`.
+fn add(hit: &mut Option<Hit>, from: f64, to: f64) {
+    let hit = hit.get_or_insert(Hit {
+        depth: from,
+        inside: 0.0,
+        solid: 0.0,
+    });
+    hit.inside += to - from;
+    hit.solid += (to.powi(3) - from.powi(3)) / 3.0;
+}
+
+/// Where a ray enters and leaves a box, if it does ahead.
+fn enter([low, high]: [DVec3; 2], eye: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+    let (a, b) = ((low - eye) / direction, (high - eye) / direction);
+    let first = a.min(b).max_element().max(0.0);
+    let last = a.max(b).min_element();
+    (first < last).then_some((first, last))
+}
+
+#[cfg(test)]
+#[path = "tests/march.rs"]
+mod tests;
