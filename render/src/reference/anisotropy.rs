@@ -3,6 +3,8 @@
 //! and the matrix G that stretches its kernel. Equation numbers are the
 //! paper's.
 
+use std::f64::consts::TAU;
+
 use glam::{DMat3, DVec3};
 
 use super::eigen::eigen_symmetric;
@@ -38,10 +40,10 @@ pub struct Anisotropy {
     /// k_n of Eq. 15: the axes of a particle without neighbours, in units of h;
     /// such that its droplet has the particle's volume.
     pub lone: f64,
-    /// Numbers of neighbours (itself not counted, solids counted as if they
-    /// were full of particles) between which the axes fade from `lone` to those
-    /// of the covariance. The paper switches at N_ε = 25, for neighbourhoods of
-    /// another size; a switch would pop.
+    /// Σ w of the neighbours, itself and solids not counted, over that of a full
+    /// neighbourhood, between which a particle fades from a lone one's sphere in
+    /// its place to the shape of its covariance. The paper switches at
+    /// N_ε = 25, for neighbourhoods of another size; a switch would pop.
     pub fade: [f64; 2],
 }
 
@@ -55,7 +57,7 @@ impl Anisotropy {
             ratio: 4.0,
             scale: 1.5,
             lone: 0.41,
-            fade: [4.0, 12.0],
+            fade: [0.10, 0.35],
         }
     }
 
@@ -81,22 +83,24 @@ impl Anisotropy {
                     sums.add(offset, self.weight(offset.length()), 1.0);
                 }
             });
-            if surroundings.distance(i, positions[i]) < self.radius {
+            let liquid = sums.weight - 1.0;
+            let side = surroundings.side(i);
+            if surroundings.distance(side, positions[i]) < self.radius {
                 // As many particles as the solid would hold if it were liquid.
                 let each = (self.radius / f64::from(NODES) / self.spacing).powi(3);
                 for &(offset, weight) in &nodes {
-                    if surroundings.distance(i, positions[i] + offset) < 0.0 {
+                    if surroundings.is_solid(side, positions[i] + offset) {
                         sums.add(offset, weight, each);
                     }
                 }
             }
-            self.shape(positions[i], &sums)
+            self.shape(positions[i], &sums, liquid)
         })
     }
 
-    /// The shape of a particle at `position` whose neighbourhood, itself
-    /// included, has these sums.
-    pub fn shape(&self, position: DVec3, sums: &Sums) -> Shape {
+    /// The shape of a particle at `position` whose neighbourhood, itself and
+    /// solids included, has these sums; `liquid` is Σ w without these two.
+    pub fn shape(&self, position: DVec3, sums: &Sums, liquid: f64) -> Shape {
         // Eq. 10 less x_i, and with it Eq. 6.
         let mean = sums.first / sums.weight;
         // Eq. 9 by the moments about x_i.
@@ -107,11 +111,12 @@ impl Anisotropy {
         // Eq. 15, faded.
         let stretched = self.scale * sigma.max(DVec3::splat(sigma.x / self.ratio));
         let [few, enough] = self.fade;
-        let t = ((sums.count - 1.0 - few) / (enough - few)).clamp(0.0, 1.0);
+        let full = TAU / 3.0 * (self.radius / self.spacing).powi(3);
+        let t = ((liquid / full - few) / (enough - few)).clamp(0.0, 1.0);
         let trust = t * t * (3.0 - 2.0 * t);
         let lengths = DVec3::splat(self.lone).lerp(stretched, trust);
         Shape {
-            centre: position + self.smoothing * mean,
+            centre: position + trust * self.smoothing * mean,
             lengths: lengths * self.smoothing_length(),
             axes,
         }
@@ -134,8 +139,6 @@ impl Anisotropy {
 /// Moments of a particle's neighbourhood about the particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Sums {
-    /// Number of particles.
-    pub count: f64,
     /// Σ w.
     pub weight: f64,
     /// Σ w (x_j − x_i), scene's unit.
@@ -147,7 +150,6 @@ pub struct Sums {
 impl Sums {
     /// Of nothing.
     pub const ZERO: Self = Self {
-        count: 0.0,
         weight: 0.0,
         first: DVec3::ZERO,
         second: DMat3::ZERO,
@@ -156,7 +158,6 @@ impl Sums {
     /// Adds `number` neighbours at `offset` that weigh `weight` each.
     pub fn add(&mut self, offset: DVec3, weight: f64, number: f64) {
         let weight = weight * number;
-        self.count += number;
         self.weight += weight;
         self.first += weight * offset;
         self.second += outer(offset) * weight;

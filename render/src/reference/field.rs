@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-use super::anisotropy::{Anisotropy, Shape};
+use super::anisotropy::Shape;
 use super::grid::Grid;
+use super::surroundings::Surroundings;
 
 /// Level of φ on the surface.
 ///
@@ -13,26 +14,38 @@ use super::grid::Grid;
 /// true surface, φ falls from 1 to 0 over about 1.5 spacings. Their centres
 /// have moved into the liquid and their kernels are flat, so that the level at
 /// the true height is well below ½. This is φ's mean there over jittered
-/// lattices with the parameters of [`Anisotropy::new`]
+/// lattices with the parameters of
+/// [`Anisotropy::new`](super::Anisotropy::new)
 /// (`a_half_space_ends_where_it_should`).
 pub const SURFACE: f64 = 0.14;
+
+/// How far into the liquid φ is looked at to tell a wall from a free surface,
+/// particle spacings, and what it then is at least over the surface's level:
+/// free, φ rises by some thousandths over that way.
+const WALL_STEP: f64 = 1e-3;
+const WALL_RISE: f64 = 1.05;
 
 /// A kernel in place.
 #[derive(Clone, Copy, Debug)]
 struct Placed {
     centre: DVec3,
     g: DMat3,
-    /// V det(G), dimensionless.
+    /// V_j det(G_j), dimensionless.
     height: f64,
     /// Square of the distance beyond which it is 0: most of the candidates are
     /// turned away by it, before a matrix is multiplied.
     reach2: f64,
+    /// Its particle's side of the glass, where it reaches into a solid.
+    side: Option<usize>,
 }
 
-/// φ(x) = Σ_j V det(G_j) P(|G_j (x − x̄_j)|), Eqs 3 and 8: 1 in the depth of a
-/// liquid, 0 outside.
-#[derive(Clone, Debug)]
-pub struct Field {
+/// φ(x) = Σ_j V_j det(G_j) P(|G_j (x − x̄_j)|), Eqs 3 and 8: 1 in the depth of a
+/// liquid, 0 outside. A kernel ends where there is a solid for its particle:
+/// the kernels of a liquid at a wall are as wide as in its depth, and would
+/// reach beyond the glass.
+#[derive(Clone)]
+pub struct Field<'a> {
+    surroundings: &'a dyn Surroundings,
     kernels: Vec<Placed>,
     grid: Grid,
     /// No kernel reaches farther from its centre.
@@ -41,18 +54,31 @@ pub struct Field {
     shortest: f64,
 }
 
-impl Field {
-    /// Field of particles of these shapes.
-    pub fn new(shapes: &[Shape], parameters: &Anisotropy) -> Self {
-        let kernels = shapes.iter().map(|shape| {
-            let g = shape.g();
-            Placed {
-                centre: shape.centre,
-                g,
-                height: parameters.spacing.powi(3) * g.determinant(),
-                reach2: (SUPPORT * shape.lengths.max_element()).powi(2),
-            }
-        });
+impl<'a> Field<'a> {
+    /// Field of particles of these shapes and volumes (scene's unit cubed), as
+    /// many of them, of spacing `spacing`.
+    pub fn new(
+        shapes: &[Shape],
+        volumes: &[f64],
+        spacing: f64,
+        surroundings: &'a dyn Surroundings,
+    ) -> Self {
+        let kernels = shapes
+            .iter()
+            .zip(volumes)
+            .enumerate()
+            .map(|(i, (shape, volume))| {
+                let g = shape.g();
+                let reach = SUPPORT * shape.lengths.max_element();
+                let side = surroundings.side(i);
+                Placed {
+                    centre: shape.centre,
+                    g,
+                    height: volume * g.determinant(),
+                    reach2: reach * reach,
+                    side: (surroundings.distance(side, shape.centre) < reach).then_some(side),
+                }
+            });
         let centres: Vec<DVec3> = shapes.iter().map(|shape| shape.centre).collect();
         let lengths = || shapes.iter().map(|shape| shape.lengths);
         let longest = lengths().map(DVec3::max_element).fold(0.0, f64::max);
@@ -60,10 +86,11 @@ impl Field {
             .map(DVec3::min_element)
             .fold(f64::INFINITY, f64::min);
         Self {
+            surroundings,
             kernels: kernels.collect(),
             grid: Grid::new(&centres, 0.5 * longest),
             reach: SUPPORT * longest,
-            spacing: parameters.spacing,
+            spacing,
             shortest,
         }
     }
@@ -82,6 +109,8 @@ impl Field {
     /// φ at a place.
     pub fn value(&self, at: DVec3) -> f64 {
         let mut sum = 0.0;
+        // Kernels that lie together are mostly of one side.
+        let mut looked_up = None;
         self.grid.near(at, self.reach, |j| {
             let kernel = &self.kernels[j];
             let offset = at - kernel.centre;
@@ -89,7 +118,7 @@ impl Field {
                 return;
             }
             let q2 = (kernel.g * offset).length_squared();
-            if q2 < SUPPORT * SUPPORT {
+            if q2 < SUPPORT * SUPPORT && !self.is_cut(kernel, at, &mut looked_up) {
                 sum += kernel.height * shape(q2.sqrt());
             }
         });
@@ -109,6 +138,55 @@ impl Field {
             }
         });
         sum
+    }
+
+    /// Whether a kernel is cut off before a place; `looked_up` is the side that
+    /// was asked for last, and the answer.
+    fn is_cut(&self, kernel: &Placed, at: DVec3, looked_up: &mut Option<(usize, bool)>) -> bool {
+        let Some(side) = kernel.side else {
+            return false;
+        };
+        match *looked_up {
+            Some((asked, solid)) if asked == side => solid,
+            _ => {
+                let solid = self.surroundings.is_solid(side, at);
+                *looked_up = Some((side, solid));
+                solid
+            }
+        }
+    }
+
+    /// Unit normal of the surface at a place on it that is seen along `ray`:
+    /// −∇φ's direction, or, where the liquid ends at a solid, that of the
+    /// solid's distance.
+    pub fn normal(&self, at: DVec3, ray: DVec3) -> DVec3 {
+        let step = WALL_STEP * self.spacing;
+        let within = at + ray.normalize_or_zero() * step;
+        let wall = (self.value(within) > WALL_RISE * SURFACE)
+            .then(|| self.wall_at(at, step))
+            .flatten();
+        let Some(side) = wall else {
+            return -self.gradient(at).normalize_or_zero();
+        };
+        let rise = |axis: DVec3| {
+            let distance = |at: DVec3| self.surroundings.distance(side, at);
+            distance(at + axis * step) - distance(at - axis * step)
+        };
+        -DVec3::new(rise(DVec3::X), rise(DVec3::Y), rise(DVec3::Z)).normalize_or_zero()
+    }
+
+    /// The side of a kernel in reach whose solid is within `tolerance`.
+    fn wall_at(&self, at: DVec3, tolerance: f64) -> Option<usize> {
+        let mut found = None;
+        self.grid.near(at, self.reach, |j| {
+            let kernel = &self.kernels[j];
+            if found.is_none() && at.distance_squared(kernel.centre) < kernel.reach2 {
+                found = kernel
+                    .side
+                    .filter(|&side| self.surroundings.distance(side, at).abs() < tolerance);
+            }
+        });
+        found
     }
 
     /// A box beyond which φ is 0.

@@ -34,7 +34,7 @@ impl Rays {
         let fov = view.fov;
         let stage_from_eye = view.stage_from_eye.matrix3.as_dmat3();
         Self {
-            eye: DVec3::from(view.stage_from_eye.translation.as_dvec3()) / length_scale,
+            eye: view.stage_from_eye.translation.as_dvec3() / length_scale,
             stage_from_eye,
             // Not the transpose: a rotation of f32 is one to 7 digits only.
             eye_from_stage: stage_from_eye.inverse(),
@@ -110,11 +110,12 @@ pub struct Picture {
 impl Picture {
     /// Marches each pixel's ray; through all of the liquid where `whole`, else
     /// to its first surface only, which leaves `thickness` and `solid` at 0.
-    pub fn new(field: &Field, rays: &Rays, whole: bool) -> Self {
+    pub fn new(field: &Field<'_>, rays: &Rays, whole: bool) -> Self {
         let hits = parallel::map(rays.size[0] * rays.size[1], |pixel| {
-            let hit = march(field, rays, rays.through(pixel), whole)?;
-            let at = rays.eye + rays.through(pixel) * hit.depth;
-            Some((hit, -field.gradient(at).normalize_or_zero()))
+            let ray = rays.through(pixel);
+            let hit = march(field, rays, ray, whole)?;
+            let normal = field.normal(rays.eye + ray * hit.depth, ray);
+            Some((hit, normal))
         });
         let way = |pixel: usize| rays.through(pixel).length();
         let of = |value: &dyn Fn(usize, &Hit) -> f64, none: f64| {
@@ -147,7 +148,7 @@ struct Hit {
 
 /// The ray's first surface and, where `whole`, its way through the liquid. An
 /// eye in the liquid sees it from its near plane on.
-fn march(field: &Field, rays: &Rays, direction: DVec3, whole: bool) -> Option<Hit> {
+fn march(field: &Field<'_>, rays: &Rays, direction: DVec3, whole: bool) -> Option<Hit> {
     let eye = rays.eye;
     let (start, end) = enter(field.bounds(), eye, direction)?;
     let length = direction.length();

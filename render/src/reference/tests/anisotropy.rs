@@ -23,7 +23,7 @@ fn dense(inside: impl Fn(DVec3) -> bool) -> Sums {
 #[test]
 fn a_full_neighbourhood_is_a_sphere() {
     let p = parameters();
-    let shape = p.shape(DVec3::ONE, &dense(|_| true));
+    let shape = p.shape(DVec3::ONE, &dense(|_| true), f64::INFINITY);
     // The midpoint rule over cubes of R/8.
     assert!((shape.lengths / p.smoothing_length() - p.scale).length() < 0.01 * p.scale);
     assert!((shape.centre - DVec3::ONE).length() < 1e-12);
@@ -33,7 +33,11 @@ fn a_full_neighbourhood_is_a_sphere() {
 fn on_a_plane_it_is_flat_by_the_integral() {
     let p = parameters();
     let normal = DVec3::new(2.0, -1.0, 0.5).normalize();
-    let shape = p.shape(DVec3::ZERO, &dense(|offset| offset.dot(normal) < 0.0));
+    let shape = p.shape(
+        DVec3::ZERO,
+        &dense(|offset| offset.dot(normal) < 0.0),
+        f64::INFINITY,
+    );
     // Over a half ball with w = 1 − (r/R)³ the mean lies ½(1/4 − 1/7)/(1/3 − 1/6) R
     // deep, the variance across is 0.15 R² less its square.
     let deep = 0.5 * (0.25 - 1.0 / 7.0) / (1.0 / 3.0 - 1.0 / 6.0);
@@ -64,7 +68,7 @@ fn one_particle_is_a_small_sphere_where_it_is() {
 fn two_particles_are_long() {
     // Trusted at once, for the covariance of two to show.
     let p = Anisotropy {
-        fade: [-1.0, 0.0],
+        fade: [-2.0, -1.0],
         ..parameters()
     };
     let apart = DVec3::new(0.0, 1.2, 0.0);
@@ -86,6 +90,10 @@ fn two_particles_are_long() {
 struct FloorBelow;
 
 impl Surroundings for FloorBelow {
+    fn side(&self, _: usize) -> usize {
+        0
+    }
+
     fn distance(&self, _: usize, at: DVec3) -> f64 {
         at.y
     }
@@ -124,7 +132,7 @@ fn a_wall_is_as_good_as_liquid() {
 #[test]
 fn glass_between_particles_parts_them() {
     let p = Anisotropy {
-        fade: [-1.0, 0.0],
+        fade: [-2.0, -1.0],
         ..parameters()
     };
     let positions = [DVec3::Y * 9.0, DVec3::Y * 9.5];

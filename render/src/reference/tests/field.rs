@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 use super::*;
-use crate::reference::Nothing;
+use crate::reference::{Anisotropy, Nothing};
 use glam::IVec3;
 use vitriol_tests::random::Random;
 
@@ -18,12 +18,22 @@ fn shaken_lattice(low: IVec3, high: IVec3, shake: f64) -> Vec<DVec3> {
     positions
 }
 
+fn field(p: &Anisotropy, positions: &[DVec3]) -> Field<'static> {
+    let volumes = vec![p.spacing.powi(3); positions.len()];
+    Field::new(
+        &p.shapes(positions, &Nothing),
+        &volumes,
+        p.spacing,
+        &Nothing,
+    )
+}
+
 #[test]
 fn holds_the_particles_volume() {
     // Whatever their shapes: ∫φ = number × d³.
     let p = Anisotropy::new(0.1, 0.2);
     let positions = Random(3).points(40, 0.4);
-    let field = Field::new(&p.shapes(&positions, &Nothing), &p);
+    let field = field(&p, &positions);
     let [low, high] = field.bounds();
     let step = 0.01;
     let count = ((high - low) / step).ceil().as_ivec3();
@@ -47,7 +57,7 @@ fn holds_the_particles_volume() {
 fn the_gradient_is_the_slope() {
     let p = Anisotropy::new(0.1, 0.2);
     let mut random = Random(11);
-    let field = Field::new(&p.shapes(&random.points(60, 0.4), &Nothing), &p);
+    let field = field(&p, &random.points(60, 0.4));
     let step = 1e-6;
     for _ in 0..200 {
         let at = random.point(0.5);
@@ -69,7 +79,7 @@ fn a_half_space_ends_where_it_should() {
         let p = Anisotropy::new(1.0, 2.0);
         let (low, high) = (IVec3::new(-8, -7, -8), IVec3::new(8, 0, 8));
         let positions = shaken_lattice(low, high, shake);
-        let field = Field::new(&p.shapes(&positions, &Nothing), &p);
+        let field = field(&p, &positions);
         let mut random = Random(1);
         let (mut height, mut level) = (0.0, 0.0);
         let count = 300;
@@ -93,10 +103,43 @@ fn a_half_space_ends_where_it_should() {
 #[test]
 fn a_lone_droplet_has_its_volume() {
     let p = Anisotropy::new(1.0, 2.0);
-    let field = Field::new(&p.shapes(&[DVec3::ZERO], &Nothing), &p);
+    let field = field(&p, &[DVec3::ZERO]);
     let radius = (0.75 / PI).cbrt();
     for (scale, inside) in [(0.97, true), (1.03, false)] {
         let at = DVec3::new(0.6, 0.0, 0.8) * (scale * radius);
         assert_eq!(field.value(at) > SURFACE, inside, "{}", field.value(at));
+    }
+}
+
+/// A glass box: liquid space is y > 0 for side 1, all else is solid to it.
+struct Floor;
+
+impl Surroundings for Floor {
+    fn side(&self, _: usize) -> usize {
+        1
+    }
+
+    fn distance(&self, _: usize, at: DVec3) -> f64 {
+        at.y
+    }
+
+    fn apart(&self, _: usize, _: usize) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_liquid_ends_at_its_wall() {
+    let p = Anisotropy::new(1.0, 2.0);
+    let positions = shaken_lattice(IVec3::new(-5, 0, -5), IVec3::new(5, 6, 5), 0.2);
+    let volumes = vec![1.0; positions.len()];
+    let field = Field::new(&p.shapes(&positions, &Floor), &volumes, 1.0, &Floor);
+    let mut random = Random(8);
+    for _ in 0..50 {
+        let at = random.point(5.0).with_y(0.0);
+        assert_eq!(field.value(at - DVec3::Y * 1e-6), 0.0);
+        assert!(field.value(at + DVec3::Y * 1e-6) > 2.0 * SURFACE);
+        let slanting = DVec3::new(0.5, 1.0, 0.2);
+        assert!((field.normal(at, slanting) + DVec3::Y).length() < 1e-9);
     }
 }
