@@ -82,10 +82,15 @@ fn add(
 /// The constants by which the program names shaders, and the texts that are built in.
 fn shader_names(sources: &BTreeMap<String, String>, root: &Path) -> Result<String, Box<dyn Error>> {
     let mut code = String::new();
-    for (folder, whose) in [("sim", "solver"), ("render", "renderer")] {
-        writeln!(code, "/// The {whose}'s shaders.\npub mod {folder} {{")?;
+    let modules = [
+        ("sim", "sim", "solver"),
+        ("render", "render", "renderer"),
+        ("fluid", "render/fluid", "renderer's liquid surface"),
+    ];
+    for (module, folder, whose) in modules {
+        writeln!(code, "/// Shaders of the {whose}.\npub mod {module} {{")?;
         for path in sources.keys() {
-            let Some(name) = path.strip_prefix(folder).and_then(|p| p.strip_prefix('/')) else {
+            let Some((_, name)) = path.rsplit_once('/').filter(|(of, _)| *of == folder) else {
                 continue;
             };
             let name = name.trim_end_matches(".wgsl");

@@ -338,6 +338,7 @@ impl Vessel {
             floor: Floor {
                 height: -100.0 * self.height,
             },
+            picture: vitriol_sim::scene::PictureSettings::default(),
             presets: BTreeMap::new(),
         }
     }

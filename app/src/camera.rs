@@ -1,16 +1,16 @@
 //! The film's camera: on a tripod, or where the user's eyes were.
 
 use glam::{Affine3A, Vec3};
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
-    BoxDesc, ColourBy, Fov, FrameDesc, ParticleSource, RenderDesc, RenderError, Renderer,
-    SceneDesc, VesselDesc, View,
+    BoxDesc, ColourBy, Fov, FrameDesc, LiquidDesc, LiquidSource, Neighbours, ParticleSource,
+    RenderDesc, RenderError, Renderer, SceneDesc, SurfaceFilter, VesselDesc, VesselTables, View,
 };
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Liquid, Scene, TableTop};
+use vitriol_sim::scene::{Liquid, PictureFilter, Scene, TableTop};
 use vitriol_sim::world::World;
 
 use crate::cli::ColourName;
@@ -29,16 +29,46 @@ const COLOURED_FALL: f64 = 0.075;
 /// and the bench's edges long.
 const HEAD_FIELD: f32 = 40.0;
 
+/// Distance between a grown person's eyes, metres: the mean of some thousand
+/// adults (N. Dodgson, 2004).
+const EYES_APART: f32 = 0.063;
+
+/// What a camera is to take.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Width and height of a view, pixels.
+    pub extent: [u32; 2],
+    /// Views side by side: 1, or 2 for both eyes.
+    pub eyes: u32,
+    /// Particles of the liquid, where it is to look like liquid.
+    pub liquid: Option<u32>,
+    /// Filter of its surface; `None` for the scene's.
+    pub filter: Option<SurfaceFilter>,
+}
+
+impl Shot {
+    /// One view of coloured particles.
+    pub fn of(extent: [u32; 2]) -> Self {
+        Self {
+            extent,
+            eyes: 1,
+            liquid: None,
+            filter: None,
+        }
+    }
+}
+
 /// Takes pictures of a world.
 pub struct Camera {
     renderer: Renderer,
+    eyes: u32,
     view: View,
     /// What the colours of temperature run over.
     temperatures: ColourBy,
 }
 
 impl Camera {
-    /// A camera for pictures of `extent` pixels of that scene, on its tripod
+    /// A camera for such pictures of that scene, on its tripod
     /// until [`Camera::follow`] takes it off.
     ///
     /// # Errors
@@ -47,12 +77,22 @@ impl Camera {
         gpu: &Gpu,
         library: &Library,
         scene: &Scene,
-        extent: [u32; 2],
+        shot: &Shot,
     ) -> Result<Self, Failure> {
-        let mut renderer = Renderer::new(gpu, library, &RenderDesc::film(extent)).other()?;
+        let extent = shot.extent;
+        let desc = RenderDesc {
+            views: shot.eyes,
+            liquid: shot.liquid.map(|particles| LiquidDesc {
+                filter: shot.filter.unwrap_or_else(|| filter(scene)),
+                ..LiquidDesc::new(particles)
+            }),
+            ..RenderDesc::film(extent)
+        };
+        let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
         Ok(Self {
             renderer,
+            eyes: shot.eyes,
             view: view(scene, extent[0] as f32 / extent[1] as f32),
             temperatures: temperatures(scene),
         })
@@ -79,6 +119,11 @@ impl Camera {
         };
     }
 
+    /// Puts the camera elsewhere.
+    pub fn set_view(&mut self, view: View) {
+        self.view = view;
+    }
+
     /// The world as it is now, coloured by speed where it has not what is asked
     /// for: rows from the top, sRGB-encoded RGBA bytes.
     /// Waits for the device.
@@ -86,43 +131,89 @@ impl Camera {
     /// # Errors
     /// What the device says.
     pub fn shoot(&self, world: &World, colour: ColourName) -> Result<Vec<u8>, Failure> {
+        let gpu = world.gpu();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        self.record(&mut rec, world, colour)?;
+        let picture = self.renderer.read_back(&mut rec).other()?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+        let mut picture = picture.side_by_side().other()?;
+        let width = (self.eyes * self.renderer.extent()[0]) as usize;
+        if let Some(legend) = self.legend(world, colour) {
+            legend.draw(&mut picture, width);
+        }
+        Ok(picture)
+    }
+
+    /// Records the picture of the world as it is after what was recorded
+    /// before on that queue.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record(
+        &self,
+        rec: &mut Recorder,
+        world: &World,
+        colour: ColourName,
+    ) -> Result<(), Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
         let solver = world.solver();
-        let (colour_by, attributes) = match (colour, solver.heat()) {
-            (ColourName::Temperature, Some(heat)) => (self.temperatures, heat),
-            (ColourName::Acid, Some(heat)) => (ColourBy::Acid, heat),
-            _ => {
-                let fall = COLOURED_FALL / scale.length_scale;
-                let fastest = (2.0 * scale.gravity.abs() * fall).sqrt();
-                (ColourBy::Speed(fastest as f32), solver.velocities())
-            }
+        let colour_by = self.colour_by(world, colour);
+        let attributes = match (colour_by, solver.heat()) {
+            (ColourBy::Temperature(..) | ColourBy::Acid, Some(heat)) => heat,
+            _ => solver.velocities(),
         };
+        let particles = ParticleSource {
+            positions: solver.positions(),
+            attributes,
+            count: solver.count(),
+            radius: (DRAWN_RADIUS * scale.spacing) as f32,
+        };
+        let liquid = (colour == ColourName::Liquid).then(|| liquid_of(world));
         let frame = FrameDesc {
-            views: &[self.view],
+            views: &self.views(),
             vessels: &vessels,
-            particles: Some(ParticleSource {
-                positions: solver.positions(),
-                attributes,
-                count: solver.count(),
-                radius: (DRAWN_RADIUS * scale.spacing) as f32,
-            }),
+            particles: liquid.is_none().then_some(particles),
+            liquid,
             colour_by,
             length_scale: scale.length_scale as f32,
         };
-        let draw = || -> Result<Vec<u8>, RenderError> {
-            let gpu = world.gpu();
-            let mut rec = gpu.recorder(QueueKind::Main)?;
-            self.renderer.record(&mut rec, &frame)?;
-            let picture = self.renderer.read_back(&mut rec)?;
-            gpu.submit(rec)?.wait()?;
-            picture.first_view()
-        };
-        let mut picture = draw().other()?;
-        if let Some(legend) = Legend::of(colour_by) {
-            legend.draw(&mut picture, self.renderer.extent()[0] as usize);
+        self.renderer.record(rec, &frame).other()
+    }
+
+    /// What particles' colours stand for: speed where the world has not what is
+    /// asked for.
+    fn colour_by(&self, world: &World, colour: ColourName) -> ColourBy {
+        match (colour, world.solver().heat()) {
+            (ColourName::Temperature, Some(_)) => self.temperatures,
+            (ColourName::Acid, Some(_)) => ColourBy::Acid,
+            _ => {
+                let scale = &world.scene().scale;
+                let fall = COLOURED_FALL / scale.length_scale;
+                ColourBy::Speed((2.0 * scale.gravity.abs() * fall).sqrt() as f32)
+            }
         }
-        Ok(picture)
+    }
+
+    /// What stands in the picture's corner.
+    fn legend(&self, world: &World, colour: ColourName) -> Option<Legend> {
+        match colour {
+            ColourName::Liquid => None,
+            _ => Legend::of(self.colour_by(world, colour)),
+        }
+    }
+
+    /// The camera's view, or that of the eyes to its left and right.
+    fn views(&self) -> Vec<View> {
+        let eye = |index: u32| {
+            let aside = (index as f32 - 0.5 * (self.eyes - 1) as f32) * EYES_APART;
+            View {
+                stage_from_eye: self.view.stage_from_eye
+                    * Affine3A::from_translation(Vec3::X * aside),
+                ..self.view
+            }
+        };
+        (0..self.eyes).map(eye).collect()
     }
 }
 
@@ -162,18 +253,39 @@ fn temperatures(scene: &Scene) -> ColourBy {
     )
 }
 
-/// The scene's vessels on their table in the room.
-fn laboratory(scene: &Scene) -> SceneDesc {
-    let vessels = scene.flasks.iter().map(|flask| VesselDesc {
-        inner: flask.profile.inner_outline().to_vec(),
-        outer: flask.profile.outer_outline().to_vec(),
-    });
-    let length_scale = scene.scale.length_scale;
-    let top = scene.table.map_or(0.0, |table| table.top) * length_scale;
-    let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
-    let table = scene.table.map(|table| {
+/// The liquid in the solver's buffers.
+fn liquid_of(world: &World) -> LiquidSource<'_> {
+    let (solver, scene) = (world.solver(), world.scene());
+    let (counts, list) = solver.neighbours();
+    let (flasks, distances) = solver.flask_tables();
+    LiquidSource {
+        positions: solver.positions(),
+        heat: solver.heat(),
+        count: solver.count(),
+        spacing: scene.scale.spacing as f32,
+        neighbours: (world.steps() > 0).then_some(Neighbours {
+            counts,
+            list,
+            support: solver.parameters().support_radius as f32,
+        }),
+        vessels: Some(VesselTables { flasks, distances }),
+        table: table(scene),
+        floor: scene.floor.height as f32,
+    }
+}
+
+fn filter(scene: &Scene) -> SurfaceFilter {
+    match scene.picture.filter {
+        PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
+        PictureFilter::CurvatureFlow => SurfaceFilter::CurvatureFlow,
+    }
+}
+
+/// The scene's table.
+fn table(scene: &Scene) -> Option<BoxDesc> {
+    scene.table.map(|table| {
         let half = [0.5 * table.size[0], 0.5 * table.size[1]];
-        let under = table.top - TableTop::THICKNESS / length_scale;
+        let under = table.top - TableTop::THICKNESS / scene.scale.length_scale;
         let corner = |side: f64, y: f64| {
             Vec3::new(
                 (table.centre[0] + side * half[0]) as f32,
@@ -185,8 +297,22 @@ fn laboratory(scene: &Scene) -> SceneDesc {
             min: corner(-1.0, under),
             max: corner(1.0, table.top),
         }
+    })
+}
+
+/// The scene's vessels on their table in the room.
+fn laboratory(scene: &Scene) -> SceneDesc {
+    let vessels = scene.flasks.iter().map(|flask| VesselDesc {
+        inner: flask.profile.inner_outline().to_vec(),
+        outer: flask.profile.outer_outline().to_vec(),
     });
-    SceneDesc { table, ..room }
+    let length_scale = scene.scale.length_scale;
+    let top = scene.table.map_or(0.0, |table| table.top) * length_scale;
+    let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
+    SceneDesc {
+        table: table(scene),
+        ..room
+    }
 }
 
 /// At real size the view of a bench before a standing user; else one that has

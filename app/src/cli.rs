@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::console::Format;
+use vitriol_render::SurfaceFilter;
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
 /// recorded or live hands.
@@ -42,6 +43,8 @@ impl Cli {
 pub enum Command {
     /// Replay a recorded pour and make its film and report
     Replay(ReplayArgs),
+    /// Replay a recorded pour up to a time and take one picture
+    Picture(PictureArgs),
     /// Convert, list or look into pose tracks
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
@@ -100,6 +103,8 @@ pub enum CameraName {
 /// What a film's colours stand for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ColourName {
+    /// Liquid in glass
+    Liquid,
     /// Speed of the particles
     Speed,
     /// Temperature, where the scene models heat
@@ -112,9 +117,43 @@ impl ColourName {
     /// The name as it is given and reported.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Liquid => "liquid",
             Self::Speed => "speed",
             Self::Temperature => "temperature",
             Self::Acid => "acid",
+        }
+    }
+
+    /// Whether only a scene that models heat has it.
+    pub fn is_of_heat(self) -> bool {
+        matches!(self, Self::Temperature | Self::Acid)
+    }
+}
+
+/// How the splatted particles become a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FilterName {
+    /// Truong and Yuksel's of 2018
+    NarrowRange,
+    /// Van der Laan's of 2009, the paper's
+    CurvatureFlow,
+}
+
+impl FilterName {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NarrowRange => "narrow-range",
+            Self::CurvatureFlow => "curvature-flow",
+        }
+    }
+}
+
+impl From<FilterName> for SurfaceFilter {
+    fn from(name: FilterName) -> Self {
+        match name {
+            FilterName::NarrowRange => Self::NarrowRange,
+            FilterName::CurvatureFlow => Self::CurvatureFlow,
         }
     }
 }
@@ -147,13 +186,55 @@ pub struct ReplayArgs {
     /// Where the film is seen from
     #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
     pub camera: CameraName,
-    /// One film only, coloured by this; without it one by speed, and where the
-    /// scene models heat a second one by temperature
+    /// One film only, of the liquid or of particles coloured by this; without it
+    /// one of the liquid, and where the scene models heat a second one by
+    /// temperature
     #[arg(long, value_enum, value_name = "COLOUR", conflicts_with = "no_video")]
     pub colour: Option<ColourName>,
+    /// Filter of the liquid's surface; without it the scene's
+    #[arg(long, value_enum, value_name = "FILTER", conflicts_with = "no_video")]
+    pub filter: Option<FilterName>,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,
+}
+
+/// Arguments of `vitriol picture`.
+#[derive(Debug, Args)]
+pub struct PictureArgs {
+    /// A built-in track's name (see `vitriol track --list`) or an MCAP file
+    pub track: String,
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file; without
+    /// it the scene that the track names
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
+    /// Simulated time of the picture, seconds
+    #[arg(long, value_name = "S", value_parser = positive_seconds)]
+    pub at: f64,
+    /// PNG file to be made
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Width and height of a view, pixels
+    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 2, default_values_t = [960, 540])]
+    pub size: Vec<u32>,
+    /// Both eyes, side by side
+    #[arg(long)]
+    pub stereo: bool,
+    /// Where it is seen from
+    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    pub camera: CameraName,
+    /// Liquid, or particles coloured by this
+    #[arg(long, value_enum, default_value = "liquid", value_name = "COLOUR")]
+    pub colour: ColourName,
+    /// Filter of the liquid's surface; without it the scene's
+    #[arg(long, value_enum, value_name = "FILTER")]
+    pub filter: Option<FilterName>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
 }
 
 /// Arguments of `vitriol track`.

@@ -13,7 +13,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame};
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Shot};
 use crate::cli::ColourName;
 use crate::command::replay::Setup;
 use crate::device;
@@ -47,8 +47,15 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
     })?;
     let mut film = match setup.picture {
         Some((width, height)) => {
-            let extent = [width, height];
-            Some(Camera::new(gpu, library, setup.scene, extent)?)
+            let liquid = setup.colours.contains(&ColourName::Liquid);
+            let filter = setup.filter.map(Into::into);
+            let shot = Shot {
+                extent: [width, height],
+                eyes: setup.eyes,
+                liquid: liquid.then(|| world.solver().count()),
+                filter,
+            };
+            Some(Camera::new(gpu, library, setup.scene, &shot)?)
         }
         None => None,
     };

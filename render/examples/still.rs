@@ -62,6 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             count: positions.len() as u32,
             radius: 0.6 * SPACING,
         }),
+        liquid: None,
         colour_by: ColourBy::Speed(1.2),
         length_scale: 1.0,
     };

@@ -28,6 +28,9 @@ pub enum RenderError {
         /// How many were set up.
         wanted: usize,
     },
+    /// A liquid surface was asked of a renderer that was made without one.
+    #[error("this renderer has no liquid surface; make it with RenderDesc::liquid")]
+    NoLiquid,
     /// More particles than the buffers hold.
     #[error("{count} particles asked for, but \"{buffer}\" holds {held}; pass the solver's count")]
     TooManyParticles {

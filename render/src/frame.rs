@@ -1,12 +1,13 @@
 //! What changes from frame to frame, and its uniforms.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Mat4, Vec3};
 use vitriol_gpu::Buffer;
 use vitriol_shaders::layout;
 
 use crate::RenderError;
-use crate::camera::View;
+use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
+use crate::fluid::{LiquidSource, tiles_of};
 use crate::scene::Scene;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
@@ -79,8 +80,11 @@ pub struct FrameDesc<'a> {
     /// `stage_from_vessel` of each vessel of the scene, rigid, in the scene's
     /// unit.
     pub vessels: &'a [Affine3A],
-    /// The liquid; `None` for none.
+    /// Particles to be coloured by an attribute; `None` for none.
     pub particles: Option<ParticleSource<'a>>,
+    /// Liquid that looks like liquid, where the renderer was made for it;
+    /// `None` for none.
+    pub liquid: Option<LiquidSource<'a>>,
     /// What the particles' colours stand for.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
@@ -120,31 +124,67 @@ impl FrameDesc<'_> {
         Ok(())
     }
 
-    /// The frame's uniforms.
-    pub(crate) fn uniforms(&self, scene: &Scene) -> layout::Frame {
+    /// The frame's uniforms for pictures of `extent` pixels.
+    pub(crate) fn uniforms(&self, scene: &Scene, extent: [u32; 2]) -> layout::Frame {
+        let [tile_columns, tile_rows] = tiles_of(extent);
+        let corner = |corner: Option<Vec3>| corner.unwrap_or(Vec3::ZERO).to_array();
         let mut frame = layout::Frame {
             colour_map: self.colour_by.map().linear_entries(),
             metres_per_unit: self.length_scale,
+            table_min: corner(scene.table.map(|table| table.min)),
+            table_max: corner(scene.table.map(|table| table.max)),
+            room_min: corner(scene.room.map(|room| room.min)),
+            room_max: corner(scene.room.map(|room| room.max)),
+            spacing: self.liquid.map_or(0.0, |liquid| liquid.spacing),
+            extent: extent.map(|side| side as f32),
+            tile_columns,
+            tile_rows,
             ..layout::Frame::default()
         };
         for (slot, view) in frame.views.iter_mut().zip(self.views) {
-            let eye = Vec3::from(view.stage_from_eye.translation) / self.length_scale;
-            slot.clip_from_stage = view.clip_from_scaled(self.length_scale).to_cols_array_2d();
-            slot.eye = eye.to_array();
+            *slot = eye(view, self.length_scale, extent);
         }
         let vessels = self.vessels.iter().zip(&scene.vessels);
-        for (slot, (stage_from_vessel, vessel)) in frame.blockers.iter_mut().zip(vessels) {
+        let slots = frame.blockers.iter_mut().zip(&mut frame.vessels);
+        for ((blocker, slot), (stage_from_vessel, vessel)) in slots.zip(vessels) {
             let bounds = vessel.bounds;
             // The lower sphere hardly rises above the foot, so that the shadow
             // closes on it; the rim's light comes through above.
             let on_axis = |y: f32| stage_from_vessel.transform_point3(Vec3::Y * y);
             let foot = bounds.bottom + 0.5 * bounds.radius;
-            slot.foot = on_axis(foot).to_array();
-            slot.top = on_axis((bounds.top - bounds.radius).max(foot)).to_array();
-            slot.radius = bounds.radius;
-            slot.opacity = VESSEL_OPACITY;
+            blocker.foot = on_axis(foot).to_array();
+            blocker.top = on_axis((bounds.top - bounds.radius).max(foot)).to_array();
+            blocker.radius = bounds.radius;
+            blocker.opacity = VESSEL_OPACITY;
+            *slot = layout::Vessel {
+                vessel_from_stage: Mat4::from(stage_from_vessel.inverse()).to_cols_array_2d(),
+                ..vessel.inner
+            };
             frame.blocker_count += 1;
         }
         frame
+    }
+
+    /// Distance of each view's near plane, in the scene's unit.
+    pub(crate) fn nears(&self) -> Vec<f32> {
+        vec![NEAR / self.length_scale; self.views.len()]
+    }
+}
+
+/// A view for the shaders.
+fn eye(view: &View, length_scale: f32, [width, height]: [u32; 2]) -> layout::View {
+    let axes = view.stage_from_eye.matrix3;
+    let fov = view.fov;
+    let (left, right) = (fov.left.tan(), fov.right.tan());
+    let (up, down) = (fov.up.tan(), fov.down.tan());
+    layout::View {
+        clip_from_stage: view.clip_from_scaled(length_scale).to_cols_array_2d(),
+        eye: (Vec3::from(view.stage_from_eye.translation) / length_scale).to_array(),
+        near: NEAR / length_scale,
+        corner: (axes * Vec3::new(left, up, -1.0)).to_array(),
+        focal: width as f32 / (right - left),
+        across: (axes * Vec3::new((right - left) / width as f32, 0.0, 0.0)).to_array(),
+        down: (axes * Vec3::new(0.0, (down - up) / height as f32, 0.0)).to_array(),
+        ..layout::View::default()
     }
 }

@@ -21,13 +21,14 @@
 //! # }
 //! ```
 //!
-//! The liquid is drawn by one pass of sphere impostors in `Renderer::record`,
-//! before the bench and the glass; a surface renderer takes that pass's place
-//! and leaves the rest, which asks only for colour and reversed depth.
+//! Liquid looks like liquid where a frame has [`FrameDesc::liquid`], and shows
+//! its particles coloured by an attribute where it has
+//! [`FrameDesc::particles`].
 
 pub mod camera;
 pub mod colour_map;
 mod error;
+mod fluid;
 mod frame;
 mod mesh;
 mod pipelines;
@@ -38,6 +39,9 @@ mod scene;
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;
 pub use error::RenderError;
+pub use fluid::{
+    LiquidDesc, LiquidSource, Neighbours, Surface, SurfaceFilter, SurfaceReadback, VesselTables,
+};
 pub use frame::{ColourBy, FrameDesc, ParticleSource};
 pub use renderer::{PictureReadback, RenderDesc, Renderer};
 pub use scene::{BoxDesc, SceneDesc, VesselDesc};

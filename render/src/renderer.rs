@@ -8,6 +8,7 @@ use vitriol_gpu::{
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
+use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
 use crate::frame::{ColourBy, FrameDesc, ParticleSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
 use crate::scene::{Scene, SceneDesc};
@@ -25,15 +26,18 @@ pub struct RenderDesc {
     /// Format of the colour image. One of sRGB, which encodes what the shaders
     /// write.
     pub format: vk::Format,
+    /// The liquid surface that frames may ask for; `None` for none.
+    pub liquid: Option<LiquidDesc>,
 }
 
 impl RenderDesc {
-    /// One view of `extent` in 8-bit sRGB: a film.
+    /// One view of `extent` in 8-bit sRGB, without a liquid surface: a film.
     pub const fn film(extent: [u32; 2]) -> Self {
         Self {
             extent,
             views: 1,
             format: vk::Format::R8G8B8A8_SRGB,
+            liquid: None,
         }
     }
 }
@@ -49,6 +53,7 @@ pub struct Renderer {
     pipelines: Pipelines,
     scene: Scene,
     frame: Buffer,
+    fluid: Option<Fluid>,
     colour: Image,
     depth: Image,
 }
@@ -78,6 +83,13 @@ impl Renderer {
             pipelines: Pipelines::new(gpu, library, desc.format, view_mask(desc.views))?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
+            fluid: match desc.liquid {
+                Some(liquid) => {
+                    let (extent, views) = (desc.extent, desc.views);
+                    Some(Fluid::new(gpu, library, liquid, extent, views, desc.format)?)
+                }
+                None => None,
+            },
             colour: image(
                 "picture",
                 desc.format,
@@ -97,6 +109,9 @@ impl Renderer {
     /// # Errors
     /// [`RenderError::Shader`], [`RenderError::Gpu`].
     pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
+        if let Some(fluid) = self.fluid.as_mut().filter(|_| Fluid::uses(changed)) {
+            fluid.reload(library)?;
+        }
         if Pipelines::uses(changed) {
             let mask = view_mask(self.desc.views);
             self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
@@ -136,7 +151,12 @@ impl Renderer {
     /// frame does not fit; [`RenderError::Gpu`].
     pub fn record(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
         frame.check(&self.scene, self.desc.views)?;
-        rec.upload(&self.frame, &[frame.uniforms(&self.scene)])?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
+        rec.upload(&self.frame, &[uniforms])?;
+        let liquid = self.liquid(frame)?;
+        if let Some((fluid, source)) = &liquid {
+            fluid.record_surface(rec, frame, source, &self.frame)?;
+        }
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {
@@ -154,6 +174,9 @@ impl Renderer {
                 self.draw_particles(raster, particles, frame.colour_by)?;
             }
             self.draw_surfaces(raster)?;
+            if let Some((fluid, _)) = &liquid {
+                fluid.shade(raster, &self.frame)?;
+            }
             // Blending is right only from far to near. A vessel's own far wall
             // comes first; vessels that hide each other are close enough to
             // clear that their order does not show.
@@ -163,6 +186,21 @@ impl Renderer {
             Ok(())
         })?;
         Ok(())
+    }
+
+    /// The liquid surface of a frame that has one.
+    fn liquid<'a>(
+        &self,
+        frame: &FrameDesc<'a>,
+    ) -> Result<Option<(&Fluid, LiquidSource<'a>)>, RenderError> {
+        let Some(source) = frame.liquid else {
+            return Ok(None);
+        };
+        let Some(fluid) = &self.fluid else {
+            return Err(RenderError::NoLiquid);
+        };
+        fluid.check(&source)?;
+        Ok(Some((fluid, source)))
     }
 
     fn draw_particles(
@@ -227,7 +265,23 @@ impl Renderer {
         Ok(PictureReadback {
             readback: rec.read_back_image(&self.colour)?,
             views: self.desc.views as usize,
+            row_bytes: 4 * self.desc.extent[0] as usize,
         })
+    }
+
+    /// Records the copy of the liquid's surface, as it was filtered, to the
+    /// host, after [`Renderer::record`] of that frame: for measurements.
+    ///
+    /// # Errors
+    /// [`RenderError::NoLiquid`] for a renderer without one;
+    /// [`RenderError::Gpu`] out of memory.
+    pub fn read_back_surface(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+    ) -> Result<SurfaceReadback, RenderError> {
+        let fluid = self.fluid.as_ref().ok_or(RenderError::NoLiquid)?;
+        fluid.read_back(rec, frame.nears())
     }
 }
 
@@ -235,6 +289,8 @@ impl Renderer {
 pub struct PictureReadback {
     readback: Readback,
     views: usize,
+    /// Bytes of a row of one view.
+    row_bytes: usize,
 }
 
 impl PictureReadback {
@@ -248,9 +304,23 @@ impl PictureReadback {
         bytes.truncate(bytes.len() / self.views);
         Ok(bytes)
     }
-}
 
-/// A bit per view.
-fn view_mask(views: u32) -> u32 {
-    (1 << views) - 1
+    /// All views in one picture, the first to the left; else as
+    /// [`PictureReadback::first_view`].
+    ///
+    /// # Errors
+    /// [`RenderError::Gpu`] before the submission has finished.
+    pub fn side_by_side(&self) -> Result<Vec<u8>, RenderError> {
+        let bytes = self.readback.get::<u8>()?;
+        if self.views == 1 {
+            return Ok(bytes);
+        }
+        let view = bytes.len() / self.views;
+        let rows = (0..view).step_by(self.row_bytes);
+        let parts = rows.flat_map(|row| (0..self.views).map(move |index| index * view + row));
+        Ok(parts
+            .flat_map(|start| &bytes[start..start + self.row_bytes])
+            .copied()
+            .collect())
+    }
 }

@@ -2,9 +2,13 @@
 
 use glam::{Vec2, Vec3};
 use vitriol_gpu::{Buffer, Gpu, Recorder, bytes_of_elements};
+use vitriol_shaders::layout;
 
 use crate::RenderError;
 use crate::mesh::{Material, Mesh};
+
+/// Heights at which the shaders have a vessel's inner radius.
+const INNER_RADII: usize = 16;
 
 /// A vessel's glass, in the vessel's frame (+Y along its axis).
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +32,36 @@ impl VesselDesc {
         let mut mesh = Mesh::default();
         mesh.add_revolution(&outline, Material::Glass);
         mesh
+    }
+
+    /// The inner surface as rays meet it, without its pose.
+    fn inner(&self) -> layout::Vessel {
+        let ends = (self.inner.first(), self.inner.last());
+        let (low, high) = (ends.0.map_or(0.0, |p| p[1]), ends.1.map_or(0.0, |p| p[1]));
+        let radius = |index: usize| {
+            // The floor's own disc has the radius that the wall begins with.
+            let share = (index as f64).max(0.05) / (INNER_RADII - 1) as f64;
+            self.inner_radius(low + share * (high - low)) as f32
+        };
+        let bounds = self.bounds();
+        layout::Vessel {
+            radii: std::array::from_fn(|row| std::array::from_fn(|n| radius(4 * row + n))),
+            inner_floor: low as f32,
+            rim: high as f32,
+            outer: bounds.radius,
+            wall: low as f32 - bounds.bottom,
+            ..layout::Vessel::default()
+        }
+    }
+
+    /// Inner radius at a height, by the outline.
+    fn inner_radius(&self, y: f64) -> f64 {
+        let above = self.inner.partition_point(|p| p[1] < y);
+        match (above.checked_sub(1).and_then(|below| self.inner.get(below)), self.inner.get(above)) {
+            (Some(a), Some(b)) => a[0] + (y - a[1]) / (b[1] - a[1]).max(1e-12) * (b[0] - a[0]),
+            (Some(end), None) | (None, Some(end)) => end[0],
+            (None, None) => 0.0,
+        }
     }
 
     /// Largest radius, lowest and highest point.
@@ -121,6 +155,8 @@ impl DeviceMesh {
 pub(crate) struct Vessel {
     pub(crate) mesh: DeviceMesh,
     pub(crate) bounds: Bounds,
+    /// Its inner surface, without the pose.
+    pub(crate) inner: layout::Vessel,
 }
 
 /// The scene on the device.
@@ -128,6 +164,8 @@ pub(crate) struct Scene {
     /// Bench and room, if there is either.
     pub(crate) surfaces: Option<DeviceMesh>,
     pub(crate) vessels: Vec<Vessel>,
+    pub(crate) table: Option<BoxDesc>,
+    pub(crate) room: Option<BoxDesc>,
 }
 
 impl Scene {
@@ -154,9 +192,12 @@ impl Scene {
                     Ok(Vessel {
                         mesh: DeviceMesh::new(gpu, &mut rec, "vessel", &vessel.mesh())?,
                         bounds: vessel.bounds(),
+                        inner: vessel.inner(),
                     })
                 })
                 .collect::<Result<_, RenderError>>()?,
+            table: desc.table,
+            room: desc.room,
         };
         gpu.submit(rec)?.wait()?;
         Ok(scene)

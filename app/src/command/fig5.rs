@@ -17,7 +17,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::{StepInput, World};
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Shot};
 use crate::cli::{ColourName, Fig5Args};
 use crate::console::{Format, emit};
 use crate::device;
@@ -186,7 +186,8 @@ fn regions<'a>(
 
 fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let (width, height) = FILM_SIZE;
-    let camera = Camera::new(gpu, &Library::embedded(), world.scene(), [width, height])?;
+    let extent = [width, height];
+    let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &Shot::of(extent))?;
     let picture = camera.shoot(world, ColourName::Speed)?;
     let mut png = Vec::new();
     PngEncoder::new(&mut png)

@@ -6,6 +6,7 @@ pub mod dam_break;
 pub mod doctor;
 pub mod fidelity;
 pub mod fig5;
+pub mod picture;
 pub mod replay;
 pub mod scenes;
 pub mod track;
@@ -23,6 +24,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
     let format = cli.format();
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, experiment::prepare),
+        Command::Picture(args) => picture::run(args, format, experiment::prepare),
         Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
         Command::Scenes => scenes::run(format),

@@ -10,7 +10,7 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Track, TrackSource};
 
-use crate::cli::{CameraName, ColourName, ReplayArgs};
+use crate::cli::{CameraName, ColourName, FilterName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
@@ -47,6 +47,10 @@ pub struct Setup<'a> {
     pub picture: Option<(u32, u32)>,
     /// What each film's colours stand for, in the films' order.
     pub colours: Vec<ColourName>,
+    /// Views side by side: 1, or 2 for both eyes.
+    pub eyes: u32,
+    /// Filter of the liquid's surface; `None` for the scene's.
+    pub filter: Option<FilterName>,
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
@@ -67,9 +71,9 @@ pub fn run(
 ) -> Result<(), Failure> {
     let track = track::load(&args.track)?;
     whole(args, &track)?;
-    let name = scene_of(args, &track)?;
+    let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
-    let head = head(args, &track)?;
+    let head = head(args.camera, &args.track, &track)?;
     let colours = colours(args, &scene, &name)?;
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
     let seed = args.seed.unwrap_or(track.metadata.seed);
@@ -80,6 +84,8 @@ pub fn run(
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
         colours: colours.clone(),
+        eyes: 1,
+        filter: args.filter,
         head,
         shaders: Arc::new(Library::watching()),
     })?;
@@ -144,12 +150,16 @@ fn whole(args: &ReplayArgs, track: &Track) -> Result<(), Failure> {
     .input()
 }
 
-fn scene_of(args: &ReplayArgs, track: &Track) -> Result<String, Failure> {
-    match &args.scene {
-        Some(scene) => Ok(scene.clone()),
+/// The scene that was asked for, or else the one that the track names.
+pub(super) fn scene_of(
+    name: &str,
+    scene: Option<&str>,
+    track: &Track,
+) -> Result<String, Failure> {
+    match scene {
+        Some(scene) => Ok(scene.to_owned()),
         None if track.metadata.scene.is_empty() => Err(format!(
-            "{}: the track names no scene; give one with --scene (see `vitriol scenes`)",
-            args.track
+            "{name}: the track names no scene; give one with --scene (see `vitriol scenes`)"
         ))
         .input(),
         None => Ok(track.metadata.scene.clone()),
@@ -162,11 +172,11 @@ fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<ColourNam
     let heat = scene.models(Feature::Heat);
     match args.colour {
         _ if args.no_video => Ok(Vec::new()),
-        None if heat => Ok(vec![ColourName::Speed, ColourName::Temperature]),
-        None => Ok(vec![ColourName::Speed]),
-        Some(colour) if heat || colour == ColourName::Speed => Ok(vec![colour]),
+        None if heat => Ok(vec![ColourName::Liquid, ColourName::Temperature]),
+        None => Ok(vec![ColourName::Liquid]),
+        Some(colour) if heat || !colour.is_of_heat() => Ok(vec![colour]),
         Some(colour) => Err(format!(
-            "--colour {}: the scene {name} models no heat; take --colour speed",
+            "--colour {}: the scene {name} models no heat; take --colour liquid or speed",
             colour.name()
         ))
         .input(),
@@ -179,13 +189,16 @@ fn film_name(index: usize) -> &'static str {
 }
 
 /// Where the head is at the start, if the film is to show what it sees.
-fn head(args: &ReplayArgs, track: &Track) -> Result<Option<Pose>, Failure> {
-    match (args.camera, track.frames.first()) {
+pub(super) fn head(
+    camera: CameraName,
+    name: &str,
+    track: &Track,
+) -> Result<Option<Pose>, Failure> {
+    match (camera, track.frames.first()) {
         (CameraName::Fixed, _) => Ok(None),
         (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),
         (CameraName::Head, None) => Err(format!(
-            "--camera head: {} holds no pose of a head; take --camera fixed",
-            args.track
+            "--camera head: {name} holds no pose of a head; take --camera fixed"
         ))
         .input(),
     }
@@ -283,6 +296,9 @@ fn command_line(args: &ReplayArgs, seed: u64) -> String {
     }
     if let Some(colour) = args.colour {
         line += &format!(" --colour {}", colour.name());
+    }
+    if let Some(filter) = args.filter {
+        line += &format!(" --filter {}", filter.name());
     }
     if args.no_video {
         line += " --no-video";

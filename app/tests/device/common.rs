@@ -31,6 +31,8 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
         device: None,
         picture: Some(SIZE),
         colours: vec![ColourName::Speed],
+        eyes: 1,
+        filter: None,
         head,
         shaders: Arc::new(shaders),
     };

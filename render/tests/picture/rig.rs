@@ -124,6 +124,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         views,
         vessels: &[],
         particles: None,
+        liquid: None,
         colour_by: ColourBy::Speed(1.0),
         length_scale: 1.0,
     }

@@ -201,6 +201,7 @@ fn another_length_scale_gives_the_same_picture() {
         rig.draw(&FrameDesc {
             views: &views,
             vessels: &vessels,
+            liquid: None,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,

@@ -1,6 +1,7 @@
 // The flask constraint (section 5, Eqs 18–23, Fig. 4), two-sided: inside
 // before means inside after, but for the open top; and what is outside does
 // not pass in. `flask/region.rs` is the same in f64.
+//!include common/glass_distance.wgsl
 
 /// d_margin, metres: 0.001 h.
 override MARGIN: f32 = 5e-6;
@@ -11,29 +12,6 @@ struct Constrained {
     position: vec3<f32>,
     membership: u32,
     generated: bool,
-}
-
-/// Signed distances to the glass, of the maps for particles outside.
-@group(0) @binding(25) var<storage, read> distances: array<f32>;
-
-/// Direction in which the distance to the glass grows fastest, and that
-/// distance (positive on either side of it; beyond the map a lower bound).
-/// One sample gives both: on a software driver, gathers are what this costs.
-fn glass(k: u32, p: vec3<f32>) -> vec4<f32> {
-    let r = length(p.xz);
-    let place = map_place(k, r, p.y);
-    let node = flasks[k].distance_first + place.node;
-    let above = node + flasks[k].map_columns;
-    let a = distances[node];
-    let b = distances[node + 1u];
-    let c = distances[above];
-    let d = distances[above + 1u];
-    let slope = vec2<f32>(mix(b - a, d - c, place.t), mix(c - a, d - b, place.s));
-    let out = p.xz / max(r, 1e-9);
-    let normal = vec3<f32>(out.x * slope.x, slope.y, out.y * slope.x);
-    let value = mix(mix(a, b, place.s), mix(c, d, place.s), place.t);
-    let distance = select(value, max(abs(value), place.away), place.away > 0.0);
-    return vec4<f32>(normal / max(length(normal), 1e-12), distance);
 }
 
 fn glass_distance(k: u32, p: vec3<f32>) -> f32 {

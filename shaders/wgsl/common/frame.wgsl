@@ -8,6 +8,18 @@ struct View {
     clip_from_stage: mat4x4<f32>,
     /// Where the eye is in the stage, in the scene's unit.
     eye: vec3<f32>,
+    /// Distance of the near plane, in the scene's unit.
+    near: f32,
+    /// The inverse projection, of a frustum that need not be symmetric, as three vectors in the
+    /// stage: what is seen at pixel (x, y) at the view depth z (along the eye's axis) lies at
+    /// eye + z (corner + x across + y down).
+    corner: vec3<f32>,
+    /// Pixels that a length across takes up at a view depth of one.
+    focal: f32,
+    /// To the next pixel of a row, at a view depth of one.
+    across: vec3<f32>,
+    /// To the next row, at a view depth of one.
+    down: vec3<f32>,
 }
 
 /// A capsule that keeps daylight from the bench: a vessel, roughly.
@@ -22,6 +34,22 @@ struct Blocker {
     opacity: f32,
 }
 
+/// A vessel as rays meet it: the inner surface of revolution, about the y axis of its frame.
+struct Vessel {
+    /// From the stage; rigid.
+    vessel_from_stage: mat4x4<f32>,
+    /// Inner radii at 16 even heights from the inner floor to the rim.
+    radii: array<vec4<f32>, 4>,
+    /// Height of the inner floor.
+    inner_floor: f32,
+    /// Height of the rim.
+    rim: f32,
+    /// Largest radius of the outer surface.
+    outer: f32,
+    /// Thickness of the glass.
+    wall: f32,
+}
+
 /// The uniforms of one frame.
 struct Frame {
     /// One or two eyes.
@@ -30,10 +58,34 @@ struct Frame {
     colour_map: array<vec4<f32>, 17>,
     /// The first `blocker_count` count.
     blockers: array<Blocker, 8>,
+    /// As many as there are blockers, in the same order.
+    vessels: array<Vessel, 8>,
+    /// Low corner of the table; its high corner is no higher where there is none.
+    table_min: vec3<f32>,
     /// How many blockers there are.
     blocker_count: u32,
+    /// High corner of the table.
+    table_max: vec3<f32>,
     /// Length of the scene's unit as drawn, metres.
     metres_per_unit: f32,
+    /// Low corner of the room, seen from within.
+    room_min: vec3<f32>,
+    /// Particle spacing d of the liquid, in the scene's unit.
+    spacing: f32,
+    /// High corner of the room.
+    room_max: vec3<f32>,
+    /// Tiles in a row of the picture, and rows of tiles.
+    tile_columns: u32,
+    /// Width and height of a view, pixels.
+    extent: vec2<f32>,
+    /// Rows of tiles of a view.
+    tile_rows: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+
+/// Direction to what is seen at a place of the picture (pixels), of view depth 1.
+fn seen_along(eye: u32, pixel: vec2<f32>) -> vec3<f32> {
+    let view = &frame.views[eye];
+    return (*view).corner + pixel.x * (*view).across + pixel.y * (*view).down;
+}

@@ -2,7 +2,7 @@
 
 use super::chemistry::{ABSOLUTE_ZERO, Feature, PaperChemistry, PhysicalChemistry};
 use super::error::Problem;
-use super::settings::{Floor, PresetOverrides, Scale, SolverSettings, TableTop, require};
+use super::settings::{Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, require};
 use super::{Flask, Liquid};
 use crate::fill;
 use crate::flask::{Profile, glass};
@@ -27,6 +27,8 @@ pub(super) struct SceneFile {
     pub liquid: Vec<LiquidEntry>,
     pub table: Option<TableTop>,
     pub floor: Floor,
+    #[serde(default)]
+    pub picture: PictureSettings,
     #[serde(default)]
     pub preset: BTreeMap<super::Preset, PresetOverrides>,
 }

@@ -14,7 +14,7 @@ mod tests;
 pub use chemistry::{Feature, PaperChemistry, PhysicalChemistry};
 pub use error::SceneError;
 pub use settings::{
-    Boundary, Floor, PresetOverrides, RelaxationKind, Scale, SolverSettings, TableTop,
+    Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale, SolverSettings, TableTop,
 };
 
 use crate::fill::{self, FillError};
@@ -109,6 +109,8 @@ pub struct Scene {
     pub table: Option<TableTop>,
     /// The floor.
     pub floor: Floor,
+    /// How it is drawn.
+    pub picture: PictureSettings,
     /// What each preset changes.
     pub presets: BTreeMap<Preset, PresetOverrides>,
 }
@@ -281,6 +283,7 @@ impl Scene {
             liquids,
             table: raw.table,
             floor: raw.floor,
+            picture: raw.picture,
             presets: raw.preset,
         };
         scene.check_fill("liquid")?;

@@ -228,3 +228,22 @@ impl SolverSettings {
         Ok(())
     }
 }
+
+/// How the liquid's splatted particles become a surface in the picture.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PictureFilter {
+    /// Truong and Yuksel's narrow-range filter of 2018.
+    #[default]
+    NarrowRange,
+    /// Van der Laan's curvature flow of 2009, the paper's.
+    CurvatureFlow,
+}
+
+/// How the scene is drawn; the simulation does not depend on it.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PictureSettings {
+    /// Filter of the liquid's surface.
+    pub filter: PictureFilter,
+}

@@ -163,6 +163,20 @@ impl Solver {
             .map(|_| &self.buffers.heat)
     }
 
+    /// Neighbours of each particle as `array<u32>`, and the list itself: the k-th
+    /// neighbour of particle i of n is at k·n + i. It is complete within the
+    /// support radius at the positions after a frame; before the first one it
+    /// is empty.
+    pub fn neighbours(&self) -> (&Buffer, &Buffer) {
+        (&self.buffers.list_counts, &self.buffers.list)
+    }
+
+    /// The flasks' shapes and their distances to the glass over (r, y), as
+    /// `common/glass_distance.wgsl` reads them.
+    pub fn flask_tables(&self) -> (&Buffer, &Buffer) {
+        (&self.vessels.flasks, &self.vessels.distances)
+    }
+
     /// Bytes of device memory that a particle takes.
     pub fn bytes_per_particle(&self) -> u64 {
         self.buffers.bytes_per_particle(self.count)

@@ -1,0 +1,93 @@
+//! `vitriol picture`: one moment of a replay as a PNG file.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use serde::Serialize;
+use vitriol_shaders::Library;
+use vitriol_sim::scene::{Feature, Scene};
+use vitriol_xr::track::TrackSource;
+
+use crate::cli::PictureArgs;
+use crate::command::replay::{Setup, head, scene_of};
+use crate::command::track;
+use crate::console::{Format, emit};
+use crate::failure::{Blame, Failure};
+use crate::output;
+use crate::recorder::Recorder;
+use crate::replay::{self, Experiment, Span};
+
+/// What `vitriol picture` prints.
+#[derive(Debug, Serialize)]
+struct Pictured {
+    /// The file.
+    picture: PathBuf,
+    /// Width and height of the file, pixels.
+    size: [u32; 2],
+    /// Simulated time, s.
+    t_s: f64,
+}
+
+/// Runs `vitriol picture`; `prepare` makes the experiment.
+///
+/// # Errors
+/// [`Failure::Input`] for bad track, scene, size or where the file exists;
+/// [`Failure::NoDevice`]; [`Failure::Other`].
+pub fn run(
+    args: &PictureArgs,
+    format: Format,
+    prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
+) -> Result<(), Failure> {
+    let (dir, file) = (args.output.parent(), args.output.file_name());
+    let (Some(dir), Some(file)) = (dir, file.and_then(|file| file.to_str())) else {
+        return Err(format!("{} is no file name", args.output.display())).input();
+    };
+    let path = output::new_file(dir, file).map_err(output::blame)?;
+    let track = track::load(&args.track)?;
+    let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
+    let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
+    if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
+        let colour = args.colour.name();
+        return Err(format!("--colour {colour}: the scene {name} models no heat")).input();
+    }
+    let eyes = if args.stereo { 2 } else { 1 };
+    let (width, height) = (args.size[0], args.size[1]);
+    let mut experiment = prepare(&Setup {
+        scene: &scene,
+        scene_name: &name,
+        seed: track.metadata.seed,
+        device: args.device.as_deref(),
+        picture: Some((width, height)),
+        eyes,
+        colours: vec![args.colour],
+        filter: args.filter,
+        head: head(args.camera, &args.track, &track)?,
+        shaders: Arc::new(Library::watching()),
+    })?;
+    let span = Span::covering(args.at, scene.scale.frame_time);
+    let mut recorder = Recorder::new(span, Vec::new());
+    replay::run(
+        &mut TrackSource::new(track),
+        experiment.as_mut(),
+        span,
+        &mut recorder,
+    )?;
+    recorder.finish()?;
+    let picture = experiment.picture(0)?;
+    let size = [eyes * width, height];
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(picture, size[0], size[1], ExtendedColorType::Rgba8)
+        .other()?;
+    output::write_new(&path, &png).map_err(output::blame)?;
+    let pictured = Pictured {
+        picture: path,
+        size,
+        t_s: span.seconds(),
+    };
+    emit(format, &pictured, |done| {
+        format!("{}: {} × {}, at {:.2} s", done.picture.display(), size[0], size[1], done.t_s)
+    })
+}

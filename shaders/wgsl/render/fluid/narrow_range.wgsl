@@ -1,0 +1,101 @@
+//! The narrow-range filter (N. Truong & C. Yuksel, 2018) of reversed depth: a Gaussian that
+//! leaves out what is nearer by more than a threshold, and takes what is further for little
+//! further, so that bodies of liquid in front of each other stay apart. Two passes along rows and
+//! columns, and a small one over a square.
+//!
+//! Over theirs: it runs on reversed depth, near / z, of which a plane's is linear in the picture
+//! as its distance is not; so a plane that slants keeps its place exactly. And a pair of pixels,
+//! right and left, counts only if both have liquid, so that silhouettes do not pull.
+
+//!include common/tile.wgsl
+
+/// 0: along rows; 1: along columns; 2: over a square; 3: no filter.
+override PASS: u32 = 0u;
+/// Whether this pass reads what was splatted.
+override FIRST: bool = false;
+
+@group(0) @binding(2) var splatted: texture_depth_2d_array;
+@group(0) @binding(3) var before: texture_2d_array<f32>;
+
+/// How far the filter reaches, in spacings.
+const REACH = 3.0;
+/// Pairs of samples at most: further apart than neighbouring pixels if it reaches further.
+const PAIRS = 8.0;
+/// Depth difference, in spacings, beyond which something is in front; and how much further,
+/// in spacings, what is behind is taken to be. Theirs are 10.5 and 1 particle radii; a radius
+/// here is 0.62 of a spacing.
+const THRESHOLD = 3.0;
+const BEHIND = 0.6;
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
+    return tile_corner(index, eye);
+}
+
+fn load(pixel: vec2<i32>, eye: u32) -> f32 {
+    if (FIRST) { return textureLoad(splatted, pixel, eye, 0); }
+    return textureLoad(before, pixel, eye, 0).x;
+}
+
+fn inside(pixel: vec2<i32>) -> vec2<i32> {
+    return clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
+}
+
+var<private> sum: f32;
+var<private> weights: f32;
+var<private> nearest: f32;
+var<private> furthest: f32;
+
+/// Adds a pair at `offset` pixels to either side.
+fn add_pair(pixel: vec2<i32>, eye: u32, offset: vec2<i32>, middle: f32, width: f32, behind: f32, weight: f32) {
+    let a = load(inside(pixel + offset), eye);
+    let b = load(inside(pixel - offset), eye);
+    let fits = min(a, b) > 0.0 && max(a, b) <= nearest;
+    let kept = select(vec2<f32>(behind), vec2<f32>(a, b), vec2<f32>(a, b) >= vec2<f32>(furthest));
+    let w = select(0.0, weight, fits);
+    sum += w * (kept.x + kept.y);
+    weights += 2.0 * w;
+    // The range follows the surface as it walks along it.
+    nearest = select(nearest, max(nearest, max(kept.x, kept.y) + width), fits);
+    furthest = select(furthest, min(furthest, min(kept.x, kept.y) - width), fits);
+}
+
+@fragment
+fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> @location(0) vec4<f32> {
+    let pixel = vec2<i32>(place.xy);
+    let middle = load(pixel, eye);
+    if (PASS == 3u || middle <= 0.0) { return vec4<f32>(middle, 0.0, 0.0, 0.0); }
+    let near = frame.views[eye].near;
+    // A difference of view depth as one of reversed depth: near/z² of it.
+    let per_length = middle * middle / near;
+    let width = THRESHOLD * frame.spacing * per_length;
+    let behind = middle - BEHIND * frame.spacing * per_length;
+    nearest = middle + width;
+    furthest = middle - width;
+    sum = middle;
+    weights = 1.0;
+    let reach = REACH * frame.spacing * frame.views[eye].focal * middle / near;
+    if (PASS == 2u) {
+        for (var y = 0; y <= 2; y++) {
+            for (var x = -2; x <= 2; x++) {
+                // Half of the square: each pair once.
+                if (y > 0 || x > 0) {
+                    let weight = exp2(-0.4 * f32(x * x + y * y));
+                    add_pair(pixel, eye, vec2<i32>(x, y), middle, width, behind, weight);
+                }
+            }
+        }
+    } else {
+        let pairs = clamp(reach, 1.0, PAIRS);
+        let stride = max(reach / pairs, 1.0);
+        for (var k = 1.0; k <= pairs; k += 1.0) {
+            let step = i32(k * stride + 0.5);
+            let x = f32(step) / max(reach, 1.0);
+            // A Gaussian whose second moment is a ninth of the reach's square.
+            let weight = exp2(-6.5 * x * x);
+            let offset = select(vec2<i32>(step, 0), vec2<i32>(0, step), PASS == 1u);
+            add_pair(pixel, eye, offset, middle, width, behind, weight);
+        }
+    }
+    return vec4<f32>(sum / weights, 0.0, 0.0, 0.0);
+}

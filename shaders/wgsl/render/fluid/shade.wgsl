@@ -1,0 +1,106 @@
+//! The liquid's light: what it mirrors, and what is seen through it, refracted in the world
+//! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
+//! eyes see the same things in the same places.
+
+//!include common/tile.wgsl
+//!include common/bench.wgsl
+//!include common/vessel_rays.wgsl
+
+@group(0) @binding(2) var surface: texture_2d_array<f32>;
+@group(0) @binding(3) var thickness: texture_2d_array<f32>;
+@group(0) @binding(4) var between: sampler;
+
+/// Refractive index of water at 20 °C (1.333; sulfuric acid of 98 % has 1.43).
+const INDEX = 1.333;
+/// ((n − 1) / (n + 1))².
+const NORMAL_REFLECTANCE = 0.02037;
+/// Absorption per metre, artificial: 60 mm of water let through (0.50, 0.80, 0.93) of red, green
+/// and blue, and of acid (0.96, 0.70, 0.22). Really both are clear.
+const WATER = vec3<f32>(11.6, 3.7, 1.2);
+const ACID = vec3<f32>(0.7, 5.9, 25.2);
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
+    return tile_corner(index, eye);
+}
+
+/// What is seen at a pixel, from the eye; zero where there is no liquid.
+fn seen_at(pixel: vec2<i32>, eye: u32) -> vec4<f32> {
+    let at = clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
+    let reversed = textureLoad(surface, at, eye, 0).x;
+    let depth = select(0.0, frame.views[eye].near / reversed, reversed > 0.0);
+    return vec4<f32>(depth * seen_along(eye, vec2<f32>(at) + 0.5), depth);
+}
+
+/// The tangent from the pair of neighbours, of which the one nearer in depth counts.
+fn tangent(before: vec4<f32>, here: vec4<f32>, after: vec4<f32>) -> vec3<f32> {
+    let back = select(1e9, abs(here.w - before.w), before.w > 0.0);
+    let forth = select(1e9, abs(here.w - after.w), after.w > 0.0);
+    // Both, where they agree: a difference over two pixels is quieter.
+    if max(back, forth) < 2.0 * min(back, forth) + 0.1 * frame.spacing { return after.xyz - before.xyz; }
+    return select(after.xyz - here.xyz, here.xyz - before.xyz, back < forth);
+}
+
+fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
+    let x = tangent(seen_at(pixel - vec2<i32>(1, 0), eye), here, seen_at(pixel + vec2<i32>(1, 0), eye));
+    let y = tangent(seen_at(pixel - vec2<i32>(0, 1), eye), here, seen_at(pixel + vec2<i32>(0, 1), eye));
+    let n = cross(y, x);
+    let facing = -normalize(here.xyz);
+    let towards = n * select(-1.0, 1.0, dot(n, facing) > 0.0);
+    return select(facing, normalize(towards), dot(n, n) > 0.0);
+}
+
+struct Pixel {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> Pixel {
+    let pixel = vec2<i32>(place.xy);
+    let here = seen_at(pixel, eye);
+    if here.w == 0.0 {
+        discard;
+    }
+    let slant = length(here.xyz) / here.w;
+    let ray = here.xyz / (slant * here.w);
+    let point = frame.views[eye].eye + here.xyz;
+    let held = textureSampleLevel(thickness, between, place.xy / frame.extent, eye, 0.0).xy;
+    let acid = saturate(held.y / max(held.x, 1e-9));
+    let path = slant * held.x;
+    var normal = normal_at(pixel, eye, here);
+
+    let vessel = vessel_around(point);
+    var wetted = 0.0;
+    var exit = point;
+    var out = refract(ray, normal, 1.0 / INDEX);
+    if vessel < frame.blocker_count {
+        let m = frame.vessels[vessel].vessel_from_stage;
+        let p = (m * vec4<f32>(point, 1.0)).xyz;
+        let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
+        let wall = -(stage_from_vessel * inward(vessel, p));
+        let gap = vessel_radius(vessel, p.y) - length(p.xz);
+        // Liquid that wets the glass has the glass's own surface.
+        wetted = smoothstep(1.6, 0.8, gap / frame.spacing) * smoothstep(0.3, 0.7, dot(wall, normal));
+        normal = normalize(mix(normal, wall, wetted));
+        let within = refract(ray, normal, 1.0 / INDEX);
+        let direction = (m * vec4<f32>(within, 0.0)).xyz;
+        let reach = to_glass(vessel, p, direction);
+        let way = min(reach.x, reach.y);
+        let met = p + way * direction;
+        exit = point + way * within;
+        out = within;
+        if reach.x < reach.y {
+            let back = stage_from_vessel * inward(vessel, met);
+            let through = refract(within, back, INDEX);
+            out = select(reflect(within, back), through, dot(through, through) > 0.0);
+        }
+    }
+    let behind = room_light(exit, out);
+    let seen = behind * exp(-path * frame.metres_per_unit * mix(WATER, ACID, acid));
+    let rest = 1.0 - saturate(dot(normal, -ray));
+    let mirrored = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest * rest * rest * rest * rest;
+    let reflectance = mirrored * (1.0 - wetted);
+    let light = mix(seen, surroundings(reflect(ray, normal)), reflectance);
+    return Pixel(vec4<f32>(display(light), 1.0), frame.views[eye].near / here.w);
+}
