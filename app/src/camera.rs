@@ -73,12 +73,7 @@ impl Camera {
     ///
     /// # Errors
     /// What the device says.
-    pub fn new(
-        gpu: &Gpu,
-        library: &Library,
-        scene: &Scene,
-        shot: &Shot,
-    ) -> Result<Self, Failure> {
+    pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, shot: &Shot) -> Result<Self, Failure> {
         let extent = shot.extent;
         let desc = RenderDesc {
             views: shot.eyes,

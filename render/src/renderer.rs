@@ -86,7 +86,14 @@ impl Renderer {
             fluid: match desc.liquid {
                 Some(liquid) => {
                     let (extent, views) = (desc.extent, desc.views);
-                    Some(Fluid::new(gpu, library, liquid, extent, views, desc.format)?)
+                    Some(Fluid::new(
+                        gpu,
+                        library,
+                        liquid,
+                        extent,
+                        views,
+                        desc.format,
+                    )?)
                 }
                 None => None,
             },

@@ -50,7 +50,10 @@ pub fn run(
     let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
-        return Err(format!("--colour {colour}: the scene {name} models no heat")).input();
+        return Err(format!(
+            "--colour {colour}: the scene {name} models no heat"
+        ))
+        .input();
     }
     let eyes = if args.stereo { 2 } else { 1 };
     let (width, height) = (args.size[0], args.size[1]);
@@ -88,6 +91,12 @@ pub fn run(
         t_s: span.seconds(),
     };
     emit(format, &pictured, |done| {
-        format!("{}: {} × {}, at {:.2} s", done.picture.display(), size[0], size[1], done.t_s)
+        format!(
+            "{}: {} × {}, at {:.2} s",
+            done.picture.display(),
+            size[0],
+            size[1],
+            done.t_s
+        )
     })
 }

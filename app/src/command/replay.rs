@@ -151,11 +151,7 @@ fn whole(args: &ReplayArgs, track: &Track) -> Result<(), Failure> {
 }
 
 /// The scene that was asked for, or else the one that the track names.
-pub(super) fn scene_of(
-    name: &str,
-    scene: Option<&str>,
-    track: &Track,
-) -> Result<String, Failure> {
+pub(super) fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result<String, Failure> {
     match scene {
         Some(scene) => Ok(scene.to_owned()),
         None if track.metadata.scene.is_empty() => Err(format!(
@@ -189,11 +185,7 @@ fn film_name(index: usize) -> &'static str {
 }
 
 /// Where the head is at the start, if the film is to show what it sees.
-pub(super) fn head(
-    camera: CameraName,
-    name: &str,
-    track: &Track,
-) -> Result<Option<Pose>, Failure> {
+pub(super) fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose>, Failure> {
     match (camera, track.frames.first()) {
         (CameraName::Fixed, _) => Ok(None),
         (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),

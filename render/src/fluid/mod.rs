@@ -81,7 +81,11 @@ impl Fluid {
             format,
             passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
             ellipsoids: Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
-            poses: Buffer::storage(gpu, "vessel poses", bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS))?,
+            poses: Buffer::storage(
+                gpu,
+                "vessel poses",
+                bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS),
+            )?,
             tiles: Buffer::storage(gpu, "tiles", u64::from(4 * columns * rows * views))?,
             nothing: zeros(gpu)?,
             depth: image(
@@ -116,7 +120,9 @@ impl Fluid {
 
     /// Whether any of these shaders is the liquid's.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed.iter().any(|id| id.path().starts_with("render/fluid/"))
+        changed
+            .iter()
+            .any(|id| id.path().starts_with("render/fluid/"))
     }
 
     /// Refuses a source that does not fit.
@@ -146,7 +152,8 @@ impl Fluid {
         frame: &FrameDesc<'_>,
         source: &LiquidSource<'_>,
     ) -> Result<(), RenderError> {
-        let poses: Vec<layout::FlaskPose> = frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
+        let poses: Vec<layout::FlaskPose> =
+            frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
         rec.upload(&self.poses, &poses)?;
         let neighbours = source.neighbours.filter(|_| self.desc.anisotropic);
         let list = |of: fn(Neighbours<'_>) -> &Buffer| neighbours.map_or(&self.nothing, of);
@@ -178,18 +185,31 @@ impl Fluid {
         Ok(())
     }
 
-    fn mark_tiles(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn mark_tiles(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+    ) -> Result<(), RenderError> {
         rec.fill(&self.tiles, 0)?;
         rec.pass(&self.passes.tiles)
             .uniform("frame", uniforms)
             .read("ellipsoids", &self.ellipsoids)
             .write("tiles", &self.tiles)
-            .constants(&layout::TileCount { count, views: self.views })
+            .constants(&layout::TileCount {
+                count,
+                views: self.views,
+            })
             .invocations(count)?;
         Ok(())
     }
 
-    fn draw_depth(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn draw_depth(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+    ) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid depth",
             colours: &[],
@@ -209,7 +229,12 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_thickness(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn draw_thickness(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+    ) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid thickness",
             colours: &[ColourTarget {
@@ -234,7 +259,13 @@ impl Fluid {
         rec.group("liquid filter", |rec| {
             for (index, pass) in self.passes.filter.iter().enumerate() {
                 let to = (last - index) % 2;
-                self.filter_once(rec, pass, &self.filtered[1 - to], &self.filtered[to], uniforms)?;
+                self.filter_once(
+                    rec,
+                    pass,
+                    &self.filtered[1 - to],
+                    &self.filtered[to],
+                    uniforms,
+                )?;
             }
             Ok(())
         })?;
@@ -270,7 +301,11 @@ impl Fluid {
     }
 
     /// Draws the lit surface; within a raster scope of picture and depth.
-    pub(crate) fn shade(&self, raster: &mut vitriol_gpu::Raster<'_>, uniforms: &Buffer) -> Result<(), GpuError> {
+    pub(crate) fn shade(
+        &self,
+        raster: &mut vitriol_gpu::Raster<'_>,
+        uniforms: &Buffer,
+    ) -> Result<(), GpuError> {
         raster
             .draw(&self.passes.shade)
             .uniform("frame", uniforms)
@@ -282,7 +317,11 @@ impl Fluid {
     }
 
     /// Records the copy of the surface to the host.
-    pub(crate) fn read_back(&self, rec: &mut Recorder, nears: Vec<f32>) -> Result<SurfaceReadback, RenderError> {
+    pub(crate) fn read_back(
+        &self,
+        rec: &mut Recorder,
+        nears: Vec<f32>,
+    ) -> Result<SurfaceReadback, RenderError> {
         Ok(SurfaceReadback {
             depth: rec.read_back_image(&self.filtered[0])?,
             thickness: rec.read_back_image(&self.thickness)?,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3};
 
 use super::anisotropy::Shape;
-use super::grid::Grid;
+use super::buckets::Buckets;
 use super::surroundings::Surroundings;
 
 /// Level of φ on the surface.
@@ -47,9 +47,7 @@ struct Placed {
 pub struct Field<'a> {
     surroundings: &'a dyn Surroundings,
     kernels: Vec<Placed>,
-    grid: Grid,
-    /// No kernel reaches farther from its centre.
-    reach: f64,
+    buckets: Buckets,
     spacing: f64,
     shortest: f64,
 }
@@ -63,35 +61,27 @@ impl<'a> Field<'a> {
         spacing: f64,
         surroundings: &'a dyn Surroundings,
     ) -> Self {
-        let kernels = shapes
-            .iter()
-            .zip(volumes)
-            .enumerate()
-            .map(|(i, (shape, volume))| {
-                let g = shape.g();
-                let reach = SUPPORT * shape.lengths.max_element();
-                let side = surroundings.side(i);
-                Placed {
-                    centre: shape.centre,
-                    g,
-                    height: volume * g.determinant(),
-                    reach2: reach * reach,
-                    side: (surroundings.distance(side, shape.centre) < reach).then_some(side),
-                }
-            });
-        let centres: Vec<DVec3> = shapes.iter().map(|shape| shape.centre).collect();
-        let lengths = || shapes.iter().map(|shape| shape.lengths);
-        let longest = lengths().map(DVec3::max_element).fold(0.0, f64::max);
-        let shortest = lengths()
-            .map(DVec3::min_element)
-            .fold(f64::INFINITY, f64::min);
+        let each = shapes.iter().zip(volumes).enumerate();
+        let kernels = each.map(|(i, (shape, volume))| {
+            let g = shape.g();
+            let reach = SUPPORT * shape.lengths.max_element();
+            let side = surroundings.side(i);
+            Placed {
+                centre: shape.centre,
+                g,
+                height: volume * g.determinant(),
+                reach2: reach * reach,
+                side: (surroundings.distance(side, shape.centre) < reach).then_some(side),
+            }
+        });
+        let boxes: Vec<_> = shapes.iter().map(bounds).collect();
+        let lengths = shapes.iter().map(|shape| shape.lengths.min_element());
         Self {
             surroundings,
             kernels: kernels.collect(),
-            grid: Grid::new(&centres, 0.5 * longest),
-            reach: SUPPORT * longest,
+            buckets: Buckets::new(&boxes, spacing),
             spacing,
-            shortest,
+            shortest: lengths.fold(f64::INFINITY, f64::min),
         }
     }
 
@@ -111,32 +101,30 @@ impl<'a> Field<'a> {
         let mut sum = 0.0;
         // Kernels that lie together are mostly of one side.
         let mut looked_up = None;
-        self.grid.near(at, self.reach, |j| {
-            let kernel = &self.kernels[j];
+        for kernel in self.around(at) {
             let offset = at - kernel.centre;
             if offset.length_squared() > kernel.reach2 {
-                return;
+                continue;
             }
             let q2 = (kernel.g * offset).length_squared();
             if q2 < SUPPORT * SUPPORT && !self.is_cut(kernel, at, &mut looked_up) {
                 sum += kernel.height * shape(q2.sqrt());
             }
-        });
+        }
         sum
     }
 
     /// ∇φ at a place, one over the scene's unit.
     pub fn gradient(&self, at: DVec3) -> DVec3 {
         let mut sum = DVec3::ZERO;
-        self.grid.near(at, self.reach, |j| {
-            let kernel = &self.kernels[j];
+        for kernel in self.around(at) {
             let stretched = kernel.g * (at - kernel.centre);
             let q = stretched.length();
             if q > 0.0 && q < SUPPORT {
                 // G is symmetric: ∇|G x| = Gᵀ G x / |G x|.
                 sum += kernel.g * stretched * (kernel.height * slope(q) / q);
             }
-        });
+        }
         sum
     }
 
@@ -177,33 +165,37 @@ impl<'a> Field<'a> {
 
     /// The side of a kernel in reach whose solid is within `tolerance`.
     fn wall_at(&self, at: DVec3, tolerance: f64) -> Option<usize> {
-        let mut found = None;
-        self.grid.near(at, self.reach, |j| {
-            let kernel = &self.kernels[j];
-            if found.is_none() && at.distance_squared(kernel.centre) < kernel.reach2 {
-                found = kernel
-                    .side
-                    .filter(|&side| self.surroundings.distance(side, at).abs() < tolerance);
-            }
-        });
-        found
+        self.around(at)
+            .filter(|kernel| at.distance_squared(kernel.centre) < kernel.reach2)
+            .filter_map(|kernel| kernel.side)
+            .find(|&side| self.surroundings.distance(side, at).abs() < tolerance)
+    }
+
+    fn around(&self, at: DVec3) -> impl Iterator<Item = &Placed> {
+        let near = self.buckets.around(at).iter();
+        near.map(|&kernel| &self.kernels[kernel as usize])
     }
 
     /// A box beyond which φ is 0.
     pub fn bounds(&self) -> [DVec3; 2] {
-        let centres = || self.kernels.iter().map(|kernel| kernel.centre);
-        [
-            centres().fold(DVec3::INFINITY, DVec3::min) - self.reach,
-            centres().fold(DVec3::NEG_INFINITY, DVec3::max) + self.reach,
-        ]
+        self.buckets.bounds()
     }
 
-    /// Whether there is no kernel within `radius` of a place.
-    pub fn is_empty(&self, at: DVec3, radius: f64) -> bool {
-        let mut empty = true;
-        self.grid.near(at, radius + self.reach, |_| empty = false);
-        empty
+    /// A box around a place in which φ is 0, where there is one.
+    pub fn empty_around(&self, at: DVec3) -> Option<[DVec3; 2]> {
+        let empty = self.buckets.around(at).is_empty();
+        empty.then(|| self.buckets.cell_of(at))
     }
+}
+
+/// Centre and half extent of the box around a kernel.
+fn bounds(shape: &Shape) -> (DVec3, DVec3) {
+    // The ellipsoid |G x| = 2 is R times a stretched sphere's points; along an
+    // axis it reaches the root of that row's sum of squares.
+    let stretched = shape.axes * DMat3::from_diagonal(SUPPORT * shape.lengths);
+    let rows = stretched.transpose();
+    let half = [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::length);
+    (shape.centre, DVec3::from_array(half))
 }
 
 /// Where P ends.

@@ -10,6 +10,11 @@ use crate::camera::{NEAR, View};
 /// and leaves within one step is missed.
 const STEP: f64 = 0.5;
 
+/// φ less the surface's level above which a ray is deep in a liquid, and its
+/// step there, particle spacings.
+const DEEP: f64 = 0.5;
+const STRIDE: f64 = 0.75;
+
 /// Precision of a surface's place, particle spacings.
 const PRECISION: f64 = 1e-4;
 
@@ -153,51 +158,76 @@ fn march(field: &Field<'_>, rays: &Rays, direction: DVec3, whole: bool) -> Optio
     let (start, end) = enter(field.bounds(), eye, direction)?;
     let length = direction.length();
     let step = STEP * field.shortest() / length;
-    let stride = field.spacing() / length;
-    let inside = |t: f64| field.value(eye + direction * t) > SURFACE;
-    // The place between one in the air and one in the liquid.
-    let surface = |mut a: f64, mut b: f64, entering: bool| {
-        while (b - a) * length > PRECISION * field.spacing() {
-            let middle = 0.5 * (a + b);
-            if inside(middle) == entering {
-                b = middle;
-            } else {
-                a = middle;
-            }
-        }
-        0.5 * (a + b)
-    };
+    // In the depth of a liquid there is no surface to miss.
+    let stride = STRIDE * field.spacing() / length;
+    let level = |t: f64| field.value(eye + direction * t) - SURFACE;
     let start = start.max(rays.near);
     let mut hit: Option<Hit> = None;
-    let mut entered = inside(start).then_some(start);
-    let mut t = start;
+    let (mut t, mut here) = (start, level(start));
+    let mut entered = (here > 0.0).then_some(start);
     while t < end {
-        // No kernel within a stride: nothing to miss.
-        let ahead = eye + direction * (t + 0.5 * stride);
-        let next = if entered.is_none() && field.is_empty(ahead, 0.5 * stride * length) {
-            t += stride;
-            continue;
-        } else {
-            t + step
-        };
-        match (entered, inside(next)) {
-            (None, true) => entered = Some(surface(t, next, true)),
-            (Some(from), false) => {
-                add(&mut hit, from, surface(t, next, false));
-                entered = None;
-            }
-            _ => {}
-        }
-        if let (Some(from), false) = (entered, whole) {
+        if let Some(from) = entered
+            && !whole
+        {
             add(&mut hit, from, from);
             return hit;
         }
-        t = next;
+        if here == -SURFACE
+            && let Some(empty) = field.empty_around(eye + direction * t)
+        {
+            // Beyond the cell's far side by what rounding may take.
+            let (_, leave) = enter(empty, eye, direction).unwrap_or((t, t));
+            t = leave.max(t) + 1e-3 * step;
+            continue;
+        }
+        let next = t + if here > DEEP { stride } else { step };
+        let there = level(next);
+        if (there > 0.0) != (here > 0.0) {
+            let at = surface(
+                &level,
+                (t, here),
+                (next, there),
+                PRECISION * field.spacing() / length,
+            );
+            match entered.take() {
+                None => entered = Some(at),
+                Some(from) => add(&mut hit, from, at),
+            }
+        }
+        (t, here) = (next, there);
     }
     if let Some(from) = entered {
         add(&mut hit, from, end);
     }
     hit
+}
+
+/// Where `level` changes its sign between two places (t, level), to `precision`:
+/// secants and bisections by turns, since φ is smooth but at walls.
+fn surface(
+    level: &dyn Fn(f64) -> f64,
+    mut a: (f64, f64),
+    mut b: (f64, f64),
+    precision: f64,
+) -> f64 {
+    let mut halve = false;
+    while b.0 - a.0 > precision {
+        let secant = a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1);
+        // Not at an end itself: half a precision inside, so that both close in.
+        let middle = if halve {
+            0.5 * (a.0 + b.0)
+        } else {
+            secant.clamp(a.0 + 0.5 * precision, b.0 - 0.5 * precision)
+        };
+        halve = !halve;
+        let found = (middle, level(middle));
+        if (found.1 > 0.0) == (a.1 > 0.0) {
+            a = found;
+        } else {
+            b = found;
+        }
+    }
+    0.5 * (a.0 + b.0)
 }
 
 /// Adds the way from view depth `from` to `to`.

@@ -3,6 +3,7 @@
 //! by (`vitriol fidelity`), and the anisotropy pass of the GPU with it.
 
 mod anisotropy;
+mod buckets;
 mod compare;
 mod drawn;
 mod eigen;
