@@ -151,19 +151,33 @@ impl Renderer {
         &self.depth
     }
 
+    /// Records the liquid's surface and thickness, and no picture: for
+    /// [`Renderer::read_back_surface`].
+    ///
+    /// # Errors
+    /// As for [`Renderer::record`].
+    pub fn record_surface(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+    ) -> Result<(), RenderError> {
+        frame.check(&self.scene, self.desc.views)?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
+        rec.upload(&self.frame, &[uniforms])?;
+        if let Some((fluid, source)) = self.liquid(frame)? {
+            fluid.record_surface(rec, frame, &source, &self.frame)?;
+        }
+        Ok(())
+    }
+
     /// Records the picture of one frame.
     ///
     /// # Errors
     /// [`RenderError::Count`] and [`RenderError::TooManyParticles`] where the
     /// frame does not fit; [`RenderError::Gpu`].
     pub fn record(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
-        frame.check(&self.scene, self.desc.views)?;
-        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
-        rec.upload(&self.frame, &[uniforms])?;
+        self.record_surface(rec, frame)?;
         let liquid = self.liquid(frame)?;
-        if let Some((fluid, source)) = &liquid {
-            fluid.record_surface(rec, frame, source, &self.frame)?;
-        }
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {

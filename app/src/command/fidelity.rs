@@ -9,8 +9,9 @@ use crate::cli::FidelityArgs;
 use crate::console::{Format, emit};
 use crate::device;
 use crate::failure::{Blame, Failure};
-use crate::fidelity::judge::{self, Draw, Drawn, Sample, Task};
+use crate::fidelity::judge::{self, Sample, Task};
 use crate::fidelity::report::{self, Fidelity, Manner, StateRow, describe};
+use crate::fidelity::screen::{MANNERS, Screen};
 use crate::fidelity::sheet;
 use crate::fidelity::states::{self, State};
 use crate::output;
@@ -49,20 +50,25 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
     } else {
         &SIZES[..]
     };
-    let mut screen = Nowhere;
+    let shapes: Vec<_> = states.iter().map(judge::shapes).collect();
+    let most = states
+        .iter()
+        .map(|state| state.world.solver().count())
+        .max();
     let (mut pictures, mut samples) = (Vec::new(), Vec::new());
-    for state in &states {
-        let shapes = judge::shapes(state);
-        for (index, &size) in sizes.iter().enumerate() {
+    for (index, &size) in sizes.iter().enumerate() {
+        let mut screen = Screen::new(&gpu, &library, size, most.unwrap_or(0))?;
+        for (state, shapes) in states.iter().zip(&shapes) {
+            screen.set_scene(state)?;
             let task = Task {
                 state,
-                shapes: &shapes,
+                shapes,
                 size,
                 whole: index == 0,
-                manners: &[],
+                manners: &MANNERS,
             };
             let keep = |manner: Manner, sample: Sample| {
-                if index == SHOWN && manner == DEFAULT {
+                if index == SHOWN && manner == MANNERS[0] {
                     samples.push(sample);
                 }
             };
@@ -87,25 +93,6 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
         output::write_new(&numbers, &json).map_err(output::blame)?;
     }
     emit(format, &found, describe)
-}
-
-/// What the picture of the difference shows.
-const DEFAULT: Manner = Manner {
-    filter: "narrow-range",
-    anisotropy: true,
-};
-
-struct Nowhere;
-
-impl Draw for Nowhere {
-    fn draw(
-        &mut self,
-        _: &State,
-        _: &[vitriol_render::View; 2],
-        _: Manner,
-    ) -> Result<[Drawn; 2], Failure> {
-        Err("no renderer").other()
-    }
 }
 
 fn state_row(state: &State) -> StateRow {

@@ -15,8 +15,8 @@ use crate::failure::Failure;
 pub struct Drawn {
     /// View depths; not finite or not above 0 where there is no liquid.
     pub depth: Vec<f32>,
-    /// Ways through the liquid along the rays.
-    pub thickness: Vec<f32>,
+    /// Ways through the liquid, in view depth.
+    pub ways: Vec<f32>,
 }
 
 /// Draws a state's liquid for two eyes in a manner.
@@ -127,7 +127,7 @@ impl Task<'_> {
                 let [left, right] = draw.draw(self.state, &now, manner)?;
                 let [next, _] = draw.draw(self.state, &next, manner)?;
                 let drawn = [(0, left), (1, right), (2, next)]
-                    .map(|(k, drawn)| Picture::drawn(&rays[k], &drawn.depth, &drawn.thickness));
+                    .map(|(k, drawn)| Picture::drawn(&rays[k], &drawn.depth, &drawn.ways));
                 pictures.push(self.picture(stand, &truth, &drawn, manner));
                 if index == 0 {
                     let [drawn, ..] = drawn;

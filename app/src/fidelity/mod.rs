@@ -4,6 +4,7 @@
 pub mod glassware;
 pub mod judge;
 pub mod report;
+pub mod screen;
 pub mod sheet;
 pub mod states;
 pub mod views;

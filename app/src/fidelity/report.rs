@@ -43,7 +43,7 @@ pub struct StateRow {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Manner {
     /// The filter, or `reference` for the truth itself, whose figures are what
-    /// the measures leave of an exact picture.
+    /// the measures make of an exact picture.
     pub filter: &'static str,
     /// Whether with Yu and Turk's anisotropy.
     pub anisotropy: bool,
@@ -51,10 +51,12 @@ pub struct Manner {
 
 impl Manner {
     /// The truth.
-    pub const REFERENCE: Self = Self {
-        filter: "reference",
-        anisotropy: true,
-    };
+    pub const REFERENCE: Self = Self::new("reference", true);
+
+    /// A filter by its name in the scene's file, with or without anisotropy.
+    pub const fn new(filter: &'static str, anisotropy: bool) -> Self {
+        Self { filter, anisotropy }
+    }
 }
 
 /// What one picture or several are off by.

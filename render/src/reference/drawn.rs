@@ -6,23 +6,23 @@ use super::march::{Picture, Rays};
 
 impl Picture {
     /// A picture by its view depths (not finite or not above 0 where there is
-    /// no liquid) and ways through the liquid along the rays, by rows from the
+    /// no liquid) and ways through the liquid in view depth, by rows from the
     /// top, scene's unit. Normals are the depth's; the liquid is taken to lie
     /// in one piece behind its first surface.
-    pub fn drawn(rays: &Rays, depth: &[f32], thickness: &[f32]) -> Self {
+    pub fn drawn(rays: &Rays, depth: &[f32], ways: &[f32]) -> Self {
         let depth: Vec<f64> = depth
             .iter()
             .map(|&depth| f64::from(depth))
             .map(|depth| if depth > 0.0 { depth } else { f64::INFINITY })
             .collect();
-        let thickness: Vec<f64> = depth
+        let ways: Vec<f64> = depth
             .iter()
-            .zip(thickness)
+            .zip(ways)
             .map(|(depth, &way)| if depth.is_finite() { way.into() } else { 0.0 })
             .collect();
         let solid = (0..depth.len()).map(|pixel| {
-            let (from, way) = (depth[pixel], thickness[pixel]);
-            let to = from + way / rays.through(pixel).length();
+            let (from, way) = (depth[pixel], ways[pixel]);
+            let to = from + way;
             if way > 0.0 {
                 (to.powi(3) - from.powi(3)) / 3.0
             } else {
@@ -34,7 +34,10 @@ impl Picture {
             solid: solid.collect(),
             normal: normals(rays, &depth),
             depth,
-            thickness,
+            thickness: (0..)
+                .zip(&ways)
+                .map(|(pixel, way)| way * rays.through(pixel).length())
+                .collect(),
         }
     }
 }

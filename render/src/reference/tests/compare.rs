@@ -33,7 +33,8 @@ fn eye(x: f32) -> Rays {
     Rays::new(&view, [200, 180], 1.0)
 }
 
-/// A picture by the depth (view depth along a ray) of what each ray hits.
+/// A picture by the depth of what each ray hits and its way through it, as view
+/// depths.
 fn draw(rays: &Rays, hit: impl Fn(DVec3, DVec3) -> Option<(f64, f64)>) -> Picture {
     let [width, height] = rays.size();
     let hits: Vec<_> = (0..width * height)
@@ -59,7 +60,7 @@ fn ball(radius: f64) -> impl Fn(DVec3, DVec3) -> Option<(f64, f64)> {
         let from = eye - CENTRE;
         let (aa, ab) = (ray.length_squared(), ray.dot(from));
         let root = ab * ab - aa * (from.length_squared() - radius * radius);
-        let chord = 2.0 * root.max(0.0).sqrt() / aa * ray.length();
+        let chord = 2.0 * root.max(0.0).sqrt() / aa;
         (root > 0.0).then(|| ((-ab - root.sqrt()) / aa, chord))
     }
 }
@@ -125,6 +126,22 @@ fn interior_keeps_a_spacing_from_edges() {
         assert!(inside || !facing || away < surely, "({x}, {y})");
     }
     assert!(interior.pixels().count() > 1000);
+}
+
+#[test]
+fn interior_leaves_out_what_is_seen_edgewise() {
+    // 80° from the eye's axis and farther to the sides, above a cosine of ¼.
+    let slanting = DVec3::new(0.0, 80_f64.to_radians().sin(), 80_f64.to_radians().cos());
+    let truth = draw(&eye(-0.03), plane(slanting));
+    let interior = Interior::new(&truth, SPACING);
+    assert!(interior.pixels().count() > 100);
+    for pixel in interior.pixels() {
+        let towards = -truth.rays.through(pixel).normalize();
+        // Normals of f32 depths.
+        assert!(slanting.dot(towards) > 0.249);
+    }
+    let interior = Interior::new(&draw(&eye(-0.03), plane(DVec3::Z)), SPACING);
+    assert!(interior.pixels().count() > 20_000);
 }
 
 #[test]
