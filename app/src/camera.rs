@@ -251,14 +251,13 @@ fn temperatures(scene: &Scene) -> ColourBy {
 /// The liquid in the solver's buffers.
 pub(crate) fn liquid_of(world: &World) -> LiquidSource<'_> {
     let (solver, scene) = (world.solver(), world.scene());
-    let (counts, list) = solver.neighbours();
     let (flasks, distances) = solver.flask_tables();
     LiquidSource {
         positions: solver.positions(),
         heat: solver.heat(),
         count: solver.count(),
         spacing: scene.scale.spacing as f32,
-        neighbours: (world.steps() > 0).then_some(Neighbours {
+        neighbours: solver.neighbours().map(|(counts, list)| Neighbours {
             counts,
             list,
             support: solver.parameters().support_radius as f32,

@@ -266,6 +266,13 @@ pub struct BenchArgs {
     /// is built upon it
     #[arg(long, conflicts_with = "paper")]
     pub features: bool,
+    /// What each pass of the picture takes, for a headset's two views at two
+    /// resolutions and for a screen
+    #[arg(long, conflicts_with_all = ["paper", "features"])]
+    pub render: bool,
+    /// With --render: filter of the liquid's surface; without it the scene's
+    #[arg(long, value_enum, value_name = "FILTER", requires = "render")]
+    pub filter: Option<FilterName>,
     /// Trade of speed for accuracy
     #[arg(long, value_enum, default_value_t)]
     pub preset: PresetName,

@@ -2,6 +2,7 @@
 //! by frame on the device's own clock.
 
 mod features;
+mod picture;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -37,10 +38,15 @@ pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
     let names: Vec<String> = match (&args.scene, args.paper) {
         (_, true) => TABLE_2.iter().map(|(name, _)| (*name).to_owned()).collect(),
         (Some(scene), false) => vec![scene.clone()],
+        (None, false) if args.render => vec!["triple-dilution".to_owned()],
         (None, false) => vec!["beaker".to_owned()],
     };
-    let (mut rows, mut costs) = (Vec::new(), Vec::new());
-    if args.features {
+    let (mut rows, mut costs, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    if args.render {
+        for name in &names {
+            pictures.extend(picture::rows(&timed, &plain, name, args)?);
+        }
+    } else if args.features {
         for name in &names {
             costs.extend(features::costs(&timed, &plain, name, args)?);
         }
@@ -54,6 +60,7 @@ pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
         frames: args.frames,
         rows,
         features: costs,
+        pictures,
     })
 }
 

@@ -7,8 +7,9 @@ use vitriol_shaders::layout;
 use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
-use crate::fluid::{LiquidSource, tiles_of};
+use crate::fluid::LiquidSource;
 use crate::scene::Scene;
+use crate::tiles::tiles_of;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.

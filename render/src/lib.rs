@@ -35,6 +35,7 @@ mod pipelines;
 pub mod reference;
 mod renderer;
 mod scene;
+mod tiles;
 
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;

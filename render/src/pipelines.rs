@@ -19,6 +19,10 @@ pub(crate) struct Pipelines {
     pub(crate) glass_far: RasterPipeline,
     /// Those that look at it.
     pub(crate) glass_near: RasterPipeline,
+    /// The finished picture with its edges smoothed.
+    pub(crate) edges: RasterPipeline,
+    /// Its tiles, brought back as they are.
+    pub(crate) copy: RasterPipeline,
 }
 
 impl Pipelines {
@@ -56,6 +60,8 @@ impl Pipelines {
             surfaces: make(render::SURFACES, Cull::Back, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
+            edges: edges(gpu, library, format, view_mask, 0.0)?,
+            copy: edges(gpu, library, format, view_mask, 1.0)?,
         })
     }
 
@@ -63,6 +69,36 @@ impl Pipelines {
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed
             .iter()
-            .any(|id| [render::PARTICLES, render::SURFACES, render::GLASS].contains(id))
+            .any(|id| USED.contains(id))
     }
+}
+
+const USED: [ShaderId; 5] = [
+    render::TILES,
+    render::PARTICLES,
+    render::SURFACES,
+    render::GLASS,
+    render::EDGES,
+];
+
+fn edges(
+    gpu: &Gpu,
+    library: &Library,
+    format: vk::Format,
+    view_mask: u32,
+    copy: f64,
+) -> Result<RasterPipeline, RenderError> {
+    let desc = RasterDesc {
+        vertex: &library.compile(&render::EDGES, "vertex", &[])?,
+        fragment: Some(&library.compile(&render::EDGES, "fragment", &[("COPY", copy)])?),
+        colours: &[ColourFormat {
+            format,
+            blend: Blend::Replace,
+        }],
+        depth: None,
+        topology: Topology::Triangles,
+        cull: Cull::None,
+        view_mask,
+    };
+    Ok(RasterPipeline::new(gpu, &desc)?)
 }

@@ -2,8 +2,8 @@
 
 use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
-    RasterTarget, Readback, Recorder, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster,
+    RasterPipeline, RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -12,6 +12,7 @@ use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
 use crate::frame::{ColourBy, FrameDesc, ParticleSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
 use crate::scene::{Scene, SceneDesc};
+use crate::tiles::Tiles;
 
 /// Where there is nothing: the walls' own colour, roughly. Linear.
 const BACKGROUND: [f32; 4] = [0.38, 0.37, 0.35, 1.0];
@@ -54,6 +55,12 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
+    tiles: Tiles,
+    /// Bound where no ellipsoids are.
+    nothing: Buffer,
+    /// Tiles with smooth edges.
+    smoothed: Image,
+    between: Sampler,
     colour: Image,
     depth: Image,
 }
@@ -97,10 +104,24 @@ impl Renderer {
                 }
                 None => None,
             },
+            tiles: Tiles::new(gpu, library, desc.extent, desc.views)?,
+            nothing: Buffer::storage(gpu, "no ellipsoids", 0)?,
+            smoothed: image(
+                "smoothed",
+                desc.format,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+            )?,
+            between: Sampler::new(
+                gpu,
+                SamplerDesc {
+                    filter: Filter::Linear,
+                    ..SamplerDesc::default()
+                },
+            )?,
             colour: image(
                 "picture",
                 desc.format,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
             depth: image(
                 "picture depth",
@@ -120,6 +141,7 @@ impl Renderer {
             fluid.reload(library)?;
         }
         if Pipelines::uses(changed) {
+            self.tiles.reload(&self.gpu, library)?;
             let mask = view_mask(self.desc.views);
             self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
         }
@@ -165,7 +187,9 @@ impl Renderer {
         let uniforms = frame.uniforms(&self.scene, self.desc.extent);
         rec.upload(&self.frame, &[uniforms])?;
         if let Some((fluid, source)) = self.liquid(frame)? {
-            fluid.record_surface(rec, frame, &source, &self.frame)?;
+            fluid.record_surface(rec, frame, &source, &self.frame, &self.tiles)?;
+        } else {
+            self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
         }
         Ok(())
     }
@@ -196,7 +220,7 @@ impl Renderer {
             }
             self.draw_surfaces(raster)?;
             if let Some((fluid, _)) = &liquid {
-                fluid.shade(raster, &self.frame)?;
+                fluid.shade(raster, &self.frame, &self.tiles)?;
             }
             // Blending is right only from far to near. A vessel's own far wall
             // comes first; vessels that hide each other are close enough to
@@ -206,6 +230,35 @@ impl Renderer {
             }
             Ok(())
         })?;
+        self.smooth_edges(rec)
+    }
+
+    /// Smooths edges into the second image, and brings those tiles back.
+    fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
+        let passes = [
+            (&self.pipelines.edges, &self.colour, &self.smoothed, Load::Discard),
+            (&self.pipelines.copy, &self.smoothed, &self.colour, Load::Keep),
+        ];
+        for (pipeline, from, to, load) in passes {
+            let target = RasterTarget {
+                label: "edges",
+                colours: &[ColourTarget { image: to, load }],
+                depth: None,
+                view_mask: view_mask(self.desc.views),
+            };
+            rec.raster(&target, |raster| {
+                raster
+                    .draw(pipeline)
+                    .uniform("frame", &self.frame)
+                    .read("tiles", self.tiles.marks())
+                    .sampled("drawn", from)
+                    .sampler("between", &self.between)
+                    .constants(&layout::EdgeDraw {
+                        views: self.desc.views,
+                    })
+                    .vertices(self.tiles.vertices())
+            })?;
+        }
         Ok(())
     }
 

@@ -23,6 +23,34 @@ pub struct Bench {
     /// What each feature of the scene costs, where it was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<FeatureRow>,
+    /// What the picture takes, where it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pictures: Vec<RenderRow>,
+}
+
+/// The times of a picture of one scene at one size.
+#[derive(Debug, Clone, Serialize)]
+pub struct RenderRow {
+    /// The scene.
+    pub scene: String,
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Views: one, or one for each eye.
+    pub views: u32,
+    /// Width of a view, pixels.
+    pub width: u32,
+    /// Height of a view, pixels.
+    pub height: u32,
+    /// Each pass, summed over a picture.
+    pub passes: Vec<PassRow>,
+    /// All passes of a picture by the device's clock, with timestamps around
+    /// them.
+    pub device_total: Timing,
+    /// A frame's share of several that are queued one behind the other, each
+    /// solved and drawn, without timestamps.
+    pub frame: Timing,
+    /// The same of frames that are solved and not drawn.
+    pub solver: Timing,
 }
 
 /// What a feature costs: the scene with it less the scene without it.
@@ -231,6 +259,9 @@ fn describe(bench: &Bench) -> String {
             );
         }
     }
+    for row in &bench.pictures {
+        describe_picture(row, &mut text);
+    }
     if !bench.features.is_empty() {
         let _ = writeln!(
             text,
@@ -252,6 +283,36 @@ fn describe(bench: &Bench) -> String {
         );
     }
     text
+}
+
+fn describe_picture(row: &RenderRow, text: &mut String) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\n{}: {} fluid particles, {} × {} × {}\n{:<28} {:>10} {:>10} {:>10}",
+        row.scene,
+        grouped(row.fluid_particles),
+        row.views,
+        row.width,
+        row.height,
+        "pass",
+        "median ms",
+        "95 % ms",
+        "number"
+    );
+    let named = [
+        ("picture, all passes, timed", row.device_total),
+        ("frame: solved and drawn", row.frame),
+        ("the same, not drawn", row.solver),
+    ];
+    for pass in &row.passes {
+        let Timing { median_ms, p95_ms } = pass.time;
+        let (name, number) = (&pass.name, pass.dispatches);
+        let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}");
+    }
+    for (name, Timing { median_ms, p95_ms }) in named {
+        let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4}");
+    }
 }
 
 #[cfg(test)]

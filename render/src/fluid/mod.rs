@@ -8,27 +8,20 @@ mod source;
 use glam::{Affine3A, Quat};
 use vitriol_gpu::{
     Buffer, ColourTarget, DepthTarget, Filter, Gpu, GpuError, Image, ImageDesc, Load,
-    RasterPipeline, RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    Raster, RasterPipeline, RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::frame::FrameDesc;
 use crate::pipelines::DEPTH_FORMAT;
+use crate::tiles::Tiles;
 use passes::{FILTERED_FORMAT, Passes, THICKNESS_FORMAT};
 pub use readback::{Surface, SurfaceReadback};
 pub use source::{LiquidDesc, LiquidSource, Neighbours, SurfaceFilter, VesselTables};
 
-/// Pixels along a tile's edge, as in `common/tile.wgsl`.
-const TILE: u32 = 32;
-
 /// How many times fewer pixels along a side the thickness has: it is smooth.
 const THICKNESS_SHARE: u32 = 2;
-
-/// Tiles in a row, and rows, of a view.
-pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
-    [width.div_ceil(TILE), height.div_ceil(TILE)]
-}
 
 /// Images, buffers and pipelines of the liquid surface.
 pub(crate) struct Fluid {
@@ -40,7 +33,6 @@ pub(crate) struct Fluid {
     passes: Passes,
     ellipsoids: Buffer,
     poses: Buffer,
-    tiles: Buffer,
     /// Bound where a source has nothing to give.
     nothing: Buffer,
     depth: Image,
@@ -71,7 +63,6 @@ impl Fluid {
         let colour = vk::ImageUsageFlags::COLOR_ATTACHMENT;
         let filtered = |label| image(label, extent, FILTERED_FORMAT, colour);
         let half = extent.map(|side| side.div_ceil(THICKNESS_SHARE));
-        let [columns, rows] = tiles_of(extent);
         let ellipsoids = bytes_of_elements::<layout::Ellipsoid>(desc.particles as usize);
         Ok(Self {
             gpu: gpu.clone(),
@@ -81,12 +72,16 @@ impl Fluid {
             format,
             passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
             ellipsoids: Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
+<<<<<<< HEAD
             poses: Buffer::storage(
                 gpu,
                 "vessel poses",
                 bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS),
             )?,
             tiles: Buffer::storage(gpu, "tiles", u64::from(4 * columns * rows * views))?,
+=======
+            poses: Buffer::storage(gpu, "vessel poses", bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS))?,
+>>>>>>> render
             nothing: zeros(gpu)?,
             depth: image(
                 "liquid depth",
@@ -137,12 +132,13 @@ impl Fluid {
         frame: &FrameDesc<'_>,
         source: &LiquidSource<'_>,
         uniforms: &Buffer,
+        tiles: &Tiles,
     ) -> Result<(), RenderError> {
         self.record_shapes(rec, frame, source)?;
-        self.mark_tiles(rec, source.count, uniforms)?;
+        tiles.record(rec, uniforms, &self.ellipsoids, source.count)?;
         self.draw_depth(rec, source.count, uniforms)?;
         self.draw_thickness(rec, source.count, uniforms)?;
-        self.filter(rec, uniforms)
+        self.filter(rec, uniforms, tiles)
     }
 
     /// Particles to ellipsoids: all that is read of the solver's buffers.
@@ -162,6 +158,7 @@ impl Fluid {
         let corner = |corner: Option<glam::Vec3>| corner.map_or([0.0; 2], |at| [at.x, at.z]);
         rec.pass(&self.passes.anisotropy)
             .read("positions", source.positions)
+            .label("anisotropy")
             .read("list_counts", list(|n| n.counts))
             .read("list", list(|n| n.list))
             .read("heat", source.heat.unwrap_or(&self.nothing))
@@ -185,6 +182,7 @@ impl Fluid {
         Ok(())
     }
 
+<<<<<<< HEAD
     fn mark_tiles(
         &self,
         rec: &mut Recorder,
@@ -210,6 +208,9 @@ impl Fluid {
         count: u32,
         uniforms: &Buffer,
     ) -> Result<(), RenderError> {
+=======
+    fn draw_depth(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+>>>>>>> render
         let target = RasterTarget {
             label: "liquid depth",
             colours: &[],
@@ -254,11 +255,12 @@ impl Fluid {
         Ok(())
     }
 
-    fn filter(&self, rec: &mut Recorder, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn filter(&self, rec: &mut Recorder, uniforms: &Buffer, tiles: &Tiles) -> Result<(), RenderError> {
         let last = self.passes.filter.len() - 1;
         rec.group("liquid filter", |rec| {
             for (index, pass) in self.passes.filter.iter().enumerate() {
                 let to = (last - index) % 2;
+<<<<<<< HEAD
                 self.filter_once(
                     rec,
                     pass,
@@ -266,6 +268,9 @@ impl Fluid {
                     &self.filtered[to],
                     uniforms,
                 )?;
+=======
+                self.filter_once(rec, pass, &self.filtered[1 - to], &self.filtered[to], uniforms, tiles)?;
+>>>>>>> render
             }
             Ok(())
         })?;
@@ -279,6 +284,7 @@ impl Fluid {
         from: &Image,
         to: &Image,
         uniforms: &Buffer,
+        tiles: &Tiles,
     ) -> Result<(), GpuError> {
         let target = RasterTarget {
             label: "liquid filter",
@@ -293,27 +299,31 @@ impl Fluid {
             raster
                 .draw(pass)
                 .uniform("frame", uniforms)
-                .read("tiles", &self.tiles)
+                .read("tiles", tiles.marks())
                 .sampled("splatted", &self.depth)
                 .sampled("before", from)
-                .vertices(self.tile_vertices())
+                .vertices(tiles.vertices())
         })
     }
 
     /// Draws the lit surface; within a raster scope of picture and depth.
+<<<<<<< HEAD
     pub(crate) fn shade(
         &self,
         raster: &mut vitriol_gpu::Raster<'_>,
         uniforms: &Buffer,
     ) -> Result<(), GpuError> {
+=======
+    pub(crate) fn shade(&self, raster: &mut Raster<'_>, uniforms: &Buffer, tiles: &Tiles) -> Result<(), GpuError> {
+>>>>>>> render
         raster
             .draw(&self.passes.shade)
             .uniform("frame", uniforms)
-            .read("tiles", &self.tiles)
+            .read("tiles", tiles.marks())
             .sampled("surface", &self.filtered[0])
             .sampled("thickness", &self.thickness)
             .sampler("between", &self.between)
-            .vertices(self.tile_vertices())
+            .vertices(tiles.vertices())
     }
 
     /// Records the copy of the surface to the host.
@@ -329,11 +339,6 @@ impl Fluid {
             extent: self.extent,
             thickness_extent: self.thickness.desc().extent,
         })
-    }
-
-    fn tile_vertices(&self) -> u32 {
-        let [columns, rows] = tiles_of(self.extent);
-        6 * columns * rows
     }
 }
 

@@ -27,7 +27,6 @@ pub(super) struct Passes {
     pub(super) anisotropy: ComputePipeline,
     /// Invocations of it that share a particle.
     pub(super) lanes: u32,
-    pub(super) tiles: ComputePipeline,
     pub(super) splat: RasterPipeline,
     pub(super) thickness: RasterPipeline,
     pub(super) filter: Vec<RasterPipeline>,
@@ -80,7 +79,6 @@ impl Passes {
         Ok(Self {
             anisotropy: compute(fluid::ANISOTROPY, &[("LANES", lanes.into())])?,
             lanes,
-            tiles: compute(fluid::TILES, &[])?,
             splat: raster(fluid::SPLAT, &[], &[], depth)?,
             thickness: raster(
                 fluid::THICKNESS,
@@ -101,14 +99,20 @@ fn stages(filter: SurfaceFilter) -> Vec<(ShaderId, Vec<(&'static str, f64)>)> {
         SurfaceFilter::NarrowRange => (0..3)
             .map(|pass| {
                 let first = f64::from(u8::from(pass == 0));
-                let constants = vec![("PASS", f64::from(pass)), ("FIRST", first)];
+                let last = f64::from(u8::from(pass == 2));
+                let constants = vec![("PASS", f64::from(pass)), ("FIRST", first), ("LAST", last)];
                 (fluid::NARROW_RANGE, constants)
             })
             .collect(),
         SurfaceFilter::CurvatureFlow => (0..FLOW_STEPS)
             .map(|step| {
                 let first = f64::from(u8::from(step == 0));
-                let constants = vec![("STEPS", FLOW_STEPS.into()), ("FIRST", first)];
+                let last = f64::from(u8::from(step + 1 == FLOW_STEPS));
+                let constants = vec![
+                    ("STEPS", FLOW_STEPS.into()),
+                    ("FIRST", first),
+                    ("LAST", last),
+                ];
                 (fluid::CURVATURE_FLOW, constants)
             })
             .collect(),

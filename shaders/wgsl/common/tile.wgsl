@@ -1,4 +1,4 @@
-//! Passes over the pixels that may have liquid: two triangles a tile.
+//! Passes over the pixels of marked tiles: two triangles a tile.
 
 //!include common/frame.wgsl
 
@@ -7,8 +7,8 @@
 /// Pixels along a tile's edge.
 const TILE = 32.0;
 
-/// Corner `index` of all tiles' triangles in clip space, at infinity; outside for a tile without
-/// liquid.
+/// Corner `index` of all tiles' triangles in clip space, at infinity; outside for a tile that is
+/// not marked. `eye` counts on behind the eyes' liquid to their edges.
 fn tile_corner(index: u32, eye: u32) -> vec4<f32> {
     let tile = index / 6u;
     let of_view = frame.tile_columns * frame.tile_rows;

@@ -6,6 +6,7 @@ use super::{Solver, SolverError};
 use crate::chemistry::Chemistry;
 use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
+use std::sync::atomic::Ordering;
 use vitriol_gpu::{ComputePipeline, Pass, Readback, Recorder};
 use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
 
@@ -55,6 +56,7 @@ impl Solver {
         if self.count == 0 {
             return Ok(self.nothing());
         }
+        self.listed.store(true, Ordering::Relaxed);
         self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
         self.predict(rec)?; // lines 6 to 8, and 16 of the first substep
         for n in 0..substeps {

@@ -32,6 +32,7 @@ use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
 use buffers::Buffers;
 use glam::DVec3;
+use std::sync::atomic::{AtomicBool, Ordering};
 use pipelines::{Grid, Pipelines};
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu, vk};
@@ -89,6 +90,8 @@ pub struct Solver {
     grid: Grid,
     lanes: u32,
     loads: bool,
+    /// Whether a frame has been recorded, which makes the neighbour list.
+    listed: AtomicBool,
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
@@ -120,6 +123,7 @@ impl Solver {
             grid,
             lanes,
             loads: spec.loads,
+            listed: AtomicBool::new(false),
             buffers,
             vessels,
             pipelines,
@@ -165,10 +169,10 @@ impl Solver {
 
     /// Neighbours of each particle as `array<u32>`, and the list itself: the k-th
     /// neighbour of particle i of n is at k·n + i. It is complete within the
-    /// support radius at the positions after a frame; before the first one it
-    /// is empty.
-    pub fn neighbours(&self) -> (&Buffer, &Buffer) {
-        (&self.buffers.list_counts, &self.buffers.list)
+    /// support radius at the positions after a frame; `None` before the first.
+    pub fn neighbours(&self) -> Option<(&Buffer, &Buffer)> {
+        let listed = self.listed.load(Ordering::Relaxed);
+        listed.then_some((&self.buffers.list_counts, &self.buffers.list))
     }
 
     /// The flasks' shapes and their distances to the glass over (r, y), as

@@ -7,6 +7,7 @@ use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::Ordering;
 use vitriol_gpu::{Buffer, Gpu};
 use xxhash_rust::xxh3::Xxh3;
 
@@ -197,6 +198,8 @@ impl Solver {
                 });
             }
         }
+        let any = state.list_counts.iter().any(|&count| count > 0);
+        self.listed.store(any, Ordering::Relaxed);
         let (b, gpu) = (&self.buffers, &self.gpu);
         write(gpu, &b.position, &state.positions)?;
         write(gpu, &b.velocity, &state.velocities)?;

@@ -13,7 +13,7 @@
 //!
 //! What is solid counts as filled with liquid, in closed form: beyond the tangent plane of the
 //! nearest wall a cap of the weight's ball has known moments. A particle at the glass is then as
-//! round as one in the bulk, and is moved so that it touches the glass.
+//! round as one in the bulk, and is moved so that it meets the glass.
 //!
 //! A particle with few neighbours fades to a sphere of its own volume, at its own place: drops
 //! in flight are drops.
@@ -67,6 +67,9 @@ const LONGEST = 2.0;
 const LONE_RADIUS = 0.6204;
 /// Half axis in the bulk, in spacings: closes the gaps between particles at a wall.
 const BULK_RADIUS = 0.75;
+/// How far what lies at a wall reaches into it, in spacings: so that no gap between two
+/// particles shows.
+const INTO_WALL = 0.3;
 /// Weight of the neighbours, in those of a full neighbourhood, at which a particle
 /// begins to count as part of a body of liquid, and does so wholly.
 const FADE = vec2<f32>(0.10, 0.35);
@@ -193,11 +196,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         out.others = fade * shape.others;
         out.centre = x + fade * SMOOTHING * around.support * mean;
 
-        // What lies at a wall touches it with its own tangent plane.
+        // What lies at a wall reaches a little into it, and is cut there (`at_glass.wgsl`).
         let at_wall = fade * (1.0 - smoothstep(0.75 * d, 1.25 * d, wall.w));
         let extent = length(apply(Symmetric(out.diagonal, out.others), wall.xyz));
         let gap = wall.w + dot(out.centre - x, wall.xyz);
-        out.centre += wall.xyz * ((extent - gap) * at_wall);
+        out.centre += wall.xyz * ((extent - INTO_WALL * d - gap) * at_wall);
 
         let deep = length(mean) < 0.05 && weight > 0.85 * full && wall.w > 1.25 * d;
         out.visible = select(1.0, 0.0, deep);

@@ -7,9 +7,12 @@
 //! smooth over a length of the world and not of the picture.
 
 //!include common/tile.wgsl
+//!include common/at_glass.wgsl
 
 /// Whether this step reads what was splatted.
 override FIRST: bool = false;
+/// Whether this is the last step.
+override LAST: bool = false;
 /// Steps in all.
 override STEPS: f32 = 40.0;
 
@@ -65,5 +68,7 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
         / (slope * sqrt(slope));
     let pixels = SMOOTHED * frame.spacing / s;
     let rate = min(0.5 * pixels * pixels / STEPS, 0.2);
-    return vec4<f32>(near / (z + rate * curvature), 0.0, 0.0, 0.0);
+    var smoothed = near / (z + rate * curvature);
+    if (LAST) { smoothed = at_glass(smoothed, place.xy, eye); }
+    return vec4<f32>(smoothed, 0.0, 0.0, 0.0);
 }

@@ -8,11 +8,14 @@
 //! right and left, counts only if both have liquid, so that silhouettes do not pull.
 
 //!include common/tile.wgsl
+//!include common/at_glass.wgsl
 
 /// 0: along rows; 1: along columns; 2: over a square; 3: no filter.
 override PASS: u32 = 0u;
 /// Whether this pass reads what was splatted.
 override FIRST: bool = false;
+/// Whether this is the last pass.
+override LAST: bool = false;
 
 @group(0) @binding(2) var splatted: texture_depth_2d_array;
 @group(0) @binding(3) var before: texture_2d_array<f32>;
@@ -64,7 +67,8 @@ fn add_pair(pixel: vec2<i32>, eye: u32, offset: vec2<i32>, middle: f32, width: f
 fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> @location(0) vec4<f32> {
     let pixel = vec2<i32>(place.xy);
     let middle = load(pixel, eye);
-    if (PASS == 3u || middle <= 0.0) { return vec4<f32>(middle, 0.0, 0.0, 0.0); }
+    if (middle <= 0.0) { return vec4<f32>(0.0); }
+    if (PASS == 3u) { return vec4<f32>(at_glass(middle, place.xy, eye), 0.0, 0.0, 0.0); }
     let near = frame.views[eye].near;
     // A difference of view depth as one of reversed depth: near/z² of it.
     let per_length = middle * middle / near;
@@ -76,15 +80,11 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
     weights = 1.0;
     let reach = REACH * frame.spacing * frame.views[eye].focal * middle / near;
     if (PASS == 2u) {
-        for (var y = 0; y <= 2; y++) {
-            for (var x = -2; x <= 2; x++) {
-                // Half of the square: each pair once.
-                if (y > 0 || x > 0) {
-                    let weight = exp2(-0.4 * f32(x * x + y * y));
-                    add_pair(pixel, eye, vec2<i32>(x, y), middle, width, behind, weight);
-                }
-            }
-        }
+        // Half of the square: each pair once.
+        add_pair(pixel, eye, vec2<i32>(1, 0), middle, width, behind, 0.6);
+        add_pair(pixel, eye, vec2<i32>(0, 1), middle, width, behind, 0.6);
+        add_pair(pixel, eye, vec2<i32>(1, 1), middle, width, behind, 0.36);
+        add_pair(pixel, eye, vec2<i32>(1, -1), middle, width, behind, 0.36);
     } else {
         let pairs = clamp(reach, 1.0, PAIRS);
         let stride = max(reach / pairs, 1.0);
@@ -97,5 +97,7 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
             add_pair(pixel, eye, offset, middle, width, behind, weight);
         }
     }
-    return vec4<f32>(sum / weights, 0.0, 0.0, 0.0);
+    var smoothed = sum / weights;
+    if (LAST) { smoothed = at_glass(smoothed, place.xy, eye); }
+    return vec4<f32>(smoothed, 0.0, 0.0, 0.0);
 }

@@ -100,7 +100,8 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
     let seen = behind * exp(-path * frame.metres_per_unit * mix(WATER, ACID, acid));
     let rest = 1.0 - saturate(dot(normal, -ray));
     let mirrored = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest * rest * rest * rest * rest;
-    let reflectance = mirrored * (1.0 - wetted);
+    // An edge thinner than a drop is none that could mirror.
+    let reflectance = mirrored * (1.0 - wetted) * saturate(path / frame.spacing);
     let light = mix(seen, surroundings(reflect(ray, normal)), reflectance);
     return Pixel(vec4<f32>(display(light), 1.0), frame.views[eye].near / here.w);
 }

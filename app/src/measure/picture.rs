@@ -1,0 +1,178 @@
+//! `vitriol bench --render`: what each pass of the picture takes, at a headset's
+//! resolutions and a screen's, of a scene in motion.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use glam::Vec3;
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_render::{Fov, View};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::World;
+
+use super::{QUEUED, milliseconds};
+use crate::camera::{Camera, Shot};
+use crate::cli::{BenchArgs, ColourName};
+use crate::command::bench::{PassRow, RenderRow, Timing};
+use crate::failure::{Blame, Failure};
+
+/// Views, and width and height of each.
+const SIZES: [(u32, [u32; 2]); 3] = [
+    (2, [1440, 1584]),
+    (2, [2064, 2208]),
+    (1, [1920, 1080]),
+];
+
+/// Simulated time before the first measured frame, seconds: funnels run.
+const BEGIN: f64 = 0.5;
+
+/// Half a meter before the vessels and above them, in real metres, as one
+/// leans over a bench.
+const HEAD: [Vec3; 2] = [Vec3::new(0.0, 1.12, 0.02), Vec3::new(0.0, 0.84, -0.40)];
+
+/// The scene's picture at each size.
+///
+/// # Errors
+/// [`Failure::Input`] for a scene that is not there; what the device says.
+pub fn rows(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Vec<RenderRow>, Failure> {
+    let scene = Scene::load(name).input()?.with_preset(args.preset.into());
+    SIZES
+        .iter()
+        .map(|&(views, extent)| row(timed, plain, name, &scene, args, views, extent))
+        .collect()
+}
+
+fn row(
+    timed: &Gpu,
+    plain: &Gpu,
+    name: &str,
+    scene: &Scene,
+    args: &BenchArgs,
+    views: u32,
+    extent: [u32; 2],
+) -> Result<RenderRow, Failure> {
+    let (world, camera) = ready(timed, scene, args, views, extent)?;
+    let (passes, total) = passes(timed, &world, &camera, args.frames)?;
+    let (world, camera) = ready(plain, scene, args, views, extent)?;
+    let queued = queued(plain, &world, Some(&camera), args.frames)?;
+    Ok(RenderRow {
+        scene: name.to_owned(),
+        fluid_particles: world.solver().count().into(),
+        views,
+        width: extent[0],
+        height: extent[1],
+        passes,
+        device_total: total,
+        frame: queued,
+        solver: self::queued(plain, &world, None, args.frames)?,
+    })
+}
+
+/// A world in motion and the camera before it.
+fn ready(
+    gpu: &Gpu,
+    scene: &Scene,
+    args: &BenchArgs,
+    eyes: u32,
+    extent: [u32; 2],
+) -> Result<(World, Camera), Failure> {
+    let library = Library::embedded();
+    let world = World::new(gpu, &library, scene, 0).other()?;
+    let shot = Shot {
+        extent,
+        eyes,
+        liquid: Some(world.solver().count()),
+        filter: args.filter.map(Into::into),
+    };
+    let mut camera = Camera::new(gpu, &library, scene, &shot)?;
+    let aspect = extent[0] as f32 / extent[1] as f32;
+    // A headset's field; on a screen a wide lens.
+    let vertical: f32 = if eyes == 2 { 96.0 } else { 60.0 };
+    let [eye, target] = HEAD;
+    camera.set_view(View::look_at(eye, target, Fov::symmetric(vertical.to_radians(), aspect)));
+    for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
+        step(gpu, &world)?;
+    }
+    gpu.wait_idle().other()?;
+    Ok((world, camera))
+}
+
+fn step(gpu: &Gpu, world: &World) -> Result<(), Failure> {
+    let mut rec = gpu.recorder(QueueKind::Main).other()?;
+    world.solver().record(&mut rec, world.poses(), world.poses()).other()?;
+    gpu.submit(rec).other()?;
+    Ok(())
+}
+
+/// Each pass on the device's clock, and all of them.
+fn passes(
+    gpu: &Gpu,
+    world: &World,
+    camera: &Camera,
+    frames: u32,
+) -> Result<(Vec<PassRow>, Timing), Failure> {
+    let mut totals = Vec::new();
+    let mut order: Vec<String> = Vec::new();
+    let mut times: BTreeMap<String, (u32, Vec<f64>)> = BTreeMap::new();
+    for _ in 0..frames {
+        step(gpu, world)?;
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        camera.record(&mut rec, world, ColourName::Liquid)?;
+        let ticket = gpu.submit(rec).other()?;
+        ticket.wait().other()?;
+        let mut frame: BTreeMap<String, (u32, f64)> = BTreeMap::new();
+        for pass in ticket.timings().other()? {
+            if pass.label == "total" {
+                totals.push(pass.nanoseconds * 1e-6);
+                continue;
+            }
+            if !order.contains(&pass.label) {
+                order.push(pass.label.clone());
+            }
+            let sum = frame.entry(pass.label).or_default();
+            sum.0 += 1;
+            sum.1 += pass.nanoseconds * 1e-6;
+        }
+        for (label, (number, time)) in frame {
+            let kept = times.entry(label).or_default();
+            kept.0 = number;
+            kept.1.push(time);
+        }
+    }
+    let rows = order.iter().filter_map(|name| {
+        let (number, times) = times.get(name)?;
+        Some(PassRow {
+            name: name.clone(),
+            dispatches: *number,
+            bytes: 0,
+            time: Timing::of(times),
+        })
+    });
+    Ok((rows.collect(), Timing::of(&totals)))
+}
+
+/// A frame's share, ms, of [`QUEUED`] frames that are solved and, with a camera,
+/// drawn.
+fn queued(
+    gpu: &Gpu,
+    world: &World,
+    camera: Option<&Camera>,
+    frames: u32,
+) -> Result<Timing, Failure> {
+    let mut times = Vec::new();
+    for _ in 0..frames.div_ceil(QUEUED) {
+        let begin = Instant::now();
+        for _ in 0..QUEUED {
+            step(gpu, world)?;
+            if let Some(camera) = camera {
+                let mut rec = gpu.recorder(QueueKind::Main).other()?;
+                camera.record(&mut rec, world, ColourName::Liquid)?;
+                gpu.submit(rec).other()?;
+            }
+        }
+        gpu.wait_idle().other()?;
+        times.push(milliseconds(begin) / f64::from(QUEUED));
+    }
+    Ok(Timing::of(&times))
+}
