@@ -57,10 +57,7 @@ impl VesselDesc {
     /// Inner radius at a height, by the outline.
     fn inner_radius(&self, y: f64) -> f64 {
         let above = self.inner.partition_point(|p| p[1] < y);
-        match (
-            above.checked_sub(1).and_then(|below| self.inner.get(below)),
-            self.inner.get(above),
-        ) {
+        match (above.checked_sub(1).and_then(|below| self.inner.get(below)), self.inner.get(above)) {
             (Some(a), Some(b)) => a[0] + (y - a[1]) / (b[1] - a[1]).max(1e-12) * (b[0] - a[0]),
             (Some(end), None) | (None, Some(end)) => end[0],
             (None, None) => 0.0,

@@ -72,16 +72,7 @@ impl Fluid {
             format,
             passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
             ellipsoids: Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
-<<<<<<< HEAD
-            poses: Buffer::storage(
-                gpu,
-                "vessel poses",
-                bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS),
-            )?,
-            tiles: Buffer::storage(gpu, "tiles", u64::from(4 * columns * rows * views))?,
-=======
             poses: Buffer::storage(gpu, "vessel poses", bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS))?,
->>>>>>> render
             nothing: zeros(gpu)?,
             depth: image(
                 "liquid depth",
@@ -115,9 +106,7 @@ impl Fluid {
 
     /// Whether any of these shaders is the liquid's.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| id.path().starts_with("render/fluid/"))
+        changed.iter().any(|id| id.path().starts_with("render/fluid/"))
     }
 
     /// Refuses a source that does not fit.
@@ -148,8 +137,7 @@ impl Fluid {
         frame: &FrameDesc<'_>,
         source: &LiquidSource<'_>,
     ) -> Result<(), RenderError> {
-        let poses: Vec<layout::FlaskPose> =
-            frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
+        let poses: Vec<layout::FlaskPose> = frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
         rec.upload(&self.poses, &poses)?;
         let neighbours = source.neighbours.filter(|_| self.desc.anisotropic);
         let list = |of: fn(Neighbours<'_>) -> &Buffer| neighbours.map_or(&self.nothing, of);
@@ -182,35 +170,7 @@ impl Fluid {
         Ok(())
     }
 
-<<<<<<< HEAD
-    fn mark_tiles(
-        &self,
-        rec: &mut Recorder,
-        count: u32,
-        uniforms: &Buffer,
-    ) -> Result<(), RenderError> {
-        rec.fill(&self.tiles, 0)?;
-        rec.pass(&self.passes.tiles)
-            .uniform("frame", uniforms)
-            .read("ellipsoids", &self.ellipsoids)
-            .write("tiles", &self.tiles)
-            .constants(&layout::TileCount {
-                count,
-                views: self.views,
-            })
-            .invocations(count)?;
-        Ok(())
-    }
-
-    fn draw_depth(
-        &self,
-        rec: &mut Recorder,
-        count: u32,
-        uniforms: &Buffer,
-    ) -> Result<(), RenderError> {
-=======
     fn draw_depth(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
->>>>>>> render
         let target = RasterTarget {
             label: "liquid depth",
             colours: &[],
@@ -230,12 +190,7 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_thickness(
-        &self,
-        rec: &mut Recorder,
-        count: u32,
-        uniforms: &Buffer,
-    ) -> Result<(), RenderError> {
+    fn draw_thickness(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid thickness",
             colours: &[ColourTarget {
@@ -260,17 +215,7 @@ impl Fluid {
         rec.group("liquid filter", |rec| {
             for (index, pass) in self.passes.filter.iter().enumerate() {
                 let to = (last - index) % 2;
-<<<<<<< HEAD
-                self.filter_once(
-                    rec,
-                    pass,
-                    &self.filtered[1 - to],
-                    &self.filtered[to],
-                    uniforms,
-                )?;
-=======
                 self.filter_once(rec, pass, &self.filtered[1 - to], &self.filtered[to], uniforms, tiles)?;
->>>>>>> render
             }
             Ok(())
         })?;
@@ -307,15 +252,7 @@ impl Fluid {
     }
 
     /// Draws the lit surface; within a raster scope of picture and depth.
-<<<<<<< HEAD
-    pub(crate) fn shade(
-        &self,
-        raster: &mut vitriol_gpu::Raster<'_>,
-        uniforms: &Buffer,
-    ) -> Result<(), GpuError> {
-=======
     pub(crate) fn shade(&self, raster: &mut Raster<'_>, uniforms: &Buffer, tiles: &Tiles) -> Result<(), GpuError> {
->>>>>>> render
         raster
             .draw(&self.passes.shade)
             .uniform("frame", uniforms)
@@ -327,11 +264,7 @@ impl Fluid {
     }
 
     /// Records the copy of the surface to the host.
-    pub(crate) fn read_back(
-        &self,
-        rec: &mut Recorder,
-        nears: Vec<f32>,
-    ) -> Result<SurfaceReadback, RenderError> {
+    pub(crate) fn read_back(&self, rec: &mut Recorder, nears: Vec<f32>) -> Result<SurfaceReadback, RenderError> {
         Ok(SurfaceReadback {
             depth: rec.read_back_image(&self.filtered[0])?,
             thickness: rec.read_back_image(&self.thickness)?,
