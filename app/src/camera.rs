@@ -10,12 +10,12 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Liquid, PictureFilter, Scene, TableTop};
+use vitriol_sim::scene::{Flask, Liquid, PictureFilter, Scene, TableTop};
 use vitriol_sim::world::World;
 
 use crate::cli::ColourName;
 use crate::failure::{Blame, Failure};
-use crate::legend::Legend;
+use crate::legend::{Legend, draw_tints};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -133,8 +133,12 @@ impl Camera {
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
         let mut picture = picture.side_by_side().other()?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        if let Some(legend) = self.legend(world, colour) {
-            legend.draw(&mut picture, width);
+        match self.legend(world, colour) {
+            Some(legend) => legend.draw(&mut picture, width),
+            None if colour == ColourName::Liquid && has_acid(world.scene()) => {
+                draw_tints(&mut picture, width)
+            }
+            None => {}
         }
         Ok(picture)
     }
@@ -170,6 +174,7 @@ impl Camera {
             vessels: &vessels,
             particles: liquid.is_none().then_some(particles),
             liquid,
+            steam: None,
             colour_by,
             length_scale: scale.length_scale as f32,
         };
@@ -210,6 +215,14 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
+}
+
+/// Whether there is any acid, which is drawn in another tint than water.
+fn has_acid(scene: &Scene) -> bool {
+    scene
+        .liquids
+        .iter()
+        .any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the
@@ -294,11 +307,34 @@ fn table(scene: &Scene) -> Option<BoxDesc> {
     })
 }
 
+/// Heights of a vessel's graduation marks: where whole multiples of a round
+/// volume, as drawn, would stand. A funnel, which hangs upside down, has none.
+fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
+    let upright = flask.stage_from_flask.orientation * Vec3::Y;
+    let capacity = flask.profile.capacity() * length_scale.powi(3);
+    let steps = [1e-6, 2e-6, 5e-6, 10e-6, 25e-6, 50e-6, 100e-6, 250e-6];
+    let step = steps.into_iter().find(|step| capacity / step < 9.0);
+    let Some(step) = step.filter(|_| upright.y > 0.9) else {
+        return Vec::new();
+    };
+    // The uppermost tenth is left free.
+    (1..)
+        .map(|n| f64::from(n) * step)
+        .take_while(|volume| *volume < 0.9 * capacity)
+        .filter_map(|volume| {
+            flask
+                .profile
+                .level_for_volume(volume / length_scale.powi(3))
+        })
+        .collect()
+}
+
 /// The scene's vessels on their table in the room.
 pub(crate) fn laboratory(scene: &Scene) -> SceneDesc {
     let vessels = scene.flasks.iter().map(|flask| VesselDesc {
         inner: flask.profile.inner_outline().to_vec(),
         outer: flask.profile.outer_outline().to_vec(),
+        marks: marks(flask, scene.scale.length_scale),
     });
     let length_scale = scene.scale.length_scale;
     let top = scene.table.map_or(0.0, |table| table.top) * length_scale;

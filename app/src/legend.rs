@@ -1,8 +1,8 @@
-//! The scale of a film's colours, drawn into its pictures: a bar of the map with
-//! numbers and unit.
+//! What a film's colours stand for, drawn into its pictures: a bar of the map with
+//! numbers and unit, or the two liquids' tints.
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
-use vitriol_render::{ColourBy, ColourMap};
+use vitriol_render::{ColourBy, ColourMap, tints};
 
 /// Distance of the panel from the picture's left and upper edge, and of what is
 /// in it from its own, pixels.
@@ -62,11 +62,7 @@ impl Legend {
             return;
         }
         let mut canvas = Canvas { picture, width };
-        for y in 0..panel[1] {
-            for x in 0..panel[0] {
-                canvas.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
-            }
-        }
+        canvas.panel(panel);
         let left = MARGIN + PADDING;
         let mut top = MARGIN + PADDING;
         canvas.write(left, top, self.title);
@@ -103,6 +99,42 @@ impl Legend {
     }
 }
 
+/// The tints of water and acid, and that they are artificial: in the upper left corner of
+/// `picture`, as [`Legend::draw`].
+pub fn draw_tints(picture: &mut [u8], width: usize) {
+    let text = SIZE.val();
+    let lines = [
+        (None, "tints are artificial"),
+        (Some(tints::WATER), "water"),
+        (Some(tints::ACID), "sulfuric acid"),
+    ];
+    let line = text + 6;
+    let letters = lines.iter().map(|(_, name)| name.len() + 3).max();
+    let wide = letters.unwrap_or(0) * get_raster_width(FontWeight::Regular, SIZE);
+    let panel = [wide + 2 * PADDING, lines.len() * line + 2 * PADDING];
+    let height = picture.len() / 4 / width.max(1);
+    if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
+        return;
+    }
+    let mut canvas = Canvas { picture, width };
+    canvas.panel(panel);
+    let left = MARGIN + PADDING;
+    for (index, (tint, name)) in lines.into_iter().enumerate() {
+        let top = MARGIN + PADDING + index * line;
+        let mut start = left;
+        if let Some(tint) = tint {
+            let colour = tints::seen_through(tint).map(|share| (255.0 * share).round() as u32);
+            for y in 0..text {
+                for x in 0..2 * text {
+                    canvas.blend(left + x, top + y, colour, 255);
+                }
+            }
+            start += 2 * text + 8;
+        }
+        canvas.write(start, top, name);
+    }
+}
+
 /// Three to seven numbers over a range of temperatures.
 fn tick_step(range: f32) -> f32 {
     let steps = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
@@ -116,6 +148,15 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
+    /// The white that a legend stands on, in the upper left corner.
+    fn panel(&mut self, [width, height]: [usize; 2]) {
+        for y in 0..height {
+            for x in 0..width {
+                self.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
+            }
+        }
+    }
+
     /// Lays `colour` over a pixel; `alpha` is 0 to 255.
     fn blend(&mut self, x: usize, y: usize, colour: [u32; 3], alpha: u32) {
         let first = 4 * (y * self.width + x);

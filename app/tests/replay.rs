@@ -209,7 +209,7 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let hot = |setup: &vitriol::command::replay::Setup<'_>| {
-        assert_eq!(setup.colours, [ColourName::Speed, ColourName::Temperature]);
+        assert_eq!(setup.colours, [ColourName::Liquid, ColourName::Temperature]);
         let toy = Toy {
             hot: true,
             ..Toy::new(u64::MAX)
@@ -225,7 +225,7 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     let report = report_of(&out);
     let films = [report.film.clone(), report.film_temperature.clone()].map(Option::unwrap);
     let coloured = films.each_ref().map(|film| film.colour.as_str());
-    assert_eq!(coloured, ["speed", "temperature"]);
+    assert_eq!(coloured, ["liquid", "temperature"]);
     for film in films {
         assert_eq!(film.frames, 120);
         assert!(fs::metadata(out.join(&film.path)).unwrap().len() > 1000);

@@ -63,6 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             radius: 0.6 * SPACING,
         }),
         liquid: None,
+        steam: None,
         colour_by: ColourBy::Speed(1.2),
         length_scale: 1.0,
     };
@@ -121,6 +122,7 @@ fn beaker() -> VesselDesc {
             [0.035, 0.094],
             [0.0365, 0.096],
         ],
+        marks: vec![0.017, 0.031, 0.046, 0.061],
     }
 }
 
@@ -138,6 +140,7 @@ fn erlenmeyer() -> VesselDesc {
         outer: std::iter::once([0.0, 0.0])
             .chain(inner.map(|[r, y]| [r + 0.002, if y < 0.003 { 0.0 } else { y }]))
             .collect(),
+        marks: Vec::new(),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::colour_map::ColourMap;
 use crate::fluid::LiquidSource;
 use crate::scene::Scene;
 use crate::tiles::tiles_of;
+use crate::tints;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.
@@ -30,6 +31,16 @@ pub struct ParticleSource<'a> {
     /// Radius of a sphere, in the scene's unit. 0.6 of the particle spacing
     /// closes the gaps between them.
     pub radius: f32,
+}
+
+/// Puffs of steam.
+#[derive(Clone, Copy)]
+pub struct SteamSource<'a> {
+    /// `array<Puff>` ([`layout::Puff`]): centre and radius in the scene's unit,
+    /// and opacity. A radius of 0 draws nothing.
+    pub puffs: &'a Buffer,
+    /// How many of them are drawn.
+    pub count: u32,
 }
 
 /// What a particle's colour stands for.
@@ -86,6 +97,8 @@ pub struct FrameDesc<'a> {
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,
+    /// Steam over all that; `None` for none.
+    pub steam: Option<SteamSource<'a>>,
     /// What the particles' colours stand for.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
@@ -106,6 +119,16 @@ impl FrameDesc<'_> {
                     what,
                     given,
                     wanted,
+                });
+            }
+        }
+        if let Some(steam) = self.steam {
+            let held = steam.puffs.bytes() / size_of::<layout::Puff>() as u64;
+            if u64::from(steam.count) > held {
+                return Err(RenderError::TooManyParticles {
+                    count: steam.count,
+                    buffer: steam.puffs.label().to_owned(),
+                    held,
                 });
             }
         }
@@ -140,6 +163,8 @@ impl FrameDesc<'_> {
             extent: extent.map(|side| side as f32),
             tile_columns,
             tile_rows,
+            water: tints::absorption(tints::WATER),
+            acid: tints::absorption(tints::ACID),
             ..layout::Frame::default()
         };
         for (slot, view) in frame.views.iter_mut().zip(self.views) {

@@ -36,6 +36,7 @@ pub mod reference;
 mod renderer;
 mod scene;
 mod tiles;
+pub mod tints;
 
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;
@@ -43,6 +44,6 @@ pub use error::RenderError;
 pub use fluid::{
     LiquidDesc, LiquidSource, Neighbours, Surface, SurfaceFilter, SurfaceReadback, VesselTables,
 };
-pub use frame::{ColourBy, FrameDesc, ParticleSource};
+pub use frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
 pub use renderer::{PictureReadback, RenderDesc, Renderer};
 pub use scene::{BoxDesc, SceneDesc, VesselDesc};

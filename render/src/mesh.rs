@@ -7,6 +7,9 @@ use vitriol_shaders::layout::MeshVertex;
 /// by 0.04 mm, well under a pixel of the film.
 const FACETS: u32 = 72;
 
+/// Facets of a printed line.
+const MARK_FACETS: u32 = 6;
+
 /// Outline segments that meet at less than this share a smooth normal; a
 /// beaker's rim and foot stay sharp.
 const CREASE_COS: f32 = 0.77;
@@ -23,6 +26,8 @@ pub enum Material {
     Wall = 2,
     /// Laboratory glass.
     Glass = 3,
+    /// White enamel printed on glass.
+    Enamel = 4,
 }
 
 /// Triangles wound counter-clockwise seen from outside the solid.
@@ -43,6 +48,33 @@ impl Mesh {
             ..MeshVertex::default()
         });
         self.vertices.len() as u32 - 1
+    }
+
+    /// Adds a printed line: an arc of `radius` about +Y at `height`, `length`
+    /// long about +Z, in a strip of the `width` of two lines.
+    pub fn add_mark(&mut self, radius: f32, height: f32, length: f32, width: f32) {
+        let first = self.vertices.len() as u32;
+        let half_angle = 0.5 * length / radius;
+        for step in 0..=MARK_FACETS {
+            let angle = half_angle * (2.0 * step as f32 / MARK_FACETS as f32 - 1.0);
+            let normal = Vec3::new(angle.sin(), 0.0, angle.cos());
+            for across in [-1.0, 1.0] {
+                let position = normal * radius + Vec3::Y * (height + 0.5 * across * width);
+                let vertex = self.vertex(position, normal, Material::Enamel);
+                self.vertices[vertex as usize].across = across;
+            }
+        }
+        for step in 0..MARK_FACETS {
+            let corner = first + 2 * step;
+            self.indices.extend([
+                corner,
+                corner + 2,
+                corner + 1,
+                corner + 2,
+                corner + 3,
+                corner + 1,
+            ]);
+        }
     }
 
     /// Adds the box between the corners `min` and `max`.

@@ -19,6 +19,9 @@ pub(crate) struct Pipelines {
     pub(crate) glass_far: RasterPipeline,
     /// Those that look at it.
     pub(crate) glass_near: RasterPipeline,
+    pub(crate) steam: RasterPipeline,
+    /// The part of the picture that no eye sees.
+    pub(crate) mask: RasterPipeline,
     /// The finished picture with its edges smoothed.
     pub(crate) edges: RasterPipeline,
     /// Its tiles, brought back as they are.
@@ -60,6 +63,8 @@ impl Pipelines {
             surfaces: make(render::SURFACES, Cull::Back, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
+            steam: steam(gpu, library, format, view_mask)?,
+            mask: mask(gpu, library, format, view_mask)?,
             edges: edges(gpu, library, format, view_mask, 0.0)?,
             copy: edges(gpu, library, format, view_mask, 1.0)?,
         })
@@ -67,19 +72,67 @@ impl Pipelines {
 
     /// Whether any of these shaders is one of this crate's.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed
-            .iter()
-            .any(|id| USED.contains(id))
+        changed.iter().any(|id| USED.contains(id))
     }
 }
 
-const USED: [ShaderId; 5] = [
+const USED: [ShaderId; 7] = [
+    render::STEAM,
+    render::MASK,
     render::TILES,
     render::PARTICLES,
     render::SURFACES,
     render::GLASS,
     render::EDGES,
 ];
+
+/// Over the picture, with its depth to read and not to test.
+fn steam(
+    gpu: &Gpu,
+    library: &Library,
+    format: vk::Format,
+    view_mask: u32,
+) -> Result<RasterPipeline, RenderError> {
+    let desc = RasterDesc {
+        vertex: &library.compile(&render::STEAM, "vertex", &[])?,
+        fragment: Some(&library.compile(&render::STEAM, "fragment", &[])?),
+        colours: &[ColourFormat {
+            format,
+            blend: Blend::Premultiplied,
+        }],
+        depth: None,
+        topology: Topology::Triangles,
+        cull: Cull::None,
+        view_mask,
+    };
+    Ok(RasterPipeline::new(gpu, &desc)?)
+}
+
+/// Nearest depth, before all else.
+fn mask(
+    gpu: &Gpu,
+    library: &Library,
+    format: vk::Format,
+    view_mask: u32,
+) -> Result<RasterPipeline, RenderError> {
+    let desc = RasterDesc {
+        vertex: &library.compile(&render::MASK, "vertex", &[])?,
+        fragment: Some(&library.compile(&render::MASK, "fragment", &[])?),
+        colours: &[ColourFormat {
+            format,
+            blend: Blend::Replace,
+        }],
+        depth: Some(DepthFormat {
+            format: DEPTH_FORMAT,
+            compare: vk::CompareOp::GREATER,
+            write: true,
+        }),
+        topology: Topology::Triangles,
+        cull: Cull::None,
+        view_mask,
+    };
+    Ok(RasterPipeline::new(gpu, &desc)?)
+}
 
 fn edges(
     gpu: &Gpu,

@@ -2,14 +2,14 @@
 
 use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster,
-    RasterPipeline, RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
+    RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
-use crate::frame::{ColourBy, FrameDesc, ParticleSource};
+use crate::frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
 use crate::scene::{Scene, SceneDesc};
 use crate::tiles::Tiles;
@@ -55,6 +55,8 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
+    /// Corners of the triangles that no eye sees.
+    mask: Option<Buffer>,
     tiles: Tiles,
     /// Bound where no ellipsoids are.
     nothing: Buffer,
@@ -104,6 +106,7 @@ impl Renderer {
                 }
                 None => None,
             },
+            mask: None,
             tiles: Tiles::new(gpu, library, desc.extent, desc.views)?,
             nothing: Buffer::storage(gpu, "no ellipsoids", 0)?,
             smoothed: image(
@@ -126,7 +129,7 @@ impl Renderer {
             depth: image(
                 "picture depth",
                 DEPTH_FORMAT,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             )?,
         })
     }
@@ -154,6 +157,44 @@ impl Renderer {
     /// [`RenderError::Gpu`] out of memory or on device loss.
     pub fn set_scene(&mut self, desc: &SceneDesc) -> Result<(), RenderError> {
         self.scene = Scene::new(&self.gpu, desc)?;
+        Ok(())
+    }
+
+    /// The ellipsoids of the last frame with liquid, as `array<Ellipsoid>`
+    /// ([`layout::Ellipsoid`]) in the particles' order; `None` for a renderer
+    /// without liquid.
+    pub fn ellipsoids(&self) -> Option<&Buffer> {
+        self.fluid.as_ref().map(Fluid::ellipsoids)
+    }
+
+    /// Takes a mesh of what each view's lens hides, as a runtime gives it: the
+    /// corners of triangles, three each, at places of the picture from (0, 0)
+    /// at its upper left to (1, 1). They stay black, and their pixels are not
+    /// lit. Views without a mesh have an empty slice; waits for the upload.
+    ///
+    /// # Errors
+    /// [`RenderError::Count`] for another number of views,
+    /// [`RenderError::Gpu`].
+    pub fn set_visibility_mask(&mut self, views: &[&[[f32; 2]]]) -> Result<(), RenderError> {
+        if views.len() != self.desc.views as usize {
+            return Err(RenderError::Count {
+                what: "masks",
+                given: views.len(),
+                wanted: self.desc.views as usize,
+            });
+        }
+        let corners = |(view, mesh): (usize, &&[[f32; 2]])| {
+            let corner = move |&[x, y]: &[f32; 2]| [x, y, view as f32, 0.0];
+            mesh.iter().map(corner).collect::<Vec<_>>()
+        };
+        let corners: Vec<[f32; 4]> = views.iter().enumerate().flat_map(corners).collect();
+        self.mask = None;
+        if !corners.is_empty() {
+            let bytes = size_of_val(&corners[..]) as u64;
+            let buffer = Buffer::storage(&self.gpu, "hidden area", bytes)?;
+            self.gpu.write(&buffer, &corners)?;
+            self.mask = Some(buffer);
+        }
         Ok(())
     }
 
@@ -187,7 +228,8 @@ impl Renderer {
         let uniforms = frame.uniforms(&self.scene, self.desc.extent);
         rec.upload(&self.frame, &[uniforms])?;
         if let Some((fluid, source)) = self.liquid(frame)? {
-            fluid.record_surface(rec, frame, &source, &self.frame, &self.tiles)?;
+            let mask = self.mask.as_ref();
+            fluid.record_surface(rec, frame, &source, &self.frame, &self.tiles, mask)?;
         } else {
             self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
         }
@@ -215,6 +257,12 @@ impl Renderer {
             view_mask: view_mask(self.desc.views),
         };
         rec.raster(&target, |raster| {
+            if let Some(mask) = &self.mask {
+                raster
+                    .draw(&self.pipelines.mask)
+                    .read("hidden", mask)
+                    .vertices((mask.bytes() / 16) as u32)?;
+            }
             if let Some(particles) = &frame.particles {
                 self.draw_particles(raster, particles, frame.colour_by)?;
             }
@@ -230,14 +278,28 @@ impl Renderer {
             }
             Ok(())
         })?;
-        self.smooth_edges(rec)
+        self.smooth_edges(rec)?;
+        // Steam has no edges, and comes over those of what is behind it.
+        frame
+            .steam
+            .map_or(Ok(()), |steam| self.draw_steam(rec, &steam))
     }
 
     /// Smooths edges into the second image, and brings those tiles back.
     fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
         let passes = [
-            (&self.pipelines.edges, &self.colour, &self.smoothed, Load::Discard),
-            (&self.pipelines.copy, &self.smoothed, &self.colour, Load::Keep),
+            (
+                &self.pipelines.edges,
+                &self.colour,
+                &self.smoothed,
+                Load::Discard,
+            ),
+            (
+                &self.pipelines.copy,
+                &self.smoothed,
+                &self.colour,
+                Load::Keep,
+            ),
         ];
         for (pipeline, from, to, load) in passes {
             let target = RasterTarget {
@@ -259,6 +321,27 @@ impl Renderer {
                     .vertices(self.tiles.vertices())
             })?;
         }
+        Ok(())
+    }
+
+    fn draw_steam(&self, rec: &mut Recorder, steam: &SteamSource<'_>) -> Result<(), RenderError> {
+        let target = RasterTarget {
+            label: "steam",
+            colours: &[ColourTarget {
+                image: &self.colour,
+                load: Load::Keep,
+            }],
+            depth: None,
+            view_mask: view_mask(self.desc.views),
+        };
+        rec.raster(&target, |raster| {
+            raster
+                .draw(&self.pipelines.steam)
+                .uniform("frame", &self.frame)
+                .read("puffs", steam.puffs)
+                .sampled("depth", &self.depth)
+                .vertices(6 * steam.count)
+        })?;
         Ok(())
     }
 

@@ -18,10 +18,23 @@ pub struct VesselDesc {
     pub inner: Vec<[f64; 2]>,
     /// The outer surface: points (r, y), metres, from the axis up to the rim.
     pub outer: Vec<[f64; 2]>,
+    /// Heights of its graduation marks, from the lowest up; every second one
+    /// is longer.
+    pub marks: Vec<f64>,
 }
 
+/// Length of a long and of a short mark over the outer radius.
+const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
+
+/// Width of a mark's strip over the outer radius: 1.4 mm, a line of 0.7 mm, on
+/// a beaker of 250 mL.
+const MARK_WIDTH: f32 = 0.04;
+
+/// How far enamel stands off the glass, over the outer radius.
+const MARK_LIFT: f32 = 1.003;
+
 impl VesselDesc {
-    /// The wall as a closed surface of revolution.
+    /// The wall as a closed surface of revolution, and its marks.
     fn mesh(&self) -> Mesh {
         let outline: Vec<Vec2> = self
             .outer
@@ -31,6 +44,16 @@ impl VesselDesc {
             .collect();
         let mut mesh = Mesh::default();
         mesh.add_revolution(&outline, Material::Glass);
+        for (&height, long) in self.marks.iter().zip([0, 1].into_iter().cycle()) {
+            let radius = radius_at(&self.outer, height) as f32;
+            let length = MARK_LENGTHS[long] * radius;
+            mesh.add_mark(
+                MARK_LIFT * radius,
+                height as f32,
+                length,
+                MARK_WIDTH * radius,
+            );
+        }
         mesh
     }
 
@@ -41,7 +64,7 @@ impl VesselDesc {
         let radius = |index: usize| {
             // The floor's own disc has the radius that the wall begins with.
             let share = (index as f64).max(0.05) / (INNER_RADII - 1) as f64;
-            self.inner_radius(low + share * (high - low)) as f32
+            radius_at(&self.inner, low + share * (high - low)) as f32
         };
         let bounds = self.bounds();
         layout::Vessel {
@@ -51,16 +74,6 @@ impl VesselDesc {
             outer: bounds.radius,
             wall: low as f32 - bounds.bottom,
             ..layout::Vessel::default()
-        }
-    }
-
-    /// Inner radius at a height, by the outline.
-    fn inner_radius(&self, y: f64) -> f64 {
-        let above = self.inner.partition_point(|p| p[1] < y);
-        match (above.checked_sub(1).and_then(|below| self.inner.get(below)), self.inner.get(above)) {
-            (Some(a), Some(b)) => a[0] + (y - a[1]) / (b[1] - a[1]).max(1e-12) * (b[0] - a[0]),
-            (Some(end), None) | (None, Some(end)) => end[0],
-            (None, None) => 0.0,
         }
     }
 
@@ -77,6 +90,17 @@ impl VesselDesc {
             bounds.top = bounds.top.max(y as f32);
         }
         bounds
+    }
+}
+
+/// Radius of an outline at a height.
+fn radius_at(outline: &[[f64; 2]], y: f64) -> f64 {
+    let above = outline.partition_point(|p| p[1] < y);
+    let below = above.checked_sub(1).and_then(|below| outline.get(below));
+    match (below, outline.get(above)) {
+        (Some(a), Some(b)) => a[0] + (y - a[1]) / (b[1] - a[1]).max(1e-12) * (b[0] - a[0]),
+        (Some(end), None) | (None, Some(end)) => end[0],
+        (None, None) => 0.0,
     }
 }
 

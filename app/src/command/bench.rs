@@ -308,7 +308,10 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     for pass in &row.passes {
         let Timing { median_ms, p95_ms } = pass.time;
         let (name, number) = (&pass.name, pass.dispatches);
-        let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}");
+        let _ = writeln!(
+            text,
+            "{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}"
+        );
     }
     for (name, Timing { median_ms, p95_ms }) in named {
         let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4}");

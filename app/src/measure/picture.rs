@@ -18,11 +18,7 @@ use crate::command::bench::{PassRow, RenderRow, Timing};
 use crate::failure::{Blame, Failure};
 
 /// Views, and width and height of each.
-const SIZES: [(u32, [u32; 2]); 3] = [
-    (2, [1440, 1584]),
-    (2, [2064, 2208]),
-    (1, [1920, 1080]),
-];
+const SIZES: [(u32, [u32; 2]); 3] = [(2, [1440, 1584]), (2, [2064, 2208]), (1, [1920, 1080])];
 
 /// Simulated time before the first measured frame, seconds: funnels run.
 const BEGIN: f64 = 0.5;
@@ -35,7 +31,12 @@ const HEAD: [Vec3; 2] = [Vec3::new(0.0, 1.12, 0.02), Vec3::new(0.0, 0.84, -0.40)
 ///
 /// # Errors
 /// [`Failure::Input`] for a scene that is not there; what the device says.
-pub fn rows(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Vec<RenderRow>, Failure> {
+pub fn rows(
+    timed: &Gpu,
+    plain: &Gpu,
+    name: &str,
+    args: &BenchArgs,
+) -> Result<Vec<RenderRow>, Failure> {
     let scene = Scene::load(name).input()?.with_preset(args.preset.into());
     SIZES
         .iter()
@@ -90,7 +91,11 @@ fn ready(
     // A headset's field; on a screen a wide lens.
     let vertical: f32 = if eyes == 2 { 96.0 } else { 60.0 };
     let [eye, target] = HEAD;
-    camera.set_view(View::look_at(eye, target, Fov::symmetric(vertical.to_radians(), aspect)));
+    camera.set_view(View::look_at(
+        eye,
+        target,
+        Fov::symmetric(vertical.to_radians(), aspect),
+    ));
     for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
         step(gpu, &world)?;
     }
@@ -100,7 +105,10 @@ fn ready(
 
 fn step(gpu: &Gpu, world: &World) -> Result<(), Failure> {
     let mut rec = gpu.recorder(QueueKind::Main).other()?;
-    world.solver().record(&mut rec, world.poses(), world.poses()).other()?;
+    world
+        .solver()
+        .record(&mut rec, world.poses(), world.poses())
+        .other()?;
     gpu.submit(rec).other()?;
     Ok(())
 }

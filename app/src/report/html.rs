@@ -108,7 +108,7 @@ impl Report {
                     h2 { "Film" }
                     @for film in self.film.iter().chain(&self.film_temperature) {
                         figure.film {
-                            figcaption { "Coloured by " (film.colour) }
+                            figcaption { (caption(&film.colour)) }
                             video src=(film.path) controls loop muted playsinline
                                 width=(film.width) height=(film.height) {}
                         }
@@ -285,6 +285,15 @@ fn figure(key: &str, name: &str, value: &str, note: &str, bad: bool) -> Markup {
 
 fn row(name: &str, value: &str) -> Markup {
     html! { tr { th scope="row" { (name) } td { (value) } } }
+}
+
+/// What a film shows.
+fn caption(colour: &str) -> String {
+    if colour == "liquid" {
+        "Liquid in glass; its tints are artificial: water bluish, acid yellow".to_owned()
+    } else {
+        format!("Coloured by {colour}")
+    }
 }
 
 fn colour_class(index: usize) -> String {

@@ -45,7 +45,7 @@ pub struct Report {
     /// the run's samples, times the time between them. Empty where nothing boils.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub boiling_particle_seconds: BTreeMap<String, f64>,
-    /// The film, where one was made: coloured by speed, unless asked otherwise.
+    /// The film, where one was made: of the liquid, unless asked otherwise.
     pub film: Option<FilmStatement>,
     /// The film coloured by temperature, where heat is modelled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -107,7 +107,8 @@ pub struct FilmStatement {
     pub fps: u32,
     /// Frames in the film.
     pub frames: u64,
-    /// What its colours stand for: `speed`, `temperature` or `acid`.
+    /// What it shows: `liquid`, or particles coloured by `speed`, `temperature` or
+    /// `acid`.
     pub colour: String,
 }
 

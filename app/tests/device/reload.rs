@@ -25,10 +25,13 @@ impl Folder {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
         let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/wgsl");
-        for sub in ["common", "sim", "render"] {
+        for sub in ["common", "sim", "render", "render/fluid"] {
             fs::create_dir(root.path().join(sub)).unwrap();
             for file in fs::read_dir(original.join(sub)).unwrap() {
                 let file = file.unwrap();
+                if file.file_type().unwrap().is_dir() {
+                    continue;
+                }
                 fs::copy(file.path(), root.path().join(sub).join(file.file_name())).unwrap();
             }
         }

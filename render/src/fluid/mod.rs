@@ -7,8 +7,8 @@ mod source;
 
 use glam::{Affine3A, Quat};
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, GpuError, Image, ImageDesc, Load,
-    Raster, RasterPipeline, RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, GpuError, Image, ImageDesc, Load, Raster,
+    RasterPipeline, RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -72,7 +72,11 @@ impl Fluid {
             format,
             passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
             ellipsoids: Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
-            poses: Buffer::storage(gpu, "vessel poses", bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS))?,
+            poses: Buffer::storage(
+                gpu,
+                "vessel poses",
+                bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS),
+            )?,
             nothing: zeros(gpu)?,
             depth: image(
                 "liquid depth",
@@ -106,7 +110,13 @@ impl Fluid {
 
     /// Whether any of these shaders is the liquid's.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
-        changed.iter().any(|id| id.path().starts_with("render/fluid/"))
+        changed
+            .iter()
+            .any(|id| id.path().starts_with("render/fluid/"))
+    }
+
+    pub(crate) fn ellipsoids(&self) -> &Buffer {
+        &self.ellipsoids
     }
 
     /// Refuses a source that does not fit.
@@ -122,10 +132,11 @@ impl Fluid {
         source: &LiquidSource<'_>,
         uniforms: &Buffer,
         tiles: &Tiles,
+        mask: Option<&Buffer>,
     ) -> Result<(), RenderError> {
         self.record_shapes(rec, frame, source)?;
         tiles.record(rec, uniforms, &self.ellipsoids, source.count)?;
-        self.draw_depth(rec, source.count, uniforms)?;
+        self.draw_depth(rec, source.count, uniforms, mask)?;
         self.draw_thickness(rec, source.count, uniforms)?;
         self.filter(rec, uniforms, tiles)
     }
@@ -137,7 +148,8 @@ impl Fluid {
         frame: &FrameDesc<'_>,
         source: &LiquidSource<'_>,
     ) -> Result<(), RenderError> {
-        let poses: Vec<layout::FlaskPose> = frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
+        let poses: Vec<layout::FlaskPose> =
+            frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
         rec.upload(&self.poses, &poses)?;
         let neighbours = source.neighbours.filter(|_| self.desc.anisotropic);
         let list = |of: fn(Neighbours<'_>) -> &Buffer| neighbours.map_or(&self.nothing, of);
@@ -170,7 +182,13 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_depth(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn draw_depth(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+        mask: Option<&Buffer>,
+    ) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid depth",
             colours: &[],
@@ -181,6 +199,12 @@ impl Fluid {
             view_mask: view_mask(self.views),
         };
         rec.raster(&target, |raster| {
+            if let Some(mask) = mask {
+                raster
+                    .draw(&self.passes.mask)
+                    .read("hidden", mask)
+                    .vertices((mask.bytes() / 16) as u32)?;
+            }
             raster
                 .draw(&self.passes.splat)
                 .uniform("frame", uniforms)
@@ -190,7 +214,12 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_thickness(&self, rec: &mut Recorder, count: u32, uniforms: &Buffer) -> Result<(), RenderError> {
+    fn draw_thickness(
+        &self,
+        rec: &mut Recorder,
+        count: u32,
+        uniforms: &Buffer,
+    ) -> Result<(), RenderError> {
         let target = RasterTarget {
             label: "liquid thickness",
             colours: &[ColourTarget {
@@ -210,12 +239,24 @@ impl Fluid {
         Ok(())
     }
 
-    fn filter(&self, rec: &mut Recorder, uniforms: &Buffer, tiles: &Tiles) -> Result<(), RenderError> {
+    fn filter(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        tiles: &Tiles,
+    ) -> Result<(), RenderError> {
         let last = self.passes.filter.len() - 1;
         rec.group("liquid filter", |rec| {
             for (index, pass) in self.passes.filter.iter().enumerate() {
                 let to = (last - index) % 2;
-                self.filter_once(rec, pass, &self.filtered[1 - to], &self.filtered[to], uniforms, tiles)?;
+                self.filter_once(
+                    rec,
+                    pass,
+                    &self.filtered[1 - to],
+                    &self.filtered[to],
+                    uniforms,
+                    tiles,
+                )?;
             }
             Ok(())
         })?;
@@ -252,7 +293,12 @@ impl Fluid {
     }
 
     /// Draws the lit surface; within a raster scope of picture and depth.
-    pub(crate) fn shade(&self, raster: &mut Raster<'_>, uniforms: &Buffer, tiles: &Tiles) -> Result<(), GpuError> {
+    pub(crate) fn shade(
+        &self,
+        raster: &mut Raster<'_>,
+        uniforms: &Buffer,
+        tiles: &Tiles,
+    ) -> Result<(), GpuError> {
         raster
             .draw(&self.passes.shade)
             .uniform("frame", uniforms)
@@ -264,7 +310,11 @@ impl Fluid {
     }
 
     /// Records the copy of the surface to the host.
-    pub(crate) fn read_back(&self, rec: &mut Recorder, nears: Vec<f32>) -> Result<SurfaceReadback, RenderError> {
+    pub(crate) fn read_back(
+        &self,
+        rec: &mut Recorder,
+        nears: Vec<f32>,
+    ) -> Result<SurfaceReadback, RenderError> {
         Ok(SurfaceReadback {
             depth: rec.read_back_image(&self.filtered[0])?,
             thickness: rec.read_back_image(&self.thickness)?,

@@ -4,7 +4,7 @@ use vitriol_gpu::{
     Blend, ColourFormat, ComputePipeline, Cull, DepthFormat, Gpu, RasterDesc, RasterPipeline,
     Topology, vk,
 };
-use vitriol_shaders::{Library, ShaderId, fluid};
+use vitriol_shaders::{Library, ShaderId, fluid, render};
 
 use super::source::SurfaceFilter;
 use crate::RenderError;
@@ -27,6 +27,8 @@ pub(super) struct Passes {
     pub(super) anisotropy: ComputePipeline,
     /// Invocations of it that share a particle.
     pub(super) lanes: u32,
+    /// The part of the picture that no eye sees.
+    pub(super) mask: RasterPipeline,
     pub(super) splat: RasterPipeline,
     pub(super) thickness: RasterPipeline,
     pub(super) filter: Vec<RasterPipeline>,
@@ -79,6 +81,7 @@ impl Passes {
         Ok(Self {
             anisotropy: compute(fluid::ANISOTROPY, &[("LANES", lanes.into())])?,
             lanes,
+            mask: mask(gpu, library, view_mask)?,
             splat: raster(fluid::SPLAT, &[], &[], depth)?,
             thickness: raster(
                 fluid::THICKNESS,
@@ -90,6 +93,23 @@ impl Passes {
             shade: raster(fluid::SHADE, &[], &colour(picture, Blend::Replace), depth)?,
         })
     }
+}
+
+fn mask(gpu: &Gpu, library: &Library, view_mask: u32) -> Result<RasterPipeline, RenderError> {
+    let desc = RasterDesc {
+        vertex: &library.compile(&render::MASK, "vertex", &[])?,
+        fragment: None,
+        colours: &[],
+        depth: Some(DepthFormat {
+            format: DEPTH_FORMAT,
+            compare: vk::CompareOp::GREATER,
+            write: true,
+        }),
+        topology: Topology::Triangles,
+        cull: Cull::None,
+        view_mask,
+    };
+    Ok(RasterPipeline::new(gpu, &desc)?)
 }
 
 /// Shader and constants of each pass of a filter; the first one reads what

@@ -86,7 +86,11 @@ impl LiquidSource<'_> {
     /// Whether its buffers hold what it says, and `capacity` is enough for it.
     pub(crate) fn check(&self, capacity: u32) -> Result<(), RenderError> {
         let counts = self.neighbours.map(|neighbours| (neighbours.counts, 4));
-        let buffers = [Some((self.positions, 16)), self.heat.map(|heat| (heat, 16)), counts];
+        let buffers = [
+            Some((self.positions, 16)),
+            self.heat.map(|heat| (heat, 16)),
+            counts,
+        ];
         for (buffer, bytes) in buffers.into_iter().flatten() {
             let held = buffer.bytes() / bytes;
             if u64::from(self.count) > held {

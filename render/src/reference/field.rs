@@ -103,11 +103,13 @@ impl<'a> Field<'a> {
         let mut looked_up = None;
         for kernel in self.around(at) {
             let offset = at - kernel.centre;
-            if offset.length_squared() > kernel.reach2 {
+            // First what is cheap: most candidates are turned away by these.
+            let near = offset.length_squared() < kernel.reach2;
+            if !near || self.is_cut(kernel, at, &mut looked_up) {
                 continue;
             }
             let q2 = (kernel.g * offset).length_squared();
-            if q2 < SUPPORT * SUPPORT && !self.is_cut(kernel, at, &mut looked_up) {
+            if q2 < SUPPORT * SUPPORT {
                 sum += kernel.height * shape(q2.sqrt());
             }
         }

@@ -125,6 +125,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         vessels: &[],
         particles: None,
         liquid: None,
+        steam: None,
         colour_by: ColourBy::Speed(1.0),
         length_scale: 1.0,
     }

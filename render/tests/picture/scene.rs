@@ -14,6 +14,7 @@ fn beaker() -> VesselDesc {
     VesselDesc {
         inner: vec![[0.0, 0.002], [0.033, 0.002], [0.033, 0.096]],
         outer: vec![[0.0, 0.0], [0.035, 0.0], [0.035, 0.096]],
+        marks: Vec::new(),
     }
 }
 
@@ -191,6 +192,7 @@ fn another_length_scale_gives_the_same_picture() {
         let vessel = VesselDesc {
             inner: grown(beaker.inner),
             outer: grown(beaker.outer),
+            marks: Vec::new(),
         };
         rig.set_scene(&SceneDesc::laboratory(vec![vessel], 0.75, scale));
         let at = Vec3::new(0.12, 0.75, -0.40) / scale;
@@ -202,6 +204,7 @@ fn another_length_scale_gives_the_same_picture() {
             views: &views,
             vessels: &vessels,
             liquid: None,
+            steam: None,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,

@@ -80,6 +80,10 @@ struct Frame {
     extent: vec2<f32>,
     /// Rows of tiles of a view.
     tile_rows: u32,
+    /// What water absorbs of red, green and blue light, 1/m.
+    water: vec3<f32>,
+    /// The same of pure acid.
+    acid: vec3<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

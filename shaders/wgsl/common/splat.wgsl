@@ -24,8 +24,9 @@ const CORNERS = array<vec2<f32>, 3>(
     vec2<f32>(1.7320508, -1.0),
 );
 
-/// Outside the frustum: a triangle of three of these is dropped.
-const NOWHERE = vec4<f32>(2.0, 2.0, 2.0, 1.0);
+/// A triangle of three of these has no area. (Outside the frustum it would have to be clipped, and
+/// Mesa 22.3's llvmpipe draws some of what it clips for one eye into the other's picture.)
+const NOWHERE = vec4<f32>(0.0, 0.0, 0.0, 1.0);
 
 /// A corner of the covering triangle.
 struct Corner {

@@ -24,7 +24,7 @@ var<immediate> edges: EdgeDraw;
 /// Contrast below which there is no edge, in light that is encoded as the eye takes it.
 const FAINTEST = 0.03;
 /// Longest way along an edge, pixels.
-const SPAN = 6.0;
+const SPAN = 8.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> Varyings {

@@ -16,7 +16,13 @@ struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) from_eye: vec3<f32>,
     @location(1) normal: vec3<f32>,
+    @location(2) across: f32,
+    @location(3) @interpolate(flat) material: u32,
 }
+
+const MATERIAL_ENAMEL = 4u;
+/// Reflectance of white enamel.
+const ENAMEL = 0.8;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> Varyings {
@@ -29,6 +35,8 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> V
         clip,
         position.xyz - frame.views[eye].eye,
         (vessel.stage_from_vessel * vec4<f32>(corner.normal, 0.0)).xyz,
+        corner.across,
+        corner.material,
     );
 }
 
@@ -57,6 +65,14 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // The rays that miss the eye are missing mostly at the edges, which look dark.
     let opacity = reflectance + (1.0 - reflectance) * absorbed;
     let light = reflectance * mirrored + (1.0 - reflectance) * absorbed * EDGE;
+    if in.material == MATERIAL_ENAMEL {
+        // Half of the strip is the line; a pixel wider than that has its share of it.
+        let width = max(fwidth(in.across), 1e-6);
+        let covered = saturate((0.5 - abs(in.across)) / width + 0.5) * min(1.0, 1.0 / width);
+        let key = key_light(in.from_eye + frame.views[0].eye);
+        let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
+        return vec4<f32>(display(lit) * covered, covered);
+    }
     // Tone mapping bends, so it is for the colour as if opaque; the opacity goes on after.
     return vec4<f32>(display(light / opacity) * opacity, opacity);
 }

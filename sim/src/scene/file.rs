@@ -2,7 +2,9 @@
 
 use super::chemistry::{ABSOLUTE_ZERO, Feature, PaperChemistry, PhysicalChemistry};
 use super::error::Problem;
-use super::settings::{Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, require};
+use super::settings::{
+    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, require,
+};
 use super::{Flask, Liquid};
 use crate::fill;
 use crate::flask::{Profile, glass};

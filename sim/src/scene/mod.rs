@@ -14,7 +14,8 @@ mod tests;
 pub use chemistry::{Feature, PaperChemistry, PhysicalChemistry};
 pub use error::SceneError;
 pub use settings::{
-    Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale, SolverSettings, TableTop,
+    Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale,
+    SolverSettings, TableTop,
 };
 
 use crate::fill::{self, FillError};

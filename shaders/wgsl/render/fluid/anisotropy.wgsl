@@ -63,6 +63,10 @@ const SMOOTHING = 0.9;
 const FLATTEST = 4.0;
 /// No half axis is longer, in spacings: a sheet's rim would reach into the air.
 const LONGEST = 2.0;
+/// Offset of the mean of the neighbourhood of a particle half a spacing below a plane surface, for
+/// h = 2 d, in support radii (by the moments below). One that sticks out has a greater one, and
+/// is not to stick out by more for that.
+const PLANE_OFFSET = 0.187;
 /// Radius of a sphere of the volume d³, in spacings.
 const LONE_RADIUS = 0.6204;
 /// Half axis in the bulk, in spacings: closes the gaps between particles at a wall.
@@ -187,7 +191,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let eigen = eigen_of(covariance);
         let values = max(eigen.values, vec3<f32>(eigen.values.x / FLATTEST));
 
-        let moved = SMOOTHING * length(mean) * around.support;
+        let moved = SMOOTHING * min(length(mean), PLANE_OFFSET) * around.support;
         let round = smoothstep(0.6, 0.9, values.z / values.x);
         let least = mix(0.5, BULK_RADIUS, round) * d + moved;
         let axes = min(values * (least / values.z), vec3<f32>(LONGEST * d));

@@ -20,7 +20,7 @@ override STEPS: f32 = 40.0;
 @group(0) @binding(3) var before: texture_2d_array<f32>;
 
 /// Standard deviation of the smoothing, in spacings.
-const SMOOTHED = 1.0;
+const SMOOTHED = 0.8;
 /// Depth difference to a neighbour, in spacings, at which the surface ends.
 const EDGE = 2.0;
 
@@ -35,6 +35,8 @@ fn depth(pixel: vec2<i32>, eye: u32, middle: f32) -> f32 {
     let at = clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
     var reversed = 0.0;
     if (FIRST) { reversed = textureLoad(splatted, at, eye, 0); } else { reversed = textureLoad(before, at, eye, 0).x; }
+    // What the lens hides is at the near plane: no liquid.
+    reversed = select(reversed, 0.0, reversed >= 1.0);
     let z = frame.views[eye].near / max(reversed, 1e-9);
     return select(middle, z, abs(z - middle) < EDGE * frame.spacing || middle == 0.0);
 }

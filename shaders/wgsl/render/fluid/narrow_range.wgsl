@@ -36,7 +36,11 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @
 }
 
 fn load(pixel: vec2<i32>, eye: u32) -> f32 {
-    if (FIRST) { return textureLoad(splatted, pixel, eye, 0); }
+    if (FIRST) {
+        // What the lens hides is at the near plane: no liquid.
+        let depth = textureLoad(splatted, pixel, eye, 0);
+        return select(depth, 0.0, depth >= 1.0);
+    }
     return textureLoad(before, pixel, eye, 0).x;
 }
 

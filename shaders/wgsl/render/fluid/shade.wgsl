@@ -14,11 +14,6 @@
 const INDEX = 1.333;
 /// ((n − 1) / (n + 1))².
 const NORMAL_REFLECTANCE = 0.02037;
-/// Absorption per metre, artificial: 60 mm of water let through (0.50, 0.80, 0.93) of red, green
-/// and blue, and of acid (0.96, 0.70, 0.22). Really both are clear.
-const WATER = vec3<f32>(11.6, 3.7, 1.2);
-const ACID = vec3<f32>(0.7, 5.9, 25.2);
-
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
     return tile_corner(index, eye);
@@ -97,7 +92,7 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
         }
     }
     let behind = room_light(exit, out);
-    let seen = behind * exp(-path * frame.metres_per_unit * mix(WATER, ACID, acid));
+    let seen = behind * exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
     let rest = 1.0 - saturate(dot(normal, -ray));
     let mirrored = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest * rest * rest * rest * rest;
     // An edge thinner than a drop is none that could mirror.

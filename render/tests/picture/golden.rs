@@ -1,0 +1,133 @@
+//! Whole pictures against kept ones, as an eye would compare them.
+//!
+//! Exact hashes would hold on one driver only. Both pictures are blurred over
+//! two pixels, in which edges may fall differently, and compared in the encoded
+//! levels, which are about even to the eye.
+//!
+//! `VITRIOL_KEEP_GOLDEN=1 cargo nextest run -p vitriol-render golden` keeps new ones: look at
+//! them before they are committed.
+
+use crate::liquid::{Liquid, SPACING, draw, frame, rig};
+use crate::rig::Rig;
+use glam::{Affine3A, Vec3};
+use std::path::PathBuf;
+use vitriol_render::{Fov, SceneDesc, SurfaceFilter, VesselDesc, View};
+
+const EXTENT: [u32; 2] = [320, 240];
+
+/// A beaker on the bench with water over acid, and a drop that falls.
+fn still(filter: SurfaceFilter) -> Vec<u8> {
+    let mut rig: Rig = rig(EXTENT, 1, filter);
+    let (radius, floor) = (0.02, 0.002);
+    let beaker = VesselDesc {
+        inner: vec![[0.0, floor], [radius, floor], [radius, 0.05]],
+        outer: vec![[0.0, 0.0], [radius + 0.002, 0.0], [radius + 0.002, 0.05]],
+        marks: vec![0.012, 0.022, 0.032],
+    };
+    rig.set_scene(&SceneDesc::laboratory(vec![beaker], 0.75, 1.0));
+    let foot = Vec3::new(0.0, 0.75, -0.4);
+    let mut noise = 7_u32;
+    let mut shake = || {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((noise >> 8) as f32 / 16_777_216.0 - 0.5) * 0.3
+    };
+    let mut places = Vec::new();
+    for y in 0..9 {
+        for x in -8..8 {
+            for z in -8..8 {
+                let at = Vec3::new(x as f32 + 0.5, y as f32 + 0.5, z as f32 + 0.5);
+                if (at * Vec3::new(1.0, 0.0, 1.0)).length() * SPACING < 0.0193 {
+                    let shaken = at + Vec3::new(shake(), shake(), shake());
+                    places.push(foot + Vec3::Y * 0.002 + shaken * SPACING);
+                }
+            }
+        }
+    }
+    places.push(foot + Vec3::new(0.0, 0.045, 0.0));
+    let mut liquid = Liquid::new(&rig, &places, |x| if x.y < 0.763 { 0.9 } else { 0.0 });
+    liquid.table = None;
+    let view = View::look_at(
+        foot + Vec3::new(0.03, 0.075, 0.17),
+        foot + Vec3::Y * 0.02,
+        Fov::symmetric(0.42, EXTENT[0] as f32 / EXTENT[1] as f32),
+    );
+    let (picture, _) = draw(
+        &rig,
+        &frame(&[view], &[Affine3A::from_translation(foot)], &liquid),
+    );
+    picture.colour[0].clone()
+}
+
+fn path(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/picture/golden");
+    folder.join(format!("{name}.png"))
+}
+
+/// Mean and greatest difference of two pictures' levels (0 to 255), blurred.
+fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
+    let [width, height] = EXTENT.map(|side| side as usize);
+    let blurred = |picture: &[u8], x: usize, y: usize, channel: usize| {
+        let mut sum = 0.0;
+        for dy in 0..3 {
+            for dx in 0..3 {
+                sum += f64::from(picture[4 * ((y + dy) * width + x + dx) + channel]);
+            }
+        }
+        sum / 9.0
+    };
+    let (mut sum, mut most) = (0.0, 0.0_f64);
+    for y in 0..height - 2 {
+        for x in 0..width - 2 {
+            for channel in 0..3 {
+                let off = (blurred(a, x, y, channel) - blurred(b, x, y, channel)).abs();
+                sum += off;
+                most = most.max(off);
+            }
+        }
+    }
+    (sum / (3 * (width - 2) * (height - 2)) as f64, most)
+}
+
+/// Levels that drivers may differ by, on the mean: a third of what
+/// unfiltered particles differ by.
+const MEAN: f64 = 0.15;
+
+#[test]
+fn still_beaker_looks_as_it_did() {
+    for (name, filter) in [
+        ("narrow-range", SurfaceFilter::NarrowRange),
+        ("curvature-flow", SurfaceFilter::CurvatureFlow),
+    ] {
+        let picture = still(filter);
+        let path = path(name);
+        if std::env::var_os("VITRIOL_KEEP_GOLDEN").is_some() {
+            image::save_buffer(
+                &path,
+                &picture,
+                EXTENT[0],
+                EXTENT[1],
+                image::ColorType::Rgba8,
+            )
+            .unwrap();
+        }
+        let kept = image::open(&path).unwrap().to_rgba8().into_raw();
+        let (mean, most) = difference(&picture, &kept);
+        eprintln!("{name}: mean {mean:.3}, most {most:.1}");
+        assert!(
+            mean < MEAN,
+            "{name}: {mean} levels on the mean, {most} at most"
+        );
+    }
+    // What the comparison is worth: no filter, and it fails.
+    let rough = still(SurfaceFilter::None);
+    let kept = image::open(path("narrow-range"))
+        .unwrap()
+        .to_rgba8()
+        .into_raw();
+    let (mean, most) = difference(&rough, &kept);
+    eprintln!("no filter: mean {mean:.3}, most {most:.1}");
+    assert!(
+        mean > 2.0 * MEAN,
+        "unfiltered particles pass: {mean} levels"
+    );
+}

@@ -1,0 +1,147 @@
+//! Liquid in buffers of the test's own, with its neighbour list by brute force.
+
+use crate::rig::{Picture, Rig, without_particles};
+use glam::{Affine3A, Vec3};
+use vitriol_gpu::{Buffer, QueueKind};
+use vitriol_render::{
+    BoxDesc, FrameDesc, LiquidDesc, LiquidSource, Neighbours, RenderDesc, Renderer, Surface,
+    SurfaceFilter, View,
+};
+use vitriol_shaders::{Library, layout};
+use vitriol_tests::gpu;
+
+/// Particle spacing d, metres.
+pub const SPACING: f32 = 0.0025;
+/// Support radius h.
+pub const SUPPORT: f32 = 2.0 * SPACING;
+
+/// Rows of the list that the buffers hold.
+const CAPACITY: usize = 96;
+
+/// Particles on the device.
+pub struct Liquid {
+    positions: Buffer,
+    heat: Buffer,
+    counts: Buffer,
+    list: Buffer,
+    count: u32,
+    pub table: Option<BoxDesc>,
+}
+
+impl Liquid {
+    pub fn new(rig: &Rig, positions: &[Vec3], acid: impl Fn(Vec3) -> f32) -> Self {
+        let n = positions.len();
+        let mut counts = vec![0_u32; n.max(1)];
+        let mut list = vec![0_u32; CAPACITY * n.max(1)];
+        for (i, a) in positions.iter().enumerate() {
+            for (j, b) in positions.iter().enumerate() {
+                if i != j && a.distance_squared(*b) < SUPPORT * SUPPORT {
+                    list[counts[i] as usize * n + i] = j as u32;
+                    counts[i] += 1;
+                }
+            }
+        }
+        let words = |label: &str, data: &[u32]| {
+            let buffer = Buffer::storage(&rig.gpu, label, size_of_val(data) as u64).unwrap();
+            rig.gpu.write(&buffer, data).unwrap();
+            buffer
+        };
+        let heat: Vec<_> = positions
+            .iter()
+            .map(|&x| [20.0, acid(x), 0.0, 0.0])
+            .collect();
+        let places: Vec<_> = positions.iter().map(|x| x.extend(1.0).to_array()).collect();
+        Self {
+            positions: rig.buffer("positions", &places),
+            heat: rig.buffer("heat", &heat),
+            counts: words("list counts", &counts),
+            list: words("list", &list),
+            count: n as u32,
+            table: None,
+        }
+    }
+
+    pub fn source(&self) -> LiquidSource<'_> {
+        LiquidSource {
+            positions: &self.positions,
+            heat: Some(&self.heat),
+            count: self.count,
+            spacing: SPACING,
+            neighbours: Some(Neighbours {
+                counts: &self.counts,
+                list: &self.list,
+                support: SUPPORT,
+            }),
+            vessels: None,
+            table: self.table,
+            floor: -10.0,
+        }
+    }
+}
+
+/// A renderer of liquid.
+pub fn rig(extent: [u32; 2], views: u32, filter: SurfaceFilter) -> Rig {
+    let gpu = gpu::device();
+    let desc = RenderDesc {
+        views,
+        liquid: Some(LiquidDesc {
+            filter,
+            ..LiquidDesc::new(20_000)
+        }),
+        ..RenderDesc::film(extent)
+    };
+    let renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
+    Rig {
+        gpu,
+        renderer,
+        extent,
+    }
+}
+
+/// A frame of that liquid.
+pub fn frame<'a>(views: &'a [View], vessels: &'a [Affine3A], liquid: &'a Liquid) -> FrameDesc<'a> {
+    FrameDesc {
+        vessels,
+        liquid: Some(liquid.source()),
+        ..without_particles(views)
+    }
+}
+
+/// Draws it; the picture and each view's surface.
+pub fn draw(rig: &Rig, frame: &FrameDesc<'_>) -> (Picture, Vec<Surface>) {
+    let picture = rig.draw(frame);
+    let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();
+    let surface = rig.renderer.read_back_surface(&mut rec, frame).unwrap();
+    rig.gpu.submit(rec).unwrap().wait().unwrap();
+    (picture, surface.views().unwrap())
+}
+
+/// The ellipsoids of the frame that was drawn last.
+pub fn ellipsoids(rig: &Rig, count: usize) -> Vec<layout::Ellipsoid> {
+    let mut all: Vec<layout::Ellipsoid> = rig.gpu.read(rig.renderer.ellipsoids().unwrap()).unwrap();
+    all.truncate(count);
+    all
+}
+
+/// Places of a cubic lattice within `reach` spacings, jittered by up to
+/// `jitter` of one, that `inside` takes (in spacings).
+pub fn lattice(reach: i32, jitter: f32, inside: impl Fn(Vec3) -> bool) -> Vec<Vec3> {
+    let mut noise = 1_u32;
+    let mut shake = || {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((noise >> 8) as f32 / 16_777_216.0 - 0.5) * 2.0 * jitter
+    };
+    let mut places = Vec::new();
+    for x in -reach..=reach {
+        for y in -reach..=reach {
+            for z in -reach..=reach {
+                let place = Vec3::new(x as f32, y as f32, z as f32) - 0.5;
+                let shaken = Vec3::new(shake(), shake(), shake());
+                if inside(place) {
+                    places.push((place + shaken) * SPACING);
+                }
+            }
+        }
+    }
+    places
+}
