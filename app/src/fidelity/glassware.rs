@@ -51,6 +51,29 @@ impl Glassware {
             above.max(beyond(0, at.x)).max(beyond(1, at.z))
         })
     }
+
+    /// View depth at which a ray from `eye` meets the table or the floor;
+    /// infinite where it does not. `ray` has the length 1 along the eye's axis.
+    pub fn opaque(&self, eye: DVec3, ray: DVec3) -> f64 {
+        let ahead = |t: f64| if t > 0.0 { t } else { f64::INFINITY };
+        let floor = ahead((self.floor - eye.y) / ray.y);
+        let Some(table) = self.table else {
+            return floor;
+        };
+        let centre = DVec3::new(
+            table.centre[0],
+            table.top - 0.5 * self.slab,
+            table.centre[1],
+        );
+        let half = 0.5 * DVec3::new(table.size[0], self.slab, table.size[1]);
+        let (a, b) = ((centre - half - eye) / ray, (centre + half - eye) / ray);
+        let (first, last) = (a.min(b).max_element(), a.max(b).min_element());
+        if first < last {
+            floor.min(ahead(first))
+        } else {
+            floor
+        }
+    }
 }
 
 impl Surroundings for Glassware {

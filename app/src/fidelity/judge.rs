@@ -1,11 +1,13 @@
 //! Compares what a renderer draws with the reference surface.
 
+use glam::DVec3;
 use vitriol_render::View;
 use vitriol_render::reference::{
     Anisotropy, Difference, Field, Interior, Picture, Rays, Seen, Shape, difference, reprojection,
     silhouette_iou, volume,
 };
 
+use super::glassware::Glassware;
 use super::report::{self, Figures, Manner};
 use super::states::State;
 use super::views::{STANDS, Stand};
@@ -49,10 +51,13 @@ struct Truth {
 
 impl Truth {
     /// Marches through all of the liquid for the left eye where `whole`.
-    fn new(field: &Field<'_>, rays: [Rays; 3], whole: bool) -> Self {
+    fn new(field: &Field<'_>, glassware: &Glassware, rays: [Rays; 3], whole: bool) -> Self {
         let [left, right, next] = rays;
-        let pictures = [(left, whole), (right, false), (next, false)]
+        let mut pictures = [(left, whole), (right, false), (next, false)]
             .map(|(rays, whole)| Picture::new(field, &rays, whole));
+        for picture in &mut pictures {
+            picture.hide(|eye, ray| glassware.opaque(eye, ray));
+        }
         let interiors = pictures
             .each_ref()
             .map(|picture| Interior::new(picture, field.spacing()));
@@ -120,14 +125,17 @@ impl Task<'_> {
             let [now, next] = [0, 1].map(|frame| stand.eyes(&self.state.spec, self.size, frame));
             let rays =
                 [now[0], now[1], next[0]].map(|view| Rays::new(&view, self.size, length_scale));
-            let truth = Truth::new(&field, rays, self.whole);
+            let truth = Truth::new(&field, &self.state.glassware, rays, self.whole);
             let exact = truth.pictures.clone();
             pictures.push(self.picture(stand, &truth, &exact, Manner::REFERENCE));
             for &manner in self.manners {
                 let [left, right] = draw.draw(self.state, &now, manner)?;
                 let [next, _] = draw.draw(self.state, &next, manner)?;
-                let drawn = [(0, left), (1, right), (2, next)]
+                let mut drawn = [(0, left), (1, right), (2, next)]
                     .map(|(k, drawn)| Picture::drawn(&rays[k], &drawn.depth, &drawn.ways));
+                for picture in &mut drawn {
+                    picture.hide(|eye, ray| self.state.glassware.opaque(eye, ray));
+                }
                 pictures.push(self.picture(stand, &truth, &drawn, manner));
                 if index == 0 {
                     let [drawn, ..] = drawn;
@@ -192,11 +200,15 @@ impl Task<'_> {
     /// Volume of the particles that are in the picture, scene's unit cubed.
     fn volume_before(&self, rays: &Rays) -> f64 {
         let [width, height] = rays.size().map(|size| size as f64);
+        let is_seen = |at: DVec3| {
+            rays.project(at).is_some_and(|(x, y, depth)| {
+                let ray = (at - rays.eye) / depth;
+                let open = depth < self.state.glassware.opaque(rays.eye, ray);
+                open && (0.0..width).contains(&x) && (0.0..height).contains(&y)
+            })
+        };
         let particles = self.state.positions.iter().zip(&self.state.volumes);
-        let in_picture = particles.filter(|(position, _)| {
-            rays.project(**position)
-                .is_some_and(|(x, y, _)| (0.0..width).contains(&x) && (0.0..height).contains(&y))
-        });
-        in_picture.map(|(_, volume)| volume).sum()
+        let seen = particles.filter(|(position, _)| is_seen(**position));
+        seen.map(|(_, volume)| volume).sum()
     }
 }

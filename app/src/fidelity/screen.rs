@@ -100,6 +100,7 @@ impl Draw for Screen {
             vessels: &vessels,
             particles: None,
             liquid: Some(liquid_of(&state.world)),
+            steam: None,
             colour_by: ColourBy::Acid,
             length_scale: state.world.scene().scale.length_scale as f32,
         };
