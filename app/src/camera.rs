@@ -154,6 +154,33 @@ impl Camera {
         world: &World,
         colour: ColourName,
     ) -> Result<(), Failure> {
+        self.with_frame(world, colour, |frame| self.renderer.record(rec, frame))
+    }
+
+    /// Records the two parts of a picture of liquid for two queues, as
+    /// [`Renderer::record_shapes`] tells.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record_apart(
+        &self,
+        shapes: &mut Recorder,
+        picture: &mut Recorder,
+        world: &World,
+        slot: usize,
+    ) -> Result<(), Failure> {
+        self.with_frame(world, ColourName::Liquid, |frame| {
+            self.renderer.record_shapes(shapes, frame, slot)?;
+            self.renderer.record_picture(picture, frame, slot)
+        })
+    }
+
+    fn with_frame(
+        &self,
+        world: &World,
+        colour: ColourName,
+        f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
+    ) -> Result<(), Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
         let solver = world.solver();
@@ -178,7 +205,7 @@ impl Camera {
             colour_by,
             length_scale: scale.length_scale as f32,
         };
-        self.renderer.record(rec, &frame).other()
+        f(&frame).other()
     }
 
     /// What particles' colours stand for: speed where the world has not what is

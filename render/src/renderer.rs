@@ -160,11 +160,11 @@ impl Renderer {
         Ok(())
     }
 
-    /// The ellipsoids of the last frame with liquid, as `array<Ellipsoid>`
+    /// The ellipsoids that [`Renderer::record`] made last of liquid, as `array<Ellipsoid>`
     /// ([`layout::Ellipsoid`]) in the particles' order; `None` for a renderer
     /// without liquid.
     pub fn ellipsoids(&self) -> Option<&Buffer> {
-        self.fluid.as_ref().map(Fluid::ellipsoids)
+        self.fluid.as_ref().map(|fluid| fluid.ellipsoids(0))
     }
 
     /// Takes a mesh of what each view's lens hides, as a runtime gives it: the
@@ -224,16 +224,27 @@ impl Renderer {
         rec: &mut Recorder,
         frame: &FrameDesc<'_>,
     ) -> Result<(), RenderError> {
+        self.record_shapes(rec, frame, 0)?;
+        self.prepare(rec, frame, 0)
+    }
+
+    /// Records what comes before the lit picture: uniforms, tiles, the liquid's
+    /// surface from that slot.
+    fn prepare(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<(), RenderError> {
         frame.check(&self.scene, self.desc.views)?;
         let uniforms = frame.uniforms(&self.scene, self.desc.extent);
         rec.upload(&self.frame, &[uniforms])?;
         if let Some((fluid, source)) = self.liquid(frame)? {
-            let mask = self.mask.as_ref();
-            fluid.record_surface(rec, frame, &source, &self.frame, &self.tiles, mask)?;
+            let (shapes, mask) = ((slot, source.count), self.mask.as_ref());
+            fluid.record_surface(rec, shapes, &self.frame, &self.tiles, mask)
         } else {
-            self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
+            self.tiles.record(rec, &self.frame, &self.nothing, 0)
         }
-        Ok(())
     }
 
     /// Records the picture of one frame.
@@ -242,7 +253,44 @@ impl Renderer {
     /// [`RenderError::Count`] and [`RenderError::TooManyParticles`] where the
     /// frame does not fit; [`RenderError::Gpu`].
     pub fn record(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
-        self.record_surface(rec, frame)?;
+        self.record_shapes(rec, frame, 0)?;
+        self.record_picture(rec, frame, 0)
+    }
+
+    /// Records the part of a picture that reads the solver's buffers of the
+    /// liquid: compute alone, into one of two slots (`slot` counted modulo two). So the
+    /// picture of frame n can be drawn on the main queue while frame n + 1 is
+    /// solved on the other:
+    ///
+    /// - the solver's frame n and this, on the async queue, after the
+    ///   picture of frame n − 2, which had the same slot;
+    /// - [`Renderer::record_picture`] on the main queue, after that.
+    ///
+    /// # Errors
+    /// As for [`Renderer::record`].
+    pub fn record_shapes(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<(), RenderError> {
+        match self.liquid(frame)? {
+            Some((fluid, source)) => fluid.record_shapes(rec, frame, &source, slot),
+            None => Ok(()),
+        }
+    }
+
+    /// Records the rest of the picture, with the liquid from that slot.
+    ///
+    /// # Errors
+    /// As for [`Renderer::record`].
+    pub fn record_picture(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<(), RenderError> {
+        self.prepare(rec, frame, slot)?;
         let liquid = self.liquid(frame)?;
         let target = RasterTarget {
             label: "picture",

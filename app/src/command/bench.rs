@@ -49,6 +49,9 @@ pub struct RenderRow {
     /// A frame's share of several that are queued one behind the other, each
     /// solved and drawn, without timestamps.
     pub frame: Timing,
+    /// The same, where a frame is solved on a second queue while the one before
+    /// it is drawn.
+    pub overlapped: Timing,
     /// The same of frames that are solved and not drawn.
     pub solver: Timing,
 }
@@ -303,6 +306,7 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     let named = [
         ("picture, all passes, timed", row.device_total),
         ("frame: solved and drawn", row.frame),
+        ("the same on two queues", row.overlapped),
         ("the same, not drawn", row.solver),
     ];
     for pass in &row.passes {

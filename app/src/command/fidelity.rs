@@ -42,7 +42,7 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
     };
     let gpu = device::open(args.device.as_deref(), false)?;
     let start = Instant::now();
-    let library = Library::embedded();
+    let library = Library::watching();
     let states = states::run(&gpu, &library, args.preset.into())?;
     tracing::info!("states after {:.0} s", start.elapsed().as_secs_f64());
     let sizes = if args.quick {

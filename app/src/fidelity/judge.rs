@@ -182,6 +182,10 @@ impl Task<'_> {
             manner,
             figures: Figures {
                 silhouette_iou: both(&|eye| silhouette_iou(&truth.pictures[eye], &drawn[eye])),
+                compared: both(&|eye| {
+                    let seen = truth.pictures[eye].depth.iter();
+                    off[eye].pixels as f64 / seen.filter(|depth| depth.is_finite()).count() as f64
+                }),
                 depth_rms_radii: both(&|eye| off[eye].depth_rms.powi(2)).sqrt(),
                 depth_mean_radii: both(&|eye| off[eye].depth_mean),
                 normal_angle_deg: both(&|eye| off[eye].normal_angle).to_degrees(),

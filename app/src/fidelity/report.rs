@@ -64,6 +64,9 @@ impl Manner {
 pub struct Figures {
     /// Intersection over union of the silhouettes; the least of several.
     pub silhouette_iou: f64,
+    /// Share of the true silhouettes' pixels that lie away from them, so that
+    /// depths and normals are compared there.
+    pub compared: f64,
     /// Root mean square of the depths' differences away from silhouettes,
     /// particle radii.
     pub depth_rms_radii: f64,
@@ -130,6 +133,7 @@ impl Figures {
         let off = |ratio: &f64| (ratio - 1.0).abs();
         Self {
             silhouette_iou: values(|f| f.silhouette_iou).fold(f64::NAN, f64::min),
+            compared: mean(|f| f.compared),
             depth_rms_radii: rms(|f| f.depth_rms_radii),
             depth_mean_radii: mean(|f| f.depth_mean_radii),
             normal_angle_deg: mean(|f| f.normal_angle_deg),
@@ -187,11 +191,12 @@ pub fn describe(found: &Fidelity) -> String {
     }
     let _ = writeln!(
         text,
-        "\n{:<11} {:<15} {:<5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>7} {:>6}",
+        "\n{:<11} {:<15} {:<5} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>7} {:>6}",
         "pixels",
         "filter",
         "aniso",
         "margin",
+        "of",
         "IoU",
         "depth",
         "(mean)",
@@ -205,11 +210,12 @@ pub fn describe(found: &Fidelity) -> String {
         let f = &row.figures;
         let _ = writeln!(
             text,
-            "{:<11} {:<15} {:<5} {:>6} {:>6.3} {:>7.3} {:>7.3} {:>6.1}° {:>8.3} {:>8.3} {:>6.1}° {:>6.3}",
+            "{:<11} {:<15} {:<5} {:>6} {:>5.0}% {:>6.3} {:>7.3} {:>7.3} {:>6.1}° {:>8.3} {:>8.3} {:>6.1}° {:>6.3}",
             format!("{}×{}", row.size[0], row.size[1]),
             row.manner.filter,
             if row.manner.anisotropy { "yes" } else { "no" },
             row.margin_px,
+            100.0 * f.compared,
             f.silhouette_iou,
             f.depth_rms_radii,
             f.depth_mean_radii,

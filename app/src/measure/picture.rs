@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use glam::Vec3;
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::{Gpu, QueueKind, Ticket};
 use vitriol_render::{Fov, View};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -66,6 +66,7 @@ fn row(
         passes,
         device_total: total,
         frame: queued,
+        overlapped: overlapped(plain, &world, &camera, args.frames)?,
         solver: self::queued(plain, &world, None, args.frames)?,
     })
 }
@@ -158,6 +159,30 @@ fn passes(
         })
     });
     Ok((rows.collect(), Timing::of(&totals)))
+}
+
+/// A frame's share, ms, where a frame is solved on one queue while the one before it is drawn
+/// on the other.
+fn overlapped(gpu: &Gpu, world: &World, camera: &Camera, frames: u32) -> Result<Timing, Failure> {
+    let mut times = Vec::new();
+    for _ in 0..frames.div_ceil(QUEUED) {
+        let begin = Instant::now();
+        let mut drawn: Vec<Ticket> = Vec::new();
+        for n in 0..QUEUED as usize {
+            let mut solved = gpu.recorder(QueueKind::Async).other()?;
+            let mut picture = gpu.recorder(QueueKind::Main).other()?;
+            let poses = world.poses();
+            world.solver().record(&mut solved, poses, poses).other()?;
+            camera.record_apart(&mut solved, &mut picture, world, n)?;
+            // The picture that had this slot before.
+            let before: Vec<&Ticket> = n.checked_sub(2).map(|n| &drawn[n]).into_iter().collect();
+            let solved = gpu.submit_after(solved, &before).other()?;
+            drawn.push(gpu.submit_after(picture, &[&solved]).other()?);
+        }
+        gpu.wait_idle().other()?;
+        times.push(milliseconds(begin) / f64::from(QUEUED));
+    }
+    Ok(Timing::of(&times))
 }
 
 /// A frame's share, ms, of [`QUEUED`] frames that are solved and, with a camera,

@@ -20,6 +20,9 @@ use passes::{FILTERED_FORMAT, Passes, THICKNESS_FORMAT};
 pub use readback::{Surface, SurfaceReadback};
 pub use source::{LiquidDesc, LiquidSource, Neighbours, SurfaceFilter, VesselTables};
 
+/// Frames whose ellipsoids are kept at a time.
+pub(crate) const SLOTS: usize = 2;
+
 /// How many times fewer pixels along a side the thickness has: it is smooth.
 const THICKNESS_SHARE: u32 = 2;
 
@@ -31,7 +34,8 @@ pub(crate) struct Fluid {
     views: u32,
     format: vk::Format,
     passes: Passes,
-    ellipsoids: Buffer,
+    /// One for the picture that is drawn, one for the frame that is solved.
+    ellipsoids: [Buffer; SLOTS],
     poses: Buffer,
     /// Bound where a source has nothing to give.
     nothing: Buffer,
@@ -71,7 +75,10 @@ impl Fluid {
             views,
             format,
             passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
-            ellipsoids: Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
+            ellipsoids: [
+                Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
+                Buffer::storage(gpu, "other ellipsoids", ellipsoids)?,
+            ],
             poses: Buffer::storage(
                 gpu,
                 "vessel poses",
@@ -115,8 +122,8 @@ impl Fluid {
             .any(|id| id.path().starts_with("render/fluid/"))
     }
 
-    pub(crate) fn ellipsoids(&self) -> &Buffer {
-        &self.ellipsoids
+    pub(crate) fn ellipsoids(&self, slot: usize) -> &Buffer {
+        &self.ellipsoids[slot % SLOTS]
     }
 
     /// Refuses a source that does not fit.
@@ -124,29 +131,29 @@ impl Fluid {
         source.check(self.desc.particles)
     }
 
-    /// Records everything up to the filtered depth.
+    /// Records everything from the ellipsoids in a slot up to the filtered depth.
     pub(crate) fn record_surface(
         &self,
         rec: &mut Recorder,
-        frame: &FrameDesc<'_>,
-        source: &LiquidSource<'_>,
+        (slot, count): (usize, u32),
         uniforms: &Buffer,
         tiles: &Tiles,
         mask: Option<&Buffer>,
     ) -> Result<(), RenderError> {
-        self.record_shapes(rec, frame, source)?;
-        tiles.record(rec, uniforms, &self.ellipsoids, source.count)?;
-        self.draw_depth(rec, source.count, uniforms, mask)?;
-        self.draw_thickness(rec, source.count, uniforms)?;
+        let ellipsoids = self.ellipsoids(slot);
+        tiles.record(rec, uniforms, ellipsoids, count)?;
+        self.draw_depth(rec, (ellipsoids, count), uniforms, mask)?;
+        self.draw_thickness(rec, (ellipsoids, count), uniforms)?;
         self.filter(rec, uniforms, tiles)
     }
 
     /// Particles to ellipsoids: all that is read of the solver's buffers.
-    fn record_shapes(
+    pub(crate) fn record_shapes(
         &self,
         rec: &mut Recorder,
         frame: &FrameDesc<'_>,
         source: &LiquidSource<'_>,
+        slot: usize,
     ) -> Result<(), RenderError> {
         let poses: Vec<layout::FlaskPose> =
             frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
@@ -165,7 +172,7 @@ impl Fluid {
             .read("flasks", vessels.map_or(&self.nothing, |v| v.flasks))
             .read("distances", vessels.map_or(&self.nothing, |v| v.distances))
             .read("poses", &self.poses)
-            .write("ellipsoids", &self.ellipsoids)
+            .write("ellipsoids", self.ellipsoids(slot))
             .constants(&layout::Neighbourhood {
                 count: source.count,
                 flasks: vessels.map_or(0, |_| poses.len() as u32),
@@ -185,7 +192,7 @@ impl Fluid {
     fn draw_depth(
         &self,
         rec: &mut Recorder,
-        count: u32,
+        (ellipsoids, count): (&Buffer, u32),
         uniforms: &Buffer,
         mask: Option<&Buffer>,
     ) -> Result<(), RenderError> {
@@ -208,7 +215,7 @@ impl Fluid {
             raster
                 .draw(&self.passes.splat)
                 .uniform("frame", uniforms)
-                .read("ellipsoids", &self.ellipsoids)
+                .read("ellipsoids", ellipsoids)
                 .vertices(3 * count)
         })?;
         Ok(())
@@ -217,7 +224,7 @@ impl Fluid {
     fn draw_thickness(
         &self,
         rec: &mut Recorder,
-        count: u32,
+        (ellipsoids, count): (&Buffer, u32),
         uniforms: &Buffer,
     ) -> Result<(), RenderError> {
         let target = RasterTarget {
@@ -233,7 +240,7 @@ impl Fluid {
             raster
                 .draw(&self.passes.thickness)
                 .uniform("frame", uniforms)
-                .read("ellipsoids", &self.ellipsoids)
+                .read("ellipsoids", ellipsoids)
                 .vertices(3 * count)
         })?;
         Ok(())

@@ -9,9 +9,10 @@ use super::march::Picture;
 /// silhouette: seen so flatly, a depth says more of the pixel than of the liquid.
 const GRAZING: f64 = 0.25;
 
-/// Step of the depth between neighbouring pixels that is an edge before
-/// something farther away, particle spacings.
-const EDGE: f64 = 3.0;
+/// How far off the tangent plane of a pixel's surface its neighbour's may lie,
+/// in depth, before it is another part that lies before or behind; particle
+/// spacings.
+const EDGE: f64 = 1.0;
 
 /// |A ∩ B| / |A ∪ B| of the pixels with liquid; 1 where neither has any.
 pub fn silhouette_iou(a: &Picture, b: &Picture) -> f64 {
@@ -47,10 +48,18 @@ impl Interior {
         let margin = (spacing / pixel).ceil().max(1.0) as usize;
         let edge = |pixel: usize| {
             let (x, y) = (pixel % width, pixel / width);
-            let depth = truth.depth[pixel];
+            // Where one has liquid and the other not, the difference is infinite
+            // or no number; where neither has, it is no edge.
+            let off_plane = |from: usize, other: usize| {
+                let normal = truth.normal[from];
+                let through = |pixel: usize| truth.rays.through(pixel).dot(normal);
+                let expected = truth.depth[from] * through(from) / through(other);
+                (truth.depth[other] - expected).abs()
+            };
             let jumps = |other: usize| {
-                // Infinity less infinity is no number, and no edge.
-                (truth.depth[other] - depth).abs() > EDGE * spacing
+                let seen = [pixel, other].map(|at| truth.depth[at].is_finite());
+                let step = off_plane(pixel, other).min(off_plane(other, pixel));
+                seen[0] != seen[1] || (seen[0] && step > EDGE * spacing)
             };
             let border = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
             border

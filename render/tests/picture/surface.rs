@@ -3,6 +3,7 @@
 use crate::liquid::{Liquid, SPACING, draw, frame, lattice, rig};
 use crate::rig::{Rig, ray, without_particles};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
+use vitriol_gpu::QueueKind;
 use vitriol_render::{Fov, Surface, SurfaceFilter, View};
 
 const EXTENT: [u32; 2] = [320, 240];
@@ -60,12 +61,8 @@ fn against_ball(view: &View, surface: &Surface, centre: Vec3) -> (f64, f64, usiz
     for y in 1..EXTENT[1] - 1 {
         for x in 1..EXTENT[0] - 1 {
             let at = |dx: i32, dy: i32| {
-                point(
-                    view,
-                    surface,
-                    x.strict_add_signed(dx),
-                    y.strict_add_signed(dy),
-                )
+                let (x, y) = (x as i32 + dx, y as i32 + dy);
+                point(view, surface, x as u32, y as u32)
             };
             let (Some(here), Some(left), Some(right), Some(above), Some(below)) =
                 (at(0, 0), at(-1, 0), at(1, 0), at(0, -1), at(0, 1))
@@ -146,6 +143,37 @@ fn thickness_holds_the_volume() {
     let off = volume / expected - 1.0;
     assert!(off.abs() < 0.02, "{off}");
     assert!((acid / volume - 0.5).abs() < 0.02, "{}", acid / volume);
+}
+
+/// The picture of one frame, drawn while the next one is written over what it was made of.
+#[test]
+fn two_queues_draw_what_one_does() {
+    let view = turned_eye();
+    let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let liquid = ball(&rig, before(&view, 0.25));
+    let (views, other) = ([view], ball(&rig, before(&view, 0.4)));
+    let frame = frame(&views, &[], &liquid);
+    let (alone, _) = draw(&rig, &frame);
+    let next = self::frame(&views, &[], &other);
+    let gpu = &rig.gpu;
+    let mut shapes = gpu.recorder(QueueKind::Async).unwrap();
+    rig.renderer.record_shapes(&mut shapes, &frame, 1).unwrap();
+    let shapes = gpu.submit(shapes).unwrap();
+    let mut following = gpu.recorder(QueueKind::Async).unwrap();
+    rig.renderer
+        .record_shapes(&mut following, &next, 2)
+        .unwrap();
+    gpu.submit(following).unwrap();
+    let mut picture = gpu.recorder(QueueKind::Main).unwrap();
+    rig.renderer
+        .record_picture(&mut picture, &frame, 1)
+        .unwrap();
+    let bytes = rig.renderer.read_back(&mut picture).unwrap();
+    gpu.submit_after(picture, &[&shapes])
+        .unwrap()
+        .wait()
+        .unwrap();
+    assert!(bytes.first_view().unwrap() == alone.colour[0]);
 }
 
 #[test]

@@ -58,6 +58,15 @@ fn corner_of(e: Ellipsoid, eye: u32, index: u32) -> Corner {
     if !(distance_squared > 1.0 && distance_squared < 1e12 && determinant > 0.0) {
         return Corner(NOWHERE, vec2<f32>(2.0), 0.0, 0.0);
     }
+    // Wholly to the side or behind the eye; the trace bounds the greatest half axis, and 3 the
+    // covering triangle's size and what perspective adds, up to a field of 120°.
+    let middle = frame.views[eye].clip_from_stage * vec4<f32>(e.centre, 1.0);
+    let reach = 3.0 * dot(e.diagonal, vec3<f32>(1.0));
+    let scale = 2.0 * frame.views[eye].focal / frame.extent;
+    let beside = abs(middle.xy) - middle.w > reach * (1.0 + scale);
+    if (any(beside) || middle.w < -reach) {
+        return Corner(NOWHERE, vec2<f32>(2.0), 0.0, 0.0);
+    }
     let kappa = inverseSqrt(distance_squared);
     let to_eye = o * kappa;
     let s = select(-1.0, 1.0, to_eye.z >= 0.0);
