@@ -218,8 +218,8 @@ pub struct PictureArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Width and height of a view, pixels
-    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 2, default_values_t = [960, 540])]
-    pub size: Vec<u32>,
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = size)]
+    pub size: [u32; 2],
     /// Both eyes, side by side
     #[arg(long)]
     pub stereo: bool,
@@ -403,6 +403,14 @@ pub struct CalorimeterArgs {
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
+    match sides {
+        Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
+        _ => Err("give width and height in pixels, such as 960x540".into()),
+    }
 }
 
 fn positive_seconds(text: &str) -> Result<f64, String> {

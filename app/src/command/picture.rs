@@ -56,7 +56,7 @@ pub fn run(
         .input();
     }
     let eyes = if args.stereo { 2 } else { 1 };
-    let (width, height) = (args.size[0], args.size[1]);
+    let [width, height] = args.size;
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,

@@ -16,12 +16,12 @@ fn at_glass(reversed: f32, place: vec2<f32>, eye: u32) -> f32 {
     for (var index = 0u; index < frame.blocker_count; index++) {
         let m = frame.vessels[index].vessel_from_stage;
         let p = (m * vec4<f32>(point, 1.0)).xyz;
-        let wall = 0.5 * frame.vessels[index].wall;
+        let wall = frame.vessels[index].wall;
         let inner_floor = frame.vessels[index].inner_floor;
         let r = length(p.xz);
         let beyond = r - vessel_radius(index, p.y);
         let below = inner_floor - p.y;
-        // In the inner half of the wall or of the base; what clings to the outside stays.
+        // In the wall or the base. What clings to the outside has its face in the air.
         let in_wall = max(beyond, below) > 0.0 && beyond < wall && below < wall
             && p.y < frame.vessels[index].rim;
         if (in_wall) {

@@ -73,7 +73,7 @@ const LONE_RADIUS = 0.6204;
 const BULK_RADIUS = 0.75;
 /// How far what lies at a wall reaches into it, in spacings: so that no gap between two
 /// particles shows.
-const INTO_WALL = 0.3;
+const INTO_WALL = 0.35;
 /// Weight of the neighbours, in those of a full neighbourhood, at which a particle
 /// begins to count as part of a body of liquid, and does so wholly.
 const FADE = vec2<f32>(0.10, 0.35);

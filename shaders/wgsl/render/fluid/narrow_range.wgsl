@@ -21,13 +21,13 @@ override LAST: bool = false;
 @group(0) @binding(3) var before: texture_2d_array<f32>;
 
 /// How far the filter reaches, in spacings.
-const REACH = 3.0;
+const REACH = 2.0;
 /// Pairs of samples at most: further apart than neighbouring pixels if it reaches further.
-const PAIRS = 8.0;
+const PAIRS = 10.0;
 /// Depth difference, in spacings, beyond which something is in front; and how much further,
-/// in spacings, what is behind is taken to be. Theirs are 10.5 and 1 particle radii; a radius
-/// here is 0.62 of a spacing.
-const THRESHOLD = 3.0;
+/// in spacings, what is behind is taken to be. Theirs are 10.5 and 1 particle radii (6.5 and 0.62
+/// spacings): where liquid boils, so wide a range draws combs across its waves.
+const THRESHOLD = 1.2;
 const BEHIND = 0.6;
 
 @vertex

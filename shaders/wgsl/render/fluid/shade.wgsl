@@ -45,6 +45,17 @@ fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
     return select(facing, normalize(towards), dot(n, n) > 0.0);
 }
 
+/// Thickness and acid over some four by four texels: finer than that is the grain of particles.
+fn held_at(place: vec2<f32>, eye: u32) -> vec2<f32> {
+    var sum = vec2<f32>(0.0);
+    for (var corner = 0u; corner < 4u; corner++) {
+        let aside = select(vec2<f32>(-2.0), vec2<f32>(2.0), (vec2<u32>(corner) & vec2<u32>(1u, 2u)) != vec2<u32>(0u));
+        let at = (place + aside) / frame.extent;
+        sum += textureSampleLevel(thickness, between, at, eye, 0.0).xy;
+    }
+    return 0.25 * sum;
+}
+
 struct Pixel {
     @location(0) colour: vec4<f32>,
     @builtin(frag_depth) depth: f32,
@@ -60,7 +71,7 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
     let slant = length(here.xyz) / here.w;
     let ray = here.xyz / (slant * here.w);
     let point = frame.views[eye].eye + here.xyz;
-    let held = textureSampleLevel(thickness, between, place.xy / frame.extent, eye, 0.0).xy;
+    let held = held_at(place.xy, eye);
     let acid = saturate(held.y / max(held.x, 1e-9));
     let path = slant * held.x;
     var normal = normal_at(pixel, eye, here);
@@ -76,7 +87,7 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
         let wall = -(stage_from_vessel * inward(vessel, p));
         let gap = vessel_radius(vessel, p.y) - length(p.xz);
         // Liquid that wets the glass has the glass's own surface.
-        wetted = smoothstep(1.6, 0.8, gap / frame.spacing) * smoothstep(0.3, 0.7, dot(wall, normal));
+        wetted = smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
         normal = normalize(mix(normal, wall, wetted));
         let within = refract(ray, normal, 1.0 / INDEX);
         let direction = (m * vec4<f32>(within, 0.0)).xyz;
@@ -98,5 +109,6 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
     // An edge thinner than a drop is none that could mirror.
     let reflectance = mirrored * (1.0 - wetted) * saturate(path / frame.spacing);
     let light = mix(seen, surroundings(reflect(ray, normal)), reflectance);
-    return Pixel(vec4<f32>(display(light), 1.0), frame.views[eye].near / here.w);
+    // Before the facets of the glass that it wets, which lie on both sides of it.
+    return Pixel(vec4<f32>(display(light), 1.0), 1.0007 * frame.views[eye].near / here.w);
 }
