@@ -107,26 +107,37 @@ fn run_one(
         let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
         world.step(&StepInput { hands }).other()?;
     }
-    let state = world.solver().snapshot().other()?;
-    let volume = scene.scale.spacing.powi(3);
-    let present: Vec<usize> = (0..state.positions.len())
-        .filter(|&slot| state.is_present(slot))
-        .collect();
-    let position = |&slot: &usize| {
-        let [x, y, z, _] = state.positions[slot];
-        DVec3::new(x.into(), y.into(), z.into())
-    };
-    let positions: Vec<DVec3> = present.iter().map(position).collect();
-    let members = present.iter().map(|&slot| state.flask_of(slot));
-    let glassware = Glassware::new(&scene, world.poses(), positions.clone(), members.collect());
-    Ok(State {
-        spec,
-        volumes: present
-            .iter()
-            .map(|&slot| volume * state.volume_of(slot))
-            .collect(),
-        positions,
-        glassware,
-        world,
-    })
+    State::new(spec, world)
+}
+
+impl State {
+    /// The liquid of a world as it is now; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(spec: StateSpec, world: World) -> Result<Self, Failure> {
+        let scene = world.scene();
+        let state = world.solver().snapshot().other()?;
+        let volume = scene.scale.spacing.powi(3);
+        let present: Vec<usize> = (0..state.positions.len())
+            .filter(|&slot| state.is_present(slot))
+            .collect();
+        let position = |&slot: &usize| {
+            let [x, y, z, _] = state.positions[slot];
+            DVec3::new(x.into(), y.into(), z.into())
+        };
+        let positions: Vec<DVec3> = present.iter().map(position).collect();
+        let members = present.iter().map(|&slot| state.flask_of(slot));
+        let glassware = Glassware::new(scene, world.poses(), positions.clone(), members.collect());
+        Ok(Self {
+            spec,
+            volumes: present
+                .iter()
+                .map(|&slot| volume * state.volume_of(slot))
+                .collect(),
+            positions,
+            glassware,
+            world,
+        })
+    }
 }
