@@ -426,6 +426,14 @@ mod tests {
     use clap::CommandFactory;
 
     #[test]
+    fn sizes_are_two_numbers_above_zero() {
+        assert_eq!(size("960x540"), Ok([960, 540]));
+        for wrong in ["960", "960x", "0x540", "960,540", "-1x2", "axb"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn definition_is_consistent() {
         Cli::command().debug_assert();
     }

@@ -8,15 +8,18 @@
 //! them before they are committed.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
-use crate::rig::Rig;
+use crate::rig::{Rig, ray};
 use glam::{Affine3A, Vec3};
 use std::path::PathBuf;
-use vitriol_render::{Fov, SceneDesc, SurfaceFilter, VesselDesc, View};
+use vitriol_render::{Fov, SceneDesc, Surface, SurfaceFilter, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 
 /// Where the beaker stands.
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
+
+/// Its inner radius.
+const RADIUS: f32 = 0.02;
 
 /// From before the beaker and above it.
 fn look(fov: Fov) -> View {
@@ -29,13 +32,13 @@ fn look(fov: Fov) -> View {
 
 fn still(filter: SurfaceFilter) -> Vec<u8> {
     let fov = Fov::symmetric(0.42, EXTENT[0] as f32 / EXTENT[1] as f32);
-    beaker(EXTENT, filter, look(fov))
+    beaker(EXTENT, filter, look(fov)).0
 }
 
 /// A beaker on the bench with water over acid, and a drop that falls.
-fn beaker(extent: [u32; 2], filter: SurfaceFilter, view: View) -> Vec<u8> {
+fn beaker(extent: [u32; 2], filter: SurfaceFilter, view: View) -> (Vec<u8>, Surface) {
     let mut rig: Rig = rig(extent, 1, filter);
-    let (radius, floor) = (0.02, 0.002);
+    let (radius, floor) = (f64::from(RADIUS), 0.002);
     let beaker = VesselDesc {
         inner: vec![[0.0, floor], [radius, floor], [radius, 0.05]],
         outer: vec![[0.0, 0.0], [radius + 0.002, 0.0], [radius + 0.002, 0.05]],
@@ -63,11 +66,11 @@ fn beaker(extent: [u32; 2], filter: SurfaceFilter, view: View) -> Vec<u8> {
     places.push(foot + Vec3::new(0.0, 0.045, 0.0));
     let mut liquid = Liquid::new(&rig, &places, |x| if x.y < 0.763 { 0.9 } else { 0.0 });
     liquid.table = None;
-    let (picture, _) = draw(
+    let (picture, surfaces) = draw(
         &rig,
         &frame(&[view], &[Affine3A::from_translation(foot)], &liquid),
     );
-    picture.colour[0].clone()
+    (picture.colour[0].clone(), surfaces[0].clone())
 }
 
 /// What an asymmetric frustum shows is a part of what the symmetric one around
@@ -90,8 +93,8 @@ fn asymmetric_frustum_is_a_part_of_a_symmetric_one() {
     // 800 pixels for a slope of 1.
     let sizes = [[480, 320], [320, 280]];
     let filter = SurfaceFilter::NarrowRange;
-    let large = beaker(sizes[0], filter, look(whole));
-    let small = beaker(sizes[1], filter, look(part));
+    let (large, _) = beaker(sizes[0], filter, look(whole));
+    let (small, _) = beaker(sizes[1], filter, look(part));
     let mut off = 0;
     for y in 0..280 {
         for x in 0..320 {
@@ -105,6 +108,34 @@ fn asymmetric_frustum_is_a_part_of_a_symmetric_one() {
     }
     // Pixels of half thickness and tiles fall alike; rounding decides at edges.
     assert!(off < 90, "{off} of 89600 pixels differ");
+}
+
+/// Liquid that wets the glass has the glass's surface, and none of it is in
+/// the glass.
+#[test]
+fn wetted_glass_is_the_glass() {
+    let fov = Fov::symmetric(0.42, EXTENT[0] as f32 / EXTENT[1] as f32);
+    let view = look(fov);
+    let (_, surface) = beaker(EXTENT, SurfaceFilter::NarrowRange, view);
+    let (mut at_wall, mut most) = (0, f64::MIN);
+    for (index, &depth) in surface
+        .depth
+        .iter()
+        .enumerate()
+        .filter(|(_, depth)| **depth > 0.0)
+    {
+        let (x, y) = (index as u32 % EXTENT[0], index as u32 / EXTENT[0]);
+        let ray = ray(&view, EXTENT, x, y);
+        let along = -ray.dot(view.stage_from_eye.matrix3.z_axis.as_dvec3());
+        let eye = view.stage_from_eye.translation.as_dvec3();
+        let at = eye + ray * (f64::from(depth) / along) - FOOT.as_dvec3();
+        let beyond = at.x.hypot(at.z) - f64::from(RADIUS);
+        most = most.max(beyond);
+        at_wall += u32::from(beyond.abs() < 0.02 * f64::from(SPACING));
+    }
+    // Two steps towards it, in f32. The lattice touches the wall here and there.
+    assert!(most < 0.01 * f64::from(SPACING), "{most} m into the glass");
+    assert!(at_wall > 1500, "{at_wall} pixels at the wall");
 }
 
 fn path(name: &str) -> PathBuf {

@@ -269,3 +269,18 @@ fn a_frame_that_does_not_fit_is_refused() {
         "{error}"
     );
 }
+
+/// The room is around either eye.
+#[test]
+fn both_eyes_see_the_room() {
+    let mut rig = Rig::new(EXTENT, 2);
+    rig.set_scene(&SceneDesc::laboratory(Vec::new(), 0.75, 1.0));
+    let left = View::bench(ASPECT);
+    let mut right = left;
+    right.stage_from_eye = left.stage_from_eye * Affine3A::from_translation(Vec3::X * 0.063);
+    let picture = rig.draw(&without_particles(&[left, right]));
+    for (eye, depth) in picture.depth.iter().enumerate() {
+        let holes = depth.iter().filter(|depth| **depth == 0.0).count();
+        assert_eq!(holes, 0, "eye {eye} sees {holes} pixels of nothing");
+    }
+}

@@ -342,3 +342,18 @@ fn what_is_built_upon_a_feature_goes_with_it() {
     assert!(less.models(Feature::Density));
     assert!(scene.without(Feature::Dilution).0.model.is_empty());
 }
+
+#[test]
+fn a_scene_chooses_its_filter() {
+    let with = |filter: &str| {
+        let key = format!("[picture]\nfilter = \"{filter}\"\n[floor]");
+        Scene::parse(&GOOD.replacen("[floor]", &key, 1), "picture.toml")
+    };
+    let filter = |scene: Scene| scene.picture.filter;
+    let default = Scene::parse(GOOD, "good.toml").unwrap();
+    assert_eq!(filter(default), PictureFilter::NarrowRange);
+    let flow = with("curvature-flow").unwrap();
+    assert_eq!(filter(flow), PictureFilter::CurvatureFlow);
+    let error = with("gaussian").unwrap_err().to_string();
+    assert!(error.contains("narrow-range"), "{error}");
+}
