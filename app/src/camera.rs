@@ -4,7 +4,8 @@ use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
     BoxDesc, ColourBy, Fov, FrameDesc, LiquidDesc, LiquidSource, Neighbours, ParticleSource,
-    RenderDesc, RenderError, Renderer, SceneDesc, SurfaceFilter, VesselDesc, VesselTables, View,
+    RenderDesc, RenderError, Renderer, SceneDesc, SteamSource, SurfaceFilter, VesselDesc,
+    VesselTables, View,
 };
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -201,7 +202,13 @@ impl Camera {
             vessels: &vessels,
             particles: liquid.is_none().then_some(particles),
             liquid,
-            steam: None,
+            steam: solver
+                .puffs()
+                .filter(|_| liquid.is_some())
+                .map(|puffs| SteamSource {
+                    puffs,
+                    count: vitriol_sim::solver::PUFFS,
+                }),
             colour_by,
             length_scale: scale.length_scale as f32,
         };

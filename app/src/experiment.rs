@@ -255,6 +255,7 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             kinetic_j: ledger.kinetic,
             closure: ledger.closure(start),
             steam_kg: ledger.steam,
+            mist_kg: ledger.mist,
             vapour_kg: ledger.vapour,
         }),
     }

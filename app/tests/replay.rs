@@ -51,6 +51,7 @@ fn heat(t: f64) -> HeatSample {
             kinetic_j: 0.1 * t,
             closure: 2e-7,
             steam_kg: 1e-5 * t,
+            mist_kg: 0.0,
             vapour_kg: 0.0,
         }),
     }

@@ -36,8 +36,8 @@ pub struct ParticleSource<'a> {
 /// Puffs of steam.
 #[derive(Clone, Copy)]
 pub struct SteamSource<'a> {
-    /// `array<Puff>` ([`layout::Puff`]): centre and radius in the scene's unit,
-    /// and opacity. A radius of 0 draws nothing.
+    /// `array<Puff>` ([`layout::Puff`]): centre, radius (m) and optical depth.
+    /// A radius of 0 draws nothing.
     pub puffs: &'a Buffer,
     /// How many of them are drawn.
     pub count: u32,

@@ -9,6 +9,7 @@ use naga::{AddressSpace, Module, ShaderStage};
 use crate::chains;
 use crate::check::{Checked, capabilities, validation_message};
 use crate::error::ShaderError;
+use crate::exact;
 use crate::fold::fold_constant_ifs;
 use crate::reflect::{Binding, Stage, bindings};
 
@@ -136,7 +137,11 @@ pub fn compile(
     };
     Ok(Compiled {
         label: format!("{}:{entry}", path.trim_end_matches(".wgsl")),
-        spirv: chains::join(&spirv),
+        spirv: if stage == Stage::Compute {
+            exact::forbid_contraction(&chains::join(&spirv))
+        } else {
+            chains::join(&spirv)
+        },
         entry: entry.to_owned(),
         stage,
         workgroup_size: module.entry_points[0].workgroup_size,

@@ -18,17 +18,21 @@ mod chains;
 mod check;
 mod compile;
 mod error;
+mod exact;
 mod files;
 mod fold;
 mod include;
 mod library;
 mod reflect;
 mod reload;
+mod texels;
 
 pub use compile::{BoundsChecks, CompileOptions, Compiled};
 pub use error::ShaderError;
 pub use library::Library;
-pub use reflect::{Binding, BindingKind, ImageDimension, Stage, StorageFormat};
+pub use reflect::{
+    Binding, BindingKind, ImageDimension, Stage, StorageFormat, TexelFormat, TexelKind,
+};
 
 /// Names a shader: the path of its file relative to the `wgsl` folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -38,6 +38,9 @@ pub enum BindingKind {
         /// whether a write is reached).
         writable: bool,
     },
+    /// A uniform texel buffer: what [`crate::Compiled::with_texels`] makes of a
+    /// read-only storage buffer.
+    Texels(TexelFormat),
     /// A uniform buffer.
     Uniform {
         /// Its size in bytes.
@@ -72,6 +75,26 @@ pub enum BindingKind {
         /// Whether it compares with a reference value.
         comparison: bool,
     },
+}
+
+/// What a texel of a texel buffer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TexelFormat {
+    /// Its scalars.
+    pub kind: TexelKind,
+    /// How many of them: 1, 2 or 4.
+    pub components: u32,
+}
+
+/// Scalars of a texel, 32 bits each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TexelKind {
+    /// `f32`
+    Float,
+    /// `u32`
+    Uint,
+    /// `i32`
+    Sint,
 }
 
 /// The bindings that the module's only entry point uses, by group and binding, and the size in

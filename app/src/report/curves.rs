@@ -21,10 +21,15 @@ impl Report {
     /// evaporated; of runs in which anything did.
     pub(super) fn departures(&self) -> Vec<Plotted> {
         let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
+        let mist = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.mist_kg);
         let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
         let mut lost = vec![(self.curve("spilled", &spilled), largest(self, &spilled))];
         if self.series.iter().any(|sample| ledger(sample).is_some()) {
             lost.push((self.curve("evaporated", &steam), largest(self, &steam)));
+            lost.push((
+                self.curve("of it mist in the air", &mist),
+                largest(self, &mist),
+            ));
         }
         let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
         let curves = lost.into_iter().map(|(curve, _)| curve).collect();

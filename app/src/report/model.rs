@@ -237,6 +237,8 @@ pub struct LedgerSample {
     pub closure: f64,
     /// Water that left as steam, kg.
     pub steam_kg: f64,
+    /// Mist that it is in the air over the liquid, kg.
+    pub mist_kg: f64,
     /// Vapour that is still in the liquid, kg.
     pub vapour_kg: f64,
 }

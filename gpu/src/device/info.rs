@@ -29,6 +29,9 @@ pub struct DeviceInfo {
     pub features: EnabledFeatures,
     /// Whether `QueueKind::Async` is a queue of its own.
     pub second_queue: bool,
+    /// Whether compute passes get read-only arrays as texel buffers: on a
+    /// software driver, see `Compiled::with_texels`.
+    pub fetches_texels: bool,
 }
 
 /// Limits that buffers and dispatches must keep.
@@ -50,6 +53,8 @@ pub struct BindingLimits {
     pub image_extent: u32,
     /// Layers of an image.
     pub image_layers: u32,
+    /// Elements of a texel buffer.
+    pub texels: u64,
 }
 
 /// Optional features, each on where the device has it.
@@ -140,6 +145,7 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             workgroup_bytes: core.limits.max_compute_shared_memory_size,
             image_extent: core.limits.max_image_dimension2_d,
             image_layers: core.limits.max_image_array_layers,
+            texels: core.limits.max_texel_buffer_elements.into(),
         },
         subgroup_size: v11.subgroup_size,
         timestamp_period: if core.limits.timestamp_compute_and_graphics == vk::TRUE {

@@ -261,5 +261,6 @@ fn device_info(
         max_views: properties.max_views,
         features,
         second_queue: plan.is_double(),
+        fetches_texels: properties.kind == vk::PhysicalDeviceType::CPU,
     }
 }

@@ -1,11 +1,12 @@
 //! Buffers.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 use bytemuck::{AnyBitPattern, NoUninit};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
+use vitriol_shaders::{TexelFormat, TexelKind};
 
 use super::{allocate, free, next_id};
 use crate::device::Core;
@@ -30,6 +31,8 @@ pub(crate) struct BufferInner {
     /// Made for the host's eyes; what the driver maps besides is not offered,
     /// lest a program work on one device only.
     pub(crate) is_host: bool,
+    /// Views as texels, each made when it is first asked for.
+    views: Mutex<Vec<(TexelFormat, vk::BufferView)>>,
     allocation: Allocation,
     core: Arc<Core>,
 }
@@ -55,6 +58,9 @@ impl Buffer {
             | vk::BufferUsageFlags::INDEX_BUFFER;
         if core.info.features.conditional {
             usage |= vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT;
+        }
+        if core.info.fetches_texels {
+            usage |= vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         }
         let limit = core.info.limits.storage_bytes;
         Self::checked(gpu, label, bytes, usage, limit)
@@ -178,6 +184,7 @@ impl Buffer {
                 bytes,
                 usage,
                 is_host: location != MemoryLocation::GpuOnly,
+                views: Mutex::default(),
                 allocation,
                 core: core.clone(),
             }),
@@ -250,6 +257,32 @@ impl BufferInner {
         })
     }
 
+    /// The whole buffer as texels.
+    pub(crate) fn texels(&self, format: TexelFormat) -> Result<vk::BufferView, GpuError> {
+        let mut views = self.views.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, view)) = views.iter().find(|(known, _)| *known == format) {
+            return Ok(*view);
+        }
+        let limit = self.core.info.limits.texels * 4 * u64::from(format.components);
+        if self.bytes > limit {
+            return Err(GpuError::BufferTooLarge {
+                label: self.label.clone(),
+                bytes: self.bytes,
+                limit,
+            });
+        }
+        let create = vk::BufferViewCreateInfo::default()
+            .buffer(self.handle)
+            .format(texel_format(format))
+            .range(vk::WHOLE_SIZE);
+        // SAFETY: the buffer is alive and made for this use, and as long as the
+        // limit allows; every device offers these formats for it.
+        let view = unsafe { self.core.device.create_buffer_view(&create, None) }
+            .map_err(GpuError::vulkan("vkCreateBufferView"))?;
+        views.push((format, view));
+        Ok(view)
+    }
+
     pub(crate) fn check_usage(&self, usage: vk::BufferUsageFlags) -> Result<(), GpuError> {
         if self.usage.contains(usage) {
             return Ok(());
@@ -312,9 +345,30 @@ impl BufferInner {
 
 impl Drop for BufferInner {
     fn drop(&mut self) {
+        let views = self.views.get_mut().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: recorders and submissions hold clones until the device has
         // finished; this was the last.
-        unsafe { self.core.device.destroy_buffer(self.handle, None) };
+        unsafe {
+            for (_, view) in views.drain(..) {
+                self.core.device.destroy_buffer_view(view, None);
+            }
+            self.core.device.destroy_buffer(self.handle, None);
+        }
         free(&self.core, &mut self.allocation);
+    }
+}
+
+fn texel_format(format: TexelFormat) -> vk::Format {
+    use TexelKind::{Float, Sint, Uint};
+    match (format.kind, format.components) {
+        (Float, 1) => vk::Format::R32_SFLOAT,
+        (Float, 2) => vk::Format::R32G32_SFLOAT,
+        (Float, _) => vk::Format::R32G32B32A32_SFLOAT,
+        (Uint, 1) => vk::Format::R32_UINT,
+        (Uint, 2) => vk::Format::R32G32_UINT,
+        (Uint, _) => vk::Format::R32G32B32A32_UINT,
+        (Sint, 1) => vk::Format::R32_SINT,
+        (Sint, 2) => vk::Format::R32G32_SINT,
+        (Sint, _) => vk::Format::R32G32B32A32_SINT,
     }
 }

@@ -33,6 +33,11 @@ impl ComputePipeline {
             return Err(wrong_stage(compiled, "compute"));
         }
         let core = &gpu.inner.core;
+        let compiled = if core.info.fetches_texels {
+            &compiled.with_texels()
+        } else {
+            compiled
+        };
         let layout = Layout::new(core, vk::PipelineBindPoint::COMPUTE, &[compiled])?;
         let module = Module::new(core, compiled)?;
         let entry = c_string(&compiled.entry);

@@ -18,6 +18,7 @@ use crate::device::Core;
 pub(crate) union DescriptorData {
     pub(crate) buffer: vk::DescriptorBufferInfo,
     pub(crate) image: vk::DescriptorImageInfo,
+    pub(crate) texels: vk::BufferView,
 }
 
 impl DescriptorData {
@@ -272,6 +273,7 @@ fn stage_flag(stage: Stage) -> vk::ShaderStageFlags {
 fn descriptor_type(kind: &BindingKind) -> vk::DescriptorType {
     match kind {
         BindingKind::Storage { .. } => vk::DescriptorType::STORAGE_BUFFER,
+        BindingKind::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         BindingKind::Uniform { .. } => vk::DescriptorType::UNIFORM_BUFFER,
         BindingKind::SampledImage { .. } => vk::DescriptorType::SAMPLED_IMAGE,
         BindingKind::StorageImage { .. } => vk::DescriptorType::STORAGE_IMAGE,
@@ -314,7 +316,7 @@ fn scope(stage: Stage, kind: &BindingKind) -> Scope {
     match *kind {
         BindingKind::Storage { writable } => pick(true, writable),
         BindingKind::Uniform { .. } => uniform,
-        BindingKind::SampledImage { .. } => sampled,
+        BindingKind::Texels(_) | BindingKind::SampledImage { .. } => sampled,
         BindingKind::StorageImage {
             readable, writable, ..
         } => pick(readable, writable),

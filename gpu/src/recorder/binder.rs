@@ -125,7 +125,7 @@ impl<'a> Binder<'a> {
         let inner = &buffer.inner;
         let wrong = match (slot.kind, asked) {
             (BindingKind::Storage { writable: true }, Asked::Write)
-            | (BindingKind::Storage { writable: false }, Asked::Read) => {
+            | (BindingKind::Storage { writable: false } | BindingKind::Texels(_), Asked::Read) => {
                 (!inner.usage.contains(vk::BufferUsageFlags::STORAGE_BUFFER)).then(|| {
                     format!(
                         "\"{}\" is no storage buffer; make it with Buffer::storage",
@@ -151,7 +151,7 @@ impl<'a> Binder<'a> {
             (BindingKind::Storage { writable: true }, Asked::Read) => {
                 Some("the shader declares it read_write; give it with .write".to_owned())
             }
-            (BindingKind::Storage { writable: false }, Asked::Write) => {
+            (BindingKind::Storage { writable: false } | BindingKind::Texels(_), Asked::Write) => {
                 Some("the shader declares it read-only; give it with .read".to_owned())
             }
             (kind, _) => Some(wrong_kind(&kind)),
@@ -159,11 +159,17 @@ impl<'a> Binder<'a> {
         if let Some(cause) = wrong {
             return self.refuse(name, cause);
         }
-        storage.descriptors[self.descriptors + index] = DescriptorData {
-            buffer: vk::DescriptorBufferInfo {
-                buffer: inner.handle,
-                offset: 0,
-                range: vk::WHOLE_SIZE,
+        storage.descriptors[self.descriptors + index] = match slot.kind {
+            BindingKind::Texels(format) => match inner.texels(format) {
+                Ok(texels) => DescriptorData { texels },
+                Err(error) => return self.fail(error),
+            },
+            _ => DescriptorData {
+                buffer: vk::DescriptorBufferInfo {
+                    buffer: inner.handle,
+                    offset: 0,
+                    range: vk::WHOLE_SIZE,
+                },
             },
         };
         let used = Use {
@@ -310,7 +316,9 @@ impl<'a> Binder<'a> {
 
 fn wrong_kind(kind: &BindingKind) -> String {
     let (what, how) = match kind {
-        BindingKind::Storage { writable: false } => ("a read-only storage buffer", ".read"),
+        BindingKind::Storage { writable: false } | BindingKind::Texels(_) => {
+            ("a read-only storage buffer", ".read")
+        }
         BindingKind::Storage { writable: true } => ("a read_write storage buffer", ".write"),
         BindingKind::Uniform { .. } => ("a uniform buffer", ".uniform"),
         BindingKind::SampledImage { .. } => ("a sampled image", ".sampled"),

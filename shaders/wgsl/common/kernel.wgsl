@@ -4,6 +4,8 @@
 
 /// Support radius h, metres.
 override SUPPORT: f32 = 0.005;
+/// 1/h: no driver makes a multiplication of a division by h.
+override INVERSE_SUPPORT: f32 = 1.0 / SUPPORT;
 /// Particle volume V0 = d³, cubic metres.
 override VOLUME: f32 = 1.5625e-8;
 

@@ -11,18 +11,18 @@ override LOADS: bool = false;
 
 /// Displacement (m) that walls gave to each particle since the frame's start.
 @group(0) @binding(32) var<storage, read_write> wall_push: array<vec4<f32>>;
-/// x*; w unused.
+/// (x*, volume over V0)
 @group(0) @binding(33) var<storage, read_write> trial: array<vec4<f32>>;
 
-fn predict(i: u32, x: vec3<f32>, v: vec3<f32>, tag: u32, before: u32, after: u32) {
+fn predict(i: u32, x: vec3<f32>, v: vec3<f32>, volume: f32, tag: u32, before: u32, after: u32) {
     if (tag == REMOVED) {
-        trial[i] = vec4<f32>(x, 0.0);
+        trial[i] = vec4<f32>(x, volume);
         return;
     }
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
     let free = x + step.time * (v + step.time * gravity);
     let allowed = constrain(tag, x, free, before, after).position;
-    trial[i] = vec4<f32>(allowed, 0.0);
+    trial[i] = vec4<f32>(allowed, volume);
     if (LOADS) { wall_push[i] += vec4<f32>(allowed - free, 0.0); }
     check_list(i, allowed);
 }

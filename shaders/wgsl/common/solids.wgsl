@@ -46,7 +46,7 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
         let offset = p - solid.xyz;
         let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
         let per_distance = inverseSqrt(square);
-        let q = square * per_distance / SUPPORT;
+        let q = square * per_distance * INVERSE_SUPPORT;
         wall.volume += solid.w * spline(q);
         wall.gradient += offset * (solid.w * per_distance * spline_slope(q) / SUPPORT);
         if (PULL) { wall.pull -= offset * (solid.w * per_distance * adhesion(q)); }

@@ -5,16 +5,7 @@
 
 //!include common/frame.wgsl
 //!include common/daylight.wgsl
-
-/// A puff of steam.
-struct Puff {
-    /// In the stage, in the scene's unit.
-    centre: vec3<f32>,
-    /// In the scene's unit; 0 for none.
-    radius: f32,
-    /// Opacity in the middle, 0 to 1.
-    opacity: f32,
-}
+//!include common/puff.wgsl
 
 @group(0) @binding(1) var<storage, read> puffs: array<Puff>;
 @group(0) @binding(2) var depth: texture_depth_2d_array;
@@ -40,18 +31,18 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> V
     let low = corner == 2u || corner == 4u || corner == 5u;
     let place = select(vec2<f32>(-1.0), vec2<f32>(1.0), vec2<bool>(right, low));
     let view = &frame.views[eye];
-    let middle = (*view).clip_from_stage * vec4<f32>(puff.centre, 1.0);
+    let middle = (*view).clip_from_stage * vec4<f32>(puff.position, 1.0);
     var out = Varyings(vec4<f32>(2.0, 2.0, 2.0, 1.0), place, vec3<f32>(0.0), vec3<f32>(0.0));
     // Nothing of a puff around the eye: it would fill the picture.
-    if !(puff.radius > 0.0 && puff.opacity > 0.0 && middle.w > puff.radius + (*view).near) {
+    if !(puff.radius > 0.0 && puff.depth > 0.0 && middle.w > puff.radius + (*view).near) {
         return out;
     }
     let x_axis = normalize((*view).across);
     let y_axis = normalize((*view).down);
-    let at = puff.centre + puff.radius * (place.x * x_axis + place.y * y_axis);
+    let at = puff.position + puff.radius * (place.x * x_axis + place.y * y_axis);
     out.clip = (*view).clip_from_stage * vec4<f32>(at, 1.0);
-    out.puff = vec3<f32>(middle.w, puff.radius, puff.opacity);
-    let key = key_light(puff.centre * frame.metres_per_unit);
+    out.puff = vec3<f32>(middle.w, puff.radius, 1.0 - exp(-puff.depth));
+    let key = key_light(puff.position * frame.metres_per_unit);
     out.light = WHITENESS * (ambient_light(0.0) + 0.5 * key.light);
     return out;
 }

@@ -7,7 +7,7 @@
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(4) var<storage, read_write> density: array<f32>;
 /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(5) var<storage, read> bulk: array<vec4<f32>>;
@@ -23,12 +23,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tag = tags[i].x;
     var sum = 0.0;
     let count = list_counts[i];
-    for (var k = lane; k < count; k += LANES) {
-        let j = list[k * COUNT + i];
-        let offset = x - position[j].xyz;
-        var weight = spline(sqrt(dot(offset, offset)) / SUPPORT);
-        if (DENSITY) { weight *= bulk[j].x; }
-        sum += weight;
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let offset = x - position[j].xyz;
+            var weight = spline(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
+            if (DENSITY) { weight *= bulk[j].x; }
+            // What fills up the last four is the particle itself.
+            sum += select(weight, 0.0, j == i);
+        }
     }
     var self_weight = spline(0.0);
     if (DENSITY) { self_weight *= bulk[i].x; }

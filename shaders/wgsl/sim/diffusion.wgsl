@@ -22,7 +22,7 @@ override AMBIENT: f32 = 20.0;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 /// (∇V, V) of the walls.
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
 /// (T in °C, c, ½ Σ w|v_ij|² in J/kg, what c lacks)
@@ -44,15 +44,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (DILUTION) {
         let x = position[i].xyz;
         let count = list_counts[i];
-        for (var k = lane; k < count; k += LANES) {
-            let j = list[k * COUNT + i];
-            let offset = x - position[j].xyz;
-            let weight = diffusion_weight(sqrt(dot(offset, offset)) / SUPPORT);
-            let apart = heat[j].xy - own.xy;
-            let share = vec2<f32>(pair_share(step.time * HEAT_DIFFUSION, weight),
-                                  pair_share(step.time * ACID_DIFFUSION, weight));
-            change += apart * share;
-            limited += select(0.0, 1.0, max(share.x, share.y) >= 1.0 / f32(LIST_CAPACITY));
+        for (var g = lane; g * 4u < count; g += LANES) {
+            let four = list[g * COUNT + i];
+            for (var n = 0u; n < 4u; n++) {
+                let j = four[n];
+                let offset = x - position[j].xyz;
+                let weight = diffusion_weight(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
+                let apart = heat[j].xy - own.xy;
+                let share = vec2<f32>(pair_share(step.time * HEAT_DIFFUSION, weight),
+                                      pair_share(step.time * ACID_DIFFUSION, weight));
+                change += apart * share;
+                limited += select(0.0, 1.0, max(share.x, share.y) >= 1.0 / f32(LIST_CAPACITY));
+            }
         }
         change = vec2<f32>(lane_sum(change.x), lane_sum(change.y));
         limited = lane_sum(limited);

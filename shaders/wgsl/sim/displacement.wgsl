@@ -19,6 +19,8 @@ override LOADS: bool = false;
 override DENSITY: bool = false;
 /// Whether particles have a temperature.
 override HEAT: bool = false;
+/// Whether the chemistry is the physical one.
+override PHYSICAL: bool = false;
 /// v_max, m/s.
 override MAX_SPEED: f32 = 10.0;
 /// Half of the list's margin, metres: a particle that went further might miss neighbours.
@@ -27,11 +29,13 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(0) var<storage, read> solved: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> boundary: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
+/// (x*, volume over V0)
 @group(0) @binding(4) var<storage, read_write> trial: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> wall_push: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> multiplier: array<f32>;
 @group(0) @binding(7) var<storage, read> velocity: array<vec4<f32>>;
+/// (x, vapour over V0·ρ0; negative for a particle that was taken out)
 @group(0) @binding(8) var<storage, read_write> position: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> tags: array<vec2<u32>>;
 /// Velocity before viscosity; w holds the carried multiplier, −p/ρ in m²/s².
@@ -87,7 +91,9 @@ fn commit(i: u32, x_star: vec3<f32>) {
         carried = velocity[i].w;
         carried += step.carry * (multiplied / (step.time * step.time) - carried);
     }
-    position[i] = vec4<f32>(to, 1.0);
+    var vapour = 0.0;
+    if (PHYSICAL) { vapour = bulk[i].z; }
+    position[i] = vec4<f32>(to, vapour);
     tags[i].x = allowed.membership;
     new_velocity[i] = vec4<f32>(v, carried);
 }
@@ -100,15 +106,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = solved[i];
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
-    for (var k = lane; k < count; k += LANES) {
-        let j = list[k * COUNT + i];
-        let other = solved[j];
-        let offset = own.xyz - other.xyz;
-        let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
-        let per_distance = inverseSqrt(square);
-        var slope = per_distance * spline_slope(square * per_distance / SUPPORT);
-        if (DENSITY) { slope *= bulk[j].x; }
-        sum += offset * ((own.w + other.w) * slope);
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let other = solved[j];
+            let offset = own.xyz - other.xyz;
+            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+            let per_distance = inverseSqrt(square);
+            var slope = per_distance * spline_slope(square * per_distance * INVERSE_SUPPORT);
+            if (DENSITY) { slope *= bulk[j].x; }
+            sum += offset * ((own.w + other.w) * slope);
+        }
     }
     sum = lane_sum3(sum);
     if (lane != 0u) { return; }
@@ -124,6 +133,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (COMMIT) {
         commit(i, x_star);
     } else {
-        trial[i] = vec4<f32>(x_star, 0.0);
+        var volume = 1.0;
+        if (DENSITY) { volume = bulk[i].x; }
+        trial[i] = vec4<f32>(x_star, volume);
     }
 }

@@ -33,10 +33,11 @@ override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
 override AMBIENT: f32 = 20.0;
 
+/// (x, vapour over V0·ρ0)
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 /// (∇V, V) of the walls.
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
 /// Potentials, see `common/potential.wgsl`.
@@ -55,11 +56,17 @@ override AMBIENT: f32 = 20.0;
 @group(0) @binding(10) var<storage, read> agitation: array<f32>;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
 
-/// A pair's share of what the two can hold, and whether it was cut short.
-fn conductance(rate: f32, weight: f32, a: f32, b: f32) -> vec2<f32> {
-    let wanted = rate * (2.0 / (SUPPORT * SUPPORT)) * weight_scale() * weight * (2.0 * (a * b) / max(a + b, 1e-30));
-    let most = min(a, b) / f32(LIST_CAPACITY);
-    return vec2<f32>(min(wanted, most), select(0.0, 1.0, wanted > most));
+/// What a pair exchanges of acid and of heat per difference, for `rates` = Δt·D (m²), where one
+/// particle holds `a` and the other `b`; and how many of the two were cut short. The kernel's part
+/// is `diffusion_weight`; with the two harmonic means it needs one division instead of three.
+fn conductances(rates: vec2<f32>, q: f32, a: vec2<f32>, b: vec2<f32>) -> vec3<f32> {
+    let sums = max(a + b, vec2<f32>(1e-12));
+    let inverse = 1.0 / ((q * q + 0.01) * sums.x * sums.y);
+    let weight = (4.0 / (SUPPORT * SUPPORT)) * weight_scale() * (-spline_slope(q) * q) * inverse;
+    let wanted = rates * (weight * (a * b)) * sums.yx;
+    let most = min(a, b) * (1.0 / f32(LIST_CAPACITY));
+    let cut = select(vec2<f32>(0.0), vec2<f32>(1.0), wanted > most);
+    return vec3<f32>(min(wanted, most), cut.x + cut.y);
 }
 
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
@@ -94,26 +101,29 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // Vapour that came from below, its enthalpy, and what covers this particle.
     var bubbles = vec3<f32>(0.0);
     let count = list_counts[i];
-    for (var k = lane; k < count; k += LANES) {
-        let j = list[k * COUNT + i];
-        let offset = x - position[j].xyz;
-        let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
-        let per_distance = inverseSqrt(square);
-        let q = square * per_distance / SUPPORT;
-        let weight = diffusion_weight(q);
-        let other = heat[j];
-        let other_held = held(other);
-        let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
-        let of_acid = conductance(step.time * (ACID_DIFFUSIVITY + eddies), weight, own_held.x, other_held.x);
-        let of_heat = conductance(step.time * (THERMAL_DIFFUSIVITY + LEWIS * eddies), weight, own_held.y, other_held.y);
-        let acid = of_acid.x * (other.y - own.y);
-        flux += vec3<f32>(acid, acid * (0.5 * (own.w + other.w)) + of_heat.x * (other.x - own.x), of_acid.y + of_heat.y);
-        if (LOSSES) { open += offset * (per_distance * spline_slope(q)); }
-        if (BUBBLE_SPEED > 0.0) {
-            let up = offset.y * per_distance;
-            let kernel = spline(q);
-            let come = bulk[j].z * towards(up, kernel);
-            bubbles += vec3<f32>(come, come * steam_enthalpy(other.x), towards(-up, kernel));
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let near = position[j];
+            let offset = x - near.xyz;
+            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+            let per_distance = inverseSqrt(square);
+            let q = square * per_distance * INVERSE_SUPPORT;
+            let other = heat[j];
+            let other_held = held(other);
+            let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
+            let rates = step.time * vec2<f32>(ACID_DIFFUSIVITY + eddies, THERMAL_DIFFUSIVITY + LEWIS * eddies);
+            let share = conductances(rates, q, own_held, other_held);
+            let acid = share.x * (other.y - own.y);
+            flux += vec3<f32>(acid, acid * (0.5 * (own.w + other.w)) + share.y * (other.x - own.x), share.z);
+            if (LOSSES) { open += offset * (per_distance * spline_slope(q)); }
+            if (BUBBLE_SPEED > 0.0) {
+                let up = offset.y * per_distance;
+                let kernel = spline(q);
+                let come = near.w * towards(up, kernel);
+                bubbles += vec3<f32>(come, come * steam_enthalpy(other.x), towards(-up, kernel));
+            }
         }
     }
     flux = lane_sum3(flux);

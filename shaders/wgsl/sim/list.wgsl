@@ -1,5 +1,5 @@
 // Line 10: the neighbours within support radius plus margin, by ascending
-// index, strided so that neighbouring invocations read neighbouring words.
+// index, in fours strided so that neighbouring invocations read side by side.
 // Pairs that glass separates are left out here, once, and not in each pass.
 //!include common/particle.wgsl
 //!include common/kernel.wgsl
@@ -59,33 +59,57 @@ fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
     return seen;
 }
 
+/// Word of the list that holds particle i's neighbour k: neighbours lie in
+/// fours, and the fours of neighbouring particles side by side.
+fn place(k: u32, i: u32) -> u32 {
+    return ((k >> 2u) * COUNT + i) * 4u + (k & 3u);
+}
+
 var<private> found: u32;
 var<private> coincident: bool;
 /// Whether any candidate has another membership.
 var<private> mixed: bool;
 
+/// Candidate n of a row: one of `count` from `first` on, then of those from `second` on.
+fn candidate(n: u32, first: u32, count: u32, second: u32) -> u32 {
+    return select(second + n - count, first + n, n < count);
+}
+
 /// Tests `count` particles from `first` on, and then `wrapped` from `second`
 /// on, in one loop: two would both be walked on a software driver, the second
-/// one for nothing. With `keep` it lists those that are neighbours.
+/// one for nothing. With `keep` it lists those that are neighbours: 32 are
+/// tested and then the hits written, since what is written under a condition
+/// costs such a driver the same whether it holds or not.
 fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, count: u32, second: u32, wrapped: u32, keep: bool) {
-    for (var n = 0u; n < count + wrapped; n++) {
-        let j = select(second + n - count, first + n, n < count);
-        let other = sorted_trial[j];
-        let theirs = bitcast<u32>(other.w);
-        let offset = x - other.xyz;
-        let distance = dot(offset, offset);
-        if (distance < CELL * CELL && j != i) {
-            mixed = mixed || theirs != membership;
-            // On a software driver, which walks both sides of every `if`, the
-            // few pairs of mixed membership are looked at afterwards.
+    for (var start = 0u; start < count + wrapped; start += 32u) {
+        let tested = min(count + wrapped - start, 32u);
+        var near = 0u;
+        for (var n = 0u; n < tested; n++) {
+            let j = candidate(start + n, first, count, second);
+            let other = sorted_trial[j];
+            let offset = x - other.xyz;
+            let distance = dot(offset, offset);
+            let hit = distance < CELL * CELL && j != i;
+            near |= select(0u, 1u << n, hit);
+            mixed = mixed || (hit && bitcast<u32>(other.w) != membership);
+            coincident = coincident || (hit && distance < 1e-8 * SUPPORT * SUPPORT);
+        }
+        while (near != 0u) {
+            let j = candidate(start + firstTrailingBit(near), first, count, second);
+            near &= near - 1u;
+            // On a software driver the few pairs of mixed membership are
+            // looked at afterwards.
             var seen = true;
             if (LANES > 1u) {
-                if (theirs != membership) { seen = visible(membership, x, theirs, other.xyz); }
+                if (mixed) {
+                    let other = sorted_trial[j];
+                    let theirs = bitcast<u32>(other.w);
+                    if (theirs != membership) { seen = visible(membership, x, theirs, other.xyz); }
+                }
             }
             if (seen) {
-                if (keep && found < LIST_CAPACITY) { list[found * COUNT + i] = j; }
+                if (keep && found < LIST_CAPACITY) { list[place(found, i)] = j; }
                 found++;
-                coincident = coincident || distance < 1e-8 * SUPPORT * SUPPORT;
             }
         }
     }
@@ -114,11 +138,11 @@ fn search_rows(i: u32, lane: u32, x: vec3<f32>, membership: u32, keep: bool) {
 fn drop_unseen(i: u32, x: vec3<f32>, membership: u32, listed: u32) {
     var kept = 0u;
     for (var k = 0u; k < listed; k++) {
-        let j = list[k * COUNT + i];
+        let j = list[place(k, i)];
         let other = sorted_trial[j];
         let theirs = bitcast<u32>(other.w);
         if (theirs == membership || visible(membership, x, theirs, other.xyz)) {
-            list[kept * COUNT + i] = j;
+            list[place(kept, i)] = j;
             kept++;
         }
     }
@@ -169,8 +193,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // stay together for ever.
     if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
     if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
-    list_counts[i] = min(found, LIST_CAPACITY);
-    trial[i] = vec4<f32>(x, 0.0);
+    let listed = min(found, LIST_CAPACITY);
+    list_counts[i] = listed;
+    // Sums take four at a time; the particle itself adds nothing to differences.
+    for (var k = listed; (k & 3u) != 0u; k++) { list[place(k, i)] = i; }
+    var volume = 1.0;
+    if (PHYSICAL) { volume = sorted_bulk[i].x; }
+    trial[i] = vec4<f32>(x, volume);
     list_origin[i] = vec4<f32>(x, 0.0);
     position[i] = sorted_position[i];
     velocity[i] = sorted_velocity[i];

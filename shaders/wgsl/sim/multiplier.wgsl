@@ -23,13 +23,12 @@ override CARRY: bool = false;
 override APPLY_CARRIED: bool = false;
 /// Whether the rebuild's dispatch sizes return to zero here.
 override CLEAR_LIST_ARGS: bool = false;
-/// Whether particles differ in volume and density.
-override DENSITY: bool = false;
 
+/// (x*, volume over V0)
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(4) var<storage, read> velocity: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> multiplier: array<f32>;
 /// (x*, this iteration's dλ)
@@ -37,8 +36,6 @@ override DENSITY: bool = false;
 /// (∇V, V) of the walls at x*.
 @group(0) @binding(7) var<storage, read_write> boundary: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> list_args: array<u32>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
-@group(0) @binding(9) var<storage, read> bulk: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -53,16 +50,21 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     if (i >= COUNT) { return; }
-    let x = trial[i].xyz;
+    let own = trial[i];
+    let x = own.xyz;
     var sum = 0.0;
     if (!APPLY_CARRIED) {
         let count = list_counts[i];
-        for (var k = lane; k < count; k += LANES) {
-            let j = list[k * COUNT + i];
-            let offset = x - trial[j].xyz;
-            var weight = spline(sqrt(dot(offset, offset)) / SUPPORT);
-            if (DENSITY) { weight *= bulk[j].x; }
-            sum += weight;
+        for (var g = lane; g * 4u < count; g += LANES) {
+            let four = list[g * COUNT + i];
+            for (var n = 0u; n < 4u; n++) {
+                let j = four[n];
+                let other = trial[j];
+                let offset = x - other.xyz;
+                let weight = other.w * spline(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
+                // What fills up the last four is the particle itself.
+                sum += select(weight, 0.0, j == i);
+            }
         }
         sum = lane_sum(sum);
     }
@@ -82,9 +84,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         solved[i] = vec4<f32>(x, carried);
         return;
     }
-    var self_weight = spline(0.0);
-    if (DENSITY) { self_weight *= bulk[i].x; }
-    let constraint = (sum + self_weight) * weight_scale() + wall.w - 1.0;
+    let constraint = (sum + own.w * spline(0.0)) * weight_scale() + wall.w - 1.0;
     var before = 0.0;
     var momentum = 0.0;
     if (FIRST) {

@@ -41,7 +41,7 @@ const EPSILON: f32 = 1e-6;
 @group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
 /// (ω, |ω|), 1/s.
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
@@ -87,38 +87,41 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var push = vec3<f32>(0.0);
     if (VISCOUS || BOILING || DILUTION || PHYSICAL || CONFINEMENT > 0.0 || COHESION > 0.0) {
         let count = list_counts[i];
-        for (var k = lane; k < count; k += LANES) {
-            let j = list[k * COUNT + i];
-            let offset = x - position[j].xyz;
-            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
-            let per_distance = inverseSqrt(square);
-            let q = square * per_distance / SUPPORT;
-            var other = vec4<f32>(0.0);
-            if (DILUTION || BOILING || PHYSICAL) { other = mixing[j]; }
-            if (PHYSICAL) {
-                let relative = new_velocity[j].xyz - own.xyz;
-                let weight = spline(q) * (2.0 * other.z / (mixed.z + other.z));
-                drag += relative * (weight * (0.5 * (mixed.y + other.y)));
-                if (BOILING) {
-                    push -= relative * (weight * (0.5 * (mixed.x + other.x)));
-                    agitation += weight * dot(relative, relative);
+        for (var g = lane; g * 4u < count; g += LANES) {
+            let four = list[g * COUNT + i];
+            for (var n = 0u; n < 4u; n++) {
+                let j = four[n];
+                let offset = x - position[j].xyz;
+                let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+                let distance = sqrt(square);
+                let q = distance * INVERSE_SUPPORT;
+                var other = vec4<f32>(0.0);
+                if (DILUTION || BOILING || PHYSICAL) { other = mixing[j]; }
+                if (PHYSICAL) {
+                    let relative = new_velocity[j].xyz - own.xyz;
+                    let weight = spline(q) * (2.0 * other.z / (mixed.z + other.z));
+                    drag += relative * (weight * (0.5 * (mixed.y + other.y)));
+                    if (BOILING) {
+                        push -= relative * (weight * (0.5 * (mixed.x + other.x)));
+                        agitation += weight * dot(relative, relative);
+                    }
+                } else if (VISCOUS || BOILING) {
+                    let relative = new_velocity[j].xyz - own.xyz;
+                    let weight = spline(q);
+                    // A coefficient of 1 throughout leaves the bits as they are without boiling.
+                    var pair = weight;
+                    if (BOILING) {
+                        pair *= 0.5 * (mixed.z + other.z);
+                        agitation += weight * dot(relative, relative);
+                    }
+                    drag += relative * pair;
                 }
-            } else if (VISCOUS || BOILING) {
-                let relative = new_velocity[j].xyz - own.xyz;
-                let weight = spline(q);
-                // A coefficient of 1 throughout leaves the bits as they are without boiling.
-                var pair = weight;
-                if (BOILING) {
-                    pair *= 0.5 * (mixed.z + other.z);
-                    agitation += weight * dot(relative, relative);
+                if (DILUTION) { warmed += warming(mixed, other, q); }
+                if (CONFINEMENT > 0.0) {
+                    eta += offset * ((vorticity[j].w - omega.w) / distance * spline_slope(q));
                 }
-                drag += relative * pair;
+                if (COHESION > 0.0) { attraction -= offset * (cohesion(q) / distance); }
             }
-            if (DILUTION) { warmed += warming(mixed, other, q); }
-            if (CONFINEMENT > 0.0) {
-                eta += offset * ((vorticity[j].w - omega.w) * per_distance * spline_slope(q));
-            }
-            if (COHESION > 0.0) { attraction -= offset * (per_distance * cohesion(q)); }
         }
         if (VISCOUS || BOILING || PHYSICAL) { drag = lane_sum3(drag) * weight_scale(); }
         if (PHYSICAL && BOILING) { push = lane_sum3(push) * weight_scale(); }
@@ -149,6 +152,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (PHYSICAL && BOILING) { v += push; }
     if (CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0) { v += step.time * acceleration; }
     velocity[i] = vec4<f32>(v, own.w);
+    var volume = 1.0;
     if (PHYSICAL) {
         if (tag != REMOVED) {
             var content = matter[i];
@@ -174,11 +178,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 bulky.x = content.w * (1.0 - content.z) / density;
                 bulky.y = 1.0 / density;
             }
+            volume = bulky.x;
             bulk[i] = bulky;
         }
     } else if (HEAT) {
         let after = diffused[i];
         heat[i] = vec4<f32>(after.x + HEATING * warmed, after.y, 0.5 * agitation, mixed.w);
     }
-    if (PREDICT) { predict(i, x, v, tag, step.after, step.next); }
+    if (PREDICT) { predict(i, x, v, volume, tag, step.after, step.next); }
 }

@@ -7,7 +7,7 @@
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 /// (ω, |ω|), 1/s.
 @group(0) @binding(4) var<storage, read_write> vorticity: array<vec4<f32>>;
 
@@ -20,13 +20,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = new_velocity[i].xyz;
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
-    for (var k = lane; k < count; k += LANES) {
-        let j = list[k * COUNT + i];
-        let offset = x - position[j].xyz;
-        let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
-        let per_distance = inverseSqrt(square);
-        let slope = per_distance * spline_slope(square * per_distance / SUPPORT);
-        sum += cross(offset, new_velocity[j].xyz - own) * slope;
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let offset = x - position[j].xyz;
+            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+            let per_distance = inverseSqrt(square);
+            let slope = per_distance * spline_slope(square * per_distance * INVERSE_SUPPORT);
+            sum += cross(offset, new_velocity[j].xyz - own) * slope;
+        }
     }
     let omega = lane_sum3(sum) * (weight_scale() / SUPPORT);
     if (lane == 0u) { vorticity[i] = vec4<f32>(omega, length(omega)); }

@@ -17,6 +17,7 @@ mod model;
 pub mod paper;
 pub mod physical;
 pub mod properties;
+pub mod puff;
 pub mod table;
 pub mod thomsen;
 pub mod transport;

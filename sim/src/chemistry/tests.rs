@@ -2,6 +2,7 @@
 //! Truth from outside: the source tables, handbook values, the pair sums
 //! that the paper's equations are meant to give.
 
+mod air;
 mod enthalpy;
 mod pairs;
 mod phases;

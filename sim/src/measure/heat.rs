@@ -62,6 +62,8 @@ pub struct Ledger {
     pub exchanged: f64,
     /// Mass of the steam that left, kg.
     pub steam: f64,
+    /// Mass of the mist that it is in the air over the liquid, kg.
+    pub mist: f64,
     /// Enthalpy that it took along, J.
     pub steam_enthalpy: f64,
     /// Enthalpy that was paid for motion, J.
@@ -222,6 +224,7 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         held: m * sum.held,
         exchanged: m * sum.exchanged,
         steam: m * sum.steam,
+        mist: state.mist(),
         steam_enthalpy: m * sum.steam_enthalpy,
         kinetic: m * sum.kinetic,
         turnover: m * sum.turnover,

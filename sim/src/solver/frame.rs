@@ -67,6 +67,7 @@ impl Solver {
             self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
             self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
         }
+        self.vent(rec)?;
         self.sum_loads(rec)
     }
 
@@ -117,6 +118,7 @@ impl Solver {
             .read("position", &b.position)
             .read("velocity", &b.velocity)
             .read("tags", &b.tags)
+            .read("bulk", &b.bulk)
             .constants(&self.step(0))
             .invocations(self.count)?;
         Ok(())
@@ -170,7 +172,6 @@ impl Solver {
             .write("solved", &b.solved)
             .write("boundary", &b.boundary)
             .write("list_args", &b.list_args)
-            .read("bulk", &b.bulk)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())

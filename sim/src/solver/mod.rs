@@ -19,12 +19,14 @@ mod pipelines;
 mod search;
 mod solids;
 mod state;
+mod steam;
 mod vessels;
 
 pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
 pub use state::SolverState;
+pub use steam::PUFFS;
 pub use vessels::Ground;
 
 use crate::flask::Profile;
@@ -32,8 +34,9 @@ use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
 use buffers::Buffers;
 use glam::DVec3;
-use pipelines::{Grid, Pipelines};
+use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
+use steam::Steam;
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu, vk};
 use vitriol_shaders::Library;
@@ -95,6 +98,7 @@ pub struct Solver {
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
+    steam: Option<Steam>,
 }
 
 impl Solver {
@@ -110,7 +114,9 @@ impl Solver {
         let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
-        let pipelines = Pipelines::new(gpu, library, spec, count, &grid, lanes)?;
+        let constants = Constants::new(spec, count, &grid, lanes);
+        let pipelines = Pipelines::new(gpu, library, spec, &constants)?;
+        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants)?;
         let solver = Self {
             gpu: gpu.clone(),
             coefficients: spec
@@ -127,6 +133,7 @@ impl Solver {
             buffers,
             vessels,
             pipelines,
+            steam,
         };
         solver.restore(&SolverState::start(
             spec.particles,
@@ -147,7 +154,8 @@ impl Solver {
     }
 
     /// Positions as `array<vec4<f32>>`, stage frame, metres; w is −1 for a
-    /// particle that was taken out. For the renderer, in place.
+    /// particle that was taken out, else the vapour that it holds over V0·ρ0.
+    /// For the renderer, in place.
     pub fn positions(&self) -> &Buffer {
         &self.buffers.position
     }

@@ -84,11 +84,8 @@ impl Pipelines {
         gpu: &Gpu,
         library: &Library,
         spec: &SolverSpec<'_>,
-        count: u32,
-        grid: &Grid,
-        lanes: u32,
+        constants: &Constants,
     ) -> Result<Self, SolverError> {
-        let constants = Constants::new(spec, count, grid, lanes);
         let carry = flag(spec.parameters.carry > 0.0);
         let first = [("FIRST", 1.0), ("CARRY", carry)];
         let clear_first = [("FIRST", 1.0), ("CLEAR_LIST_ARGS", 1.0)];
@@ -202,10 +199,10 @@ fn flag(on: bool) -> f64 {
 }
 
 /// Values of the override constants, of which each shader has some.
-struct Constants(Vec<(&'static str, f64)>);
+pub(super) struct Constants(Vec<(&'static str, f64)>);
 
 impl Constants {
-    fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid, lanes: u32) -> Self {
+    pub(super) fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid, lanes: u32) -> Self {
         let p = &spec.parameters;
         let margin = grid.cell - p.support_radius;
         let mut all = vec![
@@ -261,8 +258,13 @@ impl Constants {
         Self(all)
     }
 
+    /// These and `more`.
+    pub(super) fn and(&self, more: &[(&'static str, f64)]) -> Self {
+        Self([&self.0, more].concat())
+    }
+
     /// Those that `shader` declares, with `extra`.
-    fn of(
+    pub(super) fn of(
         &self,
         library: &Library,
         shader: ShaderId,

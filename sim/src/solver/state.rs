@@ -2,13 +2,14 @@
 
 use super::matter::Start;
 use super::pipelines::Grid;
+use super::steam::{Steam, SteamState};
 use super::{Counters, Particle, Solver, SolverError};
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::Ordering;
-use vitriol_gpu::{Buffer, Gpu};
+use vitriol_gpu::{Buffer, Gpu, GpuError};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
@@ -16,7 +17,8 @@ use xxhash_rust::xxh3::Xxh3;
 /// would have the same pairs in another order, and sums other bits.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SolverState {
-    /// Positions in the stage (m) by slot; w is −1 for one taken out.
+    /// Positions in the stage (m) by slot; w is −1 for one taken out, else the
+    /// vapour that it holds over V0·ρ0.
     pub positions: Vec<[f32; 4]>,
     /// Velocities (m/s) by slot; w is the carried multiplier −p/ρ (m²/s²).
     pub velocities: Vec<[f32; 4]>,
@@ -43,6 +45,7 @@ pub struct SolverState {
     agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     bulk: Vec<[f32; 4]>,
+    steam: SteamState,
 }
 
 /// Membership of a particle that was taken out.
@@ -55,7 +58,7 @@ impl SolverState {
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
         let mut state = Self {
-            positions: particles.iter().map(|p| words(p.position, 1.0)).collect(),
+            positions: particles.iter().map(|p| words(p.position, 0.0)).collect(),
             velocities: particles
                 .iter()
                 .map(|p| words(p.velocity, p.carried as f32))
@@ -69,6 +72,7 @@ impl SolverState {
             ledger: Vec::new(),
             agitation: Vec::new(),
             bulk: Vec::new(),
+            steam: Steam::start(parameters, n),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],
@@ -117,6 +121,11 @@ impl SolverState {
         hash.digest()
     }
 
+    /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.
+    pub fn mist(&self) -> f64 {
+        self.steam.mist()
+    }
+
     /// Whether the particle in a slot is still there.
     pub fn is_present(&self, slot: usize) -> bool {
         self.tags[slot][0] != REMOVED
@@ -160,6 +169,10 @@ impl Solver {
             ledger: read(gpu, &b.ledger, matter)?,
             agitation: read(gpu, &b.agitation, matter)?,
             bulk: read(gpu, &b.bulk, matter)?,
+            steam: match &self.steam {
+                Some(steam) => steam.snapshot(gpu, n)?,
+                None => SteamState::default(),
+            },
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
             list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
@@ -176,6 +189,7 @@ impl Solver {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
         let lengths = self.lengths();
+        let puffs = Steam::start(&self.parameters, n).elements();
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -188,6 +202,7 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
+            ("puffs", state.steam.elements(), puffs),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {
@@ -209,6 +224,9 @@ impl Solver {
         write(gpu, &b.ledger, &state.ledger)?;
         write(gpu, &b.agitation, &state.agitation)?;
         write(gpu, &b.bulk, &state.bulk)?;
+        if let Some(steam) = &self.steam {
+            steam.restore(gpu, &state.steam)?;
+        }
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
@@ -248,7 +266,7 @@ struct Lengths {
 }
 
 /// The first `count` elements; buffers are a few bytes longer where a scene is empty.
-fn read<T: bytemuck::AnyBitPattern>(
+pub(super) fn read<T: bytemuck::AnyBitPattern>(
     gpu: &Gpu,
     buffer: &Buffer,
     count: usize,
@@ -258,7 +276,11 @@ fn read<T: bytemuck::AnyBitPattern>(
     Ok(all)
 }
 
-fn write<T: bytemuck::NoUninit>(gpu: &Gpu, buffer: &Buffer, data: &[T]) -> Result<(), SolverError> {
+pub(super) fn write<T: bytemuck::NoUninit>(
+    gpu: &Gpu,
+    buffer: &Buffer,
+    data: &[T],
+) -> Result<(), GpuError> {
     if !data.is_empty() {
         gpu.write(buffer, data)?;
     }

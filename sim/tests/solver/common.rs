@@ -228,7 +228,7 @@ impl List {
         let row = |slot: usize| {
             let count = fields.list_counts[slot] as usize;
             let mut row: Vec<_> = (0..count)
-                .map(|k| fields.list[k * n + slot] as usize)
+                .map(|k| fields.list[(k / 4 * n + slot) * 4 + k % 4] as usize)
                 .collect();
             row.sort_unstable();
             row

@@ -24,8 +24,12 @@ fn vorticity_by_gpu(gpu: &Gpu, positions: &[DVec3], velocities: &[DVec3]) -> Vec
     let capacity = 64;
     let (mut counts, mut list) = (vec![0u32; n], vec![0u32; n * capacity]);
     for i in 0..n {
+        // In fours, filled up with the particle itself.
+        list.chunks_exact_mut(4 * n)
+            .for_each(|fours| fours[4 * i..4 * i + 4].fill(i as u32));
         for j in neighbours.of(i) {
-            list[counts[i] as usize * n + i] = j as u32;
+            let k = counts[i] as usize;
+            list[(k / 4 * n + i) * 4 + k % 4] = j as u32;
             counts[i] += 1;
         }
     }

@@ -52,7 +52,7 @@ var<immediate> around: Neighbourhood;
 
 @group(0) @binding(0) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> list_counts: array<u32>;
-@group(0) @binding(2) var<storage, read> list: array<u32>;
+@group(0) @binding(2) var<storage, read> list: array<vec4<u32>>;
 /// Temperature and acid fraction in x and y.
 @group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> ellipsoids: array<Ellipsoid>;
@@ -102,14 +102,19 @@ fn lane_sum(value: vec3<f32>) -> vec3<f32> {
 fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
     var sum = Moments(0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0));
     let number = list_counts[i];
-    for (var k = lane; k < number; k += LANES) {
-        let r = (positions[list[k * around.count + i]].xyz - x) / around.support;
-        let square = dot(r, r);
-        let w = max(1.0 - square * sqrt(square), 0.0);
-        sum.weight += w;
-        sum.first += w * r;
-        sum.squares += w * r * r;
-        sum.products += w * r.xxy * r.yzz;
+    for (var g = lane; g * 4u < number; g += LANES) {
+        let four = list[g * around.count + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let r = (positions[j].xyz - x) / around.support;
+            let square = dot(r, r);
+            // What fills up the last four is the particle itself.
+            let w = select(max(1.0 - square * sqrt(square), 0.0), 0.0, j == i);
+            sum.weight += w;
+            sum.first += w * r;
+            sum.squares += w * r * r;
+            sum.products += w * r.xxy * r.yzz;
+        }
     }
     if (LANES > 1u) {
         sum.weight = lane_sum(vec3<f32>(sum.weight)).x;

@@ -9,3 +9,4 @@ mod physical;
 mod repeat;
 mod scenes;
 mod setup;
+mod steam;

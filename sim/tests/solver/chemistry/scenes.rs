@@ -44,6 +44,14 @@ fn expected(p: &Parameters, loads: bool, line_26: Option<&str>) -> Vec<String> {
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
         all.push("viscosity");
     }
+    if let Some(Chemistry::Physical(physical)) = &p.chemistry {
+        all.extend(
+            physical
+                .bubble_speed
+                .into_iter()
+                .flat_map(|_| ["puffs", "vent"]),
+        );
+    }
     all.extend(loads.then_some("load"));
     let passes = all.iter().map(|name| format!("sim/{name}:main"));
     // The poses go first, the loads come back, and a frame has its sum.

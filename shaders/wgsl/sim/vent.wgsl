@@ -1,0 +1,81 @@
+// What steam left the liquid becomes puffs. Each workgroup gathers the steam
+// of a share of the particles, and lets it rise from one of them: that with
+// the most, by lot, so that the puffs come from all over the surface.
+//!include common/particle.wgsl
+//!include common/condensation.wgsl
+
+/// Workgroups: puffs that a frame may bring.
+override VENTS: u32 = 4u;
+/// Mass of a particle at rest density, kg.
+override MASS: f32 = 1e-5;
+/// Steam that makes a puff, kg; less waits for more.
+override LEAST_PUFF: f32 = 5e-7;
+
+@group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
+/// By identity: (kinetic energy paid for, heat exchanged, steam's mass and enthalpy), in J and kg
+/// per V0·ρ0.
+@group(0) @binding(3) var<storage, read> ledger: array<vec4<f32>>;
+/// By identity: steam's mass and enthalpy of which puffs were made.
+@group(0) @binding(4) var<storage, read_write> vented: array<vec2<f32>>;
+/// Puffs made, by workgroup.
+@group(0) @binding(5) var<storage, read_write> made: array<u32>;
+
+const THREADS: u32 = 64u;
+
+var<workgroup> sums: array<vec2<f32>, THREADS>;
+/// (lot, index of the particle as bits).
+var<workgroup> lots: array<vec2<f32>, THREADS>;
+
+/// A number in [0, 1) from two.
+fn lot(a: u32, b: u32) -> f32 {
+    var bits = (a ^ (b * 2654435769u)) * 747796405u + 2891336453u;
+    bits = ((bits >> ((bits >> 28u) + 4u)) ^ bits) * 277803737u;
+    return f32((bits >> 22u) ^ (bits & 1023u)) / 1024.0;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let first = group.x + VENTS * local.x;
+    let number = made[group.x];
+    var sum = vec2<f32>(0.0);
+    var best = vec2<f32>(-1.0, 0.0);
+    for (var i = first; i < COUNT; i += VENTS * THREADS) {
+        let identity = tags[i].y;
+        let gone = ledger[identity].zw - vented[identity];
+        sum += gone;
+        let drawn = gone.x * lot(identity, number);
+        if (drawn > best.x) { best = vec2<f32>(drawn, bitcast<f32>(i)); }
+    }
+    sums[local.x] = sum;
+    lots[local.x] = best;
+    workgroupBarrier();
+    for (var half = THREADS / 2u; half > 0u; half >>= 1u) {
+        if (local.x < half) {
+            sums[local.x] += sums[local.x + half];
+            if (lots[local.x + half].x > lots[local.x].x) { lots[local.x] = lots[local.x + half]; }
+        }
+        workgroupBarrier();
+    }
+    let steam = sums[0] * MASS;
+    if (steam.x < LEAST_PUFF) { return; }
+    for (var i = first; i < COUNT; i += VENTS * THREADS) {
+        let identity = tags[i].y;
+        vented[identity] = ledger[identity].zw;
+    }
+    if (local.x != 0u) { return; }
+    let source = position[bitcast<u32>(lots[0].y)].xyz;
+    // The liquid's tables count from water at 25 °C, and steam has 1.9 kJ/(kg K) in them.
+    let temperature = (steam.y / steam.x - 2.442e6) / 1.9e3 + 25.0;
+    var puff: Puff;
+    puff.air = FIRST_AIR * steam.x;
+    puff.water = steam.x + puff.air * ROOM_HUMIDITY;
+    puff.enthalpy = steam.x * (VAPORISATION + VAPOUR_CAPACITY * temperature) + puff.air * ROOM_ENTHALPY;
+    puff = condensed(puff);
+    puff.position = source + vec3<f32>(0.0, puff.radius, 0.0);
+    // Thermals of one place do not follow one another exactly.
+    let turn = 2.0 * PI * lot(number, group.x);
+    puff.drift = 0.2 * vec2<f32>(cos(turn), sin(turn));
+    puffs[(number * VENTS + group.x) % PUFFS] = puff;
+    made[group.x] = number + 1u;
+}
