@@ -22,8 +22,8 @@ const NUMBERS: &str = "fidelity.json";
 const DIFFERENCE: &str = "fidelity.png";
 
 /// Width and height of an eye's picture, pixels. A particle spacing is 2.7 to
-/// 20 pixels wide; in a headset, half a metre away, about 5.
-const SIZES: [[u32; 2]; 4] = [[320, 240], [640, 480], [960, 720], [1440, 1080]];
+/// 11 pixels wide; in a headset, half a metre away, about 5.
+const SIZES: [[u32; 2]; 4] = [[320, 240], [640, 480], [960, 720], [1280, 960]];
 /// Which of these the picture of the difference has.
 const SHOWN: usize = 1;
 

@@ -8,7 +8,7 @@ use crate::camera::{NEAR, View};
 
 /// Step of the march, in the sharpest kernel's half-widths: what a ray enters
 /// and leaves within one step is missed.
-const STEP: f64 = 0.5;
+const STEP: f64 = 0.75;
 
 /// φ less the surface's level above which a ray is deep in a liquid, and its
 /// step there, particle spacings.

@@ -87,7 +87,7 @@ fn one_kernel_is_an_ellipsoid() {
         let found = picture.depth[pixel];
         // A chord shorter than a step may be missed.
         let chord = 2.0 * root.max(0.0).sqrt() / aa * ray.length();
-        if chord < 0.5 * field.shortest() {
+        if chord < 0.75 * field.shortest() {
             continue;
         }
         seen += 1;
