@@ -34,9 +34,9 @@ fn puffs_fade_against_what_is_there() {
     let plain = rig.draw(&without_particles(&views));
     let draw = |centre: Vec3, radius: f32, opacity: f32| {
         let puff = Puff {
-            centre: centre.to_array(),
+            position: centre.to_array(),
             radius,
-            opacity,
+            depth: -(1.0 - opacity).ln(),
             ..Puff::default()
         };
         let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
