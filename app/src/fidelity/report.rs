@@ -234,3 +234,49 @@ pub fn describe(found: &Fidelity) -> String {
     );
     text
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+
+    #[test]
+    fn rows_keep_the_worst_and_leave_out_what_is_no_number() {
+        let picture = |manner, off: f64, volume_ratio| Picture {
+            state: "still",
+            view: "close",
+            size: [320, 240],
+            margin_px: 3,
+            manner,
+            figures: Figures {
+                silhouette_iou: 1.0 - off,
+                compared: off,
+                depth_rms_radii: off,
+                depth_mean_radii: off,
+                normal_angle_deg: off,
+                reprojection_rms_radii: f64::NAN,
+                flicker_rms_radii: off,
+                flicker_normal_deg: off,
+                volume_ratio,
+            },
+        };
+        let drawn = Manner::new("none", true);
+        let rows = rows(&[
+            picture(Manner::REFERENCE, 0.0, 1.0),
+            picture(drawn, 0.1, 1.02),
+            picture(drawn, 0.7, 0.97),
+            picture(drawn, 0.2, f64::NAN),
+        ]);
+        let [reference, row] = rows[..] else {
+            panic!("{rows:?}");
+        };
+        assert_eq!(reference.manner, Manner::REFERENCE);
+        let f = row.figures;
+        assert!((f.silhouette_iou - 0.3).abs() < 1e-12, "{f:?}");
+        // √((0.1² + 0.7² + 0.2²)/3) and their mean.
+        assert!((f.depth_rms_radii - 0.18_f64.sqrt()).abs() < 1e-12, "{f:?}");
+        assert!((f.normal_angle_deg - 1.0 / 3.0).abs() < 1e-12, "{f:?}");
+        assert!(f.reprojection_rms_radii.is_nan(), "{f:?}");
+        assert_eq!(f.volume_ratio, 0.97);
+    }
+}
