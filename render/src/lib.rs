@@ -32,6 +32,7 @@ mod fluid;
 mod frame;
 mod mesh;
 mod pipelines;
+mod readback;
 pub mod reference;
 mod renderer;
 mod scene;
@@ -45,5 +46,6 @@ pub use fluid::{
     LiquidDesc, LiquidSource, Neighbours, Surface, SurfaceFilter, SurfaceReadback, VesselTables,
 };
 pub use frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
-pub use renderer::{PictureReadback, RenderDesc, Renderer};
+pub use readback::PictureReadback;
+pub use renderer::{RenderDesc, Renderer};
 pub use scene::{BoxDesc, SceneDesc, VesselDesc};

@@ -1,4 +1,4 @@
-//! Triangle meshes of the bench, the room and the glass.
+//! Triangle meshes of the glass and what is printed on it.
 
 use glam::{Vec2, Vec3};
 use vitriol_shaders::layout::MeshVertex;
@@ -6,11 +6,6 @@ use vitriol_shaders::layout::MeshVertex;
 /// Facets around an axis: at 72 the chord of a 90 mm beaker leaves its circle
 /// by 0.04 mm, well under a pixel of the film.
 const FACETS: u32 = 72;
-
-/// Parts of a flat side along each edge. Mesa's software driver (22.3) loses in
-/// every view but the first what it clips at the near plane: triangles that
-/// reach behind the eye must be small enough to lie outside its field.
-const GRID: u32 = 16;
 
 /// Facets of a printed line.
 const MARK_FACETS: u32 = 6;
@@ -23,16 +18,10 @@ const CREASE_COS: f32 = 0.77;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Material {
-    /// The bench's top and sides.
-    Table = 0,
-    /// The room's floor.
-    Floor = 1,
-    /// Walls and ceiling.
-    Wall = 2,
     /// Laboratory glass.
-    Glass = 3,
+    Glass = 0,
     /// White enamel printed on glass.
-    Enamel = 4,
+    Enamel = 1,
 }
 
 /// Triangles wound counter-clockwise seen from outside the solid.
@@ -79,66 +68,6 @@ impl Mesh {
                 corner + 3,
                 corner + 1,
             ]);
-        }
-    }
-
-    /// Adds the box between the corners `min` and `max`.
-    pub fn add_box(&mut self, min: Vec3, max: Vec3, material: Material) {
-        let (centre, half) = (0.5 * (min + max), 0.5 * (max - min));
-        for axis in 0..3 {
-            for sign in [-1.0, 1.0] {
-                let mut normal = Vec3::ZERO;
-                normal[axis] = sign;
-                let mut u = Vec3::ZERO;
-                u[(axis + 1) % 3] = 1.0;
-                let v = normal.cross(u);
-                self.add_quad(centre + normal * half, u * half, v * half, normal, material);
-            }
-        }
-    }
-
-    /// Adds a room seen from within: floor, ceiling and four walls between
-    /// the corners `min` and `max`.
-    pub fn add_room(&mut self, min: Vec3, max: Vec3) {
-        let (centre, half) = (0.5 * (min + max), 0.5 * (max - min));
-        for axis in 0..3 {
-            for sign in [-1.0, 1.0] {
-                let mut normal = Vec3::ZERO;
-                normal[axis] = sign;
-                let mut u = Vec3::ZERO;
-                u[(axis + 1) % 3] = 1.0;
-                let v = u.cross(normal);
-                let material = match (axis, sign < 0.0) {
-                    (1, true) => Material::Floor,
-                    _ => Material::Wall,
-                };
-                self.add_quad(
-                    centre + normal * half,
-                    u * half,
-                    v * half,
-                    -normal,
-                    material,
-                );
-            }
-        }
-    }
-
-    /// A quad of half edges `u` and `v` with `u × v` along `normal`, as a grid.
-    fn add_quad(&mut self, centre: Vec3, u: Vec3, v: Vec3, normal: Vec3, material: Material) {
-        let first = self.vertices.len() as u32;
-        let place = |n: u32| 2.0 * n as f32 / GRID as f32 - 1.0;
-        for y in 0..=GRID {
-            for x in 0..=GRID {
-                self.vertex(centre + u * place(x) + v * place(y), normal, material);
-            }
-        }
-        for y in 0..GRID {
-            for x in 0..GRID {
-                let low = first + y * (GRID + 1) + x;
-                let high = low + GRID + 1;
-                self.indices
-                    .extend([low, low + 1, high + 1, low, high + 1, high]);
-            }
         }
     }
 
@@ -218,20 +147,6 @@ mod tests {
                 assert!(normal.dot(facet) > 0.7, "{normal} {facet}");
             }
         }
-    }
-
-    #[test]
-    fn box_and_room_enclose_their_volume_from_either_side() {
-        let (min, max) = (Vec3::new(-0.3, 0.1, -2.0), Vec3::new(0.7, 0.6, -1.0));
-        let mut solid = Mesh::default();
-        solid.add_box(min, max, Material::Table);
-        // Three thousand terms in f32.
-        assert!((volume(&solid) - 0.5).abs() < 1e-4);
-        assert_normals_face_out(&solid);
-        let mut room = Mesh::default();
-        room.add_room(min, max);
-        assert!((volume(&room) + 0.5).abs() < 1e-4);
-        assert_normals_face_out(&room);
     }
 
     /// A polygon of n facets holds n/(2π)·sin(2π/n) of its circle's area, so

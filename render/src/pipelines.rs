@@ -60,7 +60,7 @@ impl Pipelines {
         };
         Ok(Self {
             particles: make(render::PARTICLES, Cull::None, false)?,
-            surfaces: make(render::SURFACES, Cull::Back, false)?,
+            surfaces: make(render::SURFACES, Cull::None, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
             steam: steam(gpu, library, format, view_mask)?,

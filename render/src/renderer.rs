@@ -3,7 +3,7 @@
 use glam::Mat4;
 use vitriol_gpu::{
     Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
-    RasterTarget, Readback, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -11,6 +11,7 @@ use crate::RenderError;
 use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
 use crate::frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
 use crate::pipelines::{DEPTH_FORMAT, Pipelines};
+use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
 use crate::tiles::Tiles;
 
@@ -430,14 +431,10 @@ impl Renderer {
     }
 
     fn draw_surfaces(&self, raster: &mut Raster<'_>) -> Result<(), vitriol_gpu::GpuError> {
-        let Some(mesh) = &self.scene.surfaces else {
-            return Ok(());
-        };
         raster
             .draw(&self.pipelines.surfaces)
             .uniform("frame", &self.frame)
-            .read("vertices", &mesh.vertices)
-            .indexed(&mesh.indices, mesh.index_count, 1)
+            .vertices(6)
     }
 
     fn draw_glass(
@@ -487,45 +484,5 @@ impl Renderer {
     ) -> Result<SurfaceReadback, RenderError> {
         let fluid = self.fluid.as_ref().ok_or(RenderError::NoLiquid)?;
         fluid.read_back(rec, frame.nears())
-    }
-}
-
-/// A picture on its way to the host.
-pub struct PictureReadback {
-    readback: Readback,
-    views: usize,
-    /// Bytes of a row of one view.
-    row_bytes: usize,
-}
-
-impl PictureReadback {
-    /// The first view, row by row from the top, without padding, four bytes a
-    /// pixel in the format's order (RGBA for a film).
-    ///
-    /// # Errors
-    /// [`RenderError::Gpu`] before the submission has finished.
-    pub fn first_view(&self) -> Result<Vec<u8>, RenderError> {
-        let mut bytes = self.readback.get::<u8>()?;
-        bytes.truncate(bytes.len() / self.views);
-        Ok(bytes)
-    }
-
-    /// All views in one picture, the first to the left; else as
-    /// [`PictureReadback::first_view`].
-    ///
-    /// # Errors
-    /// [`RenderError::Gpu`] before the submission has finished.
-    pub fn side_by_side(&self) -> Result<Vec<u8>, RenderError> {
-        let bytes = self.readback.get::<u8>()?;
-        if self.views == 1 {
-            return Ok(bytes);
-        }
-        let view = bytes.len() / self.views;
-        let rows = (0..view).step_by(self.row_bytes);
-        let parts = rows.flat_map(|row| (0..self.views).map(move |index| index * view + row));
-        Ok(parts
-            .flat_map(|start| &bytes[start..start + self.row_bytes])
-            .copied()
-            .collect())
     }
 }

@@ -185,8 +185,6 @@ pub(crate) struct Vessel {
 
 /// The scene on the device.
 pub(crate) struct Scene {
-    /// Bench and room, if there is either.
-    pub(crate) surfaces: Option<DeviceMesh>,
     pub(crate) vessels: Vec<Vessel>,
     pub(crate) table: Option<BoxDesc>,
     pub(crate) room: Option<BoxDesc>,
@@ -195,20 +193,8 @@ pub(crate) struct Scene {
 impl Scene {
     /// Uploads the meshes and waits for it; a scene is set once.
     pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<Self, RenderError> {
-        let mut surfaces = Mesh::default();
-        if let Some(table) = desc.table {
-            surfaces.add_box(table.min, table.max, Material::Table);
-        }
-        if let Some(room) = desc.room {
-            surfaces.add_room(room.min, room.max);
-        }
         let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
         let scene = Self {
-            surfaces: if surfaces.indices.is_empty() {
-                None
-            } else {
-                Some(DeviceMesh::new(gpu, &mut rec, "surfaces", &surfaces)?)
-            },
             vessels: desc
                 .vessels
                 .iter()

@@ -21,9 +21,9 @@ const NUMBERS: &str = "fidelity.json";
 /// The picture's.
 const DIFFERENCE: &str = "fidelity.png";
 
-/// Width and height of an eye's picture, pixels. A particle spacing is 2.7 to
-/// 11 pixels wide; in a headset, half a metre away, about 5.
-const SIZES: [[u32; 2]; 4] = [[320, 240], [640, 480], [960, 720], [1280, 960]];
+/// Width and height of an eye's picture, pixels. A particle spacing is 3 to 8
+/// pixels wide in the widest views; in a headset, half a metre away, about 5.
+const SIZES: [[u32; 2]; 4] = [[320, 240], [480, 360], [640, 480], [960, 720]];
 /// Which of these the picture of the difference has.
 const SHOWN: usize = 1;
 

@@ -33,10 +33,15 @@ impl Liquid {
         let n = positions.len();
         let mut counts = vec![0_u32; n.max(1)];
         let mut list = vec![0_u32; CAPACITY * n.max(1)];
+        // In fours, filled up with the particle itself.
+        for (place, word) in list.iter_mut().enumerate() {
+            *word = (place / 4 % n.max(1)) as u32;
+        }
         for (i, a) in positions.iter().enumerate() {
             for (j, b) in positions.iter().enumerate() {
                 if i != j && a.distance_squared(*b) < SUPPORT * SUPPORT {
-                    list[counts[i] as usize * n + i] = j as u32;
+                    let k = counts[i] as usize;
+                    list[(k / 4 * n + i) * 4 + k % 4] = j as u32;
                     counts[i] += 1;
                 }
             }

@@ -57,15 +57,23 @@ fn bench_light(position: vec3<f32>, normal: vec3<f32>, material: u32) -> vec3<f3
     return albedo * (ambient + window);
 }
 
-/// What a ray from `origin` within the room meets: table, floor, walls or ceiling.
-fn room_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
-    if !(frame.room_max.y > frame.room_min.y) { return ambient_light(direction.y); }
+/// Where a ray meets the room.
+struct Meeting {
+    /// In lengths of the ray's direction; 0 for nowhere.
+    way: f32,
+    normal: vec3<f32>,
+    material: u32,
+}
+
+/// What a ray from `origin` within the room meets first: table, floor, walls or ceiling.
+fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
     let steep = select(vec3<f32>(-1e-6), vec3<f32>(1e-6), direction >= vec3<f32>(0.0));
     let inverse = 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-6));
     let walls = (select(frame.room_min, frame.room_max, inverse > vec3<f32>(0.0)) - origin) * inverse;
-    var t = max(min(walls.x, min(walls.y, walls.z)), 0.0);
-    var normal = -sign(inverse) * select(vec3<f32>(0.0), vec3<f32>(1.0), walls <= vec3<f32>(t));
+    var way = max(min(walls.x, min(walls.y, walls.z)), 0.0);
+    var normal = -sign(inverse) * select(vec3<f32>(0.0), vec3<f32>(1.0), walls <= vec3<f32>(way));
     var material = select(MATERIAL_WALL, MATERIAL_FLOOR, normal.y > 0.5);
+    if !(frame.room_max.y > frame.room_min.y) { way = 0.0; }
 
     let low = (frame.table_min - origin) * inverse;
     let high = (frame.table_max - origin) * inverse;
@@ -73,10 +81,17 @@ fn room_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
     let leave = max(low, high);
     let near = max(enter.x, max(enter.y, enter.z));
     let far = min(leave.x, min(leave.y, leave.z));
-    if near > 0.0 && near < far && near < t {
-        t = near;
+    if near > 0.0 && near < far && (near < way || way == 0.0) {
+        way = near;
         normal = -sign(inverse) * select(vec3<f32>(0.0), vec3<f32>(1.0), enter >= vec3<f32>(near));
         material = MATERIAL_TABLE;
     }
-    return bench_light(origin + t * direction, normal, material);
+    return Meeting(way, normal, material);
+}
+
+/// The light along a ray back from what it meets; the sky's where it meets nothing.
+fn room_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let met = room_meets(origin, direction);
+    if met.way == 0.0 { return ambient_light(direction.y); }
+    return bench_light(origin + met.way * direction, met.normal, met.material);
 }

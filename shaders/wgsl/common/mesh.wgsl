@@ -3,7 +3,7 @@
 struct MeshVertex {
     /// In the mesh's own frame, in the scene's unit.
     position: vec3<f32>,
-    /// 0 table, 1 floor, 2 wall, 3 glass, 4 enamel on it.
+    /// 0 glass, 1 enamel on it.
     material: u32,
     /// Unit length, out of the solid.
     normal: vec3<f32>,

@@ -20,7 +20,7 @@ struct Varyings {
     @location(3) @interpolate(flat) material: u32,
 }
 
-const MATERIAL_ENAMEL = 4u;
+const MATERIAL_ENAMEL = 1u;
 /// Reflectance of white enamel.
 const ENAMEL = 0.8;
 

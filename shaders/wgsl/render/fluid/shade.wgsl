@@ -62,6 +62,7 @@ struct Pixel {
 }
 
 @fragment
+@early_depth_test(less_equal)
 fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> Pixel {
     let pixel = vec2<i32>(place.xy);
     let here = seen_at(pixel, eye);
