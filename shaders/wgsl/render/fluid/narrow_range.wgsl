@@ -23,7 +23,7 @@ override LAST: bool = false;
 /// How far the filter reaches, in spacings.
 const REACH = 2.0;
 /// Pairs of samples at most: further apart than neighbouring pixels if it reaches further.
-const PAIRS = 10.0;
+const PAIRS = 24.0;
 /// Depth difference, in spacings, beyond which something is in front; and how much further,
 /// in spacings, what is behind is taken to be. Theirs are 10.5 and 1 particle radii (6.5 and 0.62
 /// spacings): where liquid boils, so wide a range draws combs across its waves.

@@ -37,8 +37,13 @@ fn tangent(before: vec4<f32>, here: vec4<f32>, after: vec4<f32>) -> vec3<f32> {
 }
 
 fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
-    let x = tangent(seen_at(pixel - vec2<i32>(1, 0), eye), here, seen_at(pixel + vec2<i32>(1, 0), eye));
-    let y = tangent(seen_at(pixel - vec2<i32>(0, 1), eye), here, seen_at(pixel + vec2<i32>(0, 1), eye));
+    // Over a fifth of a spacing, if that is more than a pixel: a picture of more pixels has no
+    // more of the surface, only more of the filter's grain.
+    let step = clamp(i32(0.2 * frame.spacing * frame.views[eye].focal / here.w), 1, 4);
+    let aside = vec2<i32>(step, 0);
+    let along = vec2<i32>(0, step);
+    let x = tangent(seen_at(pixel - aside, eye), here, seen_at(pixel + aside, eye));
+    let y = tangent(seen_at(pixel - along, eye), here, seen_at(pixel + along, eye));
     let n = cross(y, x);
     let facing = -normalize(here.xyz);
     let towards = n * select(-1.0, 1.0, dot(n, facing) > 0.0);
