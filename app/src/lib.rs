@@ -1,7 +1,7 @@
 //! Vitriol, the program: the parts of the binary `vitriol`, open to its tests.
 
 pub mod calorimeter;
-pub mod camera;
+mod camera;
 pub mod cli;
 pub mod column;
 pub mod command;

@@ -49,7 +49,7 @@ const EDGE = vec3<f32>(0.06, 0.095, 0.09);
 
 /// Colour premultiplied by its opacity.
 @fragment
-fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+fn fragment(in: Varyings, @builtin(view_index) eye: u32) -> @location(0) vec4<f32> {
     let to_eye = -normalize(in.from_eye);
     let outward = normalize(in.normal);
     let normal = select(-outward, outward, dot(outward, to_eye) > 0.0);
@@ -69,7 +69,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
         // Half of the strip is the line; a pixel wider than that has its share of it.
         let width = max(fwidth(in.across), 1e-6);
         let covered = saturate((0.5 - abs(in.across)) / width + 0.5) * min(1.0, 1.0 / width);
-        let key = key_light(in.from_eye + frame.views[0].eye);
+        let key = key_light((in.from_eye + frame.views[eye].eye) * frame.metres_per_unit);
         let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
         return vec4<f32>(display(lit) * covered, covered);
     }
