@@ -296,7 +296,7 @@ fn temperatures(scene: &Scene) -> ColourBy {
 }
 
 /// The liquid in the solver's buffers.
-fn liquid_of(world: &World) -> LiquidSource<'_> {
+pub(crate) fn liquid_of(world: &World) -> LiquidSource<'_> {
     let (solver, scene) = (world.solver(), world.scene());
     let (flasks, distances) = solver.flask_tables();
     LiquidSource {
@@ -364,7 +364,7 @@ fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
 }
 
 /// The scene's vessels on their table in the room.
-fn laboratory(scene: &Scene) -> SceneDesc {
+pub(crate) fn laboratory(scene: &Scene) -> SceneDesc {
     let vessels = scene.flasks.iter().map(|flask| VesselDesc {
         inner: flask.profile.inner_outline().to_vec(),
         outer: flask.profile.outer_outline().to_vec(),
@@ -402,6 +402,6 @@ fn view(scene: &Scene, aspect: f32) -> View {
     View::look_at(eye, target, Fov::symmetric(vertical, aspect))
 }
 
-fn affine(pose: &Pose) -> Affine3A {
+pub(crate) fn affine(pose: &Pose) -> Affine3A {
     Affine3A::from_rotation_translation(pose.orientation, pose.position)
 }

@@ -57,6 +57,9 @@ pub enum Command {
     /// The collapse of a column of water against Martin and Moyce's
     /// measurements of 1952
     DamBreak(DamBreakArgs),
+    /// What the renderer draws against the surface that it stands for, marched
+    /// on the CPU
+    Fidelity(FidelityArgs),
     /// Mix water and acid in a closed, insulated vessel until it is even
     Calorimeter(CalorimeterArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
@@ -300,6 +303,24 @@ pub struct DamBreakArgs {
     pub out: Option<PathBuf>,
     /// Trade of speed for accuracy
     #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol fidelity`.
+#[derive(Debug, Args)]
+pub struct FidelityArgs {
+    /// Folder for fidelity.json and the picture of the difference; without it
+    /// none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// The two lower resolutions only
+    #[arg(long)]
+    pub quick: bool,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t = PresetName::Fast)]
     pub preset: PresetName,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]

@@ -214,7 +214,7 @@ impl Experiment for Laboratory {
 
 /// A recorded hand in the simulation's terms. Hands move in real metres, the
 /// scene in its own.
-fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,

@@ -9,6 +9,7 @@ pub mod console;
 mod device;
 pub mod experiment;
 pub mod failure;
+pub mod fidelity;
 pub mod film;
 mod legend;
 mod measure;

@@ -76,6 +76,7 @@ fn help_names_every_subcommand_and_its_options() {
         ("track", &["--output", "--list"]),
         ("scenes", &[]),
         ("bench", &["--scene", "--paper", "--frames", "--device"]),
+        ("fidelity", &["--out", "--quick", "--preset", "--device"]),
         ("fig5", &["--out", "--device"]),
         ("dam-break", &["--out", "--preset", "--device"]),
         (

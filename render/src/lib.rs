@@ -33,6 +33,7 @@ mod frame;
 mod mesh;
 mod pipelines;
 mod readback;
+pub mod reference;
 mod renderer;
 mod scene;
 mod tiles;

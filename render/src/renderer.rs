@@ -215,6 +215,39 @@ impl Renderer {
         &self.depth
     }
 
+    /// Records the liquid's surface and thickness, and no picture: for
+    /// [`Renderer::read_back_surface`].
+    ///
+    /// # Errors
+    /// As for [`Renderer::record`].
+    pub fn record_surface(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+    ) -> Result<(), RenderError> {
+        self.record_shapes(rec, frame, 0)?;
+        self.prepare(rec, frame, 0)
+    }
+
+    /// Records what comes before the lit picture: uniforms, tiles, the liquid's
+    /// surface from that slot.
+    fn prepare(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<(), RenderError> {
+        frame.check(&self.scene, self.desc.views)?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
+        rec.upload(&self.frame, &[uniforms])?;
+        if let Some((fluid, source)) = self.liquid(frame)? {
+            let (shapes, mask) = ((slot, source.count), self.mask.as_ref());
+            fluid.record_surface(rec, shapes, &self.frame, &self.tiles, mask)
+        } else {
+            self.tiles.record(rec, &self.frame, &self.nothing, 0)
+        }
+    }
+
     /// Records the picture of one frame.
     ///
     /// # Errors
@@ -258,16 +291,8 @@ impl Renderer {
         frame: &FrameDesc<'_>,
         slot: usize,
     ) -> Result<(), RenderError> {
-        frame.check(&self.scene, self.desc.views)?;
-        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
-        rec.upload(&self.frame, &[uniforms])?;
+        self.prepare(rec, frame, slot)?;
         let liquid = self.liquid(frame)?;
-        if let Some((fluid, source)) = &liquid {
-            let (shapes, mask) = ((slot, source.count), self.mask.as_ref());
-            fluid.record_surface(rec, shapes, &self.frame, &self.tiles, mask)?;
-        } else {
-            self.tiles.record(rec, &self.frame, &self.nothing, 0)?;
-        }
         let target = RasterTarget {
             label: "picture",
             colours: &[ColourTarget {

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod calorimeter;
 pub mod dam_break;
 pub mod doctor;
+pub mod fidelity;
 pub mod fig5;
 pub mod picture;
 pub mod replay;
@@ -27,6 +28,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
         Command::Scenes => scenes::run(format),
+        Command::Fidelity(args) => fidelity::run(args, format),
         Command::Fig5(args) => fig5::run(args, format),
         Command::DamBreak(args) => dam_break::run(args, format),
         Command::Calorimeter(args) => calorimeter::run(args, format),

@@ -6,5 +6,6 @@ mod calorimeter;
 mod camera;
 mod common;
 mod dam_break;
+mod fidelity;
 mod fig5;
 mod reload;

@@ -51,9 +51,9 @@ fn bulk_is_round_and_unseen() {
     let middle = nearest(&positions, Vec3::ZERO);
     let e = shapes(&positions)[middle];
     let axes = eigen(matrix(&e)).0;
-    // Of a lattice the covariance is isotropic, and 0.75 d what closes the gaps.
+    // Of a lattice the covariance is isotropic, and 0.9 d what closes the gaps.
     assert!(
-        axes.iter().all(|axis| (axis / D - 0.75).abs() < 0.01),
+        axes.iter().all(|axis| (axis / D - 0.9).abs() < 0.01),
         "{axes:?}"
     );
     assert!(Vec3::from(e.centre).distance(positions[middle]) < 1e-6);
@@ -136,7 +136,7 @@ fn reference(positions: &[Vec3], i: usize) -> (DVec3, DMat3) {
     let values = values.map(|value| value.max(values[0] / 4.0));
     let t = ((values[2] / values[0] - 0.6) / 0.3).clamp(0.0, 1.0);
     let round = t * t * (3.0 - 2.0 * t);
-    let least = (0.5 + 0.25 * round) * D + 0.9 * mean.length().min(0.187) * h;
+    let least = (0.5 + 0.4 * round) * D + 0.9 * mean.length().min(0.187) * h;
     let axes = values.map(|value| (value * least / values[2]).min(2.0 * D));
     let shape = vectors * DMat3::from_diagonal(DVec3::from(axes)) * vectors.transpose();
     let lone = DMat3::from_diagonal(DVec3::splat(LONE));

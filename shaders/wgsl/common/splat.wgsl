@@ -24,8 +24,9 @@ const CORNERS = array<vec2<f32>, 3>(
     vec2<f32>(1.7320508, -1.0),
 );
 
-/// Outside the frustum: a triangle of three of these is dropped.
-const NOWHERE = vec4<f32>(2.0, 2.0, 2.0, 1.0);
+/// A triangle of three of these has no area. (Outside the frustum it would have to be clipped, and
+/// Mesa 22.3's llvmpipe draws some of what it clips for one eye into the other's picture.)
+const NOWHERE = vec4<f32>(0.0, 0.0, 0.0, 1.0);
 
 /// A corner of the covering triangle.
 struct Corner {
@@ -55,6 +56,15 @@ fn corner_of(e: Ellipsoid, eye: u32, index: u32) -> Corner {
     let distance_squared = dot(o, o);
     // The comparisons fail for NaN, for a shape without volume and for what lies absurdly far.
     if !(distance_squared > 1.0 && distance_squared < 1e12 && determinant > 0.0) {
+        return Corner(NOWHERE, vec2<f32>(2.0), 0.0, 0.0);
+    }
+    // Wholly to the side or behind the eye; the trace bounds the greatest half axis, and 3 the
+    // covering triangle's size and what perspective adds, up to a field of 120°.
+    let middle = frame.views[eye].clip_from_stage * vec4<f32>(e.centre, 1.0);
+    let reach = 3.0 * dot(e.diagonal, vec3<f32>(1.0));
+    let scale = 2.0 * frame.views[eye].focal / frame.extent;
+    let beside = abs(middle.xy) - middle.w > reach * (1.0 + scale);
+    if (any(beside) || middle.w < -reach) {
         return Corner(NOWHERE, vec2<f32>(2.0), 0.0, 0.0);
     }
     let kappa = inverseSqrt(distance_squared);

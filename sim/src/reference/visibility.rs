@@ -30,7 +30,7 @@ pub fn see_each_other(
 
 /// Whether the way from `from`, in the flask, to `to` passes no glass; in the
 /// flask's frame, metres.
-fn leaves_through_mouth(profile: &Profile, from: DVec3, to: DVec3) -> bool {
+pub fn leaves_through_mouth(profile: &Profile, from: DVec3, to: DVec3) -> bool {
     let radius = |point: DVec3| point.x.hypot(point.z);
     let rim = profile.rim_height();
     if to.y < rim {

@@ -136,6 +136,12 @@ impl SolverState {
         self.matter.get(slot).map_or(1.0, |held| held[3].into())
     }
 
+    /// Volume of the particle in a slot, its vapour included, over that of one
+    /// at rest density.
+    pub fn volume_of(&self, slot: usize) -> f64 {
+        self.bulk.get(slot).map_or(1.0, |bulk| bulk[0].into())
+    }
+
     /// Index of the flask that the particle in a slot is in.
     pub fn flask_of(&self, slot: usize) -> Option<usize> {
         match self.tags[slot][0] {

@@ -69,8 +69,9 @@ const LONGEST = 2.0;
 const PLANE_OFFSET = 0.187;
 /// Radius of a sphere of the volume d³, in spacings.
 const LONE_RADIUS = 0.6204;
-/// Half axis in the bulk, in spacings: closes the gaps between particles at a wall.
-const BULK_RADIUS = 0.75;
+/// Half axis in the bulk, in spacings: closes the gaps between particles at a wall, also where
+/// vapour in them has moved them apart.
+const BULK_RADIUS = 0.9;
 /// How far what lies at a wall reaches into it, in spacings: so that no gap between two
 /// particles shows.
 const INTO_WALL = 0.35;
