@@ -302,6 +302,7 @@ pub(crate) fn liquid_of(world: &World) -> LiquidSource<'_> {
     LiquidSource {
         positions: solver.positions(),
         heat: solver.heat(),
+        volumes: solver.volumes(),
         count: solver.count(),
         spacing: scene.scale.spacing as f32,
         neighbours: solver.neighbours().map(|(counts, list)| Neighbours {

@@ -169,6 +169,7 @@ impl Fluid {
             .read("list_counts", list(|n| n.counts))
             .read("list", list(|n| n.list))
             .read("heat", source.heat.unwrap_or(&self.nothing))
+            .read("volumes", source.volumes.unwrap_or(&self.nothing))
             .read("flasks", vessels.map_or(&self.nothing, |v| v.flasks))
             .read("distances", vessels.map_or(&self.nothing, |v| v.distances))
             .read("poses", &self.poses)
@@ -178,12 +179,14 @@ impl Fluid {
                 flasks: vessels.map_or(0, |_| poses.len() as u32),
                 anisotropic: neighbours.is_some().into(),
                 heated: source.heat.is_some().into(),
+                swelling: source.volumes.is_some().into(),
                 spacing: source.spacing,
                 support: neighbours.map_or(source.spacing, |n| n.support),
                 floor: source.floor,
                 table_top: table.map_or(f32::MIN, |table| table.max.y),
                 table_min: corner(table.map(|table| table.min)),
                 table_max: corner(table.map(|table| table.max)),
+                ..layout::Neighbourhood::default()
             })
             .invocations(source.count * self.passes.lanes)?;
         Ok(())

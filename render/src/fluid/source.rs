@@ -68,9 +68,12 @@ pub struct LiquidSource<'a> {
     /// `array<vec4<f32>>` in the same order: temperature (°C) and acid mass
     /// fraction in x and y; `None` for water.
     pub heat: Option<&'a Buffer>,
+    /// `array<vec4<f32>>` in the same order: volume over d³ in x; `None` where
+    /// each has d³.
+    pub volumes: Option<&'a Buffer>,
     /// How many of them are drawn.
     pub count: u32,
-    /// Particle spacing d: a particle is d³ of liquid.
+    /// Particle spacing d: a particle at rest density is d³ of liquid.
     pub spacing: f32,
     /// Who is next to whom; `None` draws spheres.
     pub neighbours: Option<Neighbours<'a>>,
@@ -89,6 +92,7 @@ impl LiquidSource<'_> {
         let buffers = [
             Some((self.positions, 16)),
             self.heat.map(|heat| (heat, 16)),
+            self.volumes.map(|volumes| (volumes, 16)),
             counts,
         ];
         for (buffer, bytes) in buffers.into_iter().flatten() {

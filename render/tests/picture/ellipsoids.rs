@@ -46,6 +46,19 @@ fn few_particles_are_drops_at_their_places() {
 }
 
 #[test]
+fn what_contracted_is_drawn_as_small_as_it_is() {
+    let rig = rig([64, 36], 1, SurfaceFilter::NarrowRange);
+    let mut liquid = Liquid::new(&rig, &[Vec3::new(0.1, 0.8, -0.4)], |_| 0.0);
+    liquid.volumes = Some(rig.buffer("volumes", &[[0.729, 0.0, 0.0, 0.0]]));
+    let views = [View::bench(16.0 / 9.0)];
+    draw(&rig, &frame(&views, &[], &liquid));
+    let e = ellipsoids(&rig, 1)[0];
+    // The root of a pow that a driver may take by logarithms.
+    let sphere = DMat3::from_diagonal(DVec3::splat(0.9 * LONE));
+    assert!(differ(matrix(&e), sphere) < 1e-5 * D);
+}
+
+#[test]
 fn bulk_is_round_and_unseen() {
     let positions = lattice(4, 0.0, |_| true);
     let middle = nearest(&positions, Vec3::ZERO);

@@ -26,6 +26,7 @@ pub struct Liquid {
     list: Buffer,
     count: u32,
     pub table: Option<BoxDesc>,
+    pub volumes: Option<Buffer>,
 }
 
 impl Liquid {
@@ -63,6 +64,7 @@ impl Liquid {
             list: words("list", &list),
             count: n as u32,
             table: None,
+            volumes: None,
         }
     }
 
@@ -70,6 +72,7 @@ impl Liquid {
         LiquidSource {
             positions: &self.positions,
             heat: Some(&self.heat),
+            volumes: self.volumes.as_ref(),
             count: self.count,
             spacing: SPACING,
             neighbours: Some(Neighbours {

@@ -29,6 +29,7 @@ pub use state::SolverState;
 pub use steam::PUFFS;
 pub use vessels::Ground;
 
+use crate::chemistry::Chemistry;
 use crate::flask::Profile;
 use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
@@ -164,6 +165,15 @@ impl Solver {
     /// w is no velocity.
     pub fn velocities(&self) -> &Buffer {
         &self.buffers.velocity
+    }
+
+    /// Volume over that at rest density, and more, as `array<vec4<f32>>`, in the
+    /// order of the positions; `None` where each particle has the same.
+    pub fn volumes(&self) -> Option<&Buffer> {
+        match &self.parameters.chemistry {
+            Some(Chemistry::Physical(physical)) if physical.density => Some(&self.buffers.bulk),
+            _ => None,
+        }
     }
 
     /// Temperature (°C), acid mass fraction and more as `array<vec4<f32>>`, in

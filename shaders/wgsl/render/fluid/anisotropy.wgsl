@@ -34,6 +34,8 @@ struct Neighbourhood {
     anisotropic: u32,
     /// 1 where particles have a temperature and an acid fraction.
     heated: u32,
+    /// 1 where they have volumes of their own; else each is d³.
+    swelling: u32,
     /// Particle spacing d.
     spacing: f32,
     /// Support radius h, within which the list is complete.
@@ -56,6 +58,8 @@ var<immediate> around: Neighbourhood;
 /// Temperature and acid fraction in x and y.
 @group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> ellipsoids: array<Ellipsoid>;
+/// Volume over d³ in x.
+@group(0) @binding(9) var<storage, read> volumes: array<vec4<f32>>;
 
 /// Yu and Turk's λ: how far a centre goes to its neighbours' mean.
 const SMOOTHING = 0.9;
@@ -177,7 +181,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let x = particle.xyz;
     let d = around.spacing;
     let acid = heat[around.heated * i].y;
-    var out = Ellipsoid(x, acid, vec3<f32>(LONE_RADIUS * d), 1.0, vec3<f32>(0.0));
+    // Liquid that contracts as it mixes is drawn as small as it is.
+    var own = d;
+    if (around.swelling != 0u) { own = d * pow(max(volumes[i].x, 1e-3), 1.0 / 3.0); }
+    var out = Ellipsoid(x, acid, vec3<f32>(LONE_RADIUS * own), 1.0, vec3<f32>(0.0));
     if (around.anisotropic != 0u) {
         var sum = neighbours(i, x, lane);
         if (lane != 0u) { return; }
@@ -199,7 +206,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
         let moved = SMOOTHING * min(length(mean), PLANE_OFFSET) * around.support;
         let round = smoothstep(0.6, 0.9, values.z / values.x);
-        let least = mix(0.5, BULK_RADIUS, round) * d + moved;
+        let least = mix(0.5, BULK_RADIUS, round) * own + moved;
         let axes = min(values * (least / values.z), vec3<f32>(LONGEST * d));
         let shape = with_axes(eigen.vectors, axes);
         out.diagonal = mix(out.diagonal, shape.diagonal, fade);
