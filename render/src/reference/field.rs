@@ -54,13 +54,23 @@ pub struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// Field of particles of these shapes and volumes (scene's unit cubed), as
-    /// many of them, of spacing `spacing`.
+    /// many of them, of spacing `spacing`. Shapes are those of particles of d³;
+    /// the kernel of another volume is as much wider as that asks, so that
+    /// a lone drop keeps the volume of its particle.
     pub fn new(
         shapes: &[Shape],
         volumes: &[f64],
         spacing: f64,
         surroundings: &'a dyn Surroundings,
     ) -> Self {
+        let shapes: Vec<Shape> = shapes
+            .iter()
+            .zip(volumes)
+            .map(|(shape, volume)| Shape {
+                lengths: shape.lengths * (volume / spacing.powi(3)).cbrt(),
+                ..*shape
+            })
+            .collect();
         let each = shapes.iter().zip(volumes).enumerate();
         let kernels = each.map(|(i, (shape, volume))| {
             let g = shape.g();
