@@ -143,7 +143,9 @@ fn path(name: &str) -> PathBuf {
     folder.join(format!("{name}.png"))
 }
 
-/// Mean and greatest difference of two pictures' levels (0 to 255), blurred.
+/// Mean and greatest difference of two pictures' levels (0 to 255), blurred;
+/// of the mean's what is more than one level: drivers encode and dither to the
+/// next level or to that below.
 fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
     let [width, height] = EXTENT.map(|side| side as usize);
     let blurred = |picture: &[u8], x: usize, y: usize, channel: usize| {
@@ -160,7 +162,7 @@ fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
         for x in 0..width - 2 {
             for channel in 0..3 {
                 let off = (blurred(a, x, y, channel) - blurred(b, x, y, channel)).abs();
-                sum += off;
+                sum += (off - 1.0).max(0.0);
                 most = most.max(off);
             }
         }
