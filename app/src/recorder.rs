@@ -99,8 +99,12 @@ impl Recorder {
 
     /// Film frames whose time has come after `done` steps: frame n shows the
     /// first state at or after n / [`FILM_FPS`] s, and the film is as long as
-    /// the run.
+    /// the run. The first frame waits for the first step, which finds the
+    /// neighbours that a liquid's surface is made of.
     fn film_frames_due(&self, done: u64) -> u64 {
+        if done == 0 {
+            return 0;
+        }
         let fps = f64::from(FILM_FPS);
         let all = (self.span.seconds() * fps - 1e-6).ceil() as u64;
         let now = (done as f64 * self.span.frame_time * fps + 1e-6).floor() as u64 + 1;
