@@ -101,6 +101,7 @@ pub struct Mixed {
 /// Mixes `feeds`, the lower one first; one of the two may be empty.
 ///
 /// # Errors
+/// [`Failure::Input`] where so few particles cannot have that ratio;
 /// [`Failure::Other`] where device or shaders fail.
 pub fn mix(
     gpu: &Gpu,
@@ -109,6 +110,18 @@ pub fn mix(
     seed: u64,
 ) -> Result<Mixed, Failure> {
     let counts = portions(feeds.map(|feed| feed.volume), resolution.particles);
+    let error = ratio_error(feeds.map(|feed| feed.volume), counts);
+    if error > MOST_RATIO_ERROR {
+        return Err(format!(
+            "{:.3e} to {:.3e} mL: the nearest ratio of up to {} particles is {:.0} % off; take a \
+             preset with more of them, or amounts that are nearer to each other",
+            1e6 * feeds[0].volume,
+            1e6 * feeds[1].volume,
+            2 * resolution.particles,
+            100.0 * error
+        ))
+        .input();
+    }
     let total = counts[0] + counts[1];
     let volume = feeds[0].volume + feeds[1].volume;
     let vessel = Vessel::new(volume, total)?;
@@ -126,7 +139,7 @@ pub fn mix(
     let mut mixed = Mixed {
         particles: solver.count(),
         spacing: vessel.spacing,
-        ratio_error: ratio_error(feeds.map(|feed| feed.volume), counts),
+        ratio_error: error,
         end: start.clone(),
         start,
         seconds: 0.0,
@@ -226,6 +239,10 @@ fn portions(volumes: [f64; 2], least: usize) -> [usize; 2] {
     }
     best
 }
+
+/// How far the ratio of whole particles may be from that of the volumes: 2 %
+/// of the lesser one is at most some tenths of a kelvin.
+const MOST_RATIO_ERROR: f64 = 0.02;
 
 fn ratio_error(volumes: [f64; 2], counts: [usize; 2]) -> f64 {
     if volumes.contains(&0.0) {

@@ -241,6 +241,10 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
         temperature_mean_c: heat.temperature_mean,
         temperature_p99_c: heat.temperature_p99,
         temperature_max_c: heat.temperature_max,
+        temperatures_in_flasks_c: by_flask(scene, &heat.temperatures_in_flasks)
+            .into_iter()
+            .filter(|(_, [least, most])| least <= most)
+            .collect(),
         acid_mean: heat.acid_mean,
         acid_min: heat.acid_min,
         acid_max: heat.acid_max,

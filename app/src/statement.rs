@@ -1,6 +1,6 @@
 //! What a scene states of itself, in the report's terms.
 
-use vitriol_sim::scene::{Boundary, Preset, Scene};
+use vitriol_sim::scene::{Boundary, Preset, RelaxationKind, Scene};
 
 use crate::cli::PresetName;
 use crate::report::{SceneStatement, SolverStatement};
@@ -33,7 +33,14 @@ pub fn of_solver(scene: &Scene) -> SolverStatement {
     SolverStatement {
         substeps: scene.solver.substeps,
         iterations: scene.solver.iterations,
+        relaxation: match scene.solver.relaxation {
+            RelaxationKind::Jacobi => "jacobi",
+            RelaxationKind::Chebyshev => "chebyshev",
+        }
+        .into(),
         omega: scene.solver.omega,
+        carry: scene.solver.carry,
+        v_max: scene.solver.v_max,
         boundary: match scene.solver.boundary {
             Boundary::Map => "map",
             Boundary::Particles => "particles",

@@ -18,7 +18,8 @@ const NO_CONTRACTION: u32 = 42;
 /// OpMatrixTimesMatrix and OpDot.
 const ARITHMETIC: [u32; 11] = [127, 129, 131, 133, 136, 142, 143, 144, 145, 146, 148];
 
-/// The module with no contraction of any floating-point result.
+/// The module with no contraction of any result of its arithmetic. What the
+/// extended instructions make (`mix`, `length`, `fma`) is the driver's own.
 pub fn forbid_contraction(spirv: &[u32]) -> Vec<u32> {
     let mut results = HashSet::new();
     let mut annotations = None;

@@ -38,6 +38,7 @@ const OP_IMAGE_FETCH: u32 = 95;
 const CAPABILITY_SAMPLED_BUFFER: u32 = 46;
 const DECORATION_NON_WRITABLE: u32 = 24;
 const DECORATION_BINDING: u32 = 33;
+const DECORATION_DESCRIPTOR_SET: u32 = 34;
 const CLASS_UNIFORM_CONSTANT: u32 = 0;
 const CLASS_STORAGE_BUFFER: u32 = 12;
 const DIM_BUFFER: u32 = 5;
@@ -52,9 +53,11 @@ impl Compiled {
         let arrays = module.eligible();
         let mut changed = self.clone();
         for binding in &mut changed.bindings {
-            let place = (binding.group, binding.binding);
-            let array = arrays.values().find(|array| array.binding == place.1);
-            if let Some(array) = array.filter(|_| place.0 == 0) {
+            // Those of group 0, where everything is bound.
+            let array = arrays
+                .values()
+                .find(|array| array.binding == binding.binding);
+            if let Some(array) = array.filter(|_| binding.group == 0) {
                 binding.kind = BindingKind::Texels(array.format);
             }
         }
@@ -130,6 +133,7 @@ impl<'a> Module<'a> {
         };
         let read_only = decorated(DECORATION_NON_WRITABLE);
         let bindings = decorated(DECORATION_BINDING);
+        let groups = decorated(DECORATION_DESCRIPTOR_SET);
         let pointees = self.inner(OP_TYPE_POINTER, 3);
         let elements = self.inner(OP_TYPE_RUNTIME_ARRAY, 2);
         let members: HashMap<u32, u32> = self
@@ -145,7 +149,8 @@ impl<'a> Module<'a> {
         let mut arrays = HashMap::new();
         for variable in self.global(OP_VARIABLE) {
             let (pointer, id) = (variable[1], variable[2]);
-            if variable[3] != CLASS_STORAGE_BUFFER || !read_only.contains_key(&id) {
+            let bound = groups.get(&id) == Some(&0) && read_only.contains_key(&id);
+            if variable[3] != CLASS_STORAGE_BUFFER || !bound {
                 continue;
             }
             let structure = pointees.get(&pointer);

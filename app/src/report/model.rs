@@ -149,8 +149,14 @@ pub struct SolverStatement {
     pub substeps: u32,
     /// Solver iterations in a substep.
     pub iterations: u32,
+    /// Relaxation: `jacobi` or `chebyshev`.
+    pub relaxation: String,
     /// Relaxation factor ω.
     pub omega: f64,
+    /// Low-pass weight of the carried multipliers; 0 where none are carried.
+    pub carry: f64,
+    /// Speed at which particles are cut, the scene's unit per second.
+    pub v_max: f64,
     /// Boundary handling: `map` or `particles`.
     pub boundary: String,
 }
@@ -201,6 +207,8 @@ pub struct HeatSample {
     pub temperature_p99_c: f64,
     /// Highest temperature, °C.
     pub temperature_max_c: f64,
+    /// Least and highest temperature in each flask that holds liquid, °C.
+    pub temperatures_in_flasks_c: BTreeMap<String, [f64; 2]>,
     /// Mean acid mass fraction.
     pub acid_mean: f64,
     /// Least acid fraction.

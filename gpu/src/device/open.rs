@@ -261,6 +261,8 @@ fn device_info(
         max_views: properties.max_views,
         features,
         second_queue: plan.is_double(),
-        fetches_texels: properties.kind == vk::PhysicalDeviceType::CPU,
+        // Vulkan promises 65,536 texels, of which a list soon has more.
+        fetches_texels: properties.kind == vk::PhysicalDeviceType::CPU
+            && properties.limits.texels >= 1 << 27,
     }
 }

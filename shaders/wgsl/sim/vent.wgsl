@@ -24,8 +24,9 @@ override LEAST_PUFF: f32 = 5e-7;
 const THREADS: u32 = 64u;
 
 var<workgroup> sums: array<vec2<f32>, THREADS>;
-/// (lot, index of the particle as bits).
-var<workgroup> lots: array<vec2<f32>, THREADS>;
+var<workgroup> lots: array<f32, THREADS>;
+/// Particles that drew them.
+var<workgroup> drawers: array<u32, THREADS>;
 
 /// A number in [0, 1) from two.
 fn lot(a: u32, b: u32) -> f32 {
@@ -39,21 +40,29 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     let first = group.x + VENTS * local.x;
     let number = made[group.x];
     var sum = vec2<f32>(0.0);
-    var best = vec2<f32>(-1.0, 0.0);
+    var best = -1.0;
+    var drawer = 0u;
     for (var i = first; i < COUNT; i += VENTS * THREADS) {
         let identity = tags[i].y;
         let gone = ledger[identity].zw - vented[identity];
         sum += gone;
         let drawn = gone.x * lot(identity, number);
-        if (drawn > best.x) { best = vec2<f32>(drawn, bitcast<f32>(i)); }
+        if (drawn > best) {
+            best = drawn;
+            drawer = i;
+        }
     }
     sums[local.x] = sum;
     lots[local.x] = best;
+    drawers[local.x] = drawer;
     workgroupBarrier();
     for (var half = THREADS / 2u; half > 0u; half >>= 1u) {
         if (local.x < half) {
             sums[local.x] += sums[local.x + half];
-            if (lots[local.x + half].x > lots[local.x].x) { lots[local.x] = lots[local.x + half]; }
+            if (lots[local.x + half] > lots[local.x]) {
+                lots[local.x] = lots[local.x + half];
+                drawers[local.x] = drawers[local.x + half];
+            }
         }
         workgroupBarrier();
     }
@@ -64,7 +73,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         vented[identity] = ledger[identity].zw;
     }
     if (local.x != 0u) { return; }
-    let source = position[bitcast<u32>(lots[0].y)].xyz;
+    let source = position[drawers[0]].xyz;
     // The liquid's tables count from water at 25 °C, and steam has 1.9 kJ/(kg K) in them.
     let temperature = (steam.y / steam.x - 2.442e6) / 1.9e3 + 25.0;
     var puff: Puff;

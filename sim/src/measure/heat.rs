@@ -20,6 +20,9 @@ pub struct HeatMeasurement {
     pub temperature_p99: f64,
     /// Highest temperature, °C.
     pub temperature_max: f64,
+    /// Least and highest temperature in each flask, °C, up to the last one that
+    /// holds any; of one that is empty, infinite.
+    pub temperatures_in_flasks: Vec<[f64; 2]>,
     /// Mean acid mass fraction.
     pub acid_mean: f64,
     /// Standard deviation of the acid fraction.
@@ -111,6 +114,7 @@ pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasu
         temperature_spread: temperature.deviation,
         temperature_p99: percentile(&sorted, 0.99),
         temperature_max: temperature.max,
+        temperatures_in_flasks: by_flask(state, &present),
         acid_mean: acid.mean,
         acid_spread: acid.deviation,
         acid_min: acid.min,
@@ -118,6 +122,20 @@ pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasu
         superheat: boils.superheat(state, &present),
         ledger: ledger(state, &present, parameters.particle_mass()),
     })
+}
+
+fn by_flask(state: &SolverState, present: &[usize]) -> Vec<[f64; 2]> {
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for &slot in present {
+        if let Some(flask) = state.flask_of(slot) {
+            let temperature = f64::from(state.heat[slot][0]);
+            let flasks = found.len().max(flask + 1);
+            found.resize(flasks, [f64::INFINITY, f64::NEG_INFINITY]);
+            let [least, most] = found[flask];
+            found[flask] = [least.min(temperature), most.max(temperature)];
+        }
+    }
+    found
 }
 
 /// Of values with weights; all zero without any.

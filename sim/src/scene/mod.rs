@@ -287,6 +287,7 @@ impl Scene {
             picture: raw.picture,
             presets: raw.preset,
         };
+        scene.check_fall()?;
         scene.check_fill("liquid")?;
         for (preset, overrides) in &scene.presets {
             let changed = scene.with_preset(*preset);
@@ -306,6 +307,26 @@ impl Scene {
             }
         }
         Ok(scene)
+    }
+
+    /// Whether v_max is above what a fall to the floor reaches: slower, and
+    /// liquid would float down.
+    fn check_fall(&self) -> Result<(), Problem> {
+        let tops = self.flasks.iter().map(|flask| {
+            let height = f64::from(flask.stage_from_flask.position.y);
+            height + flask.profile.rim_height()
+        });
+        let drop = tops.fold(0.0, f64::max) - self.floor.height;
+        let speed = (2.0 * self.scale.gravity.abs() * drop.max(0.0)).sqrt();
+        if self.solver.v_max < speed {
+            let problem = format!(
+                "{} m/s is below the {speed:.2} m/s of a fall from the highest flask's rim to the \
+                 floor; take more",
+                self.solver.v_max
+            );
+            return Err(Problem::new("solver.v_max", problem));
+        }
+        Ok(())
     }
 
     /// Whether each flask has room for its liquids.

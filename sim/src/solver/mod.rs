@@ -185,8 +185,9 @@ impl Solver {
             .map(|_| &self.buffers.heat)
     }
 
-    /// Neighbours of each particle as `array<u32>`, and the list itself: the k-th
-    /// neighbour of particle i of n is at k·n + i. It is complete within the
+    /// Neighbours of each particle as `array<u32>`, and the list itself as
+    /// `array<vec4<u32>>`: neighbours 4g to 4g + 3 of particle i of n are at
+    /// g·n + i, the last four filled up with i. It is complete within the
     /// support radius at the positions after a frame; `None` before the first.
     pub fn neighbours(&self) -> Option<(&Buffer, &Buffer)> {
         let listed = self.listed.load(Ordering::Relaxed);

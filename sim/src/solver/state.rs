@@ -189,7 +189,7 @@ impl Solver {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
         let lengths = self.lengths();
-        let puffs = Steam::start(&self.parameters, n).elements();
+        let [puffs, vented, made] = Steam::start(&self.parameters, n).elements();
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -202,7 +202,9 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
-            ("puffs", state.steam.elements(), puffs),
+            ("puffs", state.steam.elements()[0], puffs),
+            ("vented steam", state.steam.elements()[1], vented),
+            ("vents", state.steam.elements()[2], made),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {

@@ -11,7 +11,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::layout::Puff;
 use vitriol_shaders::{Library, sim};
 
-/// Puffs of steam that are kept; the oldest gives way.
+/// Puffs of steam that are kept; of each vent the oldest gives way.
 pub const PUFFS: u32 = 1024;
 
 /// Puffs that a frame may bring.
@@ -45,9 +45,9 @@ pub(super) struct SteamState {
 }
 
 impl SteamState {
-    /// How much it holds: all arrays' elements.
-    pub(super) fn elements(&self) -> usize {
-        self.puffs.len() + self.vented.len() + self.made.len()
+    /// How many elements its arrays have.
+    pub(super) fn elements(&self) -> [usize; 3] {
+        [self.puffs.len(), self.vented.len(), self.made.len()]
     }
 
     /// Mass of the mist, kg.
