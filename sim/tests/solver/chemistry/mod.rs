@@ -3,6 +3,7 @@
 mod boiling;
 mod conserved;
 mod extremes;
+mod figures;
 mod idle;
 mod paper;
 mod physical;
