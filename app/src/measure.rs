@@ -3,8 +3,8 @@
 
 mod features;
 mod picture;
+mod tally;
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use vitriol_gpu::{Gpu, QueueKind};
@@ -17,6 +17,7 @@ use crate::cli::BenchArgs;
 use crate::command::bench::{Bench, PassRow, Row, TABLE_2, Timing};
 use crate::device;
 use crate::failure::{Blame, Failure};
+use tally::Tally;
 
 /// Simulated time before the first measured frame, seconds: the filling
 /// lattice has settled, and the driver has compiled what it compiles late.
@@ -69,7 +70,7 @@ pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
 fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Failure> {
     let scene = Scene::load(name).input()?.with_preset(args.preset.into());
     let whole = Whole::run(plain, &scene, args.frames)?;
-    let passes = passes(timed, &scene, args.frames)?;
+    let (passes, device_total) = passes(timed, &scene, args.frames)?;
     let paper = TABLE_2.iter().find(|(known, _)| *known == name);
     Ok(Row {
         scene: name.to_owned(),
@@ -80,9 +81,9 @@ fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Fa
         density_error_mean: whole.density_error.0,
         density_error_p99: whole.density_error.1,
         total: whole.total,
-        device_total: passes.total,
+        device_total,
         cpu: whole.cpu,
-        passes: passes.rows,
+        passes,
         paper: paper.map(|(_, row)| *row),
     })
 }
@@ -146,57 +147,19 @@ fn queued(gpu: &Gpu, world: &World, poses: &[Pose], cpu: &mut Vec<f64>) -> Resul
     Ok(milliseconds(begin) / f64::from(QUEUED))
 }
 
-/// Passes of a frame on the device's clock.
-struct Passes {
-    total: Timing,
-    rows: Vec<PassRow>,
-}
-
-fn passes(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<Passes, Failure> {
+/// The passes of `frames` frames of a scene at rest, and the frames.
+fn passes(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<(Vec<PassRow>, Timing), Failure> {
     let world = settled(gpu, scene)?;
     let poses = world.poses().to_vec();
-    let mut totals = Vec::new();
-    let mut times: BTreeMap<String, (u32, u64, Vec<f64>)> = BTreeMap::new();
-    let mut order: Vec<String> = Vec::new();
+    let mut tally = Tally::default();
     for _ in 0..frames {
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
         world.solver().record(&mut rec, &poses, &poses).other()?;
         let ticket = gpu.submit(rec).other()?;
         ticket.wait().other()?;
-        let mut frame: BTreeMap<String, (u32, u64, f64)> = BTreeMap::new();
-        for pass in ticket.timings().other()? {
-            if pass.label == "total" {
-                totals.push(pass.nanoseconds * 1e-6);
-                continue;
-            }
-            if !order.contains(&pass.label) {
-                order.push(pass.label.clone());
-            }
-            let sum = frame.entry(pass.label).or_default();
-            sum.0 += 1;
-            sum.1 += pass.bytes;
-            sum.2 += pass.nanoseconds * 1e-6;
-        }
-        for (label, (dispatches, bytes, time)) in frame {
-            let kept = times.entry(label).or_default();
-            (kept.0, kept.1) = (dispatches, bytes);
-            kept.2.push(time);
-        }
+        tally.add(&ticket)?;
     }
-    let rows = order
-        .iter()
-        .filter_map(|name| times.get(name).map(|kept| (name, kept)))
-        .map(|(name, (dispatches, bytes, times))| PassRow {
-            name: name.clone(),
-            dispatches: *dispatches,
-            bytes: *bytes,
-            time: Timing::of(times),
-        })
-        .collect();
-    Ok(Passes {
-        total: Timing::of(&totals),
-        rows,
-    })
+    Ok(tally.rows())
 }
 
 /// A world whose liquid has come to rest.

@@ -58,15 +58,24 @@ impl Pipelines {
             };
             Ok::<_, RenderError>(RasterPipeline::new(gpu, &desc)?)
         };
+        let over = |pass: (ShaderId, &[(&str, f64)]), blend| {
+            over(
+                gpu,
+                library,
+                pass,
+                ColourFormat { format, blend },
+                view_mask,
+            )
+        };
         Ok(Self {
             particles: make(render::PARTICLES, Cull::None, false)?,
             surfaces: make(render::SURFACES, Cull::None, false)?,
             glass_far: make(render::GLASS, Cull::Front, true)?,
             glass_near: make(render::GLASS, Cull::Back, true)?,
-            steam: steam(gpu, library, format, view_mask)?,
-            mask: mask(gpu, library, format, view_mask)?,
-            edges: edges(gpu, library, format, view_mask, 0.0)?,
-            copy: edges(gpu, library, format, view_mask, 1.0)?,
+            steam: over((render::STEAM, &[]), Blend::Premultiplied)?,
+            mask: make(render::MASK, Cull::None, false)?,
+            edges: over((render::EDGES, &[("COPY", 0.0)]), Blend::Replace)?,
+            copy: over((render::EDGES, &[("COPY", 1.0)]), Blend::Replace)?,
         })
     }
 
@@ -86,68 +95,18 @@ const USED: [ShaderId; 7] = [
     render::EDGES,
 ];
 
-/// Over the picture, with its depth to read and not to test.
-fn steam(
+/// Over the finished picture, whose depth it does not test.
+fn over(
     gpu: &Gpu,
     library: &Library,
-    format: vk::Format,
+    (shader, constants): (ShaderId, &[(&str, f64)]),
+    colour: ColourFormat,
     view_mask: u32,
 ) -> Result<RasterPipeline, RenderError> {
     let desc = RasterDesc {
-        vertex: &library.compile(&render::STEAM, "vertex", &[])?,
-        fragment: Some(&library.compile(&render::STEAM, "fragment", &[])?),
-        colours: &[ColourFormat {
-            format,
-            blend: Blend::Premultiplied,
-        }],
-        depth: None,
-        topology: Topology::Triangles,
-        cull: Cull::None,
-        view_mask,
-    };
-    Ok(RasterPipeline::new(gpu, &desc)?)
-}
-
-/// Nearest depth, before all else.
-fn mask(
-    gpu: &Gpu,
-    library: &Library,
-    format: vk::Format,
-    view_mask: u32,
-) -> Result<RasterPipeline, RenderError> {
-    let desc = RasterDesc {
-        vertex: &library.compile(&render::MASK, "vertex", &[])?,
-        fragment: Some(&library.compile(&render::MASK, "fragment", &[])?),
-        colours: &[ColourFormat {
-            format,
-            blend: Blend::Replace,
-        }],
-        depth: Some(DepthFormat {
-            format: DEPTH_FORMAT,
-            compare: vk::CompareOp::GREATER,
-            write: true,
-        }),
-        topology: Topology::Triangles,
-        cull: Cull::None,
-        view_mask,
-    };
-    Ok(RasterPipeline::new(gpu, &desc)?)
-}
-
-fn edges(
-    gpu: &Gpu,
-    library: &Library,
-    format: vk::Format,
-    view_mask: u32,
-    copy: f64,
-) -> Result<RasterPipeline, RenderError> {
-    let desc = RasterDesc {
-        vertex: &library.compile(&render::EDGES, "vertex", &[])?,
-        fragment: Some(&library.compile(&render::EDGES, "fragment", &[("COPY", copy)])?),
-        colours: &[ColourFormat {
-            format,
-            blend: Blend::Replace,
-        }],
+        vertex: &library.compile(&shader, "vertex", &[])?,
+        fragment: Some(&library.compile(&shader, "fragment", constants)?),
+        colours: &[colour],
         depth: None,
         topology: Topology::Triangles,
         cull: Cull::None,

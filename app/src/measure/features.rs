@@ -70,6 +70,6 @@ fn differences(
 
 /// Dispatches in a frame of `scene`.
 fn dispatches(gpu: &Gpu, scene: &Scene) -> Result<i64, Failure> {
-    let rows = passes(gpu, scene, 1)?.rows;
+    let (rows, _) = passes(gpu, scene, 1)?;
     Ok(rows.iter().map(|row| i64::from(row.dispatches)).sum())
 }

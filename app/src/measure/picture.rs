@@ -1,7 +1,6 @@
 //! `vitriol bench --render`: what each pass of the picture takes, at a headset's
 //! resolutions and a screen's, of a scene in motion.
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use glam::Vec3;
@@ -11,6 +10,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 
+use super::tally::Tally;
 use super::{QUEUED, milliseconds};
 use crate::camera::{Camera, Shot};
 use crate::cli::{BenchArgs, ColourName};
@@ -121,44 +121,16 @@ fn passes(
     camera: &Camera,
     frames: u32,
 ) -> Result<(Vec<PassRow>, Timing), Failure> {
-    let mut totals = Vec::new();
-    let mut order: Vec<String> = Vec::new();
-    let mut times: BTreeMap<String, (u32, Vec<f64>)> = BTreeMap::new();
+    let mut tally = Tally::default();
     for _ in 0..frames {
         step(gpu, world)?;
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
         camera.record(&mut rec, world, ColourName::Liquid)?;
         let ticket = gpu.submit(rec).other()?;
         ticket.wait().other()?;
-        let mut frame: BTreeMap<String, (u32, f64)> = BTreeMap::new();
-        for pass in ticket.timings().other()? {
-            if pass.label == "total" {
-                totals.push(pass.nanoseconds * 1e-6);
-                continue;
-            }
-            if !order.contains(&pass.label) {
-                order.push(pass.label.clone());
-            }
-            let sum = frame.entry(pass.label).or_default();
-            sum.0 += 1;
-            sum.1 += pass.nanoseconds * 1e-6;
-        }
-        for (label, (number, time)) in frame {
-            let kept = times.entry(label).or_default();
-            kept.0 = number;
-            kept.1.push(time);
-        }
+        tally.add(&ticket)?;
     }
-    let rows = order.iter().filter_map(|name| {
-        let (number, times) = times.get(name)?;
-        Some(PassRow {
-            name: name.clone(),
-            dispatches: *number,
-            bytes: 0,
-            time: Timing::of(times),
-        })
-    });
-    Ok((rows.collect(), Timing::of(&totals)))
+    Ok(tally.rows())
 }
 
 /// A frame's share, ms, where a frame is solved on one queue while the one before it is drawn

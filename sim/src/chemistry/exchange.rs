@@ -50,7 +50,6 @@ pub fn list_capacity(parameters: &Parameters) -> u32 {
 pub struct Exchange {
     kernel: Kernel,
     volume: f64,
-    spacing: f64,
     time: f64,
     limit: f64,
 }
@@ -62,7 +61,6 @@ impl Exchange {
         Self {
             kernel: Kernel::new(parameters.support_radius),
             volume: parameters.particle_volume(),
-            spacing: parameters.spacing,
             time: parameters.substep_time(),
             limit: 1.0 / f64::from(capacity.max(1)),
         }
@@ -115,29 +113,5 @@ impl Exchange {
     pub fn wall_share(&self, diffusivity: f64, volume: f64) -> f64 {
         let h = self.kernel.support();
         -(-self.time * diffusivity * WALL_FACTOR * volume.max(0.0) / (h * h)).exp_m1()
-    }
-
-    /// What the limit leaves of `diffusivity`, as a share of it: that of
-    /// Σ K_ij·r² on the cubic lattice. Below one, the run's report says so.
-    pub fn remaining(&self, diffusivity: f64) -> f64 {
-        let (mut limited, mut free) = (0.0, 0.0);
-        let reach = (self.kernel.support() / self.spacing).ceil() as i64;
-        for x in -reach..=reach {
-            for y in -reach..=reach {
-                for z in -reach..=reach {
-                    let squared = (x * x + y * y + z * z) as f64;
-                    let share = self.unlimited(diffusivity, squared.sqrt() * self.spacing);
-                    limited += squared * self.limited(share);
-                    free += squared * share;
-                }
-            }
-        }
-        if free > 0.0 && free.is_finite() {
-            limited / free
-        } else if diffusivity > 0.0 {
-            0.0
-        } else {
-            1.0
-        }
     }
 }

@@ -146,17 +146,17 @@ proptest! {
 }
 
 #[test]
-fn limit_reports_what_it_takes() {
-    let exchange = Exchange::new(&world(), list_capacity(&world()));
-    // Table 1 on the lattice is not limited at 60 Hz × 3.
-    assert_eq!(exchange.remaining(0.01), 1.0);
-    assert_eq!(exchange.remaining(0.0), 1.0);
-    let (some, little) = (exchange.remaining(0.1), exchange.remaining(1.0));
-    assert!(
-        some < 0.6 && little < 0.1 && little > 0.0,
-        "{some} {little}"
-    );
-    assert_eq!(exchange.remaining(1e308), 0.0);
+fn nearest_neighbours_of_the_papers_world_are_not_limited() {
+    let world = world();
+    let exchange = Exchange::new(&world, list_capacity(&world));
+    // Table 1 on the lattice at 60 Hz × 3.
+    let nearest = |diffusivity| exchange.unlimited(diffusivity, world.spacing);
+    assert!((nearest(0.01) - 0.0102).abs() < 1e-4, "{}", nearest(0.01));
+    assert_eq!(exchange.limited(nearest(0.01)), nearest(0.01));
+    // Ten times that, and whatever there is, are cut to one over the list.
+    assert_eq!(exchange.limited(nearest(0.1)), exchange.limit());
+    assert_eq!(exchange.limited(nearest(1e308)), exchange.limit());
+    assert_eq!(exchange.limited(nearest(0.0)), 0.0);
 }
 
 #[test]
