@@ -251,8 +251,8 @@ fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {
     }
 }
 
-/// Sixteen bytes of zero: temperature and acid of a particle that has none.
-fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
+/// Sixteen bytes of zero: what is bound where a frame has nothing to give.
+pub(crate) fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, "nothing", 16)?;
     gpu.write(&buffer, &[0_u32; 4])?;
     Ok(buffer)
