@@ -309,6 +309,7 @@ impl Renderer {
             for (class, pipeline) in &self.pipelines.picture {
                 let pass = rec
                     .pass(pipeline)
+                    .label("picture")
                     .uniform("frame", &self.frame)
                     .read("surface", of_liquid(Fluid::surface))
                     .read("sums", of_liquid(Fluid::sums))
@@ -337,6 +338,7 @@ impl Renderer {
             for (class, pipeline) in &self.pipelines.finish {
                 let pass = rec
                     .pass(pipeline)
+                    .label("finish")
                     .uniform("frame", &self.frame)
                     .sampled("drawn", &self.drawn)
                     .sampler("between", &self.between)

@@ -110,6 +110,7 @@ impl Fluid {
                 rec.fill(into, 0)?;
                 let lanes = self.passes.splat_lanes;
                 rec.pass(pass)
+                    .label(label)
                     .uniform("frame", uniforms)
                     .read("ellipsoids", self.ellipsoids(slot))
                     .write(name, into)
@@ -196,6 +197,7 @@ impl Fluid {
                 let to = &self.filtered[(last - index) % 2];
                 let pass = rec
                     .pass(pass)
+                    .label("liquid filter")
                     .uniform("frame", uniforms)
                     .read("before", from)
                     .write("after", to);
