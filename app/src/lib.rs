@@ -8,6 +8,7 @@ pub mod command;
 pub mod console;
 mod device;
 pub mod experiment;
+pub mod extremes;
 pub mod failure;
 pub mod fidelity;
 pub mod film;

@@ -189,6 +189,18 @@ impl World {
         self.bodies.holder(flask)
     }
 
+    /// What the liquid did to each flask in the last step, which acts on it
+    /// later; nothing where no flask can move. Waits for the device.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn loads(&self) -> Result<Vec<Load>, WorldError> {
+        let Some(newest) = self.loads.back() else {
+            return Ok(Vec::new());
+        };
+        Ok(self.in_si(&newest.read()?))
+    }
+
     /// Events counted so far; waits for the device.
     ///
     /// # Errors
@@ -251,14 +263,16 @@ impl World {
         let Some(due) = self.loads.pop_front() else {
             return Ok(Vec::new());
         };
+        Ok(self.in_si(&due.read()?))
+    }
+
+    fn in_si(&self, loads: &[LiquidLoad]) -> Vec<Load> {
         let mass = self.solver.parameters().particle_mass() as f32;
-        let poses = self.bodies.poses();
-        let loads = due.read()?;
-        Ok(loads
+        loads
             .iter()
-            .zip(poses)
+            .zip(self.bodies.poses())
             .map(|(sum, pose)| load(sum, *pose, mass))
-            .collect())
+            .collect()
     }
 }
 

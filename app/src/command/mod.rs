@@ -4,6 +4,7 @@ pub mod bench;
 pub mod calorimeter;
 pub mod dam_break;
 pub mod doctor;
+pub mod extremes;
 pub mod fidelity;
 pub mod fig5;
 pub mod picture;
@@ -32,6 +33,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Fig5(args) => fig5::run(args, format),
         Command::DamBreak(args) => dam_break::run(args, format),
         Command::Calorimeter(args) => calorimeter::run(args, format),
+        Command::Extremes(args) => extremes::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }
