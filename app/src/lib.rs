@@ -19,3 +19,4 @@ pub mod recorder;
 pub mod replay;
 pub mod report;
 mod statement;
+pub mod trade;

@@ -26,7 +26,8 @@ const LOAD_DELAY: usize = 2;
 /// What a step is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInput {
-    /// Left and right hand at the step's end.
+    /// Left and right hand at the step's end, in the scene's frame
+    /// ([`Scene::origin`]).
     pub hands: [Hand; 2],
 }
 
@@ -179,7 +180,7 @@ impl World {
         &self.solver
     }
 
-    /// stage_from_flask of each flask, after the last step.
+    /// stage_from_flask of each flask, after the last step, in the scene's frame.
     pub fn poses(&self) -> &[Pose] {
         self.bodies.poses()
     }

@@ -35,7 +35,8 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
     let begin = Instant::now();
     let found = judge_all(&gpu, &wanted, args.jobs as usize)?;
     let seconds = begin.elapsed().as_secs_f64();
-    if let (Some(folder), Some([case])) = (&args.out, wanted.get(..1).filter(|_| args.only.is_some()))
+    if let (Some(folder), Some([case])) =
+        (&args.out, wanted.get(..1).filter(|_| args.only.is_some()))
     {
         let name = format!("case-{}.toml", case.number);
         let path = output::new_file(folder, &name).map_err(output::blame)?;
@@ -81,7 +82,9 @@ pub fn judge_all(gpu: &Gpu, cases: &[Case], jobs: usize) -> Result<Vec<Finding>,
             });
         }
     });
-    let found = found.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let found = found
+        .into_inner()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
     let mut found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
     found.sort_by_key(|finding| finding.case);
     Ok(found)
@@ -112,6 +115,10 @@ fn describe_one(finding: &Finding) -> String {
         finding.drifts[0],
         finding.drifts[1],
         finding.drifts[2],
-        if limiters.is_empty() { "none acted".into() } else { limiters.join(", ") }
+        if limiters.is_empty() {
+            "none acted".into()
+        } else {
+            limiters.join(", ")
+        }
     )
 }

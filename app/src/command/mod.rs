@@ -11,6 +11,7 @@ pub mod picture;
 pub mod replay;
 pub mod scenes;
 pub mod track;
+pub mod trade;
 
 use crate::cli::{Cli, Command};
 use crate::experiment;
@@ -34,6 +35,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::DamBreak(args) => dam_break::run(args, format),
         Command::Calorimeter(args) => calorimeter::run(args, format),
         Command::Extremes(args) => extremes::run(args, format),
+        Command::Trade(args) => trade::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }

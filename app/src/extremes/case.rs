@@ -94,7 +94,10 @@ mod tests {
             assert_eq!((a.label(), a.seed), (b.label(), b.seed));
         }
         let other = cases(2000, 8);
-        let differing = many.iter().zip(&other).filter(|(a, b)| a.label() != b.label());
+        let differing = many
+            .iter()
+            .zip(&other)
+            .filter(|(a, b)| a.label() != b.label());
         assert!(differing.count() > 1000);
         let pairs = many.iter().filter(|case| case.extremes.len() == 2).count();
         assert!(pairs > 800, "{pairs}");

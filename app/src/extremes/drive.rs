@@ -41,6 +41,8 @@ pub(super) struct Run {
     /// Most energy beyond what was there or declared, J, and what it is compared with.
     pub excess: f64,
     pub turnover: f64,
+    /// Energy that the filling set free in the first [`BEFORE`], J.
+    pub settling: f64,
     /// Root mean square of the members' speeds at the end, m/s.
     pub end_speed: f64,
     /// Particles in the flask at the end.
@@ -96,7 +98,9 @@ fn hand(case: &Case, scene: &Scene, time: f64) -> Hand {
     let flask = &scene.flasks[0];
     let middle = Vec3::Y * (0.5 * flask.profile.rim_height()) as f32;
     let grip = flask.stage_from_flask.transform_point(middle).as_dvec3();
-    case.recipe.motion.hand(time, grip, scene.scale.length_scale)
+    case.recipe
+        .motion
+        .hand(time, grip, scene.scale.length_scale)
 }
 
 /// Puts particles where no filling puts them.
@@ -138,7 +142,6 @@ struct Held {
 
 struct Watch {
     moves: bool,
-    crowded: bool,
     late: bool,
     gravity: f64,
     particle_mass: f64,
@@ -170,10 +173,8 @@ impl Watch {
     fn new(world: &World, case: &Case) -> Result<Self, Failure> {
         let parameters = world.solver().parameters();
         let recipe = &case.recipe;
-        let crowded = recipe.crowd != Crowd::Filled;
         let mut watch = Self {
             moves: recipe.motion != Motion::Still || recipe.upside_down,
-            crowded,
             late: false,
             gravity: recipe.gravity,
             particle_mass: parameters.particle_mass(),
@@ -196,6 +197,7 @@ impl Watch {
                 speed: 0.0,
                 excess: 0.0,
                 turnover: 0.0,
+                settling: 0.0,
                 end_speed: 0.0,
                 members: 0,
                 boiling: 0,
@@ -268,8 +270,8 @@ impl Watch {
             let turn = (to.orientation * from.orientation.conjugate()).normalize();
             let turn = if turn.w < 0.0 { -turn } else { turn };
             let turned = turn.to_scaled_axis().as_dvec3();
-            let work = load.impulse.as_dvec3().dot(moved)
-                + load.angular_impulse.as_dvec3().dot(turned);
+            let work =
+                load.impulse.as_dvec3().dot(moved) + load.angular_impulse.as_dvec3().dot(turned);
             // The load is the liquid's on the glass.
             self.declared -= work / self.frame_time;
             self.run.turnover += (work / self.frame_time).abs();
@@ -304,9 +306,11 @@ impl Watch {
         self.run.turnover = self.run.turnover.max(self.least() + kinetic);
         let excess = energy - self.start_energy - self.declared;
         self.run.excess = self.run.excess.max(excess);
-        if self.crowded && step <= 2 * BETWEEN {
-            // What is in one place is pushed apart: of that energy nothing is declared.
-            self.start_energy = self.start_energy.max(energy);
+        if self.frame_time * step as f64 <= BEFORE {
+            // A filling is no equilibrium: the lattice is too dense at the wall, and
+            // what is in one place is pushed apart. What that sets free counts as there.
+            self.run.settling += excess.max(0.0);
+            self.start_energy += excess.max(0.0);
             self.run.excess = 0.0;
         }
         if self.late
@@ -355,7 +359,11 @@ impl Watch {
     fn keep(&mut self, world: &World, state: &SolverState) {
         let now = self.amounts(world, state);
         let change = |now: f64, start: f64, whole: f64| {
-            if whole > 0.0 { ((now - start) / whole).abs() } else { 0.0 }
+            if whole > 0.0 {
+                ((now - start) / whole).abs()
+            } else {
+                0.0
+            }
         };
         let enthalpy = match (&now.ledger, &self.start.ledger) {
             (Some(now), Some(start)) => now.closure(start).abs(),

@@ -85,9 +85,8 @@ impl Extreme {
     /// Kinds of which a case has one only: all motions are of one hand.
     pub fn excludes(&self, other: &Self) -> bool {
         let motion = |e: &Self| matches!(e, E::Moved(_) | E::UpsideDown);
-        let filled = |e: &Self| {
-            matches!(e, E::Particles(_) | E::Radius(..) | E::Brim | E::Crowded(_))
-        };
+        let filled =
+            |e: &Self| matches!(e, E::Particles(_) | E::Radius(..) | E::Brim | E::Crowded(_));
         let time = |e: &Self| matches!(e, E::FrameTime(_) | E::Frame(_));
         self.kind() == other.kind()
             || [motion as fn(&Self) -> bool, filled, time]
@@ -174,7 +173,9 @@ impl Extreme {
             }
             E::Crowded(Crowd::Ball(radius)) => format!("all within {radius:.2} h"),
             E::Solids => "boundary particles".into(),
-            E::Radius(radius, count) => format!("{count} particles in a glass {radius:.1} d in radius"),
+            E::Radius(radius, count) => {
+                format!("{count} particles in a glass {radius:.1} d in radius")
+            }
             E::Brim => "brim-full".into(),
             E::UpsideDown => "upside down".into(),
             E::Moved(motion) => label_of(motion),
@@ -187,7 +188,11 @@ fn label_of(motion: Motion) -> String {
     match motion {
         Motion::Still => "still".into(),
         Motion::Shaken { speed, vertical } => {
-            let way = if vertical { "up and down" } else { "to and fro" };
+            let way = if vertical {
+                "up and down"
+            } else {
+                "to and fro"
+            };
             format!("shaken {way} at {speed:.1} m/s")
         }
         Motion::Teleported([x, y, z]) => format!("teleported by {x:.1}, {y:.1}, {z:.1} m"),
@@ -204,7 +209,13 @@ fn label_of(motion: Motion) -> String {
 pub fn directed() -> Vec<Extreme> {
     let shaken = |speed, vertical| E::Moved(Motion::Shaken { speed, vertical });
     let spun = |rate, across| E::Moved(Motion::Spun { rate, across });
-    let mut all = vec![E::Solids, E::Brim, E::UpsideDown, E::Frame(5.0), E::Radius(30.0, 1500)];
+    let mut all = vec![
+        E::Solids,
+        E::Brim,
+        E::UpsideDown,
+        E::Frame(5.0),
+        E::Radius(30.0, 1500),
+    ];
     all.extend([0.0, 0.1, 10.0, 100.0].map(E::Intensity));
     all.extend([20.001, 20.1, 21.0, 1e6].map(E::BoilingPoint));
     let temperatures = [
@@ -232,7 +243,14 @@ pub fn directed() -> Vec<Extreme> {
     all.extend([0.1, 10.0, 1e4].map(E::MaxSpeed));
     all.extend([0.01, 0.1, 10.0].map(E::Scale));
     all.extend([0, 1, 2, 3].map(E::Particles));
-    all.extend([Crowd::OnePlace(0.01), Crowd::OnePlace(0.1), Crowd::OnePlace(1.0)].map(E::Crowded));
+    all.extend(
+        [
+            Crowd::OnePlace(0.01),
+            Crowd::OnePlace(0.1),
+            Crowd::OnePlace(1.0),
+        ]
+        .map(E::Crowded),
+    );
     all.extend([Crowd::Ball(0.1), Crowd::Ball(1.0)].map(E::Crowded));
     all.extend([(1.0, 20), (1.5, 40)].map(|(radius, count)| E::Radius(radius, count)));
     all.extend([(5.0, false), (50.0, false), (5.0, true), (50.0, true)].map(|(s, v)| shaken(s, v)));
@@ -305,7 +323,9 @@ pub fn random(draw: &mut impl FnMut() -> f64) -> Extreme {
             let [x, y, z] = [s, draw(), draw()].map(|s| between(s, -1.0, 1.0));
             let length = (x * x + y * y + z * z).sqrt().max(0.1);
             // Not into the ground.
-            E::Moved(Motion::Teleported([x, y.abs(), z].map(|c| 10.0 * c / length)))
+            E::Moved(Motion::Teleported(
+                [x, y.abs(), z].map(|c| 10.0 * c / length),
+            ))
         }
         E::Moved(Motion::Stalled(_)) => E::Moved(Motion::Stalled(log(s, 0.1, 5.0))),
         E::Far(_) => E::Far([s, draw(), draw()].map(|s| between(s, -1e4, 1e4).round())),

@@ -34,6 +34,8 @@ pub struct Finding {
     pub speed_over_max: f64,
     /// Energy beyond what was there or declared, over what was turned over.
     pub energy_excess: f64,
+    /// Energy that the filling set free as it settled, likewise.
+    pub settling: f64,
     /// Largest relative changes of acid, mass and enthalpy.
     pub drifts: [f64; 3],
     /// Root mean square of the speeds in the flask at the end, m/s.
@@ -74,6 +76,7 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
         steps: run.map_or(0, |run| run.steps),
         speed_over_max: run.map_or(0.0, |run| run.speed / recipe.v_max),
         energy_excess: run.map_or(0.0, |run| run.excess / run.turnover),
+        settling: run.map_or(0.0, |run| run.settling / run.turnover),
         drifts: run.map_or([0.0; 3], |run| run.drifts),
         end_speed: run.map_or(0.0, |run| run.end_speed),
     };
@@ -123,7 +126,10 @@ fn reasons(recipe: &Recipe, run: &Run) -> Vec<String> {
         format!("{} numbers are not finite", run.not_finite),
     );
     let taken_out = run.counters.nan_particles;
-    hold(taken_out == 0, format!("{taken_out} particles were taken out"));
+    hold(
+        taken_out == 0,
+        format!("{taken_out} particles were taken out"),
+    );
     hold(
         run.lost == 0,
         format!("{} particles are beyond a wall", run.lost),
@@ -140,7 +146,11 @@ fn reasons(recipe: &Recipe, run: &Run) -> Vec<String> {
             run.excess, run.turnover
         ),
     );
-    for ((what, drift), most) in ["acid", "mass", "enthalpy"].iter().zip(run.drifts).zip(KEPT) {
+    for ((what, drift), most) in ["acid", "mass", "enthalpy"]
+        .iter()
+        .zip(run.drifts)
+        .zip(KEPT)
+    {
         hold(drift <= most, format!("{what} changed by {drift:.2e}"));
     }
     if recipe.base != Base::Water && run.particles > 0 {
@@ -176,8 +186,8 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
     if !run.rested || free || run.members < 20 {
         return None;
     }
-    // What passes a spacing in ten substeps, or the speed of a wave of a tenth of the depth's.
-    let jitter = 0.05 * (recipe.gravity * recipe.depth()).sqrt();
+    // A tenth of the speed of long waves: a hundredth of the energy that its depth holds.
+    let jitter = 0.1 * (recipe.gravity * recipe.depth()).sqrt();
     match recipe.motion {
         Motion::Still | Motion::NoPose(_) => Some(jitter),
         // Waves in a glass ring on, and what turns turns on.
@@ -192,7 +202,15 @@ fn limiters(run: &Run) -> BTreeMap<&'static str, u32> {
         ("neighbour list full", c.list_overflows),
         ("correction cut to the list's margin", c.list_limited),
         ("speed cut to v_max", c.speed_limited),
-        ("diffusion cut to what pairs may exchange", c.diffusion_limited),
+        (
+            "diffusion cut to what pairs may exchange",
+            c.diffusion_limited,
+        ),
+        (
+            "boiling cut to 30 % of a relative velocity",
+            c.growth_limited,
+        ),
+        ("density taken at the end of its table", c.table_ends),
     ]
     .into_iter()
     .filter(|&(_, times)| times > 0)

@@ -180,11 +180,19 @@ impl Recipe {
             self.length_scale,
             self.substeps,
             self.iterations,
-            if self.chebyshev { "chebyshev" } else { "jacobi" },
+            if self.chebyshev {
+                "chebyshev"
+            } else {
+                "jacobi"
+            },
             self.omega,
             self.carry,
             self.v_max,
-            if self.boundary_particles { "particles" } else { "map" },
+            if self.boundary_particles {
+                "particles"
+            } else {
+                "map"
+            },
             self.viscosity,
         );
         let [d_t, d_c] = self.diffusivities();
@@ -225,7 +233,11 @@ impl Recipe {
             Some(count) => [count / 2, count - count / 2].map(|n| format!("particles = {n}")),
             None => ["fraction = 0.5".to_owned(), "fraction = 0.5".to_owned()],
         };
-        let acids = if self.base == Base::Water { [0.0; 2] } else { [0.98, 0.0] };
+        let acids = if self.base == Base::Water {
+            [0.0; 2]
+        } else {
+            [0.98, 0.0]
+        };
         for ((amount, temperature), acid) in halves.iter().zip(self.temperatures).zip(acids) {
             let _ = write!(
                 t,

@@ -68,6 +68,8 @@ pub struct Worst {
     pub speed_over_max: f64,
     /// Energy beyond what was declared, over what was turned over.
     pub energy_excess: f64,
+    /// Energy that a filling set free as it settled, likewise.
+    pub settling: f64,
     /// Relative changes of acid, mass, enthalpy.
     pub drifts: [f64; 3],
 }
@@ -120,6 +122,7 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
         let worst = &mut all.worst;
         worst.speed_over_max = worst.speed_over_max.max(finding.speed_over_max);
         worst.energy_excess = worst.energy_excess.max(finding.energy_excess);
+        worst.settling = worst.settling.max(finding.settling);
         for (worst, drift) in worst.drifts.iter_mut().zip(finding.drifts) {
             *worst = worst.max(drift);
         }

@@ -47,7 +47,7 @@ pub(super) struct FlaskEntry {
     wall: Option<f64>,
     /// Density of the wall of own points, kg/m³.
     density: Option<f64>,
-    position: [f64; 3],
+    pub position: [f64; 3],
     /// Yaw about y, pitch about x, roll about z, degrees, in this order from
     /// the stage to the flask.
     #[serde(default)]
@@ -151,7 +151,14 @@ fn named(
 }
 
 impl LiquidEntry {
-    pub fn build(self, index: usize, scale: &Scale, flasks: &[Flask]) -> Result<Liquid, Problem> {
+    /// `hottest` is the highest temperature (°C) that the scene's chemistry knows.
+    pub fn build(
+        self,
+        index: usize,
+        scale: &Scale,
+        flasks: &[Flask],
+        hottest: f64,
+    ) -> Result<Liquid, Problem> {
         let field = |name: &str| format!("liquid[{index}].{name}");
         let Some(flask) = flasks.iter().position(|flask| flask.name == self.flask) else {
             let names: Vec<_> = flasks.iter().map(|flask| flask.name.as_str()).collect();
@@ -193,6 +200,13 @@ impl LiquidEntry {
             kelvin > ABSOLUTE_ZERO,
             "above −273.15 (°C)",
         )?;
+        if hottest < kelvin {
+            let problem = format!(
+                "{kelvin} °C: no mixture of water and acid is liquid above {hottest} °C, and the \
+                 tables of [physical] end there; take less"
+            );
+            return Err(Problem::new(field("temperature"), problem));
+        }
         let ok = (0.0..=1.0).contains(&acid);
         require(
             &field("acid_fraction"),

@@ -5,6 +5,8 @@ mod builtin;
 mod chemistry;
 mod error;
 mod file;
+mod limits;
+mod origin;
 mod overlap;
 mod settings;
 
@@ -92,6 +94,11 @@ pub struct Scene {
     pub name: String,
     /// What it shows, in a sentence or two, and what of it was chosen here.
     pub description: String,
+    /// Where the scene's frame is in that of its file, metres: whole steps that
+    /// only a scene far off has. All else here, and what is simulated, is
+    /// relative to it, so that it has the bits that it would have at the file's
+    /// own origin.
+    pub origin: DVec3,
     /// Scale, time and gravity.
     pub scale: Scale,
     /// Parameters of the solver.
@@ -238,7 +245,8 @@ impl Scene {
             .collect()
     }
 
-    fn build(raw: file::SceneFile) -> Result<Self, Problem> {
+    fn build(mut raw: file::SceneFile) -> Result<Self, Problem> {
+        let origin = origin::take(&mut raw);
         raw.scale.check()?;
         raw.solver.check()?;
         if let Some(paper) = &raw.paper {
@@ -268,13 +276,19 @@ impl Scene {
             .map(|(index, entry)| entry.build(index, &scale))
             .collect::<Result<Vec<_>, _>>()?;
         check_flasks(&flasks)?;
+        let hottest = if raw.physical.is_some() {
+            chemistry::HOTTEST_LIQUID
+        } else {
+            f64::INFINITY
+        };
         let liquids = (0..)
             .zip(raw.liquid)
-            .map(|(index, entry)| entry.build(index, &scale, &flasks))
+            .map(|(index, entry)| entry.build(index, &scale, &flasks, hottest))
             .collect::<Result<Vec<_>, _>>()?;
         let scene = Self {
             name: raw.name,
             description: raw.description,
+            origin,
             scale,
             solver: raw.solver,
             model: raw.model,
@@ -289,6 +303,8 @@ impl Scene {
         };
         scene.check_fall()?;
         scene.check_fill("liquid")?;
+        scene.check_reach()?;
+        scene.check_substep()?;
         for (preset, overrides) in &scene.presets {
             let changed = scene.with_preset(*preset);
             let name = format!("{preset:?}").to_lowercase();
@@ -305,6 +321,7 @@ impl Scene {
                 }
                 changed.check_fill(&field)?;
             }
+            changed.check_substep().map_err(within)?;
         }
         Ok(scene)
     }
