@@ -63,6 +63,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         found: Trade {
             device: device::statement(&gpu),
             quick: args.quick,
+            finest: None,
             points: Vec::new(),
             skipped: 0,
             calorimetry: Vec::new(),
@@ -111,14 +112,21 @@ impl Work<'_> {
         let seconds = if self.args.quick { 0.6 } else { 1.5 };
         // The device's clocks rise with the first work that it gets.
         rest(self.gpu, &scene, &Setting::of(&scene, Preset::Fast), 0.5)?;
+        let particles = if self.args.quick { 6e3 } else { 110e3 };
+        let truth = finest(&scene, particles);
+        let poured = tip(self.gpu, &scene, &truth)?;
+        self.found.finest = Some((truth, poured));
         for (preset, knob, setting) in sweep(&scene, self.args.quick) {
             if self.late() {
                 self.found.skipped += 1;
                 continue;
             }
-            self.found
-                .points
-                .push(self.point(&scene, preset, knob, setting, seconds)?);
+            self.found.points.push(self.point(
+                &scene,
+                (preset, knob, setting),
+                seconds,
+                poured.poured,
+            )?);
             tracing::info!(
                 "{} after {:.0} s",
                 setting.label(),
@@ -131,10 +139,9 @@ impl Work<'_> {
     fn point(
         &self,
         scene: &Scene,
-        preset: Preset,
-        knob: Knob,
-        setting: Setting,
+        (preset, knob, setting): (Preset, Knob, Setting),
         seconds: f64,
+        poured: f64,
     ) -> Result<Point, Failure> {
         let rested = rest(self.gpu, scene, &setting, seconds)?;
         let tipped = tip(self.gpu, scene, &setting)?;
@@ -146,7 +153,7 @@ impl Work<'_> {
             errors: Errors {
                 rest_p99: rested.density_p99,
                 pour_p99: tipped.density_p99,
-                poured: tipped.error(),
+                poured: (tipped.poured / poured - 1.0).abs(),
                 lost_volume: rested.lost_volume,
             },
             rest: rested,
@@ -242,7 +249,7 @@ impl Work<'_> {
         } else {
             (3000, 0.3)
         };
-        let vouched = vouch(self.gpu, &scene, &finest(&scene), count, seconds)?;
+        let vouched = vouch(self.gpu, &scene, &finest(&scene, 28e3), count, seconds)?;
         self.found.vouched = Some(vouched);
         Ok(())
     }

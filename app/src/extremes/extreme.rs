@@ -43,6 +43,8 @@ pub enum Extreme {
     Moved(Motion),
     /// The whole scene elsewhere, m.
     Far([f64; 3]),
+    /// All of its places so far from its origin, m.
+    Strayed([f64; 3]),
 }
 
 use Extreme as E;
@@ -79,6 +81,7 @@ impl Extreme {
             E::Moved(Motion::Stalled(_)) => "stalled",
             E::Moved(_) => "no pose",
             E::Far(_) => "10 km off",
+            E::Strayed(_) => "10 km from its own origin",
         }
     }
 
@@ -140,7 +143,8 @@ impl Extreme {
             E::Brim => r.particles = None,
             E::UpsideDown => r.upside_down = true,
             E::Moved(motion) => r.motion = motion,
-            E::Far(place) => r.place = place,
+            E::Far(place) => r.origin = place,
+            E::Strayed(place) => r.place = place,
         }
     }
 
@@ -180,6 +184,7 @@ impl Extreme {
             E::UpsideDown => "upside down".into(),
             E::Moved(motion) => label_of(motion),
             E::Far([x, y, z]) => format!("{x:.0}, {y:.0}, {z:.0} m off"),
+            E::Strayed([x, y, z]) => format!("{x:.0}, {y:.0}, {z:.0} m from its own origin"),
         }
     }
 }
@@ -268,6 +273,7 @@ pub fn directed() -> Vec<Extreme> {
     all.extend(broken.map(|b| E::Moved(Motion::NoPose(b))));
     let far = [[1e4, 0.0, 0.0], [0.0, -1e4, 0.0], [-1e4, 1e4, 1e4]];
     all.extend(far.map(E::Far));
+    all.extend([[1e4, 0.0, 0.0], [0.0, 30.0, 0.0], [0.0, 0.0, -3.0]].map(E::Strayed));
     all
 }
 
@@ -329,6 +335,7 @@ pub fn random(draw: &mut impl FnMut() -> f64) -> Extreme {
         }
         E::Moved(Motion::Stalled(_)) => E::Moved(Motion::Stalled(log(s, 0.1, 5.0))),
         E::Far(_) => E::Far([s, draw(), draw()].map(|s| between(s, -1e4, 1e4).round())),
+        E::Strayed(_) => E::Strayed([s, draw(), draw()].map(|s| between(s, -30.0, 30.0))),
         same => same,
     }
 }

@@ -89,9 +89,9 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
     };
     let run = drive(gpu, library, &scene, case)?;
     let mut reasons = reasons(recipe, &run);
-    if recipe.place != [0.0; 3] {
+    if recipe.origin != [0.0; 3] {
         let mut here = case.clone();
-        here.recipe.place = [0.0; 3];
+        here.recipe.origin = [0.0; 3];
         let scene = Scene::parse(&here.recipe.text(), "case.toml").other()?;
         let hash = drive(gpu, library, &scene, &here)?.hash;
         if hash != run.hash {
@@ -186,8 +186,8 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
     if !run.rested || free || run.members < 20 {
         return None;
     }
-    // A tenth of the speed of long waves: a hundredth of the energy that its depth holds.
-    let jitter = 0.1 * (recipe.gravity * recipe.depth()).sqrt();
+    // In energy 2 % of what its depth holds.
+    let jitter = 0.15 * (recipe.gravity * recipe.depth()).sqrt();
     match recipe.motion {
         Motion::Still | Motion::NoPose(_) => Some(jitter),
         // Waves in a glass ring on, and what turns turns on.

@@ -72,7 +72,9 @@ pub struct Recipe {
     /// Diffusivities over those of the base.
     pub diffusion: f64,
     pub upside_down: bool,
-    /// Where the scene is, metres.
+    /// Where the scene is in the stage, metres.
+    pub origin: [f64; 3],
+    /// How far its places are off from its origin, metres.
     pub place: [f64; 3],
     pub crowd: Crowd,
     pub motion: Motion,
@@ -105,6 +107,7 @@ impl Recipe {
             boiling_point: 100.0,
             diffusion: 1.0,
             upside_down: false,
+            origin: [0.0; 3],
             place: [0.0; 3],
             crowd: Crowd::Filled,
             motion: Motion::Still,
@@ -169,10 +172,11 @@ impl Recipe {
         let _ = write!(
             t,
             "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = [{model}]\n\
-             [scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
+             origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
              [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{}\"\nomega = {:?}\n\
              carry = {:?}\nv_max = {:?}\nboundary = \"{}\"\nviscosity = {:?}\n",
+            self.origin,
             self.support_ratio,
             self.frame_time,
             self.gravity,

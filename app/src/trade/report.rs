@@ -19,6 +19,8 @@ pub struct Trade {
     pub device: DeviceStatement,
     /// Whether with `--quick`.
     pub quick: bool,
+    /// The setting whose poured volume is the others' truth, and what it poured.
+    pub finest: Option<(Setting, Tipped)>,
     /// Settings of the solver, in one vessel of water.
     pub points: Vec<Point>,
     /// Settings that were not tried for want of time.
@@ -63,7 +65,7 @@ pub struct Errors {
     pub rest_p99: f64,
     /// Likewise while pouring.
     pub pour_p99: f64,
-    /// Of the poured volume.
+    /// Of the poured volume against that of the finest run.
     pub poured: f64,
     /// Of the height of the centre of mass at rest.
     pub lost_volume: f64,
@@ -134,6 +136,15 @@ pub fn describe(trade: &Trade) -> String {
             percent(e.poured),
             percent(e.lost_volume),
             point.stiffness
+        );
+    }
+    if let Some((setting, tipped)) = &trade.finest {
+        let _ = writeln!(
+            t,
+            "finest: {}, {:.2} mL poured, {:.2} mL in the end by geometry",
+            setting.label(),
+            1e6 * tipped.poured,
+            1e6 * tipped.in_the_end
         );
     }
     for row in &trade.calorimetry {

@@ -8,14 +8,14 @@ use super::tank::VOLUME;
 /// Carried share where it is not a preset's own.
 const CARRY: f64 = 0.005;
 
-/// The finest setting, above all presets: what chaotic measures are compared with.
-pub fn finest(scene: &Scene) -> Setting {
-    Setting {
-        substeps: 20,
-        iterations: 6,
+/// The finest setting, beyond all presets, with `particles` of them: what the f64
+/// reference vouches for, and what poured volumes are compared with.
+pub fn finest(scene: &Scene, particles: f64) -> Setting {
+    let fine = Setting {
+        substeps: 24,
         ..Setting::of(scene, Preset::Reference)
-    }
-    .with_particles(28_000.0, VOLUME)
+    };
+    fine.with_particles(particles, VOLUME)
 }
 
 /// Every setting once: the presets, one knob at a time from each of them, and the

@@ -88,17 +88,11 @@ pub struct Tipped {
     pub density_p99: f64,
     /// Volume that has run out, m³.
     pub poured: f64,
-    /// What geometry says of it, m³.
-    pub exact: f64,
+    /// Volume that will have run out in the end, by geometry, m³: the last of it
+    /// takes many seconds over the lip.
+    pub in_the_end: f64,
     /// Particles that went through the glass.
     pub lost: u64,
-}
-
-impl Tipped {
-    /// Relative error of the poured volume.
-    pub fn error(&self) -> f64 {
-        (self.poured / self.exact - 1.0).abs()
-    }
 }
 
 /// A vessel of water, and nothing around it.
@@ -287,7 +281,7 @@ pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failur
         cost: Cost::of(&times[warm..]),
         density_p99: densities.iter().sum::<f64>() / densities.len().max(1) as f64,
         poured: left.count() as f64 * volume,
-        exact: f64::from(tank.solver.count()) * volume - exact::retained(&tank.profile, TILT),
+        in_the_end: f64::from(tank.solver.count()) * volume - exact::retained(&tank.profile, TILT),
         lost,
     })
 }

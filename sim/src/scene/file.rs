@@ -18,6 +18,9 @@ use std::collections::BTreeMap;
 pub(super) struct SceneFile {
     pub name: String,
     pub description: String,
+    /// Where the scene is in the stage, metres of the scene.
+    #[serde(default)]
+    pub origin: [f64; 3],
     pub scale: Scale,
     pub solver: SolverSettings,
     pub model: Vec<Feature>,
@@ -47,7 +50,7 @@ pub(super) struct FlaskEntry {
     wall: Option<f64>,
     /// Density of the wall of own points, kg/m³.
     density: Option<f64>,
-    pub position: [f64; 3],
+    position: [f64; 3],
     /// Yaw about y, pitch about x, roll about z, degrees, in this order from
     /// the stage to the flask.
     #[serde(default)]

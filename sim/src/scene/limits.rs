@@ -12,20 +12,28 @@ const PRECISION: f64 = 8_388_608.0;
 const LONGEST_SUBSTEP: f64 = 1.75;
 
 impl Scene {
-    /// Whether the flasks are so near to each other that single precision still
+    /// Whether all is so near to the scene's origin that single precision still
     /// tells a wall from the margin before it, 0.001 h: beyond, liquid would be
     /// found in glass.
     pub(super) fn check_reach(&self) -> Result<(), Problem> {
         let reach = 0.5 * PRECISION * 0.001 * self.scale.support();
-        for (index, flask) in self.flasks.iter().enumerate() {
-            let place = f64::from(flask.stage_from_flask.position.abs().max_element());
+        let flasks = (0..).zip(&self.flasks).map(|(index, flask)| {
+            let place = flask.stage_from_flask.position.abs().max_element();
+            (format!("flask[{index}].position"), f64::from(place))
+        });
+        let table = self.table.map(|table| {
+            let centre = table.centre[0].abs().max(table.centre[1].abs());
+            ("table".to_owned(), centre.max(table.top.abs()))
+        });
+        for (field, place) in flasks.chain(table) {
             if place > reach {
                 let problem = format!(
-                    "{place:.0} m from the first flask, where particles of {} m are told from \
-                     walls up to {reach:.0} m off; move the flasks together",
+                    "{place:.0} m from the scene's origin, where particles of {} m are told from \
+                     walls up to {reach:.0} m off; give places by a nearer one, and say in \
+                     `origin` where that is",
                     self.scale.spacing
                 );
-                return Err(Problem::new(format!("flask[{index}].position"), problem));
+                return Err(Problem::new(field, problem));
             }
         }
         Ok(())

@@ -6,7 +6,6 @@ mod chemistry;
 mod error;
 mod file;
 mod limits;
-mod origin;
 mod overlap;
 mod settings;
 
@@ -94,10 +93,9 @@ pub struct Scene {
     pub name: String,
     /// What it shows, in a sentence or two, and what of it was chosen here.
     pub description: String,
-    /// Where the scene's frame is in that of its file, metres: whole steps that
-    /// only a scene far off has. All else here, and what is simulated, is
-    /// relative to it, so that it has the bits that it would have at the file's
-    /// own origin.
+    /// Where the scene's frame is in the stage, metres of the scene. All else
+    /// here, and what is simulated, is relative to it: however far off the scene
+    /// is, it has the bits that it has at the stage's own origin.
     pub origin: DVec3,
     /// Scale, time and gravity.
     pub scale: Scale,
@@ -245,8 +243,7 @@ impl Scene {
             .collect()
     }
 
-    fn build(mut raw: file::SceneFile) -> Result<Self, Problem> {
-        let origin = origin::take(&mut raw);
+    fn build(raw: file::SceneFile) -> Result<Self, Problem> {
         raw.scale.check()?;
         raw.solver.check()?;
         if let Some(paper) = &raw.paper {
@@ -270,6 +267,10 @@ impl Scene {
             true,
             "a finite number (metres)",
         )?;
+        for value in raw.origin {
+            settings::require("origin", value, true, "a finite number (metres)")?;
+        }
+        let origin = DVec3::from_array(raw.origin);
         let scale = raw.scale;
         let flasks = (0..)
             .zip(raw.flask)

@@ -164,11 +164,11 @@ impl Scale {
         positive("rest_density", self.rest_density, "kg/m³")?;
         positive("length_scale", self.length_scale, "real metres per metre")?;
         let ratio = self.support_ratio;
-        let range = "between 1.2 and 3 (h/d)";
+        let range = "between 1.5 and 3 (h/d): with fewer neighbours a liquid does not rest";
         require(
             "scale.support_ratio",
             ratio,
-            (1.2..=3.0).contains(&ratio),
+            (1.5..=3.0).contains(&ratio),
             range,
         )?;
         let gravity = self.gravity;
