@@ -243,7 +243,7 @@ impl Work<'_> {
 
     fn truth(&mut self) -> Result<(), Failure> {
         let scene = Scene::load(SCENE).other()?;
-        self.found.orders = convergence(self.gpu)?;
+        self.found.orders = convergence(self.gpu, self.args.quick)?;
         let (count, seconds) = if self.args.quick {
             (300, 0.1)
         } else {

@@ -18,6 +18,8 @@ use crate::failure::{Blame, Failure};
 pub(super) const REST: f64 = 1.0;
 /// Steps that a case takes at most: one of a tenth of the time step ends earlier.
 const MOST_STEPS: u64 = 400;
+/// Time at the end over which a speed is a mean, s.
+const LAST: f64 = 0.25;
 /// Steps between two looks at all particles.
 const BETWEEN: u64 = 3;
 /// P₀ of Eq. 17's stated power, W/kg, and what more it may inject (docs/chemistry.md:
@@ -43,7 +45,7 @@ pub(super) struct Run {
     pub turnover: f64,
     /// Energy that the filling set free in the first [`BEFORE`], J.
     pub settling: f64,
-    /// Root mean square of the members' speeds at the end, m/s.
+    /// Root mean square of the members' speeds over the last [`LAST`], m/s.
     pub end_speed: f64,
     /// Particles in the flask at the end.
     pub members: usize,
@@ -84,11 +86,10 @@ pub(super) fn drive(
         };
         world.step(&input).other()?;
         watch.work(&world, &before)?;
+        watch.late = 2 * step > active_steps + all;
+        watch.last_part = dt * (steps - step) as f64 <= LAST;
         if step % BETWEEN == 0 || step == steps || step == active_steps {
             watch.look(&world, step)?;
-        }
-        if 2 * step > active_steps + all {
-            watch.late = true;
         }
     }
     watch.finish(&world, steps, steps == all)
@@ -143,6 +144,9 @@ struct Held {
 struct Watch {
     moves: bool,
     late: bool,
+    last_part: bool,
+    /// Σ v² and number of the members over looks in the last part.
+    squares: [f64; 2],
     gravity: f64,
     particle_mass: f64,
     /// Height that potential energy counts from, m.
@@ -176,6 +180,8 @@ impl Watch {
         let mut watch = Self {
             moves: recipe.motion != Motion::Still || recipe.upside_down,
             late: false,
+            last_part: false,
+            squares: [0.0; 2],
             gravity: recipe.gravity,
             particle_mass: parameters.particle_mass(),
             base: world.scene().floor.height,
@@ -352,7 +358,12 @@ impl Watch {
             }
             run.not_finite += values.iter().filter(|value| !value.is_finite()).count() as u64;
             let [u, v, w, _] = state.velocities[slot];
-            run.speed = run.speed.max(Vec3::new(u, v, w).length().into());
+            let speed = f64::from(Vec3::new(u, v, w).length());
+            run.speed = run.speed.max(speed);
+            if self.last_part && state.flask_of(slot).is_some() {
+                self.squares[0] += speed * speed;
+                self.squares[1] += 1.0;
+            }
         }
     }
 
@@ -382,13 +393,9 @@ impl Watch {
     fn finish(mut self, world: &World, steps: u64, rested: bool) -> Result<Run, Failure> {
         let state = world.solver().snapshot().other()?;
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot).is_some());
-        let mut squares = 0.0;
-        for slot in members {
-            let [u, v, w, _] = state.velocities[slot];
-            squares += f64::from(Vec3::new(u, v, w).length_squared());
-            self.run.members += 1;
-        }
-        self.run.end_speed = (squares / self.run.members.max(1) as f64).sqrt();
+        self.run.members = members.count();
+        let [sum, count] = self.squares;
+        self.run.end_speed = (sum / count.max(1.0)).sqrt();
         (self.run.steps, self.run.rested) = (steps, rested);
         self.run.counters = world.counters().other()?;
         self.run.hash = state.hash();

@@ -42,16 +42,6 @@ pub enum Broken {
 }
 
 impl Motion {
-    /// Whether the liquid may leave the flask, or turn on in it.
-    pub fn leaves_in_motion(self) -> bool {
-        match self {
-            Self::Still | Self::NoPose(_) => false,
-            Self::Spun { .. } | Self::Shaken { .. } | Self::Teleported(_) | Self::Stalled(_) => {
-                true
-            }
-        }
-    }
-
     /// The hand at `time` (s) that holds the flask which stands at `grip` at the
     /// start; in metres of a scene of `length_scale`.
     pub fn hand(self, time: f64, grip: DVec3, length_scale: f64) -> Hand {
@@ -59,7 +49,10 @@ impl Motion {
             return Hand::ABSENT;
         }
         // The flask is lifted off the table before anything else.
-        let lift = DVec3::Y * 0.5 * (time / BEFORE).min(1.0);
+        let lift = match self {
+            Self::NoPose(_) => DVec3::ZERO,
+            _ => DVec3::Y * 0.5 * (time / BEFORE).min(1.0),
+        };
         let t = (time - BEFORE).clamp(0.0, LASTS);
         let (offset, turn) = self.path(t);
         let position = grip + (lift + offset) / length_scale;

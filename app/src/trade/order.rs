@@ -40,13 +40,14 @@ impl Convergence {
 ///
 /// # Errors
 /// What the device says.
-pub fn convergence(gpu: &Gpu) -> Result<Vec<Convergence>, Failure> {
+pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> {
     let mut fall = Vec::new();
     for substeps in [2u32, 4, 8, 16] {
         fall.push(free_fall(gpu, substeps)?);
     }
+    let resolutions: &[u32] = if quick { &[10, 20] } else { &[10, 20, 40] };
     let (mut lattice, mut printed) = (Vec::new(), Vec::new());
-    for per_metre in [10u32, 20, 40] {
+    for &per_metre in resolutions {
         let (h, [own, whole]) = diffused(gpu, per_metre)?;
         lattice.push([h, own]);
         printed.push([h, whole]);
@@ -156,9 +157,10 @@ const DIFFUSIVITY: f64 = 0.01;
 const TIME: f64 = 1.0;
 /// What of D Eq. 5 keeps on the cubic lattice at h/d = 2 (`chemistry/exchange.rs`).
 const LATTICE: f64 = 0.9915;
-/// Length of the rod and lattice sites across it.
+/// Length and width of the rod, m: in the time, what is missing at its faces does not
+/// come to its middle.
 const LENGTH: f64 = 1.6;
-const ACROSS: u32 = 13;
+const WIDTH: f64 = 0.68;
 
 /// h, and the error against the lattice's own D and against D.
 fn diffused(gpu: &Gpu, per_metre: u32) -> Result<(f64, [f64; 2]), Failure> {
@@ -183,22 +185,24 @@ fn diffused(gpu: &Gpu, per_metre: u32) -> Result<(f64, [f64; 2]), Failure> {
         ..bare()
     };
     let along = (LENGTH / d).round() as u32;
+    // Odd, so that there is a line in the middle.
+    let across = (WIDTH / d) as u32 | 1;
     let place = |n: u32, count: u32| (f64::from(n) + 0.5 - 0.5 * f64::from(count)) * d;
     let mut particles = Vec::new();
     for i in 0..along {
-        for j in 0..ACROSS {
-            for k in 0..ACROSS {
-                let x = DVec3::new(place(i, along), place(j, ACROSS), place(k, ACROSS));
+        for j in 0..across {
+            for k in 0..across {
+                let x = DVec3::new(place(i, along), place(j, across), place(k, across));
                 particles.push(at(x, if x.x < 0.0 { 1.0 } else { 0.0 }));
             }
         }
     }
     let state = run(gpu, parameters, &particles, frames)?;
     // The line in the middle: at the rod's faces neighbours are missing.
-    let middle = ACROSS / 2;
+    let middle = across / 2;
     let (mut squares, mut count) = ([0.0; 2], 0.0);
     for (slot, tag) in state.tags.iter().enumerate() {
-        let (j, k) = (tag[1] / ACROSS % ACROSS, tag[1] % ACROSS);
+        let (j, k) = (tag[1] / across % across, tag[1] % across);
         let x = f64::from(state.positions[slot][0]);
         if j != middle || k != middle || x.abs() > 0.5 {
             continue;

@@ -48,11 +48,10 @@ impl Scene {
             let volume: f64 = liquids.map(|liquid| liquid.volume).sum();
             let full = flask.profile.rim_height();
             let level = flask.profile.level_for_volume(volume).unwrap_or(full);
-            // A layer of particles has nothing to carry.
-            let depth = level - flask.profile.floor_height() - scale.spacing;
-            if depth <= 0.0 || scale.gravity <= 0.0 {
+            if volume <= 0.0 || scale.gravity <= 0.0 {
                 continue;
             }
+            let depth = (level - flask.profile.floor_height()).max(scale.spacing);
             let limit = LONGEST_SUBSTEP * 0.4 * scale.spacing / (scale.gravity * depth).sqrt();
             if substep > limit {
                 let needed = (scale.frame_time / limit).ceil();
