@@ -140,10 +140,19 @@ impl Experiment for Laboratory {
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
-            camera.follow(&frame.stage_from_view);
+            let scene = self.world.scene();
+            let origin = scene.origin * scene.scale.length_scale;
+            let mut view = frame.stage_from_view;
+            view.position -= origin.as_vec3();
+            camera.follow(&view);
         }
         let length_scale = self.world.scene().scale.length_scale;
-        let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
+        let origin = self.world.scene().origin.as_vec3();
+        let hands = frame.hands.each_ref().map(|hand| {
+            let mut hand = grip(hand, length_scale);
+            hand.stage_from_grip.position -= origin;
+            hand
+        });
         self.world.step(&StepInput { hands }).map_err(blame_world)
     }
 
@@ -193,6 +202,11 @@ impl Experiment for Laboratory {
                 "diffusion cut to what pairs may exchange",
                 counted.diffusion_limited,
             ),
+            (
+                "boiling cut to 30 % of a relative velocity",
+                counted.growth_limited,
+            ),
+            ("density taken at the end of its table", counted.table_ends),
         ];
         Ok(Outcome {
             fluid_particles: self.world.solver().count().into(),
@@ -212,8 +226,8 @@ impl Experiment for Laboratory {
     }
 }
 
-/// A recorded hand in the simulation's terms. Hands move in real metres, the
-/// scene in its own.
+/// A recorded hand in the simulation's terms, in the frame of the scene's file.
+/// Hands move in real metres, the scene in its own.
 pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
