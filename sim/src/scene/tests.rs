@@ -451,9 +451,8 @@ proptest! {
             prop_assert!(profile.glass_volume() > 0.0);
             prop_assert!(profile.radius_table().iter().all(|r| r.is_finite() && *r >= 0.0));
             let level = profile.level_for_volume(0.5 * profile.capacity());
-            prop_assert!(level.is_some_and(|y| {
-                (profile.floor_height()..=profile.rim_height()).contains(&y)
-            }));
+            let within = profile.floor_height()..=profile.rim_height();
+            prop_assert!(level.is_some_and(|y| within.contains(&y)));
         }
     }
 }
