@@ -1,5 +1,6 @@
 //! `vitriol trade`: what accuracy costs.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use vitriol_gpu::Gpu;
@@ -16,7 +17,7 @@ use crate::failure::{Blame, Failure};
 use crate::output;
 use crate::trade::report::Calorimetry;
 use crate::trade::{
-    Cost, Errors, Knob, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page,
+    Boiled, Errors, Knob, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page,
     rest, sweep, tip, vouch,
 };
 
@@ -30,6 +31,9 @@ const SCENE: &str = "beaker";
 const BOILING: (&str, &str) = ("water-into-acid", "two-flasks");
 /// Seeds of chaotic runs; of those that leave a feature out.
 const SEEDS: [u64; 2] = [10, 4];
+
+/// Seeds that run at once.
+const AT_ONCE: usize = 3;
 
 /// 20 °C water and acid of 98 %, mL, and where they end, °C: enthalpies by Wagman et
 /// al. (1982), boiling by the boiling points of the composition.
@@ -227,16 +231,33 @@ impl Work<'_> {
             self.found.skipped += 1;
             return Ok(());
         }
-        let (mut seeds, mut costs) = (Vec::new(), Vec::new());
-        for seed in 1..=count {
-            let (boiled, cost) = boil(self.gpu, scene, track, seconds, seed)?;
-            seeds.push(boiled);
-            costs.push(cost);
-        }
-        self.found.boiling.push(Seeds::of(name.to_owned(), seeds));
-        costs.sort_by(|a, b| a.p99_ms.total_cmp(&b.p99_ms));
-        let cost: Option<&Cost> = costs.get(costs.len() / 2);
-        self.found.boiling_costs.extend(cost);
+        // The first alone, for its time; of the others, whose time nobody asks for,
+        // several at once.
+        let (first, cost) = boil(self.gpu, scene, track, seconds, 1)?;
+        let others: Vec<u64> = (2..=count).collect();
+        let next = AtomicUsize::new(0);
+        let found = std::thread::scope(|scope| {
+            let work = || -> Result<Vec<Boiled>, Failure> {
+                let mut own = Vec::new();
+                while let Some(&seed) = others.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    own.push(boil(self.gpu, scene, track, seconds, seed)?.0);
+                }
+                Ok(own)
+            };
+            let threads: Vec<_> = (0..AT_ONCE).map(|_| scope.spawn(work)).collect();
+            threads
+                .into_iter()
+                .map(|thread| match thread.join() {
+                    Ok(found) => found,
+                    Err(panic) => std::panic::resume_unwind(panic),
+                })
+                .collect::<Result<Vec<_>, _>>()
+        })?;
+        let seeds = std::iter::once(first).chain(found.into_iter().flatten());
+        self.found
+            .boiling
+            .push(Seeds::of(name.to_owned(), seeds.collect()));
+        self.found.boiling_costs.push(cost);
         tracing::info!("{name} after {:.0} s", self.begin.elapsed().as_secs_f64());
         Ok(())
     }
