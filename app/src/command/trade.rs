@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use vitriol_gpu::Gpu;
-use vitriol_sim::scene::{Feature, Preset, Scene};
+use vitriol_sim::scene::{Feature, Preset, Scene, SolverSettings};
 use vitriol_xr::track::Track;
 
 use super::calorimeter::resolution;
@@ -15,7 +15,7 @@ use crate::console::{Format, emit};
 use crate::device;
 use crate::failure::{Blame, Failure};
 use crate::output;
-use crate::trade::report::Calorimetry;
+use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
     Boiled, Errors, Knob, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page,
     rest, sweep, tip, vouch,
@@ -74,6 +74,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
             boiling: Vec::new(),
             boiling_costs: Vec::new(),
             vouched: None,
+            effects: Vec::new(),
             orders: Vec::new(),
             seconds: 0.0,
         },
@@ -272,6 +273,41 @@ impl Work<'_> {
         };
         let vouched = vouch(self.gpu, &scene, &finest(&scene, 28e3), count, seconds)?;
         self.found.vouched = Some(vouched);
+        self.effects(&scene)
+    }
+}
+
+impl Work<'_> {
+    /// Pours as the scene has it, with each effect that it leaves out, and with
+    /// none of what is numerics alone.
+    fn effects(&mut self, scene: &Scene) -> Result<(), Failure> {
+        type Change = fn(&mut SolverSettings);
+        let all: [(&'static str, Change); 5] = [
+            ("as it is", |_| {}),
+            ("with cohesion of 0.072 N/m", |s| s.cohesion = Some(0.072)),
+            ("with cohesion and adhesion of 0.072 N/m", |s| {
+                (s.cohesion, s.adhesion) = (Some(0.072), Some(0.072));
+            }),
+            ("with vorticity confinement of 0.005 m/s", |s| {
+                s.vorticity = Some(0.005)
+            }),
+            ("without viscosity of the numerics", |s| s.viscosity = 0.0),
+        ];
+        let (preset, seconds) = if self.args.quick {
+            (Preset::Fast, 0.3)
+        } else {
+            (Preset::Balanced, 1.5)
+        };
+        for (name, change) in &all[..if self.args.quick { 2 } else { 5 }] {
+            let mut scene = scene.clone();
+            change(&mut scene.solver);
+            let setting = Setting::of(&scene, preset);
+            self.found.effects.push(Effect {
+                name,
+                rest: rest(self.gpu, &scene, &setting, seconds)?,
+                pour: tip(self.gpu, &scene, &setting)?,
+            });
+        }
         Ok(())
     }
 }

@@ -33,6 +33,8 @@ pub struct Trade {
     pub boiling_costs: Vec<Cost>,
     /// The finest setting by the f64 reference.
     pub vouched: Option<Vouched>,
+    /// What each effect that plain water leaves out would change of a pour.
+    pub effects: Vec<Effect>,
     /// How errors shrink.
     pub orders: Vec<Convergence>,
     /// Wall time, s.
@@ -69,6 +71,17 @@ pub struct Errors {
     pub poured: f64,
     /// Of the height of the centre of mass at rest.
     pub lost_volume: f64,
+}
+
+/// A pour with an effect that scenes of water leave out.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Effect {
+    /// The effect.
+    pub name: &'static str,
+    /// At rest.
+    pub rest: Rested,
+    /// While it is poured.
+    pub pour: Tipped,
 }
 
 /// What the calorimeter says of one mix.
@@ -184,6 +197,19 @@ pub fn describe(trade: &Trade) -> String {
             1e3 * v.centre[0],
             1e3 * v.centre[1],
             1e3 * v.apart
+        );
+    }
+    for effect in &trade.effects {
+        let _ = writeln!(
+            t,
+            "{}: {:.3} mL poured; density error p99 {} at rest, {} while pouring; rms speed at \
+             rest {:.4} m/s; a frame {:.3} ms",
+            effect.name,
+            1e6 * effect.pour.poured,
+            percent(effect.rest.density_p99),
+            percent(effect.pour.density_p99),
+            effect.rest.speed,
+            effect.pour.cost.median_ms
         );
     }
     for order in &trade.orders {

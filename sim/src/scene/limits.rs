@@ -39,6 +39,12 @@ impl Scene {
         Ok(())
     }
 
+    /// Why the liquid of some flask would not stand up under the scene's substep;
+    /// `None` where all do. For who changes substeps or frame time after loading.
+    pub fn problem_of_substep(&self) -> Option<String> {
+        self.check_substep().err().map(|problem| problem.problem)
+    }
+
     /// Whether the liquid of every flask stands up under the scene's substep.
     pub(super) fn check_substep(&self) -> Result<(), Problem> {
         let (scale, solver) = (&self.scale, &self.solver);
