@@ -98,15 +98,21 @@ pub struct Calorimetry {
 }
 
 impl Point {
-    /// What the frame costs at its worst, ms.
+    /// 99th percentile of the time, ms, that a ninetieth of a second takes, at rest or
+    /// poured, whichever is more: settings of other frame times have as many frames
+    /// in it as they need.
     pub fn cost(&self) -> f64 {
-        self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
+        let frames = 1.0 / 90.0 / self.setting.frame_time;
+        frames * self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
     }
 }
 
+/// A name, and how the error is read.
+type NamedError = (&'static str, fn(&Errors) -> f64);
+
 impl Errors {
     /// Names and readers of each.
-    pub const ALL: [(&'static str, fn(&Self) -> f64); 4] = [
+    pub const ALL: [NamedError; 4] = [
         ("density error at rest, 99th percentile", |e| e.rest_p99),
         ("density error while pouring, 99th percentile", |e| {
             e.pour_p99
