@@ -9,11 +9,13 @@
 //! looking along -Z (OpenXR's STAGE reference space).
 
 mod frame;
+mod headset;
 mod pose;
 pub mod probe;
 mod source;
 pub mod track;
 
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
+pub use headset::{Headset, HeadsetError, HeadsetFrame, Shown, Targets, Turn, View};
 pub use pose::Pose;
 pub use source::{PoseSource, SourceError};
