@@ -48,11 +48,19 @@ pub trait Headset {
     /// As for [`Headset::next`].
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError>;
 
-    /// What the hand feels until the next call: 0 nothing, 1 the strongest.
+    /// What the hand feels until the next call: 0 nothing, 1 the strongest. It is to be said in
+    /// each frame: after 200 ms it ends by itself, so that a program that hangs does not go on
+    /// shaking a hand.
     ///
     /// # Errors
     /// As for [`Headset::next`].
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
+
+    /// Asks the runtime for the end; [`Turn::Ended`] follows some turns later.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn request_exit(&mut self) -> Result<(), HeadsetError>;
 }
 
 /// What comes next.
