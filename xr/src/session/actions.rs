@@ -14,10 +14,16 @@ type Session = xr::Session<xr::Vulkan>;
 /// How long a vibration lasts that is not said again, ns.
 const FADE_NS: i64 = 200_000_000;
 
-/// Spaces before actions, actions before their set: each is destroyed before what it is of.
+/// The actions in a session: spaces first, so that each is destroyed before what it is of.
 pub(super) struct Actions {
     hands: [Bound; 2],
     pinch: Option<Pinch>,
+    of: Set,
+}
+
+/// The actions of an instance, each before its set.
+struct Set {
+    hands: [xr::Path; 2],
     grip: xr::Action<xr::Posef>,
     aim: xr::Action<xr::Posef>,
     squeeze: xr::Action<f32>,
@@ -37,61 +43,27 @@ struct Bound {
     profile: Arc<str>,
 }
 
-impl Actions {
-    /// Makes the actions, suggests bindings for every profile that is offered, and attaches them.
-    pub(super) fn new(instance: &xr::Instance, session: &Session) -> Result<Self, Failure> {
-        let paths = [xr::USER_HAND_LEFT, xr::USER_HAND_RIGHT].map(|path| find(instance, path));
-        let [left, right] = paths;
-        let paths = [left?, right?];
+impl Set {
+    fn new(instance: &xr::Instance) -> Result<Self, Failure> {
+        let hands = [
+            find(instance, xr::USER_HAND_LEFT)?,
+            find(instance, xr::USER_HAND_RIGHT)?,
+        ];
         let set = instance
             .create_action_set("lab", "Laboratory", 0)
             .map_err(failed("xrCreateActionSet"))?;
-        let grip = action(&set, "grip_pose", "Grip", &paths)?;
-        let aim = action(&set, "aim_pose", "Point", &paths)?;
-        let squeeze = action(&set, "squeeze", "Close the hand", &paths)?;
-        let trigger = action(&set, "trigger", "Pull the trigger", &paths)?;
-        let stick = action(&set, "thumbstick", "Thumbstick", &paths)?;
-        let a = action(&set, "button_a", "Back to the start", &paths)?;
-        let b = action(&set, "button_b", "Recentre", &paths)?;
-        let haptic = action(&set, "haptic", "Feel", &paths)?;
-        let space = |action: &xr::Action<xr::Posef>, path| {
-            action
-                .create_space(session, path, xr::Posef::IDENTITY)
-                .map_err(failed("xrCreateActionSpace"))
-        };
-        let bound = |path| -> Result<Bound, Failure> {
-            Ok(Bound {
-                path,
-                grip: space(&grip, path)?,
-                aim: space(&aim, path)?,
-                profile: Arc::from(""),
-            })
-        };
-        let actions = Self {
-            hands: [bound(paths[0])?, bound(paths[1])?],
-            pinch: Pinch::new(instance, session),
-            grip,
-            aim,
-            squeeze,
-            trigger,
-            stick,
-            a,
-            b,
-            haptic,
+        Ok(Self {
+            grip: action(&set, "grip_pose", "Grip", &hands)?,
+            aim: action(&set, "aim_pose", "Point", &hands)?,
+            squeeze: action(&set, "squeeze", "Close the hand", &hands)?,
+            trigger: action(&set, "trigger", "Pull the trigger", &hands)?,
+            stick: action(&set, "thumbstick", "Thumbstick", &hands)?,
+            a: action(&set, "button_a", "First button", &hands)?,
+            b: action(&set, "button_b", "Second button", &hands)?,
+            haptic: action(&set, "haptic", "Feel", &hands)?,
+            hands,
             set,
-        };
-        let on = instance.exts();
-        for profile in PROFILES.iter().filter(|profile| (profile.offered)(on)) {
-            // A runtime may know fewer profiles than the specification (XR_ERROR_PATH_UNSUPPORTED);
-            // the others serve.
-            if let Err(answer) = actions.suggest(instance, profile)? {
-                tracing::warn!(profile = profile.path, %answer, "bindings refused");
-            }
-        }
-        session
-            .attach_action_sets(&[&actions.set])
-            .map_err(failed("xrAttachSessionActionSets"))?;
-        Ok(actions)
+        })
     }
 
     /// Suggests one row of the table; the inner result is the runtime's answer.
@@ -123,6 +95,42 @@ impl Actions {
         }
         let path = find(instance, profile.path)?;
         Ok(instance.suggest_interaction_profile_bindings(path, &bindings))
+    }
+}
+
+impl Actions {
+    /// Makes the actions, suggests bindings for every profile that is offered, and attaches them.
+    pub(super) fn new(instance: &xr::Instance, session: &Session) -> Result<Self, Failure> {
+        let of = Set::new(instance)?;
+        let on = instance.exts();
+        for profile in PROFILES.iter().filter(|profile| (profile.offered)(on)) {
+            // A runtime may know fewer profiles than the specification (XR_ERROR_PATH_UNSUPPORTED);
+            // the others serve.
+            if let Err(answer) = of.suggest(instance, profile)? {
+                tracing::warn!(profile = profile.path, %answer, "bindings refused");
+            }
+        }
+        session
+            .attach_action_sets(&[&of.set])
+            .map_err(failed("xrAttachSessionActionSets"))?;
+        let space = |action: &xr::Action<xr::Posef>, path| {
+            action
+                .create_space(session, path, xr::Posef::IDENTITY)
+                .map_err(failed("xrCreateActionSpace"))
+        };
+        let bound = |path| -> Result<Bound, Failure> {
+            Ok(Bound {
+                path,
+                grip: space(&of.grip, path)?,
+                aim: space(&of.aim, path)?,
+                profile: Arc::from(""),
+            })
+        };
+        Ok(Self {
+            hands: [bound(of.hands[0])?, bound(of.hands[1])?],
+            pinch: Pinch::new(instance, session),
+            of,
+        })
     }
 
     /// Asks which controllers the hands hold now.
@@ -158,7 +166,7 @@ impl Actions {
         // Without the focus this answers SESSION_NOT_FOCUSED, which is no error, and every action
         // is inactive.
         session
-            .sync_actions(&[xr::ActiveActionSet::new(&self.set)])
+            .sync_actions(&[xr::ActiveActionSet::new(&self.of.set)])
             .map_err(failed("xrSyncActions"))?;
         for side in Side::BOTH {
             let hand = &mut hands[side as usize];
@@ -196,6 +204,7 @@ impl Actions {
         };
         let locate = |space: &xr::Space| space.locate(stage, time).map_err(failed("xrLocateSpace"));
         hand.active = self
+            .of
             .grip
             .is_active(session, bound.path)
             .map_err(failed("xrGetActionStatePose"))?;
@@ -211,9 +220,10 @@ impl Actions {
         if let Some(pose) = located(&locate(&bound.aim)?) {
             hand.stage_from_aim = pose;
         }
-        hand.squeeze = float(&self.squeeze)?;
-        hand.trigger = float(&self.trigger)?;
+        hand.squeeze = float(&self.of.squeeze)?;
+        hand.trigger = float(&self.of.trigger)?;
         let stick = self
+            .of
             .stick
             .state(session, bound.path)
             .map_err(failed("xrGetActionStateVector2f"))?;
@@ -222,8 +232,8 @@ impl Actions {
         } else {
             [0.0; 2]
         };
-        hand.button_a = button(&self.a)?;
-        hand.button_b = button(&self.b)?;
+        hand.button_a = button(&self.of.a)?;
+        hand.button_b = button(&self.of.b)?;
         hand.profile = bound.profile.clone();
         Ok(())
     }
@@ -241,11 +251,13 @@ impl Actions {
                 .duration(xr::Duration::from_nanos(FADE_NS))
                 .frequency(xr::FREQUENCY_UNSPECIFIED)
                 .amplitude(amplitude.min(1.0));
-            self.haptic
+            self.of
+                .haptic
                 .apply_feedback(session, path, &vibration)
                 .map_err(failed("xrApplyHapticFeedback"))
         } else {
-            self.haptic
+            self.of
+                .haptic
                 .stop_feedback(session, path)
                 .map_err(failed("xrStopHapticFeedback"))
         }
@@ -266,4 +278,39 @@ fn action<T: xr::ActionTy>(
 ) -> Result<xr::Action<T>, Failure> {
     set.create_action(name, shown, hands)
         .map_err(failed("xrCreateAction"))
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use vitriol_tests::monado;
+
+    use super::super::bindings::{Profile, Use};
+    use super::super::system;
+    use super::*;
+
+    #[test]
+    fn monado_takes_the_bindings_of_every_profile() {
+        let name = "session::actions::tests::monado_takes_the_bindings_of_every_profile";
+        let Some(_rig) = monado::enter(name) else {
+            return;
+        };
+        let entry = system::entry().unwrap();
+        let instance = system::instance(&entry).unwrap();
+        let set = Set::new(&instance).unwrap();
+        for profile in &PROFILES {
+            let path = profile.path;
+            assert!((profile.offered)(instance.exts()), "{path}");
+            let answer = set.suggest(&instance, profile).unwrap();
+            assert_eq!(answer, Ok(()), "{path}");
+        }
+        // It would have refused a control that a profile has not: Touch's squeeze has no click.
+        let wrong = Profile {
+            path: "/interaction_profiles/oculus/touch_controller",
+            offered: |_| true,
+            controls: &[(Use::Squeeze, On::Both, "input/squeeze/click")],
+        };
+        let answer = set.suggest(&instance, &wrong).unwrap();
+        assert_eq!(answer, Err(xr::sys::Result::ERROR_PATH_UNSUPPORTED));
+    }
 }
