@@ -107,7 +107,7 @@ pub struct View {
 }
 
 /// The runtime's images for a frame. They take copies of pictures of the same extent.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Targets {
     /// Two layers, 8 bits a channel, sRGB.
     pub colour: Image,
