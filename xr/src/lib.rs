@@ -12,10 +12,12 @@ mod frame;
 mod headset;
 mod pose;
 pub mod probe;
+mod session;
 mod source;
 pub mod track;
 
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
 pub use headset::{Headset, HeadsetError, HeadsetFrame, Shown, Targets, Turn, View};
 pub use pose::Pose;
+pub use session::{OpenXr, OpenXrOptions};
 pub use source::{PoseSource, SourceError};

@@ -4,7 +4,7 @@
 //! extensions named in the rows. A click bound to a value reads 0 or 1 (same, "Action state
 //! conversions"): that is how squeeze and trigger come from controllers that only have buttons.
 
-use openxr::ExtensionSet;
+use openxr::InstanceExtensions;
 
 /// What a control does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub(super) struct Profile {
     /// Its path.
     pub path: &'static str,
     /// Whether the runtime has it, by the extensions that are on.
-    pub offered: fn(&ExtensionSet) -> bool,
+    pub offered: fn(&InstanceExtensions) -> bool,
     /// Use, hands and path below the hand's.
     pub controls: &'static [(Use, On, &'static str)],
 }
@@ -55,7 +55,7 @@ const STICK: (Use, On, &str) = (Use::Stick, On::Both, "input/thumbstick");
 const MENU: (Use, On, &str) = (Use::B, On::Both, "input/menu/click");
 const PAD_CLICK: (Use, On, &str) = (Use::A, On::Both, "input/trackpad/click");
 
-fn core(_: &ExtensionSet) -> bool {
+fn core(_: &InstanceExtensions) -> bool {
     true
 }
 
@@ -132,7 +132,7 @@ pub(super) const PROFILES: [Profile; 7] = [
     },
     Profile {
         path: "/interaction_profiles/bytedance/pico4_controller",
-        offered: |on| on.bd_controller_interaction,
+        offered: |on| on.bd_controller_interaction.is_some(),
         controls: &[
             GRIP,
             AIM,
@@ -148,7 +148,7 @@ pub(super) const PROFILES: [Profile; 7] = [
     },
     Profile {
         path: "/interaction_profiles/ext/hand_interaction_ext",
-        offered: |on| on.ext_hand_interaction,
+        offered: |on| on.ext_hand_interaction.is_some(),
         controls: &[
             GRIP,
             AIM,

@@ -55,8 +55,7 @@ pub(super) fn state(state: xr::SessionState) -> SessionState {
 
 /// A located pose, `None` unless position and orientation are both valid.
 pub(super) fn located(location: &xr::SpaceLocation) -> Option<Pose> {
-    let valid =
-        xr::SpaceLocationFlags::POSITION_VALID | xr::SpaceLocationFlags::ORIENTATION_VALID;
+    let valid = xr::SpaceLocationFlags::POSITION_VALID | xr::SpaceLocationFlags::ORIENTATION_VALID;
     let pose = pose(location.pose);
     (location.location_flags.contains(valid) && pose.is_valid()).then_some(pose)
 }
