@@ -21,6 +21,11 @@ use crate::failure::{Blame, Failure};
 use crate::replay::{Experiment, Outcome};
 use crate::report::{Counters, HeatSample, LedgerSample, MassByPlace, Sample};
 
+/// Key of the switch to another scene, which its value names.
+pub const SWITCH_SCENE: &str = "scene";
+/// Key of the switch back to the start of the scene, which its value names.
+pub const SWITCH_START: &str = "start";
+
 /// The experiment of a scene on the device that was asked for.
 ///
 /// # Errors
@@ -223,6 +228,13 @@ pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
         squeeze: hand.squeeze.max(hand.trigger),
         present: hand.active && hand.valid,
     }
+}
+
+/// stage_from_flask of each flask as a track keeps it, in real metres.
+pub(crate) fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
+    let scale = world.scene().scale.length_scale as f32;
+    let real = |pose: &Pose| vitriol_xr::Pose::new(scale * pose.position, pose.orientation);
+    world.poses().iter().map(real).collect()
 }
 
 fn by_flask<T: Copy>(scene: &Scene, values: &[T]) -> BTreeMap<String, T> {

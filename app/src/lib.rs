@@ -18,3 +18,4 @@ pub mod recorder;
 pub mod replay;
 pub mod report;
 mod statement;
+pub mod vr;

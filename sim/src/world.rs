@@ -141,10 +141,18 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn step(&mut self, input: &StepInput) -> Result<(), WorldError> {
+        self.step_on(QueueKind::Main, input)
+    }
+
+    /// The same on that queue; always on one, since two know no order.
+    ///
+    /// # Errors
+    /// As for [`World::step`].
+    pub fn step_on(&mut self, queue: QueueKind, input: &StepInput) -> Result<(), WorldError> {
         let loads = self.due_loads()?;
         let before = self.bodies.poses().to_vec();
         self.bodies.step(&input.hands, &loads);
-        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let mut rec = self.gpu.recorder(queue)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;
         self.loads
@@ -152,6 +160,20 @@ impl World {
         self.last = Some(ticket);
         self.step += 1;
         Ok(())
+    }
+
+    /// Whether the next step would find what it needs on the host already,
+    /// and not wait for the device.
+    ///
+    /// # Errors
+    /// [`WorldError::Gpu`] where the device is lost.
+    pub fn is_ready(&self) -> Result<bool, WorldError> {
+        match self.loads.front() {
+            Some(PendingLoad::Device(_, ticket)) if self.loads.len() >= LOAD_DELAY => {
+                Ok(ticket.is_done()?)
+            }
+            _ => Ok(true),
+        }
     }
 
     /// Steps done.
@@ -194,6 +216,7 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn counters(&self) -> Result<Counters, WorldError> {
+        self.wait()?;
         Ok(self.solver.counters()?)
     }
 
@@ -202,6 +225,7 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn snapshot(&self) -> Result<WorldState, WorldError> {
+        self.wait()?;
         let solver = self.solver.snapshot()?;
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
@@ -241,6 +265,12 @@ impl World {
             })
             .collect();
         Ok(())
+    }
+
+    /// Waits for the last step, which may be on another queue than what reads
+    /// its particles.
+    fn wait(&self) -> Result<(), WorldError> {
+        Ok(self.last.as_ref().map_or(Ok(()), Ticket::wait)?)
     }
 
     /// What the liquid did [`LOAD_DELAY`] steps ago.

@@ -26,6 +26,25 @@ impl PoseFrame {
     pub fn hand(&self, side: Side) -> &Hand {
         &self.hands[side as usize]
     }
+
+    /// Poses and analogue values at `s` in 0..=1 of the way to `later`, whose own they are at 1,
+    /// bit for bit; the rest is of the earlier frame.
+    #[must_use]
+    pub fn between(&self, later: &Self, s: f32) -> Self {
+        let value = |a: f32, b: f32| if s >= 1.0 { b } else { a + (b - a) * s };
+        let mut frame = self.clone();
+        frame.stage_from_view = self.stage_from_view.interpolate(&later.stage_from_view, s);
+        for (hand, later) in frame.hands.iter_mut().zip(&later.hands) {
+            hand.stage_from_grip = hand.stage_from_grip.interpolate(&later.stage_from_grip, s);
+            hand.stage_from_aim = hand.stage_from_aim.interpolate(&later.stage_from_aim, s);
+            hand.squeeze = value(hand.squeeze, later.squeeze);
+            hand.trigger = value(hand.trigger, later.trigger);
+            for (axis, later) in hand.thumbstick.iter_mut().zip(later.thumbstick) {
+                *axis = value(*axis, later);
+            }
+        }
+        frame
+    }
 }
 
 /// Which hand; its value is the index into [`PoseFrame::hands`].

@@ -10,6 +10,7 @@ pub mod picture;
 pub mod replay;
 pub mod scenes;
 pub mod track;
+pub mod vr;
 
 use crate::cli::{Cli, Command};
 use crate::experiment;
@@ -27,6 +28,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Picture(args) => picture::run(args, format, experiment::prepare),
         Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
+        Command::Vr(args) => vr::run(args, format),
         Command::Scenes => scenes::run(format),
         Command::Fidelity(args) => fidelity::run(args, format),
         Command::Fig5(args) => fig5::run(args, format),
