@@ -100,12 +100,7 @@ fn a_killed_runtime_is_found_again() {
     let mut index = client.focus().index;
     drive(&rig, &mut client);
     let mut handles = Vec::new();
-    for at in [
-        At::Acquire,
-        At::Locate,
-        At::End,
-        At::Next,
-    ] {
+    for at in [At::Acquire, At::Locate, At::End, At::Next] {
         let frame = survive(&mut rig, &mut client, at);
         // Before the new controller is heard of, the hand is where it was.
         let held = frame.poses.hand(Side::Right);
