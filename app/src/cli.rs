@@ -170,9 +170,10 @@ pub struct ReplayArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Trade of speed for accuracy
-    #[arg(long, value_enum, default_value_t)]
-    pub preset: PresetName,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
     /// Simulated seconds; without it the whole track
     #[arg(long, value_name = "S", value_parser = positive_seconds)]
     pub seconds: Option<f64>,
@@ -211,9 +212,10 @@ pub struct PictureArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Trade of speed for accuracy
-    #[arg(long, value_enum, default_value_t)]
-    pub preset: PresetName,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
     /// Simulated time of the picture, seconds
     #[arg(long, value_name = "S", value_parser = positive_seconds)]
     pub at: f64,

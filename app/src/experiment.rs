@@ -9,16 +9,16 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::bodies;
 use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
-use vitriol_xr::{Hand, PoseFrame};
+use vitriol_xr::{Hand, PoseFrame, Switch};
 
 use crate::camera::{Camera, Shot};
 use crate::cli::ColourName;
 use crate::command::replay::Setup;
 use crate::device;
 use crate::failure::{Blame, Failure};
-use crate::replay::{Experiment, Outcome};
+use crate::replay::{Experiment, Outcome, Taken};
 use crate::report::{Counters, HeatSample, LedgerSample, MassByPlace, Sample};
 
 /// Key of the switch to another scene, which its value names.
@@ -50,26 +50,22 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
             failure => failure,
         }
     })?;
-    let mut film = match setup.picture {
-        Some((width, height)) => {
-            let liquid = setup.colours.contains(&ColourName::Liquid);
-            let filter = setup.filter.map(Into::into);
-            let shot = Shot {
-                extent: [width, height],
-                eyes: setup.eyes,
-                liquid: liquid.then(|| world.solver().count()),
-                filter,
-            };
-            Some(Camera::new(gpu, library, setup.scene, &shot)?)
-        }
-        None => None,
-    };
+    let shot = setup.picture.map(|(width, height)| Shot {
+        extent: [width, height],
+        eyes: setup.eyes,
+        liquid: None,
+        filter: setup.filter.map(Into::into),
+    });
+    let mut film = camera(&world, library, shot, &setup.colours)?;
     if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
         camera.follow(head);
     }
     Ok(Box::new(Laboratory {
         world,
         film,
+        shot,
+        preset: setup.preset,
+        switched: None,
         follows_head: setup.head.is_some(),
         seed: setup.seed,
         shaders: setup.shaders.clone(),
@@ -81,9 +77,32 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
     }))
 }
 
+/// The camera for the pictures that were asked for.
+fn camera(
+    world: &World,
+    library: &Library,
+    shot: Option<Shot>,
+    colours: &[ColourName],
+) -> Result<Option<Camera>, Failure> {
+    let liquid = colours.contains(&ColourName::Liquid);
+    let of_world = |shot: Shot| {
+        let shot = Shot {
+            liquid: liquid.then(|| world.solver().count()),
+            ..shot
+        };
+        Camera::new(world.gpu(), library, world.scene(), &shot)
+    };
+    shot.map(of_world).transpose()
+}
+
 struct Laboratory {
     world: World,
     film: Option<Camera>,
+    /// What the film's pictures are like, whatever the scene.
+    shot: Option<Shot>,
+    preset: Preset,
+    /// The scene that a switch brought up.
+    switched: Option<String>,
     follows_head: bool,
     seed: u64,
     shaders: Arc<Library>,
@@ -127,6 +146,22 @@ impl Laboratory {
         Ok(())
     }
 
+    /// Does what the switches say; whether that brought up a scene.
+    fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
+        let brought_up = |switch: &&Switch| [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key);
+        let Some(switch) = switches.iter().rfind(brought_up) else {
+            return Ok(false);
+        };
+        let name = &switch.value;
+        let scene = Scene::load(name).input()?.with_preset(self.preset);
+        let gpu = self.world.gpu().clone();
+        self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
+        self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
+        (self.departures, self.start) = (Departures::default(), None);
+        self.switched = Some(name.clone());
+        Ok(true)
+    }
+
     /// A new world with the old one's state: shaders change seldom, and a
     /// state that survives a change of device survives this too.
     fn renewed_world(&self) -> Result<World, Failure> {
@@ -139,17 +174,23 @@ impl Laboratory {
 }
 
 impl Experiment for Laboratory {
-    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure> {
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure> {
         self.take_up_shaders();
+        let anew = self.switch(&frame.scenario)?;
 
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
             camera.follow(&frame.stage_from_view);
         }
-        let length_scale = self.world.scene().scale.length_scale;
-        let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
-        self.world.step(&StepInput { hands }).map_err(blame_world)
+        let scale = self.world.scene().scale;
+        let hands = frame.hands.each_ref();
+        let hands = hands.map(|hand| grip(hand, scale.length_scale));
+        self.world.step(&StepInput { hands }).map_err(blame_world)?;
+        Ok(Taken {
+            frame_time: scale.frame_time,
+            anew,
+        })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
@@ -200,6 +241,7 @@ impl Experiment for Laboratory {
             ),
         ];
         Ok(Outcome {
+            scene: self.switched.clone(),
             fluid_particles: self.world.solver().count().into(),
             lost_particles: self.lost.max(measured.lost_particles),
             nan_particles: measured.nan_particles,

@@ -3,9 +3,8 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_gpu::Gpu;
 use vitriol_sim::measure::Measurement;
-use vitriol_xr::{Headset, HeadsetError};
+use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::cli::VrArgs;
 use crate::command::track;
@@ -17,7 +16,7 @@ use crate::report::units::{grouped, three_digits};
 use crate::vr::bench::Plan;
 use crate::vr::record::Recorded;
 use crate::vr::session::{self, Options, Outcome, Session, WARM_UP};
-use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
+use crate::vr::stand_in::{PANEL, Pace, Ready, StandIn, StandInSpec};
 use crate::vr::tally::{Holdings, Spread};
 
 /// What `vitriol vr` prints at the session's end.
@@ -91,49 +90,60 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         frames: args.frames,
         record: args.record.clone(),
     };
-    let Some(wearer) = &args.stand_in else {
-        return Err(session::blame(HeadsetError::NoRuntime {
-            remedy: "this build speaks to no OpenXR runtime; use --stand-in TRACK".into(),
-        }));
+    let timed = args.frames.is_some();
+    let (name, outcome, stand_in) = match &args.stand_in {
+        Some(wearer) => {
+            let gpu = device::open(args.device.as_deref(), timed)?;
+            let spec = StandInSpec {
+                extent: args.size,
+                rate_hz: args.rate,
+                pace: Pace::Real,
+            };
+            let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
+            let outcome = Session::new(&headset, options)?.run(&mut headset)?;
+            (
+                headset.name().to_owned(),
+                outcome,
+                Some((spec, headset.ready())),
+            )
+        }
+        None => {
+            let mut headset = OpenXr::open(OpenXrOptions {
+                gpu: vitriol_gpu::Options {
+                    timestamps: timed,
+                    ..vitriol_gpu::Options::default()
+                },
+                instance_extensions: Vec::new(),
+                device_extensions: Vec::new(),
+                panel: PANEL,
+            })
+            .map_err(session::blame)?;
+            let outcome = Session::new(&headset, options)?.run(&mut headset)?;
+            (headset.name().to_owned(), outcome, None)
+        }
     };
-    let gpu = device::open(args.device.as_deref(), args.frames.is_some())?;
-    let spec = StandInSpec {
-        extent: args.size,
-        rate_hz: args.rate,
-        pace: Pace::Real,
-        frames: None,
-    };
-    let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
-    let outcome = Session::new(&headset, options)?.run(&mut headset)?;
-    let ready = headset.ready();
-    let name = headset.name().to_owned();
-    emit(
-        format,
-        &state(name, &gpu, &outcome, Some((&spec, &ready)))?,
-        describe,
-    )
+    emit(format, &state(name, &outcome, stand_in)?, describe)
 }
 
 fn state(
     headset: String,
-    gpu: &Gpu,
     outcome: &Outcome,
-    stand_in: Option<(&StandInSpec, &[Ready])>,
+    stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
     let world = &outcome.bench.world;
     let measured: Measurement = world.measure().other()?;
     let tally = &outcome.tally;
-    let counted: Vec<f64> = stand_in.map_or_else(Vec::new, |(_, ready)| {
+    let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {
         let counted = ready.iter().filter(|frame| frame.index >= WARM_UP);
         counted
             .map(|frame| 1e3 * frame.after.as_secs_f64())
             .collect()
     });
-    let period = stand_in.map(|(spec, _)| 1e3 / spec.rate_hz);
+    let period = stand_in.as_ref().map(|(spec, _)| 1e3 / spec.rate_hz);
     let late = counted.iter().filter(|ready| Some(**ready) > period);
     Ok(SessionReport {
         headset,
-        device: device::statement(gpu),
+        device: device::statement(world.gpu()),
         scene: outcome.bench.plan.scene.clone(),
         fluid_particles: world.solver().count().into(),
         lost_particles: measured.lost_particles,

@@ -20,6 +20,7 @@ use super::record::{Recorded, Recording};
 use super::tally::{Holdings, Tally};
 use crate::experiment::{self, SWITCH_SCENE, SWITCH_START};
 use crate::failure::{Blame, Failure};
+use crate::replay::SimulatedTime;
 
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`].
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
@@ -99,8 +100,7 @@ pub struct Session {
     due: Vec<PoseFrame>,
     /// What goes with the next step.
     switches: Vec<Switch>,
-    step: u64,
-    time: f64,
+    time: SimulatedTime,
     frames: u64,
     skipped: u64,
     renewals: u64,
@@ -137,8 +137,7 @@ impl Session {
             placed: None,
             due: Vec::new(),
             switches: Vec::new(),
-            step: 0,
-            time: 0.0,
+            time: SimulatedTime::default(),
             frames: 0,
             skipped: 0,
             renewals: 0,
@@ -306,8 +305,8 @@ impl Session {
     /// Takes the next step that is due.
     fn take_step(&mut self) -> Result<(), Failure> {
         let mut frame = self.due.remove(0);
-        frame.step = self.step;
-        frame.time_ns = (1e9 * self.time).round() as i64;
+        frame.step = self.time.steps();
+        frame.time_ns = nanoseconds(&self.time);
         frame.scenario = std::mem::take(&mut self.switches);
         let world = &mut self.bench.world;
         let scale = world.scene().scale;
@@ -321,8 +320,7 @@ impl Session {
         if let Some(recording) = &mut self.recording {
             recording.push(&frame, experiment::flasks(world));
         }
-        self.step += 1;
-        self.time += scale.frame_time;
+        self.time.advance(scale.frame_time);
         Ok(())
     }
 
@@ -386,12 +384,12 @@ impl Session {
         self.after()?;
         self.bench.world.gpu().wait_idle().other()?;
         self.tally.collect()?;
-        let end_ns = (1e9 * self.time).round() as i64;
-        let recorded = self.recording.map(|it| it.finish(self.step, end_ns));
+        let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
+        let recorded = self.recording.map(|it| it.finish(steps, end_ns));
         Ok(Outcome {
             bench: self.bench,
-            steps: self.step,
-            simulated: self.time,
+            steps,
+            simulated: self.time.seconds(),
             slowed: self.clock.slowed(),
             frames: self.frames,
             skipped: self.skipped,
@@ -419,6 +417,10 @@ pub fn blame(error: HeadsetError) -> Failure {
         HeadsetError::NoRuntime { .. } => Failure::NoDevice(error.into()),
         _ => Failure::Other(error.into()),
     }
+}
+
+fn nanoseconds(time: &SimulatedTime) -> i64 {
+    (1e9 * time.seconds()).round() as i64
 }
 
 fn milliseconds(time: Duration) -> f64 {

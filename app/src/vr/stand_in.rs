@@ -16,7 +16,7 @@ use vitriol_xr::{
 };
 
 /// Width and height of the panel, pixels.
-const PANEL: [u32; 2] = [1024, 640];
+pub const PANEL: [u32; 2] = [1024, 640];
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand adults
 /// (N. Dodgson, 2004).
@@ -54,8 +54,6 @@ pub struct StandInSpec {
     pub rate_hz: f64,
     /// How its time goes.
     pub pace: Pace,
-    /// Frames after which the wearer takes it off for good; `None` for never.
-    pub frames: Option<u64>,
 }
 
 /// A frame's picture as the stand-in's compositor saw it.
@@ -229,7 +227,7 @@ impl Headset for StandIn {
     }
 
     fn next(&mut self) -> Result<Turn, HeadsetError> {
-        if self.leaving || self.spec.frames.is_some_and(|frames| self.index >= frames) {
+        if self.leaving {
             return Ok(Turn::Ended);
         }
         self.pace();
