@@ -1,6 +1,8 @@
 //! `vitriol vr`: in the headset, or on its stand-in.
 
 use std::fmt::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 use vitriol_sim::measure::Measurement;
@@ -89,6 +91,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         posture: args.posture,
         frames: args.frames,
         record: args.record.clone(),
+        leave: leaving()?,
     };
     let timed = args.frames.is_some();
     let (name, outcome, stand_in) = match &args.stand_in {
@@ -123,6 +126,15 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         }
     };
     emit(format, &state(name, &outcome, stand_in)?, describe)
+}
+
+/// Set when the program is asked to end (Ctrl-C, SIGTERM): the runtime is told, and the recording
+/// is whole.
+fn leaving() -> Result<Arc<AtomicBool>, Failure> {
+    let leave = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&leave);
+    ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)).other()?;
+    Ok(leave)
 }
 
 fn state(

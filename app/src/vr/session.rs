@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use vitriol_gpu::{QueueKind, Ticket};
@@ -40,6 +41,8 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
+    /// Set from outside where the session is to end.
+    pub leave: Arc<AtomicBool>,
 }
 
 /// What the user wants.
@@ -153,6 +156,9 @@ impl Session {
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<Outcome, Failure> {
         let mut lost = false;
         loop {
+            if self.options.leave.swap(false, Ordering::Relaxed) {
+                headset.request_exit().map_err(blame)?;
+            }
             match headset.next().map_err(blame)? {
                 Turn::Frame(frame) => {
                     self.frame(headset, &frame)?;
