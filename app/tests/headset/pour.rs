@@ -16,7 +16,7 @@ use crate::drive::{self, Driver};
 use crate::program::{self, Program};
 
 /// Share of its speed at which the track is driven: so much slower is the software driver.
-const SPEED: f64 = 0.5;
+pub const SPEED: f64 = 0.5;
 
 #[test]
 fn a_driven_pour_is_seen_recorded_and_replayed() {
@@ -39,7 +39,7 @@ fn a_driven_pour_is_seen_recorded_and_replayed() {
 
     let track = load(recording.to_str().unwrap()).unwrap();
     whole(&track, report["steps"].as_u64().unwrap());
-    follows(&track, &drive::track());
+    keeps_pace(follows(&track, &drive::track()));
     let replayed = replay(&track);
     assert_eq!(report["state_hash"], replayed.hash.as_str());
     assert!(replayed.lifted > 0.85, "lifted to {}", replayed.lifted);
@@ -69,19 +69,19 @@ fn apart(frame: &PoseFrame, driven: &PoseFrame) -> f32 {
         + 0.1 * (is.squeeze - was.squeeze).abs()
 }
 
-/// The recorded hand goes the driven hand's way, in its order and at its pace.
+/// The recorded hand goes the driven hand's way, in its order. Gives for each step at which the
+/// hand moves where the track's time is 0 on the runtime's clock, s.
 ///
 /// Between two display frames it goes straight. At 2.5 m/s², the most on this track, that leaves
 /// out a Δt²/8 = 3 mm in Δt = 0.1 s of the track, which is 4 frames of 20 Hz at half speed: more
 /// than any two frames lay apart on two busy cores. The rest is for the turn.
-pub fn follows(recorded: &Track, driven: &Keyframes) {
+pub fn follows(recorded: &Track, driven: &Keyframes) -> Vec<f64> {
     const STEP: f64 = 0.002;
     const WINDOW: usize = 200;
     let samples: Vec<PoseFrame> = (0..=(driven.duration / STEP) as u32)
         .map(|n| driven.sample(0, f64::from(n) * STEP))
         .collect();
     let (mut at, mut worst) = (0, 0.0_f32);
-    // Where the track's time is 0 on the runtime's clock, by each step at which the hand moves.
     let mut zeros = Vec::new();
     for frame in &recorded.frames {
         let hand = frame.hand(Side::Right);
@@ -104,9 +104,13 @@ pub fn follows(recorded: &Track, driven: &Keyframes) {
     }
     assert!(worst < 0.01, "off by {worst}");
     assert!(at + 100 > samples.len(), "the end was not seen");
-    // The runtime does not predict what it is driven by, and its frames come in whole periods: the
-    // hand is as late as the frame, two periods more or less. A step taken at the wrong time would
-    // drift away.
+    zeros
+}
+
+/// It goes at the driven hand's pace. The runtime does not predict what it is driven by, and its
+/// frames come in whole periods: the hand is as late as the frame, two periods more or less. A step
+/// that took its pose from another time would drift away.
+fn keeps_pace(mut zeros: Vec<f64>) {
     zeros.sort_by(f64::total_cmp);
     let middle = zeros[zeros.len() / 2];
     let near = zeros.iter().filter(|zero| (*zero - middle).abs() < 0.1);
