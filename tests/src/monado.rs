@@ -68,6 +68,12 @@ pub fn enter(name: &str) -> Option<Rig> {
     None
 }
 
+/// Whether this process runs in the rig.
+#[must_use]
+pub fn is_inside() -> bool {
+    std::env::var_os(FOLDER).is_some()
+}
+
 /// The unpacked system, or `None` where Monado is installed.
 fn root() -> Result<Option<PathBuf>, String> {
     if Path::new(MANIFEST).exists() && Path::new("/usr/bin/monado-service").exists() {

@@ -1,11 +1,11 @@
-//! Copies of whole images, such as of a picture to an XR runtime's swapchain.
+//! Copies to whole images, such as of a picture to an XR runtime's swapchain.
 
 use ash::vk;
 
 use super::Recorder;
 use super::transfer::texel_bytes;
 use crate::barrier::Scope;
-use crate::{GpuError, Image};
+use crate::{Buffer, GpuError, Image};
 
 impl Recorder {
     /// Copies all of `from` to `to`, texel by texel and bit by bit: both have the
@@ -62,6 +62,55 @@ impl Recorder {
                 reads,
                 to.inner.handle,
                 writes,
+                &[region],
+            );
+        }
+        storage.close_pass()
+    }
+
+    /// Copies texels from the start of `from` to all of `to`: layer by layer, row by row,
+    /// without padding.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfRange`] where the buffer is too short;
+    /// [`GpuError::ImageUnsupported`] for a format whose texel size is not known here.
+    pub fn copy_to_image(&mut self, from: &Buffer, to: &Image) -> Result<(), GpuError> {
+        let desc = *to.desc();
+        let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {
+            label: to.label().to_owned(),
+            cause: format!(
+                "{:?} takes no copy; use an 8, 16 or 32-bit format",
+                desc.format
+            ),
+        })?;
+        let [width, height] = desc.extent;
+        let texels = u64::from(width) * u64::from(height) * u64::from(desc.layers);
+        from.inner.check(0, texel * texels)?;
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let storage = &mut *self.storage;
+        storage.clear_pass();
+        storage.use_buffer(from, Scope::COPY_READ);
+        storage.use_image(to, layout, Scope::COPY_WRITE, true)?;
+        storage.open_pass(b"copy to image")?;
+        let region = vk::BufferImageCopy::default()
+            .image_subresource(
+                vk::ImageSubresourceLayers::default()
+                    .aspect_mask(desc.aspect())
+                    .layer_count(desc.layers),
+            )
+            .image_extent(vk::Extent3D {
+                width,
+                height,
+                depth: 1,
+            });
+        // SAFETY: both are held, the buffer is as large as the layers, and the image is in the
+        // named layout.
+        unsafe {
+            storage.core.device.cmd_copy_buffer_to_image(
+                storage.cmd,
+                from.inner.handle,
+                to.inner.handle,
+                layout,
                 &[region],
             );
         }

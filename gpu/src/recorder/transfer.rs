@@ -215,7 +215,7 @@ impl Recorder {
 }
 
 impl Storage {
-    fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
+    pub(super) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
         let slot = self.buffer_slot(buffer);
         self.uses.push(Use { slot, scope });
     }

@@ -1,7 +1,8 @@
 //! Copies between images: colour from a linear to an sRGB format, depth, an imported target.
 
 use vitriol_gpu::{
-    ColourTarget, DepthTarget, Gpu, GpuError, Image, ImageDesc, Load, QueueKind, RasterTarget, vk,
+    Buffer, ColourTarget, DepthTarget, Gpu, GpuError, Image, ImageDesc, Load, QueueKind,
+    RasterTarget, vk,
 };
 
 use crate::common::{assert_silent, open};
@@ -99,5 +100,24 @@ fn what_does_not_fit_is_refused() {
         );
     }
     gpu.submit(rec).unwrap().wait().unwrap();
+    assert_silent(&gpu);
+}
+
+#[test]
+fn a_buffers_texels_arrive_in_rows_and_layers() {
+    let gpu = open();
+    let image = image(&gpu, "depth", vk::Format::D32_SFLOAT, 2, 8);
+    // One more than there are.
+    let depths: Vec<f32> = (0..=64).map(|n| n as f32 / 64.0).collect();
+    let buffer = Buffer::storage(&gpu, "depths", 65 * 4).unwrap();
+    let short = Buffer::storage(&gpu, "short", 60 * 4).unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.upload(&buffer, &depths).unwrap();
+    rec.copy_to_image(&buffer, &image).unwrap();
+    let refused = rec.copy_to_image(&short, &image);
+    assert!(matches!(refused, Err(GpuError::OutOfRange { .. })));
+    let copied = rec.read_back_image(&image).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    assert_eq!(copied.get::<f32>().unwrap(), depths[..64]);
     assert_silent(&gpu);
 }

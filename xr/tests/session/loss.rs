@@ -9,13 +9,13 @@ use vitriol_xr::{Headset, HeadsetFrame, Shown, Side, Turn};
 
 use crate::client::Client;
 
-/// Where in the frame the runtime is killed.
+/// Before what the runtime is killed.
 #[derive(Clone, Copy, Debug)]
 enum At {
-    BeforeAcquire,
-    BeforeLocate,
-    BeforeEnd,
-    BeforeNext,
+    Acquire,
+    Locate,
+    End,
+    Next,
 }
 
 /// Kills the runtime within a frame, starts it again, and goes on to the focus.
@@ -26,19 +26,19 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
         }
     };
     client.frame();
-    kill(rig, At::BeforeAcquire);
+    kill(rig, At::Acquire);
     let targets = client.xr.acquire().unwrap();
     client.submit(&targets);
-    kill(rig, At::BeforeLocate);
+    kill(rig, At::Locate);
     let views = client.xr.locate_views().unwrap();
-    kill(rig, At::BeforeEnd);
+    kill(rig, At::End);
     let shown = Shown {
         views,
         near: 0.05,
         panel: None,
     };
     client.xr.end(Some(&shown)).unwrap();
-    kill(rig, At::BeforeNext);
+    kill(rig, At::Next);
 
     // A frame that was pipelined may still come.
     let begun = Instant::now();
@@ -100,12 +100,7 @@ fn a_killed_runtime_is_found_again() {
     let mut index = client.focus().index;
     drive(&rig, &mut client);
     let mut handles = Vec::new();
-    for at in [
-        At::BeforeAcquire,
-        At::BeforeLocate,
-        At::BeforeEnd,
-        At::BeforeNext,
-    ] {
+    for at in [At::Acquire, At::Locate, At::End, At::Next] {
         let frame = survive(&mut rig, &mut client, at);
         // Before the new controller is heard of, the hand is where it was.
         let held = frame.poses.hand(Side::Right);
