@@ -9,7 +9,7 @@ use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::fluid::LiquidSource;
 use crate::scene::Scene;
-use crate::tiles::tiles_of;
+use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
@@ -124,6 +124,7 @@ impl FrameDesc<'_> {
         }
         if let Some(steam) = self.steam {
             let held = steam.puffs.bytes() / size_of::<layout::Puff>() as u64;
+            let held = held.min(MOST_PUFFS.into());
             if u64::from(steam.count) > held {
                 return Err(RenderError::TooManyParticles {
                     count: steam.count,
@@ -148,8 +149,9 @@ impl FrameDesc<'_> {
         Ok(())
     }
 
-    /// The frame's uniforms for pictures of `extent` pixels.
-    pub(crate) fn uniforms(&self, scene: &Scene, extent: [u32; 2]) -> layout::Frame {
+    /// The frame's uniforms for pictures of `extent` pixels, of which the lenses
+    /// may hide a part.
+    pub(crate) fn uniforms(&self, scene: &Scene, extent: [u32; 2], hides: bool) -> layout::Frame {
         let [tile_columns, tile_rows] = tiles_of(extent);
         let corner = |corner: Option<Vec3>| corner.unwrap_or(Vec3::ZERO).to_array();
         let mut frame = layout::Frame {
@@ -163,6 +165,8 @@ impl FrameDesc<'_> {
             extent: extent.map(|side| side as f32),
             tile_columns,
             tile_rows,
+            view_count: self.views.len() as u32,
+            hides: hides.into(),
             water: tints::absorption(tints::WATER),
             acid: tints::absorption(tints::ACID),
             ..layout::Frame::default()
@@ -184,7 +188,7 @@ impl FrameDesc<'_> {
             blocker.opacity = VESSEL_OPACITY;
             *slot = layout::Vessel {
                 vessel_from_stage: Mat4::from(stage_from_vessel.inverse()).to_cols_array_2d(),
-                ..vessel.inner
+                ..vessel.shape
             };
             frame.blocker_count += 1;
         }

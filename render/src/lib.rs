@@ -2,8 +2,8 @@
 //!
 //! A [`Renderer`] owns its images and pipelines and reads the solver's buffers
 //! where they lie. One structure serves mono and stereo: the images have a
-//! layer a view, each pass draws all of them (multiview), and mono is a view
-//! count of one.
+//! layer a view, each pass draws all of them, and mono is a view count of one.
+//! Almost all of it is compute: there are GPUs with few units that rasterise.
 //!
 //! ```no_run
 //! # use vitriol_render::*;
@@ -30,7 +30,8 @@ pub mod colour_map;
 mod error;
 mod fluid;
 mod frame;
-mod mesh;
+mod hidden;
+mod outline;
 mod pipelines;
 mod readback;
 pub mod reference;

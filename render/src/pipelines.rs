@@ -1,81 +1,73 @@
-//! The pipelines of the picture. All share the targets' formats and the
-//! reversed depth test.
+//! The pipelines of the picture.
 
 use vitriol_gpu::{
-    Blend, ColourFormat, Cull, DepthFormat, Gpu, RasterDesc, RasterPipeline, Topology, vk,
+    Blend, ColourFormat, ComputePipeline, Cull, DepthFormat, Gpu, RasterDesc, RasterPipeline,
+    Topology, vk,
 };
 use vitriol_shaders::{Library, ShaderId, render};
 
 use crate::RenderError;
+use crate::tiles::Class;
 
-/// Format of the depth image: reversed depth needs the floating point.
+/// Format of the coloured spheres, which the hardware encodes and decodes.
+pub(crate) const SPHERES_FORMAT: vk::Format = vk::Format::R8G8B8A8_SRGB;
+/// Format of their depth: reversed depth needs the floating point.
 pub(crate) const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
-/// One of each.
+/// Rays of a pixel that are traced to the glass, on a GPU and on a CPU, whose film has to come in time.
+const GLASS_RAYS: [f64; 2] = [4.0, 1.0];
+
+/// One of each; of the picture, and of its finish, one for each class of tiles.
 pub(crate) struct Pipelines {
-    pub(crate) particles: RasterPipeline,
-    pub(crate) surfaces: RasterPipeline,
-    /// The glass's faces that look away from the eye.
-    pub(crate) glass_far: RasterPipeline,
-    /// Those that look at it.
-    pub(crate) glass_near: RasterPipeline,
-    pub(crate) steam: RasterPipeline,
-    /// The part of the picture that no eye sees.
-    pub(crate) mask: RasterPipeline,
-    /// The finished picture with its edges smoothed.
-    pub(crate) edges: RasterPipeline,
-    /// Its tiles, brought back as they are.
-    pub(crate) copy: RasterPipeline,
+    /// Particles as coloured spheres: the one thing that is rasterised.
+    pub(crate) spheres: RasterPipeline,
+    pub(crate) picture: [(Class, ComputePipeline); 3],
+    pub(crate) finish: [(Class, ComputePipeline); 2],
 }
 
 impl Pipelines {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        library: &Library,
-        format: vk::Format,
-        view_mask: u32,
-    ) -> Result<Self, RenderError> {
-        let make = |shader: ShaderId, cull: Cull, glass: bool| {
-            let vertex = library.compile(&shader, "vertex", &[])?;
-            let fragment = library.compile(&shader, "fragment", &[])?;
-            let blend = if glass {
-                Blend::Premultiplied
-            } else {
-                Blend::Replace
-            };
-            let desc = RasterDesc {
-                vertex: &vertex,
-                fragment: Some(&fragment),
-                colours: &[ColourFormat { format, blend }],
-                depth: Some(DepthFormat {
-                    format: DEPTH_FORMAT,
-                    compare: vk::CompareOp::GREATER,
-                    write: !glass,
-                }),
-                topology: Topology::Triangles,
-                cull,
-                view_mask,
-            };
-            Ok::<_, RenderError>(RasterPipeline::new(gpu, &desc)?)
-        };
-        let over = |pass: (ShaderId, &[(&str, f64)]), blend| {
-            over(
-                gpu,
-                library,
-                pass,
-                ColourFormat { format, blend },
-                view_mask,
-            )
+    pub(crate) fn new(gpu: &Gpu, library: &Library, view_mask: u32) -> Result<Self, RenderError> {
+        let is_cpu = gpu.info().kind == vk::PhysicalDeviceType::CPU;
+        let rays = ("GLASS_RAYS", GLASS_RAYS[usize::from(is_cpu)]);
+        let over = |shader: ShaderId, class: Class, switches: &[(&str, f64)]| {
+            let mut constants = vec![("CLASS", f64::from(class as u32))];
+            constants.extend(switches);
+            let compiled = library.compile(&shader, "main", &constants)?;
+            Ok::<_, RenderError>((class, ComputePipeline::new(gpu, &compiled)?))
         };
         Ok(Self {
-            particles: make(render::PARTICLES, Cull::None, false)?,
-            surfaces: make(render::SURFACES, Cull::None, false)?,
-            glass_far: make(render::GLASS, Cull::Front, true)?,
-            glass_near: make(render::GLASS, Cull::Back, true)?,
-            steam: over((render::STEAM, &[]), Blend::Premultiplied)?,
-            mask: make(render::MASK, Cull::None, false)?,
-            edges: over((render::EDGES, &[("COPY", 0.0)]), Blend::Replace)?,
-            copy: over((render::EDGES, &[("COPY", 1.0)]), Blend::Replace)?,
+            spheres: RasterPipeline::new(
+                gpu,
+                &RasterDesc {
+                    vertex: &library.compile(&render::PARTICLES, "vertex", &[])?,
+                    fragment: Some(&library.compile(&render::PARTICLES, "fragment", &[])?),
+                    colours: &[ColourFormat {
+                        format: SPHERES_FORMAT,
+                        blend: Blend::Replace,
+                    }],
+                    depth: Some(DepthFormat {
+                        format: DEPTH_FORMAT,
+                        compare: vk::CompareOp::GREATER,
+                        write: true,
+                    }),
+                    topology: Topology::Triangles,
+                    cull: Cull::None,
+                    view_mask,
+                },
+            )?,
+            picture: [
+                over(render::PICTURE, Class::Plain, &[])?,
+                over(render::PICTURE, Class::Glass, &[("GLASS", 1.0), rays])?,
+                over(
+                    render::PICTURE,
+                    Class::Liquid,
+                    &[("GLASS", 1.0), ("LIQUID", 1.0), rays],
+                )?,
+            ],
+            finish: [
+                over(render::FINISH, Class::Edges, &[])?,
+                over(render::FINISH, Class::Steam, &[("STEAM", 1.0)])?,
+            ],
         })
     }
 
@@ -85,32 +77,11 @@ impl Pipelines {
     }
 }
 
-const USED: [ShaderId; 7] = [
-    render::STEAM,
-    render::MASK,
+const USED: [ShaderId; 6] = [
     render::TILES,
+    render::TILE_PUFFS,
+    render::TILE_LISTS,
     render::PARTICLES,
-    render::SURFACES,
-    render::GLASS,
-    render::EDGES,
+    render::PICTURE,
+    render::FINISH,
 ];
-
-/// Over the finished picture, whose depth it does not test.
-fn over(
-    gpu: &Gpu,
-    library: &Library,
-    (shader, constants): (ShaderId, &[(&str, f64)]),
-    colour: ColourFormat,
-    view_mask: u32,
-) -> Result<RasterPipeline, RenderError> {
-    let desc = RasterDesc {
-        vertex: &library.compile(&shader, "vertex", &[])?,
-        fragment: Some(&library.compile(&shader, "fragment", constants)?),
-        colours: &[colour],
-        depth: None,
-        topology: Topology::Triangles,
-        cull: Cull::None,
-        view_mask,
-    };
-    Ok(RasterPipeline::new(gpu, &desc)?)
-}

@@ -1,22 +1,23 @@
-//! Draws a frame: particles and solid things first, the glass over them.
+//! Draws a frame: the liquid's surface, then the picture with the glass over it, then its edges and steam.
 
-use glam::Mat4;
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, Raster, RasterPipeline,
-    RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
+    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, RasterTarget, Recorder,
+    Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
-use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, view_mask};
-use crate::frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
-use crate::pipelines::{DEPTH_FORMAT, Pipelines};
+use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback};
+use crate::frame::{ColourBy, FrameDesc, ParticleSource};
+use crate::hidden::hidden_words;
+use crate::pipelines::{DEPTH_FORMAT, Pipelines, SPHERES_FORMAT};
 use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
 use crate::tiles::Tiles;
 
-/// Where there is nothing: the walls' own colour, roughly. Linear.
-const BACKGROUND: [f32; 4] = [0.38, 0.37, 0.35, 1.0];
+/// Format of the picture. Its values are sRGB's all the same: shaders write it, and they cannot write
+/// an image that encodes. Copied to one of the same bits that does, it is what it shall be.
+const PICTURE_FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 
 /// Size, views and format of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +26,6 @@ pub struct RenderDesc {
     pub extent: [u32; 2],
     /// 1 (a film) or 2 (a headset's eyes).
     pub views: u32,
-    /// Format of the colour image. One of sRGB, which encodes what the shaders
-    /// write.
-    pub format: vk::Format,
     /// The liquid surface that frames may ask for; `None` for none.
     pub liquid: Option<LiquidDesc>,
 }
@@ -38,13 +36,12 @@ impl RenderDesc {
         Self {
             extent,
             views: 1,
-            format: vk::Format::R8G8B8A8_SRGB,
             liquid: None,
         }
     }
 }
 
-/// Draws frames into its own layered colour and depth images, a layer a view.
+/// Draws frames into its own layered image, a layer a view, and depths.
 ///
 /// It records into the caller's recorder, so the picture comes after whatever
 /// solver passes were recorded or submitted before it on that queue, and reads
@@ -56,16 +53,18 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
-    /// Corners of the triangles that no eye sees.
-    mask: Option<Buffer>,
+    /// What the lenses hide, a bit a pixel.
+    hidden: Option<Buffer>,
     tiles: Tiles,
-    /// Bound where no ellipsoids are.
+    /// Bound where there is nothing to bind.
     nothing: Buffer,
-    /// Tiles with smooth edges.
-    smoothed: Image,
+    spheres: Image,
+    sphere_depth: Image,
+    /// The picture before its edges are smoothed.
+    drawn: Image,
     between: Sampler,
-    colour: Image,
-    depth: Image,
+    picture: Image,
+    depths: Buffer,
 }
 
 impl Renderer {
@@ -83,38 +82,37 @@ impl Renderer {
                 extent: desc.extent,
                 layers: desc.views,
                 format,
-                usage,
+                usage: usage | vk::ImageUsageFlags::SAMPLED,
             };
             Image::new(gpu, label, desc)
         };
+        let written = vk::ImageUsageFlags::STORAGE;
+        let (extent, views) = (desc.extent, desc.views);
+        let pixels = (views * extent[0] * extent[1]) as usize;
         Ok(Self {
             gpu: gpu.clone(),
             desc: *desc,
-            pipelines: Pipelines::new(gpu, library, desc.format, view_mask(desc.views))?,
+            pipelines: Pipelines::new(gpu, library, view_mask(views))?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
-                Some(liquid) => {
-                    let (extent, views) = (desc.extent, desc.views);
-                    Some(Fluid::new(
-                        gpu,
-                        library,
-                        liquid,
-                        extent,
-                        views,
-                        desc.format,
-                    )?)
-                }
+                Some(liquid) => Some(Fluid::new(gpu, library, liquid, extent, views)?),
                 None => None,
             },
-            mask: None,
-            tiles: Tiles::new(gpu, library, desc.extent, desc.views)?,
-            nothing: Buffer::storage(gpu, "no ellipsoids", 0)?,
-            smoothed: image(
-                "smoothed",
-                desc.format,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+            hidden: None,
+            tiles: Tiles::new(gpu, library, extent, views)?,
+            nothing: Buffer::storage(gpu, "nothing", 16)?,
+            spheres: image(
+                "spheres",
+                SPHERES_FORMAT,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT,
             )?,
+            sphere_depth: image(
+                "sphere depth",
+                DEPTH_FORMAT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            )?,
+            drawn: image("drawn", PICTURE_FORMAT, written)?,
             between: Sampler::new(
                 gpu,
                 SamplerDesc {
@@ -122,16 +120,8 @@ impl Renderer {
                     ..SamplerDesc::default()
                 },
             )?,
-            colour: image(
-                "picture",
-                desc.format,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
-            )?,
-            depth: image(
-                "picture depth",
-                DEPTH_FORMAT,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
-            )?,
+            picture: image("picture", PICTURE_FORMAT, written)?,
+            depths: Buffer::storage(gpu, "picture depth", bytes_of_elements::<f32>(pixels))?,
         })
     }
 
@@ -147,12 +137,12 @@ impl Renderer {
         if Pipelines::uses(changed) {
             self.tiles.reload(&self.gpu, library)?;
             let mask = view_mask(self.desc.views);
-            self.pipelines = Pipelines::new(&self.gpu, library, self.desc.format, mask)?;
+            self.pipelines = Pipelines::new(&self.gpu, library, mask)?;
         }
         Ok(())
     }
 
-    /// Replaces the scene: builds and uploads its meshes, and waits for that.
+    /// Replaces the scene: builds and uploads its outlines, and waits for that.
     ///
     /// # Errors
     /// [`RenderError::Gpu`] out of memory or on device loss.
@@ -184,17 +174,15 @@ impl Renderer {
                 wanted: self.desc.views as usize,
             });
         }
-        let corners = |(view, mesh): (usize, &&[[f32; 2]])| {
-            let corner = move |&[x, y]: &[f32; 2]| [x, y, view as f32, 0.0];
-            mesh.iter().map(corner).collect::<Vec<_>>()
-        };
-        let corners: Vec<[f32; 4]> = views.iter().enumerate().flat_map(corners).collect();
-        self.mask = None;
-        if !corners.is_empty() {
-            let bytes = size_of_val(&corners[..]) as u64;
-            let buffer = Buffer::storage(&self.gpu, "hidden area", bytes)?;
-            self.gpu.write(&buffer, &corners)?;
-            self.mask = Some(buffer);
+        self.hidden = None;
+        if views.iter().any(|corners| !corners.is_empty()) {
+            let words = views
+                .iter()
+                .flat_map(|corners| hidden_words(corners, self.desc.extent));
+            let words: Vec<u32> = words.collect();
+            let buffer = Buffer::storage(&self.gpu, "hidden area", size_of_val(&words[..]) as u64)?;
+            self.gpu.write(&buffer, &words)?;
+            self.hidden = Some(buffer);
         }
         Ok(())
     }
@@ -204,15 +192,16 @@ impl Renderer {
         self.desc.extent
     }
 
-    /// The colour image, a layer a view.
+    /// The picture, a layer a view: `R8G8B8A8_UNORM`, of which the values are sRGB's, so that a copy
+    /// to an image of that encoding is right.
     pub fn image(&self) -> &Image {
-        &self.colour
+        &self.picture
     }
 
-    /// The depth image (reversed, see [`crate::camera`]), a layer a view:
-    /// particles and solid things, without the glass.
-    pub fn depth(&self) -> &Image {
-        &self.depth
+    /// Depth of what is not glass (reversed, see [`crate::camera`]), as `array<f32>`: each view's pixels row by
+    /// row. A copy to an image of 32-bit depth is right.
+    pub fn depth(&self) -> &Buffer {
+        &self.depths
     }
 
     /// Records the liquid's surface and thickness, and no picture: for
@@ -238,14 +227,24 @@ impl Renderer {
         slot: usize,
     ) -> Result<(), RenderError> {
         frame.check(&self.scene, self.desc.views)?;
-        let uniforms = frame.uniforms(&self.scene, self.desc.extent);
+        let extent = self.desc.extent;
+        let uniforms = frame.uniforms(&self.scene, extent, self.hidden.is_some());
         rec.upload(&self.frame, &[uniforms])?;
-        if let Some((fluid, source)) = self.liquid(frame)? {
-            let (shapes, mask) = ((slot, source.count), self.mask.as_ref());
-            fluid.record_surface(rec, shapes, &self.frame, &self.tiles, mask)
-        } else {
-            self.tiles.record(rec, &self.frame, &self.nothing, 0)
-        }
+        let liquid = self.liquid(frame)?;
+        let shapes = match &liquid {
+            Some((fluid, source)) => (fluid.ellipsoids(slot), source.count),
+            None => (&self.nothing, 0),
+        };
+        let steam = frame.steam.as_ref();
+        self.tiles
+            .record(rec, &self.frame, shapes, steam, self.hidden())?;
+        liquid.map_or(Ok(()), |(fluid, source)| {
+            fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
+        })
+    }
+
+    fn hidden(&self) -> &Buffer {
+        self.hidden.as_ref().unwrap_or(&self.nothing)
     }
 
     /// Records the picture of one frame.
@@ -292,104 +291,62 @@ impl Renderer {
         slot: usize,
     ) -> Result<(), RenderError> {
         self.prepare(rec, frame, slot)?;
+        if let Some(particles) = &frame.particles {
+            self.draw_spheres(rec, particles, frame.colour_by)?;
+        }
+        self.draw_picture(rec, frame)?;
+        self.finish(rec, frame)
+    }
+
+    fn draw_picture(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
         let liquid = self.liquid(frame)?;
-        let target = RasterTarget {
-            label: "picture",
-            colours: &[ColourTarget {
-                image: &self.colour,
-                load: Load::Clear(BACKGROUND),
-            }],
-            depth: Some(DepthTarget {
-                image: &self.depth,
-                load: Load::Clear(0.0),
-            }),
-            view_mask: view_mask(self.desc.views),
+        let of_liquid = |of: fn(&Fluid) -> &Buffer| {
+            liquid
+                .as_ref()
+                .map_or(&self.nothing, |(fluid, _)| of(fluid))
         };
-        rec.raster(&target, |raster| {
-            if let Some(mask) = &self.mask {
-                raster
-                    .draw(&self.pipelines.mask)
-                    .read("hidden", mask)
-                    .vertices((mask.bytes() / 16) as u32)?;
-            }
-            if let Some(particles) = &frame.particles {
-                self.draw_particles(raster, particles, frame.colour_by)?;
-            }
-            self.draw_surfaces(raster)?;
-            if let Some((fluid, _)) = &liquid {
-                fluid.shade(raster, &self.frame, &self.tiles)?;
-            }
-            // Blending is right only from far to near. A vessel's own far wall
-            // comes first; vessels that hide each other are close enough to
-            // clear that their order does not show.
-            for pipeline in [&self.pipelines.glass_far, &self.pipelines.glass_near] {
-                self.draw_glass(raster, pipeline, frame)?;
+        rec.group("picture", |rec| {
+            for (class, pipeline) in &self.pipelines.picture {
+                let pass = rec
+                    .pass(pipeline)
+                    .uniform("frame", &self.frame)
+                    .read("surface", of_liquid(Fluid::surface))
+                    .read("sums", of_liquid(Fluid::sums))
+                    .read("hidden_area", self.hidden())
+                    .read("outlines", &self.scene.outlines)
+                    .read("tiles", self.tiles.marks())
+                    .sampled("sphere_colours", &self.spheres)
+                    .sampled("sphere_depths", &self.sphere_depth)
+                    .storage_image("drawn", &self.drawn)
+                    .storage_image("finished", &self.picture)
+                    .write("depths", &self.depths)
+                    .constants(&layout::PictureDraw {
+                        spheres: frame.particles.is_some().into(),
+                    });
+                self.tiles.over(*class, pass)?;
             }
             Ok(())
         })?;
-        self.smooth_edges(rec)?;
-        // Steam has no edges, and comes over those of what is behind it.
-        frame
-            .steam
-            .map_or(Ok(()), |steam| self.draw_steam(rec, &steam))
-    }
-
-    /// Smooths edges into the second image, and brings those tiles back.
-    fn smooth_edges(&self, rec: &mut Recorder) -> Result<(), RenderError> {
-        let passes = [
-            (
-                &self.pipelines.edges,
-                &self.colour,
-                &self.smoothed,
-                Load::Discard,
-            ),
-            (
-                &self.pipelines.copy,
-                &self.smoothed,
-                &self.colour,
-                Load::Keep,
-            ),
-        ];
-        for (pipeline, from, to, load) in passes {
-            let target = RasterTarget {
-                label: "edges",
-                colours: &[ColourTarget { image: to, load }],
-                depth: None,
-                view_mask: view_mask(self.desc.views),
-            };
-            rec.raster(&target, |raster| {
-                raster
-                    .draw(pipeline)
-                    .uniform("frame", &self.frame)
-                    .read("tiles", self.tiles.marks())
-                    .sampled("drawn", from)
-                    .sampler("between", &self.between)
-                    .constants(&layout::EdgeDraw {
-                        views: self.desc.views,
-                    })
-                    .vertices(self.tiles.vertices())
-            })?;
-        }
         Ok(())
     }
 
-    fn draw_steam(&self, rec: &mut Recorder, steam: &SteamSource<'_>) -> Result<(), RenderError> {
-        let target = RasterTarget {
-            label: "steam",
-            colours: &[ColourTarget {
-                image: &self.colour,
-                load: Load::Keep,
-            }],
-            depth: None,
-            view_mask: view_mask(self.desc.views),
-        };
-        rec.raster(&target, |raster| {
-            raster
-                .draw(&self.pipelines.steam)
-                .uniform("frame", &self.frame)
-                .read("puffs", steam.puffs)
-                .sampled("depth", &self.depth)
-                .vertices(6 * steam.count)
+    /// Smooths edges, and lays steam over them.
+    fn finish(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
+        let puffs = frame.steam.map_or(&self.nothing, |steam| steam.puffs);
+        rec.group("finish", |rec| {
+            for (class, pipeline) in &self.pipelines.finish {
+                let pass = rec
+                    .pass(pipeline)
+                    .uniform("frame", &self.frame)
+                    .sampled("drawn", &self.drawn)
+                    .sampler("between", &self.between)
+                    .read("puffs", puffs)
+                    .read("puffs_in_tiles", self.tiles.puffs())
+                    .read("depths", &self.depths)
+                    .storage_image("finished", &self.picture);
+                self.tiles.over(*class, pass)?;
+            }
+            Ok(())
         })?;
         Ok(())
     }
@@ -409,50 +366,39 @@ impl Renderer {
         Ok(Some((fluid, source)))
     }
 
-    fn draw_particles(
+    fn draw_spheres(
         &self,
-        raster: &mut Raster<'_>,
+        rec: &mut Recorder,
         particles: &ParticleSource<'_>,
         colour_by: ColourBy,
-    ) -> Result<(), vitriol_gpu::GpuError> {
+    ) -> Result<(), RenderError> {
+        let target = RasterTarget {
+            label: "spheres",
+            colours: &[ColourTarget {
+                image: &self.spheres,
+                load: Load::Clear([0.0; 4]),
+            }],
+            depth: Some(DepthTarget {
+                image: &self.sphere_depth,
+                load: Load::Clear(0.0),
+            }),
+            view_mask: view_mask(self.desc.views),
+        };
         let [start, end] = colour_by.range();
-        raster
-            .draw(&self.pipelines.particles)
-            .uniform("frame", &self.frame)
-            .read("positions", particles.positions)
-            .read("attributes", particles.attributes)
-            .constants(&layout::ParticleDraw {
-                radius: particles.radius,
-                colour_by: colour_by.attribute(),
-                start,
-                inverse_range: (end - start).max(f32::MIN_POSITIVE).recip(),
-            })
-            .vertices(3 * particles.count)
-    }
-
-    fn draw_surfaces(&self, raster: &mut Raster<'_>) -> Result<(), vitriol_gpu::GpuError> {
-        raster
-            .draw(&self.pipelines.surfaces)
-            .uniform("frame", &self.frame)
-            .vertices(6)
-    }
-
-    fn draw_glass(
-        &self,
-        raster: &mut Raster<'_>,
-        pipeline: &RasterPipeline,
-        frame: &FrameDesc<'_>,
-    ) -> Result<(), vitriol_gpu::GpuError> {
-        for (vessel, stage_from_vessel) in self.scene.vessels.iter().zip(frame.vessels) {
+        rec.raster(&target, |raster| {
             raster
-                .draw(pipeline)
+                .draw(&self.pipelines.spheres)
                 .uniform("frame", &self.frame)
-                .read("vertices", &vessel.mesh.vertices)
-                .constants(&layout::VesselDraw {
-                    stage_from_vessel: Mat4::from(*stage_from_vessel).to_cols_array_2d(),
+                .read("positions", particles.positions)
+                .read("attributes", particles.attributes)
+                .constants(&layout::ParticleDraw {
+                    radius: particles.radius,
+                    colour_by: colour_by.attribute(),
+                    start,
+                    inverse_range: (end - start).max(f32::MIN_POSITIVE).recip(),
                 })
-                .indexed(&vessel.mesh.indices, vessel.mesh.index_count, 1)?;
-        }
+                .vertices(3 * particles.count)
+        })?;
         Ok(())
     }
 
@@ -465,7 +411,7 @@ impl Renderer {
     /// back.
     pub fn read_back(&self, rec: &mut Recorder) -> Result<PictureReadback, RenderError> {
         Ok(PictureReadback {
-            readback: rec.read_back_image(&self.colour)?,
+            readback: rec.read_back_image(&self.picture)?,
             views: self.desc.views as usize,
             row_bytes: 4 * self.desc.extent[0] as usize,
         })
@@ -483,6 +429,12 @@ impl Renderer {
         frame: &FrameDesc<'_>,
     ) -> Result<SurfaceReadback, RenderError> {
         let fluid = self.fluid.as_ref().ok_or(RenderError::NoLiquid)?;
-        fluid.read_back(rec, frame.nears())
+        let spacing = frame.liquid.map_or(0.0, |liquid| liquid.spacing);
+        fluid.read_back(rec, frame.nears(), spacing)
     }
+}
+
+/// A bit per view.
+fn view_mask(views: u32) -> u32 {
+    (1 << views) - 1
 }

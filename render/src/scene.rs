@@ -1,11 +1,11 @@
 //! What stands in the room, and its meshes on the device.
 
-use glam::{Vec2, Vec3};
-use vitriol_gpu::{Buffer, Gpu, Recorder, bytes_of_elements};
+use glam::Vec3;
+use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
-use crate::mesh::{Material, Mesh};
+use crate::outline::segments;
 
 /// Heights at which the shaders have a vessel's inner radius.
 const INNER_RADII: usize = 16;
@@ -23,38 +23,21 @@ pub struct VesselDesc {
     pub marks: Vec<f64>,
 }
 
-/// Length of a long and of a short mark over the outer radius.
+/// Length of a short and of a long mark over the outer radius.
 const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
 
-/// Width of a mark's strip over the outer radius: 1.4 mm, a line of 0.7 mm, on
-/// a beaker of 250 mL.
-const MARK_WIDTH: f32 = 0.04;
-
-/// How far enamel stands off the glass, over the outer radius.
-const MARK_LIFT: f32 = 1.003;
+/// Width of a mark's line over the outer radius: 0.7 mm on a beaker of 250 mL.
+const MARK_WIDTH: f32 = 0.02;
 
 impl VesselDesc {
-    /// The wall as a closed surface of revolution, and its marks.
-    fn mesh(&self) -> Mesh {
-        let outline: Vec<Vec2> = self
-            .outer
-            .iter()
-            .chain(self.inner.iter().rev())
-            .map(|&[r, y]| Vec2::new(r as f32, y as f32))
-            .collect();
-        let mut mesh = Mesh::default();
-        mesh.add_revolution(&outline, Material::Glass);
-        for (&height, long) in self.marks.iter().zip([0, 1].into_iter().cycle()) {
+    /// Its marks for `common/glass.wgsl`: height, half the angle, half the strip's width, which is twice the line's.
+    fn marks(&self) -> Vec<[f32; 4]> {
+        let mark = |(&height, length): (&f64, &f32)| {
             let radius = radius_at(&self.outer, height) as f32;
-            let length = MARK_LENGTHS[long] * radius;
-            mesh.add_mark(
-                MARK_LIFT * radius,
-                height as f32,
-                length,
-                MARK_WIDTH * radius,
-            );
-        }
-        mesh
+            [height as f32, 0.5 * length, MARK_WIDTH * radius, 0.0]
+        };
+        let lengths = MARK_LENGTHS.iter().cycle();
+        self.marks.iter().zip(lengths).map(mark).collect()
     }
 
     /// The inner surface as rays meet it, without its pose.
@@ -153,63 +136,52 @@ impl SceneDesc {
     }
 }
 
-/// A mesh on the device.
-pub(crate) struct DeviceMesh {
-    pub(crate) vertices: Buffer,
-    pub(crate) indices: Buffer,
-    pub(crate) index_count: u32,
-}
-
-impl DeviceMesh {
-    fn new(gpu: &Gpu, rec: &mut Recorder, label: &str, mesh: &Mesh) -> Result<Self, RenderError> {
-        let buffer =
-            |name: &str, bytes: u64| Buffer::storage(gpu, &format!("{label} {name}"), bytes);
-        let uploaded = Self {
-            vertices: buffer("vertices", size_of_val(&mesh.vertices[..]) as u64)?,
-            indices: buffer("indices", bytes_of_elements::<u32>(mesh.indices.len()))?,
-            index_count: mesh.indices.len() as u32,
-        };
-        rec.upload(&uploaded.vertices, &mesh.vertices)?;
-        rec.upload(&uploaded.indices, &mesh.indices)?;
-        Ok(uploaded)
-    }
-}
-
 /// A vessel on the device.
 pub(crate) struct Vessel {
-    pub(crate) mesh: DeviceMesh,
     pub(crate) bounds: Bounds,
-    /// Its inner surface, without the pose.
-    pub(crate) inner: layout::Vessel,
+    /// Without the pose.
+    pub(crate) shape: layout::Vessel,
 }
 
 /// The scene on the device.
 pub(crate) struct Scene {
     pub(crate) vessels: Vec<Vessel>,
+    /// Segments and marks of all vessels.
+    pub(crate) outlines: Buffer,
     pub(crate) table: Option<BoxDesc>,
     pub(crate) room: Option<BoxDesc>,
 }
 
 impl Scene {
-    /// Uploads the meshes and waits for it; a scene is set once.
+    /// Uploads the outlines and waits for it; a scene is set once.
     pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<Self, RenderError> {
-        let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
-        let scene = Self {
-            vessels: desc
-                .vessels
-                .iter()
-                .map(|vessel| {
-                    Ok(Vessel {
-                        mesh: DeviceMesh::new(gpu, &mut rec, "vessel", &vessel.mesh())?,
-                        bounds: vessel.bounds(),
-                        inner: vessel.inner(),
-                    })
-                })
-                .collect::<Result<_, RenderError>>()?,
+        let mut table: Vec<[f32; 4]> = Vec::new();
+        let mut add = |rows: Vec<[f32; 4]>| {
+            let first = table.len() as u32;
+            table.extend(rows);
+            [first, table.len() as u32]
+        };
+        let vessels = desc
+            .vessels
+            .iter()
+            .map(|vessel| Vessel {
+                bounds: vessel.bounds(),
+                shape: layout::Vessel {
+                    segments: add(segments(&vessel.outer, &vessel.inner)),
+                    marks: add(vessel.marks()),
+                    ..vessel.inner()
+                },
+            })
+            .collect();
+        // A buffer has at least one row.
+        add(vec![[0.0; 4]]);
+        let outlines = Buffer::storage(gpu, "outlines", size_of_val(&table[..]) as u64)?;
+        gpu.write(&outlines, &table)?;
+        Ok(Self {
+            vessels,
+            outlines,
             table: desc.table,
             room: desc.room,
-        };
-        gpu.submit(rec)?.wait()?;
-        Ok(scene)
+        })
     }
 }

@@ -1,27 +1,62 @@
-//! Which tiles of the picture have what.
+//! Which tiles of the picture have what, and lists of them for the passes over their pixels.
 
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Recorder};
-use vitriol_shaders::{Library, layout, render};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Pass, Recorder};
+use vitriol_shaders::{Library, ShaderId, layout, render};
 
 use crate::RenderError;
+use crate::frame::SteamSource;
 
-/// Pixels along a tile's edge, as in `common/tile.wgsl`.
+/// Pixels along a tile's edge, as in `common/marks.wgsl`.
 const TILE: u32 = 32;
 
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;
+
+/// Words of a bit a puff, as in `common/puff_words.wgsl`.
+const PUFF_WORDS: u32 = 32;
+/// Puffs of steam that a frame has at most.
+pub(crate) const MOST_PUFFS: u32 = 32 * PUFF_WORDS;
 
 /// Tiles in a row, and rows, of a view.
 pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// The marks of all views' tiles.
+/// What a list has the tiles of; the numbers are `common/tile.wgsl`'s. The first three have each tile once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(crate) enum Class {
+    /// Liquid, and perhaps glass.
+    Liquid = 0,
+    /// Glass without liquid.
+    Glass = 1,
+    /// Neither.
+    Plain = 2,
+    /// Edges to be smoothed, without steam.
+    Edges = 3,
+    /// Steam, and perhaps edges.
+    Steam = 4,
+}
+
+const CLASSES: u64 = 5;
+
+/// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {
-    mark: ComputePipeline,
+    pipelines: Pipelines,
     marks: Buffer,
+    lists: Buffer,
+    /// Sizes of the dispatches over the lists.
+    arguments: Buffer,
+    puffs: Buffer,
     views: u32,
+    /// Of all views.
     count: u32,
+}
+
+struct Pipelines {
+    mark: ComputePipeline,
+    puffs: ComputePipeline,
+    lists: ComputePipeline,
 }
 
 impl Tiles {
@@ -32,11 +67,14 @@ impl Tiles {
         views: u32,
     ) -> Result<Self, RenderError> {
         let [columns, rows] = tiles_of(extent);
-        let count = columns * rows;
+        let count = columns * rows * views;
+        let words = |label: &str, words: u64| Buffer::storage(gpu, label, 4 * words);
         Ok(Self {
-            mark: pipeline(gpu, library)?,
-            // Liquid and edges.
-            marks: Buffer::storage(gpu, "tiles", u64::from(2 * 4 * count * views))?,
+            pipelines: Pipelines::new(gpu, library)?,
+            marks: words("tiles", count.into())?,
+            lists: words("tile lists", CLASSES * u64::from(count))?,
+            arguments: words("tile dispatches", 3 * CLASSES)?,
+            puffs: words("puffs in tiles", u64::from(PUFF_WORDS) * u64::from(count))?,
             views,
             count,
         })
@@ -44,44 +82,76 @@ impl Tiles {
 
     /// Takes up changed shaders.
     pub(crate) fn reload(&mut self, gpu: &Gpu, library: &Library) -> Result<(), RenderError> {
-        self.mark = pipeline(gpu, library)?;
+        self.pipelines = Pipelines::new(gpu, library)?;
         Ok(())
     }
 
-    /// Records the marking of a frame's tiles, with `count` of `ellipsoids`.
+    /// Records the marking and listing of a frame's tiles, with `count` of `ellipsoids`.
     pub(crate) fn record(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
-        ellipsoids: &Buffer,
-        count: u32,
+        (ellipsoids, count): (&Buffer, u32),
+        steam: Option<&SteamSource<'_>>,
+        hidden: &Buffer,
     ) -> Result<(), RenderError> {
-        rec.fill(&self.marks, 0)?;
-        rec.pass(&self.mark)
-            .label("tiles")
-            .uniform("frame", uniforms)
-            .read("ellipsoids", ellipsoids)
-            .write("tiles", &self.marks)
-            .constants(&layout::TileCount {
-                count,
-                views: self.views,
-            })
-            .invocations(count.max(TABLE_POINTS))?;
+        rec.group("tiles", |rec| {
+            rec.fill(&self.marks, 0)?;
+            rec.fill(&self.arguments, 0)?;
+            rec.pass(&self.pipelines.mark)
+                .uniform("frame", uniforms)
+                .read("ellipsoids", ellipsoids)
+                .write("tiles", &self.marks)
+                .constants(&layout::TileCount { count })
+                .invocations(count.max(TABLE_POINTS))?;
+            if let Some(steam) = steam {
+                rec.fill(&self.puffs, 0)?;
+                rec.pass(&self.pipelines.puffs)
+                    .uniform("frame", uniforms)
+                    .read("puffs", steam.puffs)
+                    .write("puffs_in_tiles", &self.puffs)
+                    .write("tiles", &self.marks)
+                    .constants(&layout::PuffCount { count: steam.count })
+                    .workgroups([steam.count.div_ceil(64), self.views, 1])?;
+            }
+            rec.pass(&self.pipelines.lists)
+                .uniform("frame", uniforms)
+                .read("tiles", &self.marks)
+                .read("hidden_area", hidden)
+                .write("tile_lists", &self.lists)
+                .write("arguments", &self.arguments)
+                .invocations(self.count)
+        })?;
         Ok(())
     }
 
-    /// The marks: for each view where there is liquid, then where edges are.
+    /// The marks, row by row, view by view.
     pub(crate) fn marks(&self) -> &Buffer {
         &self.marks
     }
 
-    /// Vertices of the triangles of all tiles of a view.
-    pub(crate) fn vertices(&self) -> u32 {
-        6 * self.count
+    /// Which puffs each tile has.
+    pub(crate) fn puffs(&self) -> &Buffer {
+        &self.puffs
+    }
+
+    /// Records a pass over the pixels of the tiles of a class; the pipeline is specialised for it.
+    pub(crate) fn over(&self, class: Class, pass: Pass<'_>) -> Result<(), vitriol_gpu::GpuError> {
+        pass.read("tile_lists", &self.lists)
+            .indirect(&self.arguments, 12 * class as u64)
     }
 }
 
-fn pipeline(gpu: &Gpu, library: &Library) -> Result<ComputePipeline, RenderError> {
-    let compiled = library.compile(&render::TILES, "main", &[])?;
-    Ok(ComputePipeline::new(gpu, &compiled)?)
+impl Pipelines {
+    fn new(gpu: &Gpu, library: &Library) -> Result<Self, RenderError> {
+        let make = |shader: ShaderId| {
+            let compiled = library.compile(&shader, "main", &[])?;
+            Ok::<_, RenderError>(ComputePipeline::new(gpu, &compiled)?)
+        };
+        Ok(Self {
+            mark: make(render::TILES)?,
+            puffs: make(render::TILE_PUFFS)?,
+            lists: make(render::TILE_LISTS)?,
+        })
+    }
 }

@@ -6,44 +6,37 @@ mod readback;
 mod source;
 
 use glam::{Affine3A, Quat};
-use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, GpuError, Image, ImageDesc, Load, Raster,
-    RasterPipeline, RasterTarget, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
-};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::frame::FrameDesc;
-use crate::pipelines::DEPTH_FORMAT;
-use crate::tiles::Tiles;
-use passes::{FILTERED_FORMAT, Passes, THICKNESS_FORMAT};
+use crate::tiles::{Class, Tiles};
+use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
 pub use source::{LiquidDesc, LiquidSource, Neighbours, SurfaceFilter, VesselTables};
 
 /// Frames whose ellipsoids are kept at a time.
 pub(crate) const SLOTS: usize = 2;
 
-/// How many times fewer pixels along a side the thickness has: it is smooth.
-const THICKNESS_SHARE: u32 = 2;
-
-/// Images, buffers and pipelines of the liquid surface.
+/// Buffers and pipelines of the liquid surface.
 pub(crate) struct Fluid {
     gpu: Gpu,
     desc: LiquidDesc,
     extent: [u32; 2],
     views: u32,
-    format: vk::Format,
     passes: Passes,
     /// One for the picture that is drawn, one for the frame that is solved.
     ellipsoids: [Buffer; SLOTS],
     poses: Buffer,
     /// Bound where a source has nothing to give.
     nothing: Buffer,
-    depth: Image,
+    /// Reversed depth as splatted, each view's pixels row by row.
+    depth: Buffer,
     /// Between the filter's passes; the first is where its last one ends.
-    filtered: [Image; 2],
-    thickness: Image,
-    between: Sampler,
+    filtered: [Buffer; 2],
+    /// Thickness and acid of blocks of four pixels.
+    sums: Buffer,
 }
 
 impl Fluid {
@@ -53,28 +46,18 @@ impl Fluid {
         desc: LiquidDesc,
         extent: [u32; 2],
         views: u32,
-        format: vk::Format,
     ) -> Result<Self, RenderError> {
-        let image = |label: &str, extent, format, usage| {
-            let desc = ImageDesc {
-                extent,
-                layers: views,
-                format,
-                usage: usage | vk::ImageUsageFlags::SAMPLED,
-            };
-            Image::new(gpu, label, desc)
-        };
-        let colour = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        let filtered = |label| image(label, extent, FILTERED_FORMAT, colour);
-        let half = extent.map(|side| side.div_ceil(THICKNESS_SHARE));
+        let pixels = |[width, height]: [u32; 2]| (views * width * height) as usize;
+        let floats =
+            |label: &str| Buffer::storage(gpu, label, bytes_of_elements::<f32>(pixels(extent)));
+        let blocks = pixels(blocks_of(extent));
         let ellipsoids = bytes_of_elements::<layout::Ellipsoid>(desc.particles as usize);
         Ok(Self {
             gpu: gpu.clone(),
             desc,
             extent,
             views,
-            format,
-            passes: Passes::new(gpu, library, desc.filter, format, view_mask(views))?,
+            passes: Passes::new(gpu, library, desc.filter)?,
             ellipsoids: [
                 Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
                 Buffer::storage(gpu, "other ellipsoids", ellipsoids)?,
@@ -85,33 +68,15 @@ impl Fluid {
                 bytes_of_elements::<layout::FlaskPose>(MOST_VESSELS),
             )?,
             nothing: zeros(gpu)?,
-            depth: image(
-                "liquid depth",
-                extent,
-                DEPTH_FORMAT,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
-            )?,
-            filtered: [filtered("liquid surface")?, filtered("half-filtered")?],
-            thickness: image("thickness", half, THICKNESS_FORMAT, colour)?,
-            between: Sampler::new(
-                gpu,
-                SamplerDesc {
-                    filter: Filter::Linear,
-                    ..SamplerDesc::default()
-                },
-            )?,
+            depth: floats("liquid depth")?,
+            filtered: [floats("liquid surface")?, floats("half-filtered")?],
+            sums: Buffer::storage(gpu, "thickness", bytes_of_elements::<[u32; 2]>(blocks))?,
         })
     }
 
     /// Takes up changed shaders.
     pub(crate) fn reload(&mut self, library: &Library) -> Result<(), RenderError> {
-        self.passes = Passes::new(
-            &self.gpu,
-            library,
-            self.desc.filter,
-            self.format,
-            view_mask(self.views),
-        )?;
+        self.passes = Passes::new(&self.gpu, library, self.desc.filter)?;
         Ok(())
     }
 
@@ -131,19 +96,41 @@ impl Fluid {
         source.check(self.desc.particles)
     }
 
-    /// Records everything from the ellipsoids in a slot up to the filtered depth.
+    /// Records everything from the ellipsoids in a slot up to the filtered depth;
+    /// the tiles are listed.
     pub(crate) fn record_surface(
         &self,
         rec: &mut Recorder,
         (slot, count): (usize, u32),
         uniforms: &Buffer,
         tiles: &Tiles,
-        mask: Option<&Buffer>,
     ) -> Result<(), RenderError> {
-        let ellipsoids = self.ellipsoids(slot);
-        tiles.record(rec, uniforms, ellipsoids, count)?;
-        self.draw_depth(rec, (ellipsoids, count), uniforms, mask)?;
-        self.draw_thickness(rec, (ellipsoids, count), uniforms)?;
+        let splat = |rec: &mut Recorder, label, pass: &ComputePipeline, name, into: &Buffer| {
+            rec.group(label, |rec| {
+                rec.fill(into, 0)?;
+                let lanes = self.passes.splat_lanes;
+                rec.pass(pass)
+                    .uniform("frame", uniforms)
+                    .read("ellipsoids", self.ellipsoids(slot))
+                    .write(name, into)
+                    .constants(&layout::Splats { count })
+                    .workgroups([(count * lanes).div_ceil(64), self.views, 1])
+            })
+        };
+        splat(
+            rec,
+            "liquid depth",
+            &self.passes.splat,
+            "depth",
+            &self.depth,
+        )?;
+        splat(
+            rec,
+            "liquid thickness",
+            &self.passes.thickness,
+            "sums",
+            &self.sums,
+        )?;
         self.filter(rec, uniforms, tiles)
     }
 
@@ -192,63 +179,6 @@ impl Fluid {
         Ok(())
     }
 
-    fn draw_depth(
-        &self,
-        rec: &mut Recorder,
-        (ellipsoids, count): (&Buffer, u32),
-        uniforms: &Buffer,
-        mask: Option<&Buffer>,
-    ) -> Result<(), RenderError> {
-        let target = RasterTarget {
-            label: "liquid depth",
-            colours: &[],
-            depth: Some(DepthTarget {
-                image: &self.depth,
-                load: Load::Clear(0.0),
-            }),
-            view_mask: view_mask(self.views),
-        };
-        rec.raster(&target, |raster| {
-            if let Some(mask) = mask {
-                raster
-                    .draw(&self.passes.mask)
-                    .read("hidden", mask)
-                    .vertices((mask.bytes() / 16) as u32)?;
-            }
-            raster
-                .draw(&self.passes.splat)
-                .uniform("frame", uniforms)
-                .read("ellipsoids", ellipsoids)
-                .vertices(3 * count)
-        })?;
-        Ok(())
-    }
-
-    fn draw_thickness(
-        &self,
-        rec: &mut Recorder,
-        (ellipsoids, count): (&Buffer, u32),
-        uniforms: &Buffer,
-    ) -> Result<(), RenderError> {
-        let target = RasterTarget {
-            label: "liquid thickness",
-            colours: &[ColourTarget {
-                image: &self.thickness,
-                load: Load::Clear([0.0; 4]),
-            }],
-            depth: None,
-            view_mask: view_mask(self.views),
-        };
-        rec.raster(&target, |raster| {
-            raster
-                .draw(&self.passes.thickness)
-                .uniform("frame", uniforms)
-                .read("ellipsoids", ellipsoids)
-                .vertices(3 * count)
-        })?;
-        Ok(())
-    }
-
     fn filter(
         &self,
         rec: &mut Recorder,
@@ -257,66 +187,34 @@ impl Fluid {
     ) -> Result<(), RenderError> {
         let last = self.passes.filter.len() - 1;
         rec.group("liquid filter", |rec| {
+            // Tiles that are not listed have no liquid, and are read at others' borders.
+            for to in &self.filtered[..=last.min(1)] {
+                rec.fill(to, 0)?;
+            }
+            let mut from = &self.depth;
             for (index, pass) in self.passes.filter.iter().enumerate() {
-                let to = (last - index) % 2;
-                self.filter_once(
-                    rec,
-                    pass,
-                    &self.filtered[1 - to],
-                    &self.filtered[to],
-                    uniforms,
-                    tiles,
-                )?;
+                let to = &self.filtered[(last - index) % 2];
+                let pass = rec
+                    .pass(pass)
+                    .uniform("frame", uniforms)
+                    .read("before", from)
+                    .write("after", to);
+                tiles.over(Class::Liquid, pass)?;
+                from = to;
             }
             Ok(())
         })?;
         Ok(())
     }
 
-    fn filter_once(
-        &self,
-        rec: &mut Recorder,
-        pass: &RasterPipeline,
-        from: &Image,
-        to: &Image,
-        uniforms: &Buffer,
-        tiles: &Tiles,
-    ) -> Result<(), GpuError> {
-        let target = RasterTarget {
-            label: "liquid filter",
-            colours: &[ColourTarget {
-                image: to,
-                load: Load::Clear([0.0; 4]),
-            }],
-            depth: None,
-            view_mask: view_mask(self.views),
-        };
-        rec.raster(&target, |raster| {
-            raster
-                .draw(pass)
-                .uniform("frame", uniforms)
-                .read("tiles", tiles.marks())
-                .sampled("splatted", &self.depth)
-                .sampled("before", from)
-                .vertices(tiles.vertices())
-        })
+    /// The filtered reversed depth.
+    pub(crate) fn surface(&self) -> &Buffer {
+        &self.filtered[0]
     }
 
-    /// Draws the lit surface; within a raster scope of picture and depth.
-    pub(crate) fn shade(
-        &self,
-        raster: &mut Raster<'_>,
-        uniforms: &Buffer,
-        tiles: &Tiles,
-    ) -> Result<(), GpuError> {
-        raster
-            .draw(&self.passes.shade)
-            .uniform("frame", uniforms)
-            .read("tiles", tiles.marks())
-            .sampled("surface", &self.filtered[0])
-            .sampled("thickness", &self.thickness)
-            .sampler("between", &self.between)
-            .vertices(tiles.vertices())
+    /// Thickness and acid of blocks of four pixels.
+    pub(crate) fn sums(&self) -> &Buffer {
+        &self.sums
     }
 
     /// Records the copy of the surface to the host.
@@ -324,15 +222,22 @@ impl Fluid {
         &self,
         rec: &mut Recorder,
         nears: Vec<f32>,
+        spacing: f32,
     ) -> Result<SurfaceReadback, RenderError> {
         Ok(SurfaceReadback {
-            depth: rec.read_back_image(&self.filtered[0])?,
-            thickness: rec.read_back_image(&self.thickness)?,
+            depth: rec.read_back(self.surface())?,
+            sums: rec.read_back(&self.sums)?,
             nears,
             extent: self.extent,
-            thickness_extent: self.thickness.desc().extent,
+            blocks: blocks_of(self.extent),
+            spacing,
         })
     }
+}
+
+/// Blocks of four pixels in a row, and rows of them.
+fn blocks_of(extent: [u32; 2]) -> [u32; 2] {
+    extent.map(|side| side.div_ceil(2))
 }
 
 /// Vessels that a frame holds at most.
@@ -351,9 +256,4 @@ fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, "nothing", 16)?;
     gpu.write(&buffer, &[0_u32; 4])?;
     Ok(buffer)
-}
-
-/// A bit per view.
-pub(crate) fn view_mask(views: u32) -> u32 {
-    (1 << views) - 1
 }

@@ -25,12 +25,16 @@ pub struct Surface {
 /// Surfaces on their way to the host.
 pub struct SurfaceReadback {
     pub(super) depth: Readback,
-    pub(super) thickness: Readback,
+    pub(super) sums: Readback,
     /// Distance of each view's near plane in the scene's unit.
     pub(super) nears: Vec<f32>,
     pub(super) extent: [u32; 2],
-    pub(super) thickness_extent: [u32; 2],
+    pub(super) blocks: [u32; 2],
+    pub(super) spacing: f32,
 }
+
+/// Parts of a spacing that thickness is counted in, as in `common/held.wgsl`.
+const PARTS: f32 = 1_048_576.0;
 
 impl SurfaceReadback {
     /// Each view's surface.
@@ -40,22 +44,22 @@ impl SurfaceReadback {
     pub fn views(&self) -> Result<Vec<Surface>, RenderError> {
         let pixels = |[width, height]: [u32; 2]| (width * height) as usize;
         let depths = self.depth.get::<f32>()?;
-        let pairs = self.thickness.get::<[u16; 2]>()?;
+        let pairs = self.sums.get::<[u32; 2]>()?;
         let layers = depths
             .chunks(pixels(self.extent))
-            .zip(pairs.chunks(pixels(self.thickness_extent)));
-        let view = |((depths, pairs), &near): ((&[f32], &[[u16; 2]]), &f32)| {
-            let half = |bits: u16| half::f16::from_bits(bits).to_f32();
-            let pairs = pairs.iter().map(|pair| pair.map(half));
+            .zip(pairs.chunks(pixels(self.blocks)));
+        let view = |((depths, pairs), &near): ((&[f32], &[[u32; 2]]), &f32)| {
             let depth = |&reversed: &f32| if reversed > 0.0 { near / reversed } else { 0.0 };
+            let acid = |&[all, acid]: &[u32; 2]| acid as f32 / (all as f32).max(1.0);
             Surface {
                 extent: self.extent,
                 depth: depths.iter().map(depth).collect(),
-                thickness_extent: self.thickness_extent,
-                thickness: pairs.clone().map(|pair| pair[0]).collect(),
-                acid: pairs
-                    .map(|[all, acid]| if all > 0.0 { acid / all } else { 0.0 })
+                thickness_extent: self.blocks,
+                thickness: pairs
+                    .iter()
+                    .map(|[all, _]| *all as f32 * (self.spacing / PARTS))
                     .collect(),
+                acid: pairs.iter().map(acid).collect(),
             }
         };
         Ok(layers.zip(&self.nears).map(view).collect())

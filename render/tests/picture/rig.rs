@@ -54,7 +54,7 @@ impl Rig {
         self.renderer.record(&mut rec, frame).unwrap();
         let first_view = self.renderer.read_back(&mut rec).unwrap();
         let colour = rec.read_back_image(self.renderer.image()).unwrap();
-        let depth = rec.read_back_image(self.renderer.depth()).unwrap();
+        let depth = rec.read_back(self.renderer.depth()).unwrap();
         self.gpu.submit(rec).unwrap().wait().unwrap();
         let pixels = (self.extent[0] * self.extent[1]) as usize;
         let layers = |bytes: Vec<u8>| bytes.chunks(4 * pixels).map(<[u8]>::to_vec).collect();

@@ -48,6 +48,10 @@ struct Vessel {
     outer: f32,
     /// Thickness of the glass.
     wall: f32,
+    /// The first of its outline's segments in `common/glass.wgsl`'s table, and the one after its last.
+    segments: vec2<u32>,
+    /// Likewise its graduation marks.
+    marks: vec2<u32>,
 }
 
 /// The uniforms of one frame.
@@ -80,6 +84,10 @@ struct Frame {
     extent: vec2<f32>,
     /// Rows of tiles of a view.
     tile_rows: u32,
+    /// How many eyes there are.
+    view_count: u32,
+    /// Whether the lenses hide a part of the picture.
+    hides: u32,
     /// What water absorbs of red, green and blue light, 1/m.
     water: vec3<f32>,
     /// The same of pure acid.
@@ -92,4 +100,15 @@ struct Frame {
 fn seen_along(eye: u32, pixel: vec2<f32>) -> vec3<f32> {
     let view = &frame.views[eye];
     return (*view).corner + pixel.x * (*view).across + pixel.y * (*view).down;
+}
+
+/// Where a pixel is in arrays of all eyes' pixels, row by row, eye by eye.
+fn pixel_index(pixel: vec2<i32>, eye: u32) -> u32 {
+    let extent = vec2<u32>(frame.extent);
+    return (eye * extent.y + u32(pixel.y)) * extent.x + u32(pixel.x);
+}
+
+/// The nearest pixel of the picture.
+fn within_picture(pixel: vec2<i32>) -> vec2<i32> {
+    return clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
 }

@@ -1,24 +1,33 @@
-//! Passes over the pixels of marked tiles: two triangles a tile.
+//! Passes over the pixels of the tiles of a class: four workgroups a tile, of eight rows each. The
+//! tiles are listed, and the dispatch is as long as the list: a test in each pixel would cost the
+//! software driver, which walks both sides of every branch, what it was to save.
 
 //!include common/frame.wgsl
+//!include common/marks.wgsl
 
-@group(0) @binding(1) var<storage, read> tiles: array<u32>;
+/// Whose list: 0 liquid, 1 glass without liquid, 2 neither; 3 edges to be smoothed, 4 those with
+/// steam over them.
+override CLASS: u32 = 0u;
 
-/// Pixels along a tile's edge.
-const TILE = 32.0;
+/// For each class its tiles, counted row by row, eye by eye; `tile_lists.wgsl` writes them.
+@group(0) @binding(1) var<storage, read> tile_lists: array<u32>;
 
-/// Corner `index` of all tiles' triangles in clip space, at the near plane; one point for a tile
-/// that is not marked, so that it has no area and need not be clipped. `eye` counts on behind the
-/// eyes' liquid to their edges.
-fn tile_corner(index: u32, eye: u32) -> vec4<f32> {
-    let tile = index / 6u;
+/// The pixel of an invocation.
+struct Place {
+    pixel: vec2<i32>,
+    eye: u32,
+    /// Its tile.
+    tile: u32,
+    /// False beyond the picture's edge.
+    inside: bool,
+}
+
+fn place_of(group: vec3<u32>, local: vec3<u32>) -> Place {
     let of_view = frame.tile_columns * frame.tile_rows;
-    if (tiles[eye * of_view + tile] == 0u) { return vec4<f32>(0.0, 0.0, 0.0, 1.0); }
-    let corner = index % 6u;
-    let right = corner == 1u || corner == 2u || corner == 4u;
-    let low = corner == 2u || corner == 4u || corner == 5u;
-    let at = vec2<f32>(f32(tile % frame.tile_columns), f32(tile / frame.tile_columns))
-        + select(vec2<f32>(0.0), vec2<f32>(1.0), vec2<bool>(right, low));
-    // The last ones end with the picture, so that nothing has to be clipped.
-    return vec4<f32>(min(2.0 * TILE * at / frame.extent, vec2<f32>(2.0)) - 1.0, 1.0, 1.0);
+    let tile = tile_lists[CLASS * frame.view_count * of_view + group.x];
+    let eye = tile / of_view;
+    let row = (tile - eye * of_view) / frame.tile_columns;
+    let column = tile - eye * of_view - row * frame.tile_columns;
+    let pixel = vec2<i32>(vec2<u32>(column, row) * TILE + vec2<u32>(local.x, 8u * group.y + local.y));
+    return Place(pixel, eye, tile, all(pixel < vec2<i32>(frame.extent)));
 }

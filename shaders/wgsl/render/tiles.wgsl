@@ -1,37 +1,32 @@
-//! Marks the tiles of each eye's picture that liquid may be in, and those that have edges to be
-//! smoothed: the passes over pixels draw these and no other.
+//! Marks what each tile of each eye's picture has in it, so that passes over pixels have those
+//! of their kind and no other.
 
 //!include common/frame.wgsl
 //!include common/ellipsoid.wgsl
+//!include common/marks.wgsl
 
 struct TileCount {
     /// Number of particles.
     count: u32,
-    /// Number of eyes.
-    views: u32,
 }
 
 var<immediate> marked: TileCount;
 
 @group(0) @binding(1) var<storage, read> ellipsoids: array<Ellipsoid>;
-/// 1 where there is liquid, row by row, eye by eye; and then likewise for edges.
-@group(0) @binding(2) var<storage, read_write> tiles: array<u32>;
-
-/// Pixels along a tile's edge.
-const TILE = 32.0;
+/// Marks, row by row, eye by eye.
+@group(0) @binding(2) var<storage, read_write> tiles: array<atomic<u32>>;
 
 /// Marks all tiles between two places in the picture (pixels).
-fn mark(eye: u32, low: vec2<f32>, high: vec2<f32>, liquid: bool) {
+fn mark(eye: u32, low: vec2<f32>, high: vec2<f32>, bits: u32) {
     let columns = frame.tile_columns;
     let end = vec2<f32>(f32(columns), f32(frame.tile_rows)) - 1.0;
-    let first = vec2<i32>(max(floor(low / TILE), vec2<f32>(0.0)));
-    let last = vec2<i32>(min(floor(high / TILE), end));
-    let all = marked.views * frame.tile_rows * columns;
+    let first = vec2<i32>(max(floor(low / f32(TILE)), vec2<f32>(0.0)));
+    let last = vec2<i32>(min(floor(high / f32(TILE)), end));
     for (var y = first.y; y <= last.y; y++) {
         for (var x = first.x; x <= last.x; x++) {
             let tile = (eye * frame.tile_rows + u32(y)) * columns + u32(x);
-            if (liquid) { tiles[tile] = 1u; }
-            tiles[all + tile] = 1u;
+            // Most are marked already, and to look is cheaper than to write.
+            if ((atomicLoad(&tiles[tile]) & bits) != bits) { atomicOr(&tiles[tile], bits); }
         }
     }
 }
@@ -53,7 +48,7 @@ fn mark_particle(eye: u32, e: Ellipsoid) {
         eye,
         select(middle - across, vec2<f32>(0.0), close),
         select(middle + across, frame.extent, close),
-        true,
+        MARK_LIQUID,
     );
 }
 
@@ -63,6 +58,7 @@ fn mark_vessel(eye: u32, index: u32) {
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     var low = frame.extent;
     var high = vec2<f32>(0.0);
+    var behind = 0u;
     for (var corner = 0u; corner < 8u; corner++) {
         let up = select(0.0, frame.vessels[index].rim, (corner & 4u) != 0u);
         let aside = select(vec2<f32>(-1.0), vec2<f32>(1.0), (vec2<u32>(corner) & vec2<u32>(1u, 2u)) != vec2<u32>(0u));
@@ -72,8 +68,10 @@ fn mark_vessel(eye: u32, index: u32) {
         let at = (0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent;
         low = select(min(low, at), vec2<f32>(0.0), near);
         high = select(max(high, at), frame.extent, near);
+        behind += select(0u, 1u, near);
     }
-    mark(eye, low - 2.0, high + 2.0, false);
+    if (behind == 8u) { return; }
+    mark(eye, low - 2.0, high + 2.0, 1u << index);
 }
 
 /// A place on the edge of the table's top, `index` of 128.
@@ -89,12 +87,12 @@ fn mark_table(eye: u32, index: u32) {
     // As far as half of the way to the next place.
     let gap = max(frame.table_max.x - frame.table_min.x, frame.table_max.z - frame.table_min.z) / 62.0;
     let across = select(vec2<f32>(2.0), vec2<f32>(gap * frame.views[eye].focal / clip.w, 2.0), side < 2u);
-    mark(eye, middle - across, middle + across, false);
+    mark(eye, middle - across, middle + across, MARK_EDGE);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    for (var eye = 0u; eye < marked.views; eye++) {
+    for (var eye = 0u; eye < frame.view_count; eye++) {
         if (id.x < marked.count) {
             let e = ellipsoids[id.x];
             if (e.visible > 0.0) { mark_particle(eye, e); }

@@ -9,44 +9,30 @@
 //!include common/tile.wgsl
 //!include common/at_glass.wgsl
 
-/// Whether this step reads what was splatted.
-override FIRST: bool = false;
 /// Whether this is the last step.
 override LAST: bool = false;
 /// Steps in all.
 override STEPS: f32 = 40.0;
 
-@group(0) @binding(2) var splatted: texture_depth_2d_array;
-@group(0) @binding(3) var before: texture_2d_array<f32>;
+/// Reversed depth of the liquid, 0 where there is none; zero outside of the listed tiles.
+@group(0) @binding(2) var<storage, read> before: array<f32>;
+@group(0) @binding(3) var<storage, read_write> after: array<f32>;
 
 /// Standard deviation of the smoothing, in spacings.
 const SMOOTHED = 0.8;
 /// Depth difference to a neighbour, in spacings, at which the surface ends.
 const EDGE = 2.0;
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
-    return tile_corner(index, eye);
-}
-
 /// View depth at a pixel; that of the middle where there is another surface or none, so that
 /// the derivative across the edge is zero.
 fn depth(pixel: vec2<i32>, eye: u32, middle: f32) -> f32 {
-    let at = clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
-    var reversed = 0.0;
-    if (FIRST) { reversed = textureLoad(splatted, at, eye, 0); } else { reversed = textureLoad(before, at, eye, 0).x; }
-    // What the lens hides is at the near plane: no liquid.
-    reversed = select(reversed, 0.0, reversed >= 1.0);
+    let reversed = before[pixel_index(within_picture(pixel), eye)];
     let z = frame.views[eye].near / max(reversed, 1e-9);
-    return select(middle, z, abs(z - middle) < EDGE * frame.spacing || middle == 0.0);
+    return select(middle, z, abs(z - middle) < EDGE * frame.spacing);
 }
 
-@fragment
-fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> @location(0) vec4<f32> {
-    let pixel = vec2<i32>(place.xy);
-    let near = frame.views[eye].near;
-    let z = depth(pixel, eye, 0.0);
-    if (z > near * 1e8) { return vec4<f32>(0.0); }
+/// The reversed depth of a pixel of liquid a step later.
+fn smoothed(pixel: vec2<i32>, eye: u32, z: f32) -> f32 {
     let left = depth(pixel + vec2<i32>(-1, 0), eye, z);
     let right = depth(pixel + vec2<i32>(1, 0), eye, z);
     let above = depth(pixel + vec2<i32>(0, -1), eye, z);
@@ -70,7 +56,19 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
         / (slope * sqrt(slope));
     let pixels = SMOOTHED * frame.spacing / s;
     let rate = min(0.5 * pixels * pixels / STEPS, 0.2);
-    var smoothed = near / (z + rate * curvature);
-    if (LAST) { smoothed = at_glass(smoothed, place.xy, eye); }
-    return vec4<f32>(smoothed, 0.0, 0.0, 0.0);
+    return frame.views[eye].near / (z + rate * curvature);
+}
+
+@compute @workgroup_size(32, 8)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let place = place_of(group, local);
+    if (!place.inside) { return; }
+    let at = pixel_index(place.pixel, place.eye);
+    let middle = before[at];
+    var reversed = 0.0;
+    if (middle > 0.0) {
+        reversed = smoothed(place.pixel, place.eye, frame.views[place.eye].near / middle);
+        if (LAST) { reversed = at_glass(reversed, vec2<f32>(place.pixel) + 0.5, place.eye); }
+    }
+    after[at] = reversed;
 }

@@ -12,13 +12,12 @@
 
 /// 0: along rows; 1: along columns; 2: over a square; 3: no filter.
 override PASS: u32 = 0u;
-/// Whether this pass reads what was splatted.
-override FIRST: bool = false;
 /// Whether this is the last pass.
 override LAST: bool = false;
 
-@group(0) @binding(2) var splatted: texture_depth_2d_array;
-@group(0) @binding(3) var before: texture_2d_array<f32>;
+/// Reversed depth of the liquid, 0 where there is none; zero outside of the listed tiles.
+@group(0) @binding(2) var<storage, read> before: array<f32>;
+@group(0) @binding(3) var<storage, read_write> after: array<f32>;
 
 /// How far the filter reaches, in spacings.
 const REACH = 2.0;
@@ -30,22 +29,8 @@ const PAIRS = 24.0;
 const THRESHOLD = 1.2;
 const BEHIND = 0.6;
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
-    return tile_corner(index, eye);
-}
-
 fn load(pixel: vec2<i32>, eye: u32) -> f32 {
-    if (FIRST) {
-        // What the lens hides is at the near plane: no liquid.
-        let depth = textureLoad(splatted, pixel, eye, 0);
-        return select(depth, 0.0, depth >= 1.0);
-    }
-    return textureLoad(before, pixel, eye, 0).x;
-}
-
-fn inside(pixel: vec2<i32>) -> vec2<i32> {
-    return clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
+    return before[pixel_index(within_picture(pixel), eye)];
 }
 
 var<private> sum: f32;
@@ -55,8 +40,8 @@ var<private> furthest: f32;
 
 /// Adds a pair at `offset` pixels to either side.
 fn add_pair(pixel: vec2<i32>, eye: u32, offset: vec2<i32>, middle: f32, width: f32, behind: f32, weight: f32) {
-    let a = load(inside(pixel + offset), eye);
-    let b = load(inside(pixel - offset), eye);
+    let a = load(pixel + offset, eye);
+    let b = load(pixel - offset, eye);
     let fits = min(a, b) > 0.0 && max(a, b) <= nearest;
     let kept = select(vec2<f32>(behind), vec2<f32>(a, b), vec2<f32>(a, b) >= vec2<f32>(furthest));
     let w = select(0.0, weight, fits);
@@ -67,12 +52,9 @@ fn add_pair(pixel: vec2<i32>, eye: u32, offset: vec2<i32>, middle: f32, width: f
     furthest = select(furthest, min(furthest, min(kept.x, kept.y) - width), fits);
 }
 
-@fragment
-fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> @location(0) vec4<f32> {
-    let pixel = vec2<i32>(place.xy);
-    let middle = load(pixel, eye);
-    if (middle <= 0.0) { return vec4<f32>(0.0); }
-    if (PASS == 3u) { return vec4<f32>(at_glass(middle, place.xy, eye), 0.0, 0.0, 0.0); }
+/// The smoothed reversed depth of a pixel of liquid.
+fn smoothed(pixel: vec2<i32>, eye: u32, middle: f32) -> f32 {
+    if (PASS == 3u) { return middle; }
     let near = frame.views[eye].near;
     // A difference of view depth as one of reversed depth: near/z² of it.
     let per_length = middle * middle / near;
@@ -101,7 +83,18 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
             add_pair(pixel, eye, offset, middle, width, behind, weight);
         }
     }
-    var smoothed = sum / weights;
-    if (LAST) { smoothed = at_glass(smoothed, place.xy, eye); }
-    return vec4<f32>(smoothed, 0.0, 0.0, 0.0);
+    return sum / weights;
+}
+
+@compute @workgroup_size(32, 8)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let place = place_of(group, local);
+    if (!place.inside) { return; }
+    let middle = load(place.pixel, place.eye);
+    var reversed = 0.0;
+    if (middle > 0.0) {
+        reversed = smoothed(place.pixel, place.eye, middle);
+        if (LAST) { reversed = at_glass(reversed, vec2<f32>(place.pixel) + 0.5, place.eye); }
+    }
+    after[pixel_index(place.pixel, place.eye)] = reversed;
 }

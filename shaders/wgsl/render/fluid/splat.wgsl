@@ -1,30 +1,30 @@
-//! The nearest ellipsoid at each pixel, as reversed depth.
+//! The nearest ellipsoid at each pixel, as reversed depth: its bits are ordered as the numbers are.
 
-//!include common/splat.wgsl
+//!include common/silhouette.wgsl
 
-struct Varyings {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) place: vec2<f32>,
-    @location(1) @interpolate(flat) kappa: f32,
-}
+/// Zero where there is none.
+@group(0) @binding(2) var<storage, read_write> depth: array<atomic<u32>>;
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> Varyings {
-    let e = ellipsoids[index / 3u];
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let particle = id.x / LANES;
+    let eye = id.y;
+    if (particle >= splats.count) { return; }
+    let e = ellipsoids[particle];
     // What lies deep in the liquid is never seen, and most of it does.
-    if !(e.visible > 0.0) {
-        return Varyings(NOWHERE, vec2<f32>(2.0), 0.0);
+    if !(e.visible > 0.0) { return; }
+    let s = silhouette_of(e, eye);
+    let near = frame.views[eye].near;
+    let lane = vec2<i32>(i32(id.x % 8u), i32(id.x % LANES / 8u));
+    for (var y = s.low.y + lane.y; y < s.high.y; y += i32(LANES / 8u)) {
+        for (var x = s.low.x + lane.x; x < s.high.x; x += 8) {
+            let ray = ray_at(s, vec2<f32>(f32(x), f32(y)) + 0.5);
+            let inside = ray.squared - ray.miss;
+            let reversed = near * (sqrt(max(inside, 0.0)) + ray.towards) / s.beyond;
+            // Behind the near plane, or the eye, there is nothing.
+            if (inside > 0.0 && ray.towards > 0.0 && reversed < 1.0) {
+                atomicMax(&depth[pixel_index(vec2<i32>(x, y), eye)], bitcast<u32>(reversed));
+            }
+        }
     }
-    let corner = corner_of(e, eye, index % 3u);
-    return Varyings(corner.clip, corner.place, corner.kappa);
-}
-
-@fragment
-@early_depth_test(less_equal)
-fn fragment(in: Varyings) -> @builtin(frag_depth) f32 {
-    let q_squared = 1.0 - dot(in.place, in.place);
-    if q_squared < 0.0 {
-        discard;
-    }
-    return in.clip.z * ((1.0 + in.kappa * sqrt(q_squared)) / (1.0 + in.kappa));
 }

@@ -2,39 +2,43 @@
 //!
 //! A particle spreads its volume d³ over the disc of its silhouette with the weight 1 − ρ²: the
 //! sum over the picture is the liquid's true volume whatever the ellipsoids' sizes, and no pixel
-//! sees where one begins. (Chords of the ellipsoids would count each overlap twice.)
+//! sees where one begins. (Chords of the ellipsoids would count each overlap twice.) Sums are of
+//! whole numbers, so that their order does not show.
 
-//!include common/splat.wgsl
+//!include common/silhouette.wgsl
+//!include common/held.wgsl
 
-struct Varyings {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) place: vec2<f32>,
-    /// Thickness in the middle, along the eye's axis; its share of acid.
-    @location(1) @interpolate(flat) middle: vec2<f32>,
-}
+/// Thickness, and its part that is acid, of each block of four pixels, in parts of a spacing.
+@group(0) @binding(2) var<storage, read_write> sums: array<atomic<u32>>;
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> Varyings {
-    let e = ellipsoids[index / 3u];
-    if !(e.visible >= 0.0) {
-        return Varyings(NOWHERE, vec2<f32>(2.0), vec2<f32>(0.0));
-    }
-    let corner = corner_of(e, eye, index % 3u);
-    // In the sphere's space a ray through (u, v) goes 2κq/(1 − κ²q²) of its way to the circle's
-    // plane through the sphere; that way has the view depth of the circle's plane, near enough
-    // that of the centre. 4/3 (1 − ρ²) has the integral of q over the disc.
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let particle = id.x / LANES;
+    let eye = id.y;
+    if (particle >= splats.count) { return; }
+    let e = ellipsoids[particle];
+    if !(e.visible >= 0.0) { return; }
+    let s = silhouette_of(e, eye);
+    // In the sphere's space a ray at ρ goes 2κq/(1 − κ²q²) of its way to the silhouette's plane
+    // through the sphere, κ = 1/|o|, q² = 1 − ρ²; that way has the view depth of the plane, near
+    // enough that of the centre. 4/3 (1 − ρ²) has the integral of q over the disc.
     let centre = frame.views[eye].clip_from_stage * vec4<f32>(e.centre, 1.0);
     let d = frame.spacing;
-    let volume = d * d * d / (4.18879 * max(corner.determinant, 1e-30));
-    let thickness = 2.6666667 * corner.kappa * centre.w * volume;
-    return Varyings(corner.clip, corner.place, vec2<f32>(thickness, thickness * e.acid));
-}
-
-@fragment
-fn fragment(in: Varyings) -> @location(0) vec4<f32> {
-    let share = 1.0 - dot(in.place, in.place);
-    if share < 0.0 {
-        discard;
+    let volume = d * d * d / (4.18879 * max(s.determinant, 1e-30));
+    let middle = 2.6666667 * inverseSqrt(s.beyond + 1.0) * centre.w * volume / d * PARTS;
+    let lane = vec2<i32>(i32(id.x % 8u), i32(id.x % LANES / 8u));
+    let low = s.low / 2;
+    let high = (s.high + 1) / 2;
+    for (var y = low.y + lane.y; y < high.y; y += i32(LANES / 8u)) {
+        for (var x = low.x + lane.x; x < high.x; x += 8) {
+            let ray = ray_at(s, 2.0 * (vec2<f32>(f32(x), f32(y)) + 0.5));
+            // ρ² = tan² of the angle to the centre over tan² of the silhouette's.
+            let share = 1.0 - ray.miss * s.beyond / (ray.towards * ray.towards);
+            if (share > 0.0 && ray.towards > 0.0) {
+                let block = 2u * block_index(vec2<i32>(x, y), eye);
+                atomicAdd(&sums[block], u32(middle * share));
+                if (e.acid > 0.0) { atomicAdd(&sums[block + 1u], u32(middle * share * e.acid)); }
+            }
+        }
     }
-    return vec4<f32>(in.middle * share, 0.0, 0.0);
 }

@@ -2,27 +2,24 @@
 //! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
 //! eyes see the same things in the same places.
 
-//!include common/tile.wgsl
 //!include common/bench.wgsl
 //!include common/vessel_rays.wgsl
+//!include common/held.wgsl
 
-@group(0) @binding(2) var surface: texture_2d_array<f32>;
-@group(0) @binding(3) var thickness: texture_2d_array<f32>;
-@group(0) @binding(4) var between: sampler;
+/// Filtered reversed depth, 0 where there is no liquid.
+@group(0) @binding(2) var<storage, read> surface: array<f32>;
+/// Thickness and acid of each block, as `fluid/thickness.wgsl` adds them up.
+@group(0) @binding(3) var<storage, read> sums: array<vec2<u32>>;
 
 /// Refractive index of water at 20 °C (1.333; sulfuric acid of 98 % has 1.43).
 const INDEX = 1.333;
 /// ((n − 1) / (n + 1))².
 const NORMAL_REFLECTANCE = 0.02037;
-@vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(view_index) eye: u32) -> @builtin(position) vec4<f32> {
-    return tile_corner(index, eye);
-}
 
 /// What is seen at a pixel, from the eye; zero where there is no liquid.
 fn seen_at(pixel: vec2<i32>, eye: u32) -> vec4<f32> {
-    let at = clamp(pixel, vec2<i32>(0), vec2<i32>(frame.extent) - 1);
-    let reversed = textureLoad(surface, at, eye, 0).x;
+    let at = within_picture(pixel);
+    let reversed = surface[pixel_index(at, eye)];
     let depth = select(0.0, frame.views[eye].near / reversed, reversed > 0.0);
     return vec4<f32>(depth * seen_along(eye, vec2<f32>(at) + 0.5), depth);
 }
@@ -50,34 +47,41 @@ fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
     return select(facing, normalize(towards), dot(n, n) > 0.0);
 }
 
-/// Thickness and acid over some four by four texels: finer than that is the grain of particles.
+/// Thickness (in the scene's unit) and acid, over some four by four blocks between which it is
+/// interpolated: finer than that is the grain of particles.
 fn held_at(place: vec2<f32>, eye: u32) -> vec2<f32> {
+    let at = 0.5 * place - 0.5;
+    let first = vec2<i32>(floor(at)) - 1;
+    let share = fract(at);
+    let last = vec2<i32>(blocks()) - 1;
     var sum = vec2<f32>(0.0);
-    for (var corner = 0u; corner < 4u; corner++) {
-        let aside = select(vec2<f32>(-2.0), vec2<f32>(2.0), (vec2<u32>(corner) & vec2<u32>(1u, 2u)) != vec2<u32>(0u));
-        let at = (place + aside) / frame.extent;
-        sum += textureSampleLevel(thickness, between, at, eye, 0.0).xy;
+    for (var y = 0; y < 4; y++) {
+        for (var x = 0; x < 4; x++) {
+            let block = clamp(first + vec2<i32>(x, y), vec2<i32>(0), last);
+            // Linear between blocks, at a block to either side.
+            let odd = vec2<bool>((x & 1) == 1, (y & 1) == 1);
+            let weight = select(1.0 - share, share, odd);
+            sum += weight.x * weight.y * vec2<f32>(sums[block_index(block, eye)]);
+        }
     }
-    return 0.25 * sum;
+    return (0.25 * frame.spacing / PARTS) * sum;
 }
 
-struct Pixel {
-    @location(0) colour: vec4<f32>,
-    @builtin(frag_depth) depth: f32,
+/// What light a ray of liquid carries to the eye: that which comes from `origin` along `direction`,
+/// times `kept`, and `mirrored`.
+struct Wet {
+    origin: vec3<f32>,
+    direction: vec3<f32>,
+    kept: vec3<f32>,
+    mirrored: vec3<f32>,
 }
 
-@fragment
-@early_depth_test(less_equal)
-fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) -> Pixel {
-    let pixel = vec2<i32>(place.xy);
-    let here = seen_at(pixel, eye);
-    if here.w == 0.0 {
-        discard;
-    }
+/// The liquid at a pixel; `here` is `seen_at` of it, of view depth above 0.
+fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     let slant = length(here.xyz) / here.w;
     let ray = here.xyz / (slant * here.w);
     let point = frame.views[eye].eye + here.xyz;
-    let held = held_at(place.xy, eye);
+    let held = held_at(vec2<f32>(pixel) + 0.5, eye);
     let acid = saturate(held.y / max(held.x, 1e-9));
     let path = slant * held.x;
     var normal = normal_at(pixel, eye, here);
@@ -108,13 +112,10 @@ fn fragment(@builtin(position) place: vec4<f32>, @builtin(view_index) eye: u32) 
             out = select(reflect(within, back), through, dot(through, through) > 0.0);
         }
     }
-    let behind = room_light(exit, out);
-    let seen = behind * exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
+    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
     let rest = 1.0 - saturate(dot(normal, -ray));
     let mirrored = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest * rest * rest * rest * rest;
     // An edge thinner than a drop is none that could mirror.
     let reflectance = mirrored * (1.0 - wetted) * saturate(path / frame.spacing);
-    let light = mix(seen, surroundings(reflect(ray, normal)), reflectance);
-    // Before the facets of the glass that it wets, which lie on both sides of it.
-    return Pixel(vec4<f32>(display(light), 1.0), 1.0007 * frame.views[eye].near / here.w);
+    return Wet(exit, out, (1.0 - reflectance) * kept, reflectance * surroundings(reflect(ray, normal)));
 }

@@ -1,0 +1,11 @@
+//! What a tile of the picture has in it, as bits.
+
+/// Pixels along a tile's edge.
+const TILE = 32u;
+
+/// Bit v: vessel v. Liquid:
+const MARK_LIQUID = 0x80000000u;
+/// An edge that is neither liquid's nor a vessel's.
+const MARK_EDGE = 0x40000000u;
+const MARK_STEAM = 0x20000000u;
+const MARK_VESSELS = 0xffu;

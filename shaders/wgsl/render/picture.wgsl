@@ -1,0 +1,96 @@
+//! The picture without smooth edges: what of the room, the liquid and the coloured particles is nearest at
+//! each pixel, in its light, and the glass over it.
+//!
+//! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are.
+
+//!include common/tile.wgsl
+//!include common/hidden.wgsl
+//!include common/liquid.wgsl
+//!include common/glass.wgsl
+//!include common/encode.wgsl
+
+/// Whether the class's tiles have glass, and liquid.
+override GLASS: bool = false;
+override LIQUID: bool = false;
+
+struct PictureDraw {
+    /// Whether particles were drawn as coloured spheres.
+    spheres: u32,
+}
+
+var<immediate> picture: PictureDraw;
+
+/// Marks of the tiles.
+@group(0) @binding(6) var<storage, read> tiles: array<u32>;
+@group(0) @binding(7) var sphere_colours: texture_2d_array<f32>;
+@group(0) @binding(8) var sphere_depths: texture_depth_2d_array;
+@group(0) @binding(9) var drawn: texture_storage_2d_array<rgba8unorm, write>;
+/// The same where no edges are to be smoothed.
+@group(0) @binding(10) var finished: texture_storage_2d_array<rgba8unorm, write>;
+/// Reversed depth of what is not glass.
+@group(0) @binding(11) var<storage, read_write> depths: array<f32>;
+
+/// Where there is nothing: the walls' own colour, roughly.
+const BACKGROUND = vec3<f32>(0.38, 0.37, 0.35);
+/// How much nearer the liquid is taken to be: before the glass that it wets, whose outline is traced
+/// finer than the one that cuts it.
+const BEFORE_GLASS = 1.0007;
+/// How much further than glass what it stands on is taken to be: a foot lies in the bench's own plane.
+const BEHIND_GLASS = 1.0002;
+
+@compute @workgroup_size(32, 8)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let place = place_of(group, local);
+    if (!place.inside) { return; }
+    let eye = place.eye;
+    let at = vec2<f32>(place.pixel) + 0.5;
+    let near = frame.views[eye].near;
+    var colour = vec3<f32>(0.0);
+    var reversed = 1.0;
+    if (!is_hidden(place.pixel, eye)) {
+        // Of view depth 1, so that ways along it are depths.
+        var origin = frame.views[eye].eye;
+        var direction = seen_along(eye, at);
+        var met = room_meets(origin, direction);
+        let room = met.way > near;
+        reversed = select(0.0, near / met.way, room);
+        var kept = vec3<f32>(1.0);
+        var mirrored = vec3<f32>(0.0);
+        var wet = false;
+        if (LIQUID) {
+            let here = seen_at(place.pixel, eye);
+            let liquid = BEFORE_GLASS * near / here.w;
+            if (here.w > 0.0 && liquid > reversed) {
+                let ray = liquid_at(place.pixel, eye, here);
+                wet = true;
+                reversed = liquid;
+                origin = ray.origin;
+                direction = ray.direction;
+                kept = ray.kept;
+                mirrored = ray.mirrored;
+                met = room_meets(origin, direction);
+            }
+        }
+        var light = bench_light(origin + met.way * direction, met.normal, met.material);
+        if (met.way == 0.0) { light = ambient_light(direction.y); }
+        colour = display(kept * light + mirrored);
+        if (!room && !wet) { colour = BACKGROUND; }
+        if (picture.spheres != 0u) {
+            let sphere = textureLoad(sphere_depths, place.pixel, eye, 0);
+            if (sphere > reversed) {
+                reversed = sphere;
+                colour = textureLoad(sphere_colours, place.pixel, eye, 0).rgb;
+            }
+        }
+        if (GLASS) {
+            let end = select(BEHIND_GLASS * near / reversed, 1e9, reversed == 0.0);
+            let cover = glass_over(tiles[place.tile], eye, at, end);
+            colour = cover.colour + cover.open * colour;
+        }
+        // What has no slow gradient needs no noise.
+        colour = encoded(colour) + select(0.0, dither(at), room);
+    }
+    depths[pixel_index(place.pixel, eye)] = reversed;
+    textureStore(drawn, place.pixel, eye, vec4<f32>(colour, 1.0));
+    textureStore(finished, place.pixel, eye, vec4<f32>(colour, 1.0));
+}
