@@ -138,7 +138,7 @@ pub fn session(
             preset: Preset::Balanced,
             seed: 3,
         },
-        posture: Posture::Auto,
+        posture: Posture::Seated,
         frames: None,
         record: Some(file.clone()),
     };

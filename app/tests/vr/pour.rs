@@ -69,7 +69,8 @@ fn a_poured_flask_is_recorded_and_replays() {
     assert_eq!(outcome.bench.world.holder(0), None);
 
     // Each step has the poses of its own time. Between two frames of the display, 33 ms apart,
-    // hands that speed up by 6 m/s² leave the straight line by 6 · 0.033²/8 = 0.8 mm.
+    // hands that speed up by 10 m/s², as at the end, leave the straight line by 10 · 0.033²/8 =
+    // 1.4 mm.
     for (n, frame) in track.frames.iter().enumerate() {
         assert_eq!(frame.step, n as u64);
         let driven = keyframes.sample(0, 1e-9 * (frame.info.xr_time - EPOCH) as f64);
@@ -77,7 +78,7 @@ fn a_poured_flask_is_recorded_and_replays() {
             let (found, expected) = (frame.hand(side), driven.hand(side));
             assert_eq!(found.active, expected.active);
             let (m, rad) = apart(&found.stage_from_grip, &expected.stage_from_grip);
-            assert!(m < 1e-3 && rad < 0.02, "step {n}: {m} m, {rad} rad");
+            assert!(m < 1.5e-3 && rad < 0.02, "step {n}: {m} m, {rad} rad");
             assert!((found.squeeze - expected.squeeze).abs() < 0.1);
         }
         let (m, _) = apart(&frame.stage_from_view, &driven.stage_from_view);
