@@ -75,6 +75,8 @@ pub struct Span {
     pub frame_time: f64,
     /// Number of steps.
     pub steps: u64,
+    /// What was asked for, s; the steps end at it or after.
+    asked: f64,
 }
 
 impl Span {
@@ -85,6 +87,7 @@ impl Span {
         Self {
             frame_time,
             steps: steps as u64,
+            asked: seconds,
         }
     }
 
@@ -95,7 +98,7 @@ impl Span {
 
     /// Whether the time is up.
     pub fn is_over(self, time: &SimulatedTime) -> bool {
-        time.seconds() >= self.seconds() - 1e-6 * self.frame_time
+        time.steps() > 0 && time.seconds() >= self.asked - 1e-6 * self.frame_time
     }
 }
 

@@ -1,8 +1,10 @@
 //! `vitriol vr`: in the headset, or on its stand-in.
 
 use std::fmt::Write;
+use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
 
 use serde::Serialize;
 use vitriol_sim::measure::Measurement;
@@ -16,8 +18,9 @@ use crate::failure::{Blame, Failure};
 use crate::report::DeviceStatement;
 use crate::report::units::{grouped, three_digits};
 use crate::vr::bench::Plan;
+use crate::vr::menu;
 use crate::vr::record::Recorded;
-use crate::vr::session::{self, Options, Outcome, Session, WARM_UP};
+use crate::vr::session::{self, Decision, Options, Outcome, Session, WARM_UP};
 use crate::vr::stand_in::{PANEL, Pace, Ready, StandIn, StandInSpec};
 use crate::vr::tally::{Holdings, Spread};
 
@@ -103,7 +106,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 pace: Pace::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
-            let outcome = Session::new(&headset, options)?.run(&mut headset)?;
+            let outcome = Session::new(&headset, options, keys())?.run(&mut headset)?;
             (
                 headset.name().to_owned(),
                 outcome,
@@ -121,7 +124,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 panel: PANEL,
             })
             .map_err(session::blame)?;
-            let outcome = Session::new(&headset, options)?.run(&mut headset)?;
+            let outcome = Session::new(&headset, options, keys())?.run(&mut headset)?;
             (headset.name().to_owned(), outcome, None)
         }
     };
@@ -135,6 +138,23 @@ fn leaving() -> Result<Arc<AtomicBool>, Failure> {
     let set = Arc::clone(&leave);
     ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)).other()?;
     Ok(leave)
+}
+
+/// What is typed into the terminal, a line each.
+fn keys() -> Receiver<Decision> {
+    let (decisions, taken) = channel();
+    if std::io::stdin().is_terminal() {
+        tracing::info!("{}", menu::lines());
+        std::thread::spawn(move || {
+            for line in std::io::stdin().lines().map_while(Result::ok) {
+                let decided = line.trim().chars().next().and_then(menu::decision);
+                if decided.is_some_and(|decided| decisions.send(decided).is_err()) {
+                    return;
+                }
+            }
+        });
+    }
+    taken
 }
 
 fn state(

@@ -7,6 +7,7 @@ pub mod bench;
 pub mod clock;
 pub mod hands;
 pub mod inputs;
+pub mod menu;
 pub mod picture;
 pub mod placement;
 pub mod record;

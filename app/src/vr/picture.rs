@@ -156,7 +156,7 @@ impl Picture {
         rec.copy_image(self.renderer.image(), &targets.colour)
             .other()?;
         if let Some(depth) = &targets.depth {
-            rec.copy_image(self.renderer.depth(), depth).other()?;
+            rec.copy_to_image(self.renderer.depth(), depth).other()?;
         }
         also(&mut rec)?;
         let picture = gpu.submit_after(rec, &[&shapes]).other()?;

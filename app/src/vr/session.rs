@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use vitriol_gpu::{QueueKind, Ticket};
@@ -54,6 +55,8 @@ pub enum Decision {
     Start,
     /// The bench before the user.
     Recentre,
+    /// No more of it.
+    End,
 }
 
 /// A session as it ends.
@@ -89,6 +92,8 @@ struct Coming {
 /// See the module.
 pub struct Session {
     options: Options,
+    /// What the user decides elsewhere than in the headset.
+    decisions: Receiver<Decision>,
     library: Arc<Library>,
     eyes: Eyes,
     bench: Bench,
@@ -115,12 +120,16 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session at its start.
+    /// A session at its start, which does what comes from `decisions`.
     ///
     /// # Errors
     /// [`Failure::Input`] for a scene that is not there, or a recording that is already; what the
     /// device says.
-    pub fn new(headset: &dyn Headset, options: Options) -> Result<Self, Failure> {
+    pub fn new(
+        headset: &dyn Headset,
+        options: Options,
+        decisions: Receiver<Decision>,
+    ) -> Result<Self, Failure> {
         let (gpu, eyes) = (headset.gpu(), Eyes::of(headset));
         let library = Arc::new(Library::embedded());
         let recording = options.record.as_ref().map(|file| {
@@ -131,6 +140,7 @@ impl Session {
             tally: Tally::new(gpu.options().timestamps),
             recording: recording.transpose()?,
             options,
+            decisions,
             library,
             eyes,
             coming: None,
@@ -231,15 +241,25 @@ impl Session {
 
     fn decide(
         &mut self,
-        headset: &dyn Headset,
+        headset: &mut dyn Headset,
         pressed: Pressed,
         recentred: bool,
         now: &PoseFrame,
     ) -> Result<(), Failure> {
-        if pressed.start {
-            self.act(headset, Decision::Start);
+        let mut recentre = pressed.recentre || recentred || self.placed.is_none();
+        let mut scene = pressed.start.then(|| self.bench.plan.scene.clone());
+        while let Ok(decision) = self.decisions.try_recv() {
+            match decision {
+                Decision::Scene(name) => scene = Some(name),
+                Decision::Start => scene = Some(self.bench.plan.scene.clone()),
+                Decision::Recentre => recentre = true,
+                Decision::End => headset.request_exit().map_err(blame)?,
+            }
         }
-        if pressed.recentre || recentred || self.placed.is_none() {
+        if let Some(scene) = scene {
+            self.build(headset, scene);
+        }
+        if recentre {
             let placed = placement::before(&now.stage_from_view, self.options.posture);
             self.placed = Some(placed);
             self.switch(SWITCH_PLACEMENT, placement::as_text(&placed));
@@ -250,21 +270,16 @@ impl Session {
         Ok(())
     }
 
-    fn act(&mut self, headset: &dyn Headset, decision: Decision) {
-        let (plan, key) = match decision {
-            Decision::Recentre => return,
-            Decision::Start => (self.bench.plan.clone(), SWITCH_START),
-            Decision::Scene(scene) => {
-                let plan = Plan {
-                    scene,
-                    ..self.bench.plan.clone()
-                };
-                (plan, SWITCH_SCENE)
-            }
-        };
+    /// Begins to build a scene at its start.
+    fn build(&mut self, headset: &dyn Headset, scene: String) {
+        let same = scene == self.bench.plan.scene;
         let switch = Switch {
-            key: key.into(),
-            value: plan.scene.clone(),
+            key: if same { SWITCH_START } else { SWITCH_SCENE }.into(),
+            value: scene.clone(),
+        };
+        let plan = Plan {
+            scene,
+            ..self.bench.plan.clone()
         };
         let (gpu, eyes) = (headset.gpu(), self.eyes.clone());
         let builder = Builder::start(gpu, &self.library, plan, eyes);

@@ -33,7 +33,7 @@ const LEFT_EYE: Fov = Fov {
 
 /// Time on the runtime's clock at the start, ns: not the simulation's 0, so that who mistakes the
 /// two is found out.
-const EPOCH: i64 = 1_000_000_000_000;
+pub const EPOCH: i64 = 1_000_000_000_000;
 
 /// How the stand-in's time goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,24 +98,10 @@ impl StandIn {
     /// # Errors
     /// [`GpuError`] where the device has no room for the images.
     pub fn new(gpu: &Gpu, track: Track, spec: StandInSpec) -> Result<Self, GpuError> {
-        let image = |label, extent, layers, format| {
-            let desc = ImageDesc {
-                extent,
-                layers,
-                format,
-                usage: vk::ImageUsageFlags::SAMPLED,
-            };
-            Image::new(gpu, label, desc)
-        };
-        let (eyes, rgba) = (spec.extent, vk::Format::R8G8B8A8_SRGB);
         let wearer = TrackSource::new(track);
         Ok(Self {
             gpu: gpu.clone(),
-            targets: Targets {
-                colour: image("stand-in's colour", eyes, 2, rgba)?,
-                depth: Some(image("stand-in's depth", eyes, 2, vk::Format::D32_SFLOAT)?),
-                panel: image("stand-in's panel", PANEL, 1, rgba)?,
-            },
+            targets: targets(gpu, spec.extent)?,
             playing: wearer.clone(),
             wearer,
             rounds: 0,
@@ -128,13 +114,23 @@ impl StandIn {
             compositor: (spec.pace == Pace::Real).then(Compositor::start),
             name: format!(
                 "a stand-in of 2 × {} × {} at {} Hz on {}",
-                eyes[0],
-                eyes[1],
+                spec.extent[0],
+                spec.extent[1],
                 spec.rate_hz,
                 gpu.info().name
             ),
             spec,
         })
+    }
+
+    /// Goes on with another device, as after a loss.
+    ///
+    /// # Errors
+    /// As for [`StandIn::new`].
+    pub fn move_to(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        self.targets = targets(gpu, self.spec.extent)?;
+        self.gpu = gpu.clone();
+        Ok(())
     }
 
     /// Frames whose work on the device is done, in their order; none where its pace is free.
@@ -198,6 +194,24 @@ impl StandIn {
         self.view = frame.stage_from_view;
         Ok(frame)
     }
+}
+
+fn targets(gpu: &Gpu, eyes: [u32; 2]) -> Result<Targets, GpuError> {
+    let image = |label, extent, layers, format| {
+        let desc = ImageDesc {
+            extent,
+            layers,
+            format,
+            usage: vk::ImageUsageFlags::SAMPLED,
+        };
+        Image::new(gpu, label, desc)
+    };
+    let rgba = vk::Format::R8G8B8A8_SRGB;
+    Ok(Targets {
+        colour: image("stand-in's colour", eyes, 2, rgba)?,
+        depth: Some(image("stand-in's depth", eyes, 2, vk::Format::D32_SFLOAT)?),
+        panel: image("stand-in's panel", PANEL, 1, rgba)?,
+    })
 }
 
 /// The other eye's frustum.
