@@ -1,6 +1,7 @@
 //! A small session, its headset, and the replay of what it recorded.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 use vitriol::vr::bench::Plan;
@@ -141,6 +142,7 @@ pub fn session(
         posture: Posture::Seated,
         frames: None,
         record: Some(file.clone()),
+        leave: Arc::default(),
     };
     let outcome = Session::new(headset, options, decisions)
         .unwrap()
