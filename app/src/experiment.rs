@@ -181,16 +181,23 @@ impl Experiment for Laboratory {
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
-            camera.follow(&frame.stage_from_view);
+            let scene = self.world.scene();
+            let origin = scene.origin * scene.scale.length_scale;
+            let mut view = frame.stage_from_view;
+            view.position -= origin.as_vec3();
+            camera.follow(&view);
         }
-        let scale = self.world.scene().scale;
-        let hands = frame.hands.each_ref();
-        let hands = hands.map(|hand| grip(hand, scale.length_scale));
+        let scene = self.world.scene();
+        let frame_time = scene.scale.frame_time;
+        let origin = scene.origin.as_vec3();
+        let length_scale = scene.scale.length_scale;
+        let hands = frame.hands.each_ref().map(|hand| {
+            let mut hand = grip(hand, length_scale);
+            hand.stage_from_grip.position -= origin;
+            hand
+        });
         self.world.step(&StepInput { hands }).map_err(blame_world)?;
-        Ok(Taken {
-            frame_time: scale.frame_time,
-            anew,
-        })
+        Ok(Taken { frame_time, anew })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
@@ -239,6 +246,11 @@ impl Experiment for Laboratory {
                 "diffusion cut to what pairs may exchange",
                 counted.diffusion_limited,
             ),
+            (
+                "boiling cut to 30 % of a relative velocity",
+                counted.growth_limited,
+            ),
+            ("density taken at the end of its table", counted.table_ends),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),
@@ -259,8 +271,8 @@ impl Experiment for Laboratory {
     }
 }
 
-/// A recorded hand in the simulation's terms. Hands move in real metres, the
-/// scene in its own.
+/// A recorded hand in the simulation's terms, in the frame of the scene's file.
+/// Hands move in real metres, the scene in its own.
 pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
