@@ -261,7 +261,7 @@ impl Experiment for Laboratory {
 
 /// A recorded hand in the simulation's terms. Hands move in real metres, the
 /// scene in its own.
-pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,
@@ -273,7 +273,7 @@ pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
 }
 
 /// stage_from_flask of each flask as a track keeps it, in real metres.
-pub(crate) fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
+pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
     let scale = world.scene().scale.length_scale as f32;
     let real = |pose: &Pose| vitriol_xr::Pose::new(scale * pose.position, pose.orientation);
     world.poses().iter().map(real).collect()

@@ -66,6 +66,8 @@ pub struct World {
     solver: Solver,
     /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
     loads: VecDeque<PendingLoad>,
+    /// By flask: what [`World::stirring`] says.
+    stirring: Vec<f32>,
     step: u64,
     last: Option<Ticket>,
 }
@@ -130,6 +132,7 @@ impl World {
             solver: Solver::new(gpu, library, &spec)?,
             scene: scene.clone(),
             loads: VecDeque::new(),
+            stirring: vec![0.0; scene.flasks.len()],
             step: 0,
             last: None,
         })
@@ -211,6 +214,13 @@ impl World {
         self.bodies.holder(flask)
     }
 
+    /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it
+    /// boils and sloshes there. As it was [`LOAD_DELAY`] steps ago, so that nobody waits for it;
+    /// 0 of a flask that is not there, and where no flask can be lifted.
+    pub fn stirring(&self, flask: usize) -> f32 {
+        self.stirring.get(flask).copied().unwrap_or(0.0)
+    }
+
     /// Events counted so far; waits for the device.
     ///
     /// # Errors
@@ -284,6 +294,9 @@ impl World {
         let mass = self.solver.parameters().particle_mass() as f32;
         let poses = self.bodies.poses();
         let loads = due.read()?;
+        for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
+            *stirring = sum.angular[3];
+        }
         Ok(loads
             .iter()
             .zip(poses)

@@ -27,29 +27,48 @@ pub struct Driver {
 }
 
 struct Shared {
-    begun: Mutex<Option<Instant>>,
+    track: Keyframes,
+    speed: f64,
+    clock: Mutex<Clock>,
     remote: Mutex<Option<Remote>>,
     stop: AtomicBool,
+}
+
+/// Where the track is.
+#[derive(Default)]
+struct Clock {
+    /// Track time until it was last halted, s.
+    before: f64,
+    /// Since when it runs.
+    since: Option<Instant>,
+}
+
+impl Shared {
+    fn time(&self) -> f64 {
+        let clock = self.clock.lock().unwrap();
+        let since = clock
+            .since
+            .map_or(0.0, |since| since.elapsed().as_secs_f64());
+        (clock.before + self.speed * since).min(self.track.duration)
+    }
 }
 
 impl Driver {
     pub fn start(rig: &Rig, track: Keyframes, speed: f64) -> Self {
         let shared = Arc::new(Shared {
-            begun: Mutex::new(None),
+            track,
+            speed,
+            clock: Mutex::default(),
             remote: Mutex::new(Some(rig.remote())),
             stop: AtomicBool::new(false),
         });
         let of = Arc::clone(&shared);
         let thread = std::thread::spawn(move || {
             while !of.stop.load(Ordering::Relaxed) {
-                let begun = *of.begun.lock().unwrap();
-                let t = begun.map_or(0.0, |begun| begun.elapsed().as_secs_f64() * speed);
-                let frame = track.sample(0, t.min(track.duration));
+                let frame = of.track.sample(0, of.time());
                 let mut remote = of.remote.lock().unwrap();
-                if let Some(it) = remote.as_mut()
-                    && send(it, &frame).is_err()
-                {
-                    // The service was killed.
+                // Without an answer the service was killed.
+                if remote.as_mut().is_some_and(|it| send(it, &frame).is_err()) {
                     *remote = None;
                 }
                 drop(remote);
@@ -64,7 +83,33 @@ impl Driver {
 
     /// Lets the track run.
     pub fn go(&self) {
-        *self.shared.begun.lock().unwrap() = Some(Instant::now());
+        self.shared.clock.lock().unwrap().since = Some(Instant::now());
+    }
+
+    /// Stops it where it is.
+    pub fn halt(&self) {
+        let before = self.shared.time();
+        *self.shared.clock.lock().unwrap() = Clock {
+            before,
+            since: None,
+        };
+    }
+
+    /// Waits until the track is there, s.
+    pub fn reach(&self, time: f64) {
+        while self.shared.time() < time {
+            std::thread::sleep(TICK);
+        }
+    }
+
+    /// Waits until the track is through.
+    pub fn wait(&self) {
+        self.reach(self.shared.track.duration);
+    }
+
+    /// Takes hold of a service that was started again.
+    pub fn connect(&self, rig: &Rig) {
+        *self.shared.remote.lock().unwrap() = Some(rig.remote());
     }
 }
 

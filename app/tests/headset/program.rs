@@ -27,10 +27,13 @@ pub struct Program {
 }
 
 impl Program {
-    pub fn start(arguments: &[&str]) -> Self {
+    /// In that scene, keeping a recording.
+    pub fn start(scene: &Path, recording: &Path) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-            .args(["-v", "vr", "--json"])
-            .args(arguments)
+            .args(["-v", "vr", "--json", "--scene"])
+            .arg(scene)
+            .arg("--record")
+            .arg(recording)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -64,8 +67,13 @@ impl Program {
         }
     }
 
-    /// Waits for its end and gives what it printed.
+    /// Asks it to end, as the system does, and gives what it printed.
     pub fn end(mut self) -> serde_json::Value {
+        // The shell's own kill: the rig has no other.
+        let asked = Command::new("sh")
+            .args(["-c", &format!("kill {}", self.child.id())])
+            .status();
+        assert!(asked.unwrap().success());
         let stdout = self.child.stdout.take().unwrap();
         let text = std::io::read_to_string(stdout).unwrap();
         let status = self.child.wait().unwrap();
