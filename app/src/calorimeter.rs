@@ -296,6 +296,7 @@ impl Vessel {
         Scene {
             name: "calorimeter".into(),
             description: "Two liquids in a closed, insulated vessel on an orbital shaker.".into(),
+            origin: glam::DVec3::ZERO,
             scale: Scale {
                 spacing: d,
                 support_ratio: 2.0,

@@ -65,6 +65,12 @@ pub enum Command {
     Fidelity(FidelityArgs),
     /// Mix water and acid in a closed, insulated vessel until it is even
     Calorimeter(CalorimeterArgs),
+    /// The trade of speed for accuracy: knobs, what each costs, and what comes of it
+    /// is off by
+    Trade(TradeArgs),
+    /// Cases at the extremes of scene, parameter and motion: whether each keeps what
+    /// it has to, or is refused at load
+    Extremes(ExtremesArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
 }
@@ -441,6 +447,61 @@ pub struct CalorimeterArgs {
     /// Seed of the particles' initial jitter
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Parts of `vitriol trade`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TradePart {
+    /// Settings of the solver in a vessel of water
+    Solver,
+    /// Calorimeter, and water poured into acid
+    Chemistry,
+    /// Convergence, and the f64 reference
+    Truth,
+}
+
+/// Arguments of `vitriol trade`.
+#[derive(Debug, Args)]
+pub struct TradeArgs {
+    /// Few settings of 4,000 particles: minutes on two cores
+    #[arg(long)]
+    pub quick: bool,
+    /// One part only; without it all three
+    #[arg(long, value_enum, value_name = "PART")]
+    pub part: Option<TradePart>,
+    /// Seconds after which no further setting is begun
+    #[arg(long, value_name = "S", value_parser = positive_seconds)]
+    pub within: Option<f64>,
+    /// Folder for trade.json and trade.html; without it none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol extremes`.
+#[derive(Debug, Args)]
+pub struct ExtremesArgs {
+    /// Cases: those that were thought of first, then random ones
+    #[arg(long, default_value_t = 2000)]
+    pub cases: usize,
+    /// Seed of the random cases
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// One case only, by its number
+    #[arg(long, value_name = "CASE")]
+    pub only: Option<usize>,
+    /// Cases at a time
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: u32,
+    /// Folder for extremes.json, and with --only for the case's scene; without it
+    /// none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

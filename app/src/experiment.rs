@@ -181,11 +181,14 @@ impl Experiment for Laboratory {
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
-            camera.follow(&frame.stage_from_view);
+            let scene = self.world.scene();
+            let origin = scene.origin * scene.scale.length_scale;
+            let mut view = frame.stage_from_view;
+            view.position -= origin.as_vec3();
+            camera.follow(&view);
         }
         let scale = self.world.scene().scale;
-        let hands = frame.hands.each_ref();
-        let hands = hands.map(|hand| grip(hand, scale.length_scale));
+        let hands = hands(&frame.hands, self.world.scene());
         self.world.step(&StepInput { hands }).map_err(blame_world)?;
         Ok(Taken {
             frame_time: scale.frame_time,
@@ -239,6 +242,11 @@ impl Experiment for Laboratory {
                 "diffusion cut to what pairs may exchange",
                 counted.diffusion_limited,
             ),
+            (
+                "boiling cut to 30 % of a relative velocity",
+                counted.growth_limited,
+            ),
+            ("density taken at the end of its table", counted.table_ends),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),
@@ -259,9 +267,19 @@ impl Experiment for Laboratory {
     }
 }
 
-/// A recorded hand in the simulation's terms. Hands move in real metres, the
-/// scene in its own.
-pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+/// Recorded hands in the simulation's terms, where the scene is near its own origin.
+pub fn hands(hands: &[Hand; 2], scene: &Scene) -> [bodies::Hand; 2] {
+    let origin = scene.origin.as_vec3();
+    hands.each_ref().map(|hand| {
+        let mut hand = grip(hand, scene.scale.length_scale);
+        hand.stage_from_grip.position -= origin;
+        hand
+    })
+}
+
+/// A recorded hand in the simulation's terms, in the frame of the scene's file.
+/// Hands move in real metres, the scene in its own.
+fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,
@@ -274,8 +292,11 @@ pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
 
 /// stage_from_flask of each flask as a track keeps it, in real metres.
 pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
-    let scale = world.scene().scale.length_scale as f32;
-    let real = |pose: &Pose| vitriol_xr::Pose::new(scale * pose.position, pose.orientation);
+    let scene = world.scene();
+    let (scale, origin) = (scene.scale.length_scale as f32, scene.origin.as_vec3());
+    let real = |pose: &Pose| {
+        vitriol_xr::Pose::new(scale * (pose.position + origin), pose.orientation)
+    };
     world.poses().iter().map(real).collect()
 }
 

@@ -7,7 +7,7 @@ use vitriol_gpu::{
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
-use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback};
+use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, zeros};
 use crate::frame::{ColourBy, FrameDesc, ParticleSource};
 use crate::hidden::hidden_words;
 use crate::pipelines::{DEPTH_FORMAT, Pipelines, SPHERES_FORMAT};
@@ -101,7 +101,7 @@ impl Renderer {
             },
             hidden: None,
             tiles: Tiles::new(gpu, library, extent, views)?,
-            nothing: Buffer::storage(gpu, "nothing", 16)?,
+            nothing: zeros(gpu)?,
             spheres: image(
                 "spheres",
                 SPHERES_FORMAT,
@@ -309,6 +309,7 @@ impl Renderer {
             for (class, pipeline) in &self.pipelines.picture {
                 let pass = rec
                     .pass(pipeline)
+                    .label("picture")
                     .uniform("frame", &self.frame)
                     .read("surface", of_liquid(Fluid::surface))
                     .read("sums", of_liquid(Fluid::sums))
@@ -337,6 +338,7 @@ impl Renderer {
             for (class, pipeline) in &self.pipelines.finish {
                 let pass = rec
                     .pass(pipeline)
+                    .label("finish")
                     .uniform("frame", &self.frame)
                     .sampled("drawn", &self.drawn)
                     .sampler("between", &self.between)

@@ -99,6 +99,7 @@ impl Tiles {
             rec.fill(&self.marks, 0)?;
             rec.fill(&self.arguments, 0)?;
             rec.pass(&self.pipelines.mark)
+                .label("tiles")
                 .uniform("frame", uniforms)
                 .read("ellipsoids", ellipsoids)
                 .write("tiles", &self.marks)
@@ -107,6 +108,7 @@ impl Tiles {
             if let Some(steam) = steam {
                 rec.fill(&self.puffs, 0)?;
                 rec.pass(&self.pipelines.puffs)
+                    .label("tiles")
                     .uniform("frame", uniforms)
                     .read("puffs", steam.puffs)
                     .write("puffs_in_tiles", &self.puffs)
@@ -115,6 +117,7 @@ impl Tiles {
                     .workgroups([steam.count.div_ceil(64), self.views, 1])?;
             }
             rec.pass(&self.pipelines.lists)
+                .label("tiles")
                 .uniform("frame", uniforms)
                 .read("tiles", &self.marks)
                 .read("hidden_area", hidden)

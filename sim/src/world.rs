@@ -26,7 +26,8 @@ const LOAD_DELAY: usize = 2;
 /// What a step is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInput {
-    /// Left and right hand at the step's end.
+    /// Left and right hand at the step's end, in the scene's frame
+    /// ([`Scene::origin`]).
     pub hands: [Hand; 2],
 }
 
@@ -204,7 +205,7 @@ impl World {
         &self.solver
     }
 
-    /// stage_from_flask of each flask, after the last step.
+    /// stage_from_flask of each flask, after the last step, in the scene's frame.
     pub fn poses(&self) -> &[Pose] {
         self.bodies.poses()
     }
@@ -219,6 +220,18 @@ impl World {
     /// 0 of a flask that is not there, and where no flask can be lifted.
     pub fn stirring(&self, flask: usize) -> f32 {
         self.stirring.get(flask).copied().unwrap_or(0.0)
+    }
+
+    /// What the liquid did to each flask in the last step, which acts on it
+    /// later; nothing where no flask can move. Waits for the device.
+    ///
+    /// # Errors
+    /// [`WorldError`] where the device fails.
+    pub fn loads(&self) -> Result<Vec<Load>, WorldError> {
+        let Some(newest) = self.loads.back() else {
+            return Ok(Vec::new());
+        };
+        Ok(self.in_si(&newest.read()?))
     }
 
     /// Events counted so far; waits for the device.
@@ -291,17 +304,20 @@ impl World {
         let Some(due) = self.loads.pop_front() else {
             return Ok(Vec::new());
         };
-        let mass = self.solver.parameters().particle_mass() as f32;
-        let poses = self.bodies.poses();
         let loads = due.read()?;
         for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
             *stirring = sum.angular[3];
         }
-        Ok(loads
+        Ok(self.in_si(&loads))
+    }
+
+    fn in_si(&self, loads: &[LiquidLoad]) -> Vec<Load> {
+        let mass = self.solver.parameters().particle_mass() as f32;
+        loads
             .iter()
-            .zip(poses)
+            .zip(self.bodies.poses())
             .map(|(sum, pose)| load(sum, *pose, mass))
-            .collect())
+            .collect()
     }
 }
 

@@ -4,12 +4,14 @@ pub mod bench;
 pub mod calorimeter;
 pub mod dam_break;
 pub mod doctor;
+pub mod extremes;
 pub mod fidelity;
 pub mod fig5;
 pub mod picture;
 pub mod replay;
 pub mod scenes;
 pub mod track;
+pub mod trade;
 pub mod vr;
 
 use crate::cli::{Cli, Command};
@@ -34,6 +36,8 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Fig5(args) => fig5::run(args, format),
         Command::DamBreak(args) => dam_break::run(args, format),
         Command::Calorimeter(args) => calorimeter::run(args, format),
+        Command::Extremes(args) => extremes::run(args, format),
+        Command::Trade(args) => trade::run(args, format),
         Command::Doctor => doctor::run(format),
     }
 }

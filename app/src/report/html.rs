@@ -6,7 +6,8 @@ use super::model::{LedgerSample, Report, Sample};
 use super::plot::{CURVE_COLOURS, Curve, Plot, over_time};
 use super::units::{self, grouped, percent, three_digits, with_unit};
 
-const STYLE: &str = include_str!("report.css");
+/// The pages' style sheet.
+pub const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");
 
 impl Report {

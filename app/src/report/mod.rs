@@ -6,6 +6,7 @@ mod model;
 mod plot;
 pub mod units;
 
+pub use html::STYLE;
 pub use model::{
     Counters, DeviceStatement, FilmStatement, HeatSample, LedgerSample, MassByPlace, Report,
     Sample, SceneStatement, SolverStatement,

@@ -6,6 +6,7 @@ mod calorimeter;
 mod camera;
 mod common;
 mod dam_break;
+mod extremes;
 mod fidelity;
 mod fig5;
 mod reload;

@@ -55,6 +55,8 @@ pub struct Worn<T> {
     pub frames: u64,
     /// What was shown with each frame.
     pub shown: Vec<Shown>,
+    /// What the left and the right hand felt in each.
+    pub felt: Vec<[f32; 2]>,
 }
 
 impl<T: Trouble> Worn<T> {
@@ -69,6 +71,7 @@ impl<T: Trouble> Worn<T> {
             trouble,
             frames,
             shown: Vec::new(),
+            felt: Vec::new(),
         }
     }
 }
@@ -110,6 +113,7 @@ impl<T: Trouble> Headset for Worn<T> {
     }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
+        self.felt.push(self.inner.felt());
         self.inner.end(shown)
     }
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {

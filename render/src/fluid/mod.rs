@@ -110,6 +110,7 @@ impl Fluid {
                 rec.fill(into, 0)?;
                 let lanes = self.passes.splat_lanes;
                 rec.pass(pass)
+                    .label(label)
                     .uniform("frame", uniforms)
                     .read("ellipsoids", self.ellipsoids(slot))
                     .write(name, into)
@@ -196,6 +197,7 @@ impl Fluid {
                 let to = &self.filtered[(last - index) % 2];
                 let pass = rec
                     .pass(pass)
+                    .label("liquid filter")
                     .uniform("frame", uniforms)
                     .read("before", from)
                     .write("after", to);
@@ -251,8 +253,8 @@ fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {
     }
 }
 
-/// Sixteen bytes of zero: temperature and acid of a particle that has none.
-fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
+/// Sixteen bytes of zero: what is bound where a frame has nothing to give.
+pub(crate) fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, "nothing", 16)?;
     gpu.write(&buffer, &[0_u32; 4])?;
     Ok(buffer)

@@ -64,20 +64,24 @@ impl Passes {
 
 /// Shader and constants of each pass of a filter.
 fn stages(filter: SurfaceFilter) -> Vec<(ShaderId, Vec<(&'static str, f64)>)> {
-    let (shader, passes, constant): (_, u32, fn(u32) -> (&'static str, f64)) = match filter {
-        SurfaceFilter::NarrowRange => (fluid::NARROW_RANGE, 3, |pass| ("PASS", pass.into())),
-        SurfaceFilter::CurvatureFlow => (fluid::CURVATURE_FLOW, FLOW_STEPS, |_| {
-            ("STEPS", FLOW_STEPS.into())
-        }),
-        // Its last pass cuts what reaches into the glass.
-        SurfaceFilter::None => (fluid::NARROW_RANGE, 1, |_| ("PASS", 3.0)),
+    let (shader, passes) = match filter {
+        SurfaceFilter::NarrowRange => (fluid::NARROW_RANGE, 3),
+        SurfaceFilter::CurvatureFlow => (fluid::CURVATURE_FLOW, FLOW_STEPS),
+        SurfaceFilter::None => (fluid::NARROW_RANGE, 1),
     };
-    (0..passes)
-        .map(|pass| {
-            let last = f64::from(u8::from(pass + 1 == passes));
-            let class = f64::from(Class::Liquid as u32);
-            let constants = vec![constant(pass), ("LAST", last), ("CLASS", class)];
-            (shader, constants)
-        })
-        .collect()
+    let constants = |pass: u32| {
+        let own = match filter {
+            SurfaceFilter::NarrowRange => ("PASS", pass.into()),
+            SurfaceFilter::CurvatureFlow => ("STEPS", FLOW_STEPS.into()),
+            // Only cuts what reaches into the glass.
+            SurfaceFilter::None => ("PASS", 3.0),
+        };
+        let last = f64::from(u8::from(pass + 1 == passes));
+        vec![
+            own,
+            ("LAST", last),
+            ("CLASS", f64::from(Class::Liquid as u32)),
+        ]
+    };
+    (0..passes).map(|pass| (shader, constants(pass))).collect()
 }

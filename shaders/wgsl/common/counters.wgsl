@@ -15,4 +15,8 @@ struct Counters {
     removed: atomic<u32>,
     /// Particles of whose exchange by diffusion some was cut short.
     diffusion_limited: atomic<u32>,
+    /// Particles that boil whose anti-viscosity was cut to GROWTH_LIMIT.
+    growth_limited: atomic<u32>,
+    /// Particles hotter or colder than their properties' tables go.
+    table_ends: atomic<u32>,
 }

@@ -11,9 +11,6 @@
 /// strip's width (twice half the line's), and whether it is one.
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 
-/// Places where a ray meets a vessel's glass, at most: through two walls and a base, twice each.
-const MEETINGS = 8u;
-
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
 const GLASS_REFLECTANCE = 0.036;
 /// What one wall seen at right angles takes from the light; a slanting path takes more.
@@ -41,6 +38,34 @@ struct GlassRay {
     depth: f32,
     /// View depth, in front of which glass is seen.
     end: f32,
+}
+
+/// Where a ray meets a vessel's glass, the first to be dealt with in front: eight at most, through two walls and a
+/// base, twice each. Shifted and not indexed, so that they stay in registers.
+struct Meetings {
+    count: u32,
+    ways: array<vec4<f32>, 2>,
+    segments: array<vec4<f32>, 2>,
+}
+
+fn put_in_front(before: Meetings, way: f32, segment: u32) -> Meetings {
+    let w = before.ways;
+    let s = before.segments;
+    return Meetings(
+        min(before.count + 1u, 8u),
+        array<vec4<f32>, 2>(vec4<f32>(way, w[0].xyz), vec4<f32>(w[0].w, w[1].xyz)),
+        array<vec4<f32>, 2>(vec4<f32>(f32(segment), s[0].xyz), vec4<f32>(s[0].w, s[1].xyz)),
+    );
+}
+
+fn without_front(before: Meetings) -> Meetings {
+    let w = before.ways;
+    let s = before.segments;
+    return Meetings(
+        before.count - 1u,
+        array<vec4<f32>, 2>(vec4<f32>(w[0].yzw, w[1].x), vec4<f32>(w[1].yzw, 0.0)),
+        array<vec4<f32>, 2>(vec4<f32>(s[0].yzw, s[1].x), vec4<f32>(s[1].yzw, 0.0)),
+    );
 }
 
 /// The ways along the ray at which it meets a segment of an outline; 1e9 for none.
@@ -89,13 +114,17 @@ fn wall(to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
     return Cover(display(light / opacity) * opacity, 1.0 - opacity);
 }
 
-/// The marks at p on the outside of a vessel, whose normal (stage) faces the eye; `width` is a pixel's
-/// height there.
-fn marks_at(vessel: u32, p: vec3<f32>, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Cover {
+/// Half the angle that the longest mark takes up, at most.
+const WIDEST_MARK = 0.25;
+
+/// The marks at p on a vessel's glass, if that is its outside, whose normal (stage) faces the eye; `width` is a
+/// pixel's height there.
+fn marks_at(vessel: u32, p: vec3<f32>, outside: bool, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Cover {
     let angle = abs(atan2(p.x, p.z));
     var covered = 0.0;
     let range = frame.vessels[vessel].marks;
-    for (var index = range.x; index < range.y; index++) {
+    let end = select(range.x, range.y, outside && angle < WIDEST_MARK);
+    for (var index = range.x; index < end; index++) {
         let mark = outlines[index];
         let across = abs(p.y - mark.x) / mark.z;
         // Half of the strip is the line; a pixel wider than that has its share of it.
@@ -154,24 +183,19 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
         let passes = b * b < a * (dot(ray.origin.xz, ray.origin.xz) - outer * outer);
         let segments = select(frame.vessels[index].segments, vec2<u32>(0u), passes);
 
-        var met: array<vec2<f32>, MEETINGS>;
-        var count = 0u;
-        for (var segment = segments.x; segment < segments.y; segment += 2u) {
+        // From the last segment, so that the outside comes first.
+        var met: Meetings;
+        for (var segment = segments.y; segment > segments.x; ) {
+            segment -= 2u;
             let ways = meets_segment(ray, outlines[segment]);
-            if (ways.x < 1e8 && count < MEETINGS) {
-                met[count] = vec2<f32>(ways.x, f32(segment));
-                count++;
-            }
-            if (ways.y < 1e8 && count < MEETINGS) {
-                met[count] = vec2<f32>(ways.y, f32(segment));
-                count++;
-            }
+            if (ways.y < 1e8) { met = put_in_front(met, ways.y, segment); }
+            if (ways.x < 1e8) { met = put_in_front(met, ways.x, segment); }
         }
         let across = (m * vec4<f32>((*view).across, 0.0)).xyz;
         let down = (m * vec4<f32>((*view).down, 0.0)).xyz;
-        for (var k = 0u; k < count; k++) {
-            let way = met[k].x;
-            let segment = u32(met[k].y);
+        for (; met.count > 0u; met = without_front(met)) {
+            let way = met.ways[0].x;
+            let segment = u32(met.segments[0].x);
             let p = ray.origin + way * direction;
             let r = max(length(p.xz), 1e-9);
             let ends = outlines[segment];
@@ -190,9 +214,7 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
             let stage = (*view).eye + depth * seen;
-            let outside = profile.x > 0.5;
-            let enamel = marks_at(index, p, depth * height, normal, stage);
-            if (outside) { layer = over(enamel, layer); }
+            layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
             if (cosine > 0.0) { far = over(layer, far); } else { near = over(layer, near); }
         }
     }

@@ -107,6 +107,10 @@ fn equilibrium(acid: f32, enthalpy: f32, start: f32) -> f32 {
     return vapour;
 }
 
+/// Temperatures between which densities follow their table, °C.
+const TABLES_FROM: f32 = 0.0;
+const TABLES_TO: f32 = 150.0;
+
 /// ρ, kg/m³. Above 150 °C that of 150 °C: the table ends at 100 °C.
 fn density_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
@@ -114,7 +118,7 @@ fn density_of(acid: f32, temperature: f32) -> f32 {
     let t = place - f32(i);
     let cold = mix(solution[2u * i].w, solution[2u * i + 2u].w, t);
     let slope = mix(solution[2u * i + 1u].x, solution[2u * i + 3u].x, t);
-    return cold + slope * (clamp(temperature, 0.0, 150.0) - 20.0);
+    return cold + slope * (clamp(temperature, TABLES_FROM, TABLES_TO) - 20.0);
 }
 
 /// η, Pa·s: ln η is linear in 1/T between 20, 60 and 100 °C, and on to either side.

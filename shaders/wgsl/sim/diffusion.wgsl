@@ -10,6 +10,7 @@
 //!include common/thomsen.wgsl
 //!include common/boiling.wgsl
 //!include common/compensated.wgsl
+//!include common/full_list.wgsl
 
 /// Whether heat and acid diffuse; else this pass has no neighbours.
 override DILUTION: bool = false;
@@ -43,7 +44,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var limited = 0.0;
     if (DILUTION) {
         let x = position[i].xyz;
-        let count = list_counts[i];
+        let full = full_from(atomicLoad(&counters.list_overflows));
+        let listed = list_counts[i];
+        let count = select(listed, 0u, listed >= full);
         for (var g = lane; g * 4u < count; g += LANES) {
             let four = list[g * COUNT + i];
             for (var n = 0u; n < 4u; n++) {
@@ -52,7 +55,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 let weight = diffusion_weight(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
                 let apart = heat[j].xy - own.xy;
                 let share = vec2<f32>(pair_share(step.time * HEAT_DIFFUSION, weight),
-                                      pair_share(step.time * ACID_DIFFUSION, weight));
+                                      pair_share(step.time * ACID_DIFFUSION, weight))
+                    * has_whole_list(j, i, full);
                 change += apart * share;
                 limited += select(0.0, 1.0, max(share.x, share.y) >= 1.0 / f32(LIST_CAPACITY));
             }
@@ -70,7 +74,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (limited > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
     }
     var coefficient = CALM;
-    if (BOILING) { coefficient = stirring(after.x, own.z); }
+    if (BOILING) {
+        coefficient = stirring(after.x, own.z);
+        if (!LITERAL_BOILING && coefficient <= -GROWTH_LIMIT / step.viscosity) {
+            atomicAdd(&counters.growth_limited, 1u);
+        }
+    }
     diffused[i] = after;
     mixing[i] = vec4<f32>(own.y, slope, coefficient, acid.y);
 }

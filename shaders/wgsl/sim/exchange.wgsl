@@ -9,10 +9,13 @@
 //!include common/potential.wgsl
 //!include common/boiling.wgsl
 //!include common/compensated.wgsl
+//!include common/full_list.wgsl
 
 override BOILING: bool = false;
 override EVAPORATION: bool = false;
 override VISCOSITY: bool = false;
+/// Whether volume and density follow composition and temperature.
+override DENSITY: bool = false;
 override LOSSES: bool = false;
 /// C_t: diffusivity of the eddies over h·|v_ij|; Le of their mixing.
 override MIXING: f32 = 0.0;
@@ -100,7 +103,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var open = vec3<f32>(0.0);
     // Vapour that came from below, its enthalpy, and what covers this particle.
     var bubbles = vec3<f32>(0.0);
-    let count = list_counts[i];
+    let full = full_from(atomicLoad(&counters.list_overflows));
+    let listed = list_counts[i];
+    let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
         let four = list[g * COUNT + i];
         for (var n = 0u; n < 4u; n++) {
@@ -111,7 +116,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let per_distance = inverseSqrt(square);
             let q = square * per_distance * INVERSE_SUPPORT;
             let other = heat[j];
-            let other_held = held(other);
+            let whole = has_whole_list(j, i, full);
+            let other_held = held(other) * whole;
             let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
             let rates = step.time * vec2<f32>(ACID_DIFFUSIVITY + eddies, THERMAL_DIFFUSIVITY + LEWIS * eddies);
             let share = conductances(rates, q, own_held, other_held);
@@ -121,8 +127,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
                 let kernel = spline(q);
-                let come = near.w * towards(up, kernel);
-                bubbles += vec3<f32>(come, come * steam_enthalpy(other.x), towards(-up, kernel));
+                let come = near.w * towards(up, kernel) * whole;
+                bubbles += vec3<f32>(come, come * steam_enthalpy(other.x), towards(-up, kernel) * whole);
             }
         }
     }
@@ -154,7 +160,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let held_vapour = bulk[i].z;
         let specific = steam_enthalpy(own.x);
         let passed = held_vapour * rising() * bubbles.z;
-        let gone = held_vapour * rising() * max(1.0 - bubbles.z / COVERED, 0.0);
+        var gone = held_vapour * rising() * max(1.0 - bubbles.z / COVERED, 0.0);
+        // What is above it is not looked for.
+        if (listed >= full) { gone = 0.0; }
         let gained = bubbles.x - passed - gone;
         let mass = rounded(content.w + gained);
         // What the rounded mass became, and increments: where none rises, c and h keep their bits.
@@ -181,6 +189,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
     var growth = 0.0;
     if (BOILING) { if (budget > 0.0) { growth = bounded_growth(budget, agitation[tag.y]); } }
+    if (growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
+    if (DENSITY || VISCOSITY) {
+        if (own.x < TABLES_FROM || own.x > TABLES_TO) { atomicAdd(&counters.table_ends, 1u); }
+    }
     var coefficient = CALM;
     if (VISCOSITY) {
         let diffusivity = viscosity_of(own.y, own.x) / density_of(own.y, own.x);

@@ -185,9 +185,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     } else {
         if (tag.x != REMOVED) { search_rows(i, 0u, x, tag.x, true); }
         let listed = min(found, LIST_CAPACITY);
-        if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
+        let overflowed = found > LIST_CAPACITY;
+        if (overflowed) { atomicAdd(&counters.list_overflows, 1u); }
         found = listed;
         if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
+        if (overflowed) {
+            // It still counts as full: see `common/full_list.wgsl`.
+            for (var k = found; k < LIST_CAPACITY; k++) { list[place(k, i)] = i; }
+            found = LIST_CAPACITY;
+        }
     }
     // Kernel gradients vanish at distance zero; particles in one place would
     // stay together for ever.

@@ -14,6 +14,8 @@
 //!include common/potential.wgsl
 //!include common/predict.wgsl
 //!include common/compensated.wgsl
+//!include common/counters.wgsl
+//!include common/full_list.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;
@@ -60,6 +62,7 @@ const EPSILON: f32 = 1e-6;
 @group(0) @binding(12) var<storage, read_write> agitations: array<f32>;
 /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> counters: Counters;
 
 /// What Eqs 8 and 11 make of a pair: the heat that i gets of it, J/kg.
 fn warming(own: vec4<f32>, other: vec4<f32>, q: f32) -> f32 {
@@ -87,6 +90,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var push = vec3<f32>(0.0);
     if (VISCOUS || BOILING || DILUTION || PHYSICAL || CONFINEMENT > 0.0 || COHESION > 0.0) {
         let count = list_counts[i];
+        var full = 0xffffffffu;
+        if (BOILING || DILUTION) { full = full_from(atomicLoad(&counters.list_overflows)); }
         for (var g = lane; g * 4u < count; g += LANES) {
             let four = list[g * COUNT + i];
             for (var n = 0u; n < 4u; n++) {
@@ -97,12 +102,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 let q = distance * INVERSE_SUPPORT;
                 var other = vec4<f32>(0.0);
                 if (DILUTION || BOILING || PHYSICAL) { other = mixing[j]; }
+                var whole = 1.0;
+                if (BOILING || DILUTION) {
+                    whole = has_whole_list(j, i, full) * select(1.0, 0.0, count >= full);
+                }
                 if (PHYSICAL) {
                     let relative = new_velocity[j].xyz - own.xyz;
                     let weight = spline(q) * (2.0 * other.z / (mixed.z + other.z));
                     drag += relative * (weight * (0.5 * (mixed.y + other.y)));
                     if (BOILING) {
-                        push -= relative * (weight * (0.5 * (mixed.x + other.x)));
+                        push -= relative * (whole * weight * (0.5 * (mixed.x + other.x)));
                         agitation += weight * dot(relative, relative);
                     }
                 } else if (VISCOUS || BOILING) {
@@ -112,11 +121,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                     var pair = weight;
                     if (BOILING) {
                         pair *= 0.5 * (mixed.z + other.z);
+                        // Drag only ever slows down, whoever else knows of it.
+                        pair = select(max(pair, 0.0), pair, whole > 0.0);
                         agitation += weight * dot(relative, relative);
                     }
                     drag += relative * pair;
                 }
-                if (DILUTION) { warmed += warming(mixed, other, q); }
+                if (DILUTION) { warmed += whole * warming(mixed, other, q); }
                 if (CONFINEMENT > 0.0) {
                     eta += offset * ((vorticity[j].w - omega.w) / distance * spline_slope(q));
                 }
@@ -151,6 +162,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (VISCOUS || BOILING || PHYSICAL) { v += step.viscosity * drag; }
     if (PHYSICAL && BOILING) { v += push; }
     if (CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0) { v += step.time * acceleration; }
+    // Line 24 again: what boils or attracts came after it.
+    let speed = length(v);
+    if (speed > MAX_SPEED) {
+        v *= MAX_SPEED / speed;
+        atomicAdd(&counters.speed_limited, 1u);
+    }
     velocity[i] = vec4<f32>(v, own.w);
     var volume = 1.0;
     if (PHYSICAL) {

@@ -307,13 +307,17 @@ impl Reference {
         accelerations
     }
 
-    /// v ← v + Δt·a for each of `accelerations` (m/s²).
+    /// v ← v + Δt·a for each of `accelerations` (m/s²), at most v_max: line 24
+    /// again, since these and what boils come after it.
     pub fn push(&mut self, accelerations: &[Vec<DVec3>]) {
         let time = self.parameters.substep_time();
         for acceleration in accelerations {
             for (velocity, acceleration) in self.velocities.iter_mut().zip(acceleration) {
                 *velocity += *acceleration * time;
             }
+        }
+        for velocity in &mut self.velocities {
+            *velocity = velocity.clamp_length_max(self.parameters.max_speed);
         }
     }
 

@@ -93,6 +93,10 @@ pub struct PhysicalChemistry {
 /// Absolute zero, °C.
 pub(super) const ABSOLUTE_ZERO: f64 = -273.15;
 
+/// Highest boiling point of water and acid at one atmosphere, °C, rounded up:
+/// that of the azeotrope, 98.3 % of acid (Perry's handbook).
+pub(super) const HOTTEST_LIQUID: f64 = 340.0;
+
 impl PaperChemistry {
     pub(super) fn check(&self) -> Result<(), Problem> {
         temperature("paper.T_a", self.T_a)?;

@@ -18,6 +18,9 @@ use std::collections::BTreeMap;
 pub(super) struct SceneFile {
     pub name: String,
     pub description: String,
+    /// Where the scene is in the stage, metres of the scene.
+    #[serde(default)]
+    pub origin: [f64; 3],
     pub scale: Scale,
     pub solver: SolverSettings,
     pub model: Vec<Feature>,
@@ -151,7 +154,14 @@ fn named(
 }
 
 impl LiquidEntry {
-    pub fn build(self, index: usize, scale: &Scale, flasks: &[Flask]) -> Result<Liquid, Problem> {
+    /// `hottest` is the highest temperature (°C) that the scene's chemistry knows.
+    pub fn build(
+        self,
+        index: usize,
+        scale: &Scale,
+        flasks: &[Flask],
+        hottest: f64,
+    ) -> Result<Liquid, Problem> {
         let field = |name: &str| format!("liquid[{index}].{name}");
         let Some(flask) = flasks.iter().position(|flask| flask.name == self.flask) else {
             let names: Vec<_> = flasks.iter().map(|flask| flask.name.as_str()).collect();
@@ -193,6 +203,13 @@ impl LiquidEntry {
             kelvin > ABSOLUTE_ZERO,
             "above −273.15 (°C)",
         )?;
+        if hottest < kelvin {
+            let problem = format!(
+                "{kelvin} °C: no mixture of water and acid is liquid above {hottest} °C, and the \
+                 tables of [physical] end there; take less"
+            );
+            return Err(Problem::new(field("temperature"), problem));
+        }
         let ok = (0.0..=1.0).contains(&acid);
         require(
             &field("acid_fraction"),

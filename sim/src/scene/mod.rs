@@ -5,6 +5,7 @@ mod builtin;
 mod chemistry;
 mod error;
 mod file;
+mod limits;
 mod overlap;
 mod settings;
 
@@ -92,6 +93,10 @@ pub struct Scene {
     pub name: String,
     /// What it shows, in a sentence or two, and what of it was chosen here.
     pub description: String,
+    /// Where the scene's frame is in the stage, metres of the scene. All else
+    /// here, and what is simulated, is relative to it: however far off the scene
+    /// is, it has the bits that it has at the stage's own origin.
+    pub origin: DVec3,
     /// Scale, time and gravity.
     pub scale: Scale,
     /// Parameters of the solver.
@@ -262,19 +267,29 @@ impl Scene {
             true,
             "a finite number (metres)",
         )?;
+        for value in raw.origin {
+            settings::require("origin", value, true, "a finite number (metres)")?;
+        }
+        let origin = DVec3::from_array(raw.origin);
         let scale = raw.scale;
         let flasks = (0..)
             .zip(raw.flask)
             .map(|(index, entry)| entry.build(index, &scale))
             .collect::<Result<Vec<_>, _>>()?;
         check_flasks(&flasks)?;
+        let hottest = if raw.physical.is_some() {
+            chemistry::HOTTEST_LIQUID
+        } else {
+            f64::INFINITY
+        };
         let liquids = (0..)
             .zip(raw.liquid)
-            .map(|(index, entry)| entry.build(index, &scale, &flasks))
+            .map(|(index, entry)| entry.build(index, &scale, &flasks, hottest))
             .collect::<Result<Vec<_>, _>>()?;
         let scene = Self {
             name: raw.name,
             description: raw.description,
+            origin,
             scale,
             solver: raw.solver,
             model: raw.model,
@@ -289,6 +304,8 @@ impl Scene {
         };
         scene.check_fall()?;
         scene.check_fill("liquid")?;
+        scene.check_reach()?;
+        scene.check_substep()?;
         for (preset, overrides) in &scene.presets {
             let changed = scene.with_preset(*preset);
             let name = format!("{preset:?}").to_lowercase();
@@ -305,6 +322,7 @@ impl Scene {
                 }
                 changed.check_fill(&field)?;
             }
+            changed.check_substep().map_err(within)?;
         }
         Ok(scene)
     }

@@ -158,14 +158,17 @@ impl Scale {
         };
         positive("spacing", self.spacing, "metres")?;
         positive("frame_time", self.frame_time, "seconds")?;
+        let frame = self.frame_time;
+        let range = "at most 0.1 (seconds): flasks would pass through each other and the table";
+        require("scale.frame_time", frame, frame <= 0.1, range)?;
         positive("rest_density", self.rest_density, "kg/m³")?;
         positive("length_scale", self.length_scale, "real metres per metre")?;
         let ratio = self.support_ratio;
-        let range = "between 1.2 and 3 (h/d)";
+        let range = "between 1.5 and 3 (h/d): with fewer neighbours a liquid does not rest";
         require(
             "scale.support_ratio",
             ratio,
-            (1.2..=3.0).contains(&ratio),
+            (1.5..=3.0).contains(&ratio),
             range,
         )?;
         let gravity = self.gravity;
@@ -210,7 +213,8 @@ impl SolverSettings {
             "above zero (m/s)",
         )?;
         let mu = self.viscosity;
-        require("solver.viscosity", mu, mu >= 0.0, "zero or more")?;
+        let share = "between 0 and 1 (a share of relative velocities)";
+        require("solver.viscosity", mu, (0.0..=1.0).contains(&mu), share)?;
         for (field, value) in [
             ("vorticity", self.vorticity),
             ("cohesion", self.cohesion),

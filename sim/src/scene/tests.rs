@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 use super::*;
+use proptest::prelude::*;
 
 /// Two flasks of water, small, that the cases below break in one place each.
 const GOOD: &str = r#"
@@ -77,6 +78,41 @@ fn malformed_scenes_name_file_field_and_remedy() {
         ),
         ("0.005", "\"wide\"", &["invalid type", "line 6"]),
         ("omega = 0.5", "omega = 3.0", &["solver.omega", "below 2"]),
+        (
+            "substeps = 3",
+            "substeps = 1",
+            &["solver.substeps", "leap out", "take 2 or more"],
+        ),
+        (
+            "viscosity = 0.1",
+            "viscosity = 1.5",
+            &["solver.viscosity", "between 0 and 1"],
+        ),
+        (
+            "frame_time = 0.01",
+            "frame_time = 5.0",
+            &["scale.frame_time", "at most 0.1"],
+        ),
+        (
+            "support_ratio = 2.0",
+            "support_ratio = 1.2",
+            &["scale.support_ratio", "between 1.5 and 3"],
+        ),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[10000.0, 0.5, 0.0]",
+            &["flask[1].position", "`origin`"],
+        ),
+        (
+            "model = []",
+            "model = []\norigin = [0.0, inf, 0.0]",
+            &["origin", "inf"],
+        ),
+        (
+            "temperature = 20.0\nacid_fraction = 0.0\n",
+            "temperature = 400.0\nacid_fraction = 0.0\n[physical]\n",
+            &["liquid[0].temperature", "no mixture"],
+        ),
         (
             "substeps = 3",
             "substeps = 0",
@@ -356,4 +392,107 @@ fn a_scene_chooses_its_filter() {
     assert_eq!(filter(flow), PictureFilter::CurvatureFlow);
     let error = with("gaussian").unwrap_err().to_string();
     assert!(error.contains("narrow-range"), "{error}");
+}
+
+/// A whole scene elsewhere is the same scene.
+#[test]
+fn a_scene_far_off_is_the_same_but_for_its_origin() {
+    let near = Scene::parse(GOOD, "near.toml").unwrap();
+    let text = GOOD.replace("model = []", "origin = [1e7, -3.0, 0.125]\nmodel = []");
+    let far = Scene::parse(&text, "far.toml").unwrap();
+    assert_eq!(far.origin, DVec3::new(1e7, -3.0, 0.125));
+    let moved = Scene {
+        origin: DVec3::ZERO,
+        ..far
+    };
+    assert_eq!(moved, near);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None,
+        ..ProptestConfig::default() })]
+
+    /// Any number of the file may become any other: the scene is refused by name,
+    /// or it can be filled, under all of its presets.
+    #[test]
+    fn a_changed_number_is_refused_or_can_be_filled(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), numbers()), 1..4),
+    ) {
+        let text = GOOD.to_owned() + "[preset.fast]\nsubsteps = 4\nspacing = 0.006\n";
+        let text = edits.iter().fold(text, |text, (at, number)| {
+            let places: Vec<_> = number_places(&text);
+            let place = places[at.index(places.len())].clone();
+            text[..place.start].to_owned() + number + &text[place.end..]
+        });
+        match Scene::parse(&text, "edited.toml") {
+            Err(error) => prop_assert!(error.to_string().starts_with("edited.toml: ")),
+            Ok(scene) => {
+                for preset in [Preset::Fast, Preset::Balanced] {
+                    let scene = scene.with_preset(preset);
+                    let count: usize =
+                        scene.liquids.iter().map(|l| scene.particle_count(l)).sum();
+                    let start = scene.start(Some(1)).unwrap();
+                    prop_assert_eq!(start.len(), count);
+                    prop_assert!(start.iter().all(|p| p.position.is_finite()));
+                }
+            }
+        }
+    }
+
+    /// Any list of points is a vessel whose tables are sound, or a message.
+    #[test]
+    fn any_points_are_a_profile_or_a_message(
+        points in prop::collection::vec((coordinate(), coordinate()), 0..8),
+        wall in coordinate(),
+    ) {
+        let points: Vec<[f64; 2]> = points.into_iter().map(|(y, r)| [y, r]).collect();
+        if let Ok(profile) = Profile::new(&points, wall) {
+            prop_assert!(profile.capacity().is_finite() && profile.capacity() >= 0.0);
+            prop_assert!(profile.glass_volume() > 0.0);
+            prop_assert!(profile.radius_table().iter().all(|r| r.is_finite() && *r >= 0.0));
+            let level = profile.level_for_volume(0.5 * profile.capacity());
+            prop_assert!(level.is_some_and(|y| {
+                (profile.floor_height()..=profile.rim_height()).contains(&y)
+            }));
+        }
+    }
+}
+
+/// Coordinates of vessels, and what is none.
+fn coordinate() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        6 => 0.0..0.2f64,
+        1 => Just(0.0),
+        1 => -0.1..0.1f64,
+        1 => prop::num::f64::ANY,
+    ]
+}
+
+/// Numbers as a file may have them; not such as ask for millions of particles.
+fn numbers() -> impl Strategy<Value = String> {
+    prop_oneof![
+        4 => (0.002..2.0f64).prop_map(|number| format!("{number:?}")),
+        1 => (-10i32..100).prop_map(|number| number.to_string()),
+        1 => prop::sample::select(vec!["nan", "inf", "-inf", "-0.0", "1e300", "-1e-300", "0.0"])
+            .prop_map(str::to_owned),
+        1 => (-5.0..5.0f64).prop_map(|number| format!("{number:?}")),
+    ]
+}
+
+/// Where the numbers of a file are.
+fn number_places(text: &str) -> Vec<std::ops::Range<usize>> {
+    let mut places = Vec::new();
+    let mut start = None;
+    for (at, c) in text.char_indices() {
+        let part = c.is_ascii_digit() || (start.is_some() && ".e-+".contains(c));
+        match (part, start) {
+            (true, None) => start = Some(at),
+            (false, Some(from)) => {
+                places.push(from..at);
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    places
 }

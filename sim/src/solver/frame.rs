@@ -277,6 +277,7 @@ impl Solver {
             .write("agitations", &b.agitation)
             .write("bulk", &b.bulk)
             .write("velocity", &b.velocity)
+            .write("counters", &b.counters)
             .constants(step)
             .invocations(self.count * self.lanes)?;
         Ok(())

@@ -2,6 +2,7 @@
 
 use crate::common::{particles as particles_of, *};
 use glam::DVec3;
+use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
 use vitriol_sim::flask::particles::sample;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -83,6 +84,72 @@ fn a_list_that_overflows_is_counted() {
     let list = List::of(&solver.snapshot().unwrap());
     assert!(list.neighbours.iter().all(|row| row.len() == 72));
     assert_eq!(solver.counters().unwrap().list_overflows, 74);
+}
+
+/// In a crowd that no list holds, some pairs are known to one side alone. What such
+/// a pair exchanged would come from nowhere.
+#[test]
+fn full_lists_make_no_acid() {
+    let device = gpu::device();
+    let p = Parameters {
+        chemistry: Some(Chemistry::Paper(Paper {
+            dilution: Some(PaperDilution {
+                ambient: 20.0,
+                heat_diffusivity: 1e-5,
+                acid_diffusivity: 1e-5,
+                heat_generation: 0.0,
+            }),
+            boiling: None,
+        })),
+        ..weightless()
+    };
+    let mut random = Random(3);
+    // A dense ball in a thin cloud: its edge has whole lists beside full ones.
+    let all: Vec<_> = (0..400)
+        .map(|i| {
+            let place = random.point(if i < 150 { 0.004 } else { 0.02 });
+            Particle {
+                acid: random.number(),
+                ..drop_at(place, DVec3::ZERO)
+            }
+        })
+        .collect();
+    let solver = Setup::new(p, Vec::new(), all).solver(&device);
+    let sum = || -> f64 {
+        let state = solver.snapshot().unwrap();
+        state.heat.iter().map(|heat| f64::from(heat[1])).sum()
+    };
+    let before = sum();
+    frames(&device, &solver, &[], 4);
+    let counters = solver.counters().unwrap();
+    assert!(counters.list_overflows > 100, "{counters:?}");
+    // Rounding of 400 sums in f32.
+    let drift = (sum() - before).abs() / before;
+    assert!(drift < 1e-6, "{drift}");
+}
+
+/// Cohesion that would throw a pair together in a substep: line 24 holds after the
+/// forces as well.
+#[test]
+fn speed_is_limited_after_the_forces_too() {
+    let device = gpu::device();
+    let p = Parameters {
+        max_speed: 0.5,
+        cohesion: 1e4,
+        ..weightless()
+    };
+    let pair = vec![
+        drop_at(DVec3::ZERO, DVec3::ZERO),
+        drop_at(DVec3::X * 0.7 * H, DVec3::ZERO),
+    ];
+    let solver = Setup::new(p, Vec::new(), pair).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let found = particles(&solver.snapshot().unwrap());
+    for particle in found {
+        let speed = particle.velocity.length();
+        assert!((speed - 0.5).abs() < 1e-5, "{speed}");
+    }
+    assert_eq!(solver.counters().unwrap().speed_limited, 2);
 }
 
 /// A lump in the middle of the glass that its own pressure throws against the

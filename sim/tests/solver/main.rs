@@ -14,6 +14,7 @@ mod loads;
 mod neighbours;
 mod open_space;
 mod passes;
+mod random_glass;
 mod repeat;
 mod rest;
 mod solids;

@@ -76,12 +76,15 @@ impl Session {
 
     /// Finds the steps that are due, with the poses of their own times.
     fn plan_steps(&mut self, now: PoseFrame) {
-        let frame_time = self.bench.world.scene().scale.frame_time;
+        let scene = self.bench.world.scene();
+        let frame_time = scene.scale.frame_time;
+        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
         let due = self.clock.advance(now.info.xr_time, frame_time);
         if let (Some(last), Some(placed)) = (&self.last, &self.placed) {
             let passed = (now.info.xr_time - last.info.xr_time) as f64;
             for s in due.ends {
-                let mut frame = placement::in_scene(&last.between(&now, s), placed);
+                let frame = placement::in_scene(&last.between(&now, s), placed);
+                let mut frame = placement::shifted(frame, origin);
                 frame.info.xr_time = last.info.xr_time + (f64::from(s) * passed).round() as i64;
                 self.due.push(frame);
             }
@@ -100,9 +103,8 @@ impl Session {
         frame.time_ns = nanoseconds(&self.time);
         frame.scenario = std::mem::take(&mut self.switches);
         let world = &mut self.bench.world;
-        let scale = world.scene().scale;
-        let hands = frame.hands.each_ref();
-        let hands = hands.map(|hand| experiment::grip(hand, scale.length_scale));
+        let frame_time = world.scene().scale.frame_time;
+        let hands = experiment::hands(&frame.hands, world.scene());
         world
             .step_on(QueueKind::Async, &StepInput { hands })
             .other()?;
@@ -110,7 +112,7 @@ impl Session {
         if let Some(recording) = &mut self.recording {
             recording.push(&frame, experiment::flasks(world));
         }
-        self.time.advance(scale.frame_time);
+        self.time.advance(frame_time);
         Ok(())
     }
 

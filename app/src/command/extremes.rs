@@ -1,0 +1,124 @@
+//! `vitriol extremes`: many cases, each of something extreme.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+
+use crate::cli::ExtremesArgs;
+use crate::console::{Format, emit};
+use crate::device;
+use crate::extremes::{Case, Finding, Verdict, cases, describe, judge, summary};
+use crate::failure::{Blame, Failure};
+use crate::output;
+
+/// The numbers' name in the folder.
+const NUMBERS: &str = "extremes.json";
+
+/// Runs `vitriol extremes`.
+///
+/// # Errors
+/// [`Failure::NoDevice`]; [`Failure::Input`] where the file exists already or there
+/// is no such case; [`Failure::Other`] where device or folder fails, or a case does.
+pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
+    let wanted = match args.only {
+        Some(only) => cases(only + 1, args.seed).split_off(only),
+        None => cases(args.cases, args.seed),
+    };
+    let file = match &args.out {
+        Some(folder) => Some(output::new_file(folder, NUMBERS).map_err(output::blame)?),
+        None => None,
+    };
+    let gpu = device::open(args.device.as_deref(), false)?;
+    let begin = Instant::now();
+    let found = judge_all(&gpu, &wanted, args.jobs as usize)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    if let (Some(folder), Some([case])) =
+        (&args.out, wanted.get(..1).filter(|_| args.only.is_some()))
+    {
+        let name = format!("case-{}.toml", case.number);
+        let path = output::new_file(folder, &name).map_err(output::blame)?;
+        output::write_new(&path, case.recipe.text().as_bytes()).map_err(output::blame)?;
+    }
+    let all = summary(device::statement(&gpu), args.seed, &found, seconds);
+    if let Some(path) = file {
+        let json = serde_json::to_vec_pretty(&all).other()?;
+        output::write_new(&path, &json).map_err(output::blame)?;
+    }
+    match (args.only, &found[..]) {
+        (Some(_), [finding]) => emit(format, finding, describe_one)?,
+        _ => emit(format, &all, describe)?,
+    }
+    if all.failed > 0 {
+        return Err(format!("{} of {} cases failed", all.failed, all.cases)).other();
+    }
+    Ok(())
+}
+
+/// Judges cases, `jobs` at a time: most of a small case is the host's work.
+///
+/// # Errors
+/// The first of what the device says.
+pub fn judge_all(gpu: &Gpu, cases: &[Case], jobs: usize) -> Result<Vec<Finding>, Failure> {
+    let library = Library::embedded();
+    let next = AtomicUsize::new(0);
+    let found: Mutex<Vec<Result<Finding, Failure>>> = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.max(1) {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let finding = judge(gpu, &library, case);
+                    tracing::info!("{} {}", case.number, case.label());
+                    let failed = finding.is_err();
+                    if let Ok(mut found) = found.lock() {
+                        found.push(finding);
+                    }
+                    if failed {
+                        next.store(cases.len(), Ordering::Relaxed);
+                    }
+                }
+            });
+        }
+    });
+    let found = found
+        .into_inner()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+    found.sort_by_key(|finding| finding.case);
+    Ok(found)
+}
+
+fn describe_one(finding: &Finding) -> String {
+    let verdict = match &finding.verdict {
+        Verdict::Passed => "passed".to_owned(),
+        Verdict::Refused { message } => format!("refused at load: {message}"),
+        Verdict::Failed { reasons } => format!("FAILED: {}", reasons.join("; ")),
+    };
+    let limiters: Vec<String> = finding
+        .limiters
+        .iter()
+        .map(|(name, times)| format!("{name}: {times}"))
+        .collect();
+    format!(
+        "case {}: {}\n{verdict}\n{} particles, {} steps; speed {:.4} of v_max, energy {:.4} of \
+         what was turned over, {:.4} m/s at the end\nacid {:.1e}, mass {:.1e}, enthalpy {:.1e}\n\
+         limiters: {}",
+        finding.case,
+        finding.label,
+        finding.particles,
+        finding.steps,
+        finding.speed_over_max,
+        finding.energy_excess,
+        finding.end_speed,
+        finding.drifts[0],
+        finding.drifts[1],
+        finding.drifts[2],
+        if limiters.is_empty() {
+            "none acted".into()
+        } else {
+            limiters.join(", ")
+        }
+    )
+}

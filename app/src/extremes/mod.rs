@@ -1,0 +1,18 @@
+//! Cases at the extremes of scene, parameter and motion, and what each of them
+//! has to keep.
+//!
+//! A case is a scene as text, since what cannot be simulated has to be refused
+//! where a scene is loaded; a script for one hand; and where scenes cannot say it, a
+//! changed state at the start. All of it follows from the case's number and the seed.
+
+mod case;
+mod drive;
+mod extreme;
+mod judge;
+mod motion;
+mod recipe;
+mod report;
+
+pub use case::{Case, cases};
+pub use judge::{Finding, Verdict, judge};
+pub use report::{Extremes, describe, summary};

@@ -1,0 +1,270 @@
+//! The scenes that cases start from, and what of them an extreme changes.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use super::motion::Motion;
+
+/// Which scene a case changes.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Base {
+    /// Water in a glass, at real size.
+    Water,
+    /// The paper's world and chemistry, Table 1: water over acid.
+    Paper,
+    /// Likewise at real size, by the physical chemistry with all of its parts.
+    Physical,
+}
+
+impl Base {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Water, Self::Paper, Self::Physical];
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Water => "water",
+            Self::Paper => "paper",
+            Self::Physical => "physical",
+        }
+    }
+}
+
+/// Where particles are at the start beside where the filling puts them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Crowd {
+    /// Nowhere else.
+    Filled,
+    /// This share of them in one place.
+    OnePlace(f64),
+    /// All in a ball of this radius, support radii: more neighbours than a list
+    /// holds.
+    Ball(f64),
+}
+
+/// One case's scene, lengths in particle spacings where they are the flask's.
+#[derive(Clone, Debug)]
+pub struct Recipe {
+    pub base: Base,
+    pub spacing: f64,
+    pub support_ratio: f64,
+    pub frame_time: f64,
+    pub gravity: f64,
+    pub rest_density: f64,
+    pub length_scale: f64,
+    pub substeps: u32,
+    pub iterations: u32,
+    pub chebyshev: bool,
+    pub omega: f64,
+    pub carry: f64,
+    pub v_max: f64,
+    pub boundary_particles: bool,
+    pub viscosity: f64,
+    /// Inner radius and height over d.
+    pub radius: f64,
+    pub height: f64,
+    /// Particles; `None` to the brim.
+    pub particles: Option<u32>,
+    /// Temperatures (°C) of the lower and the upper liquid; those of water the same.
+    pub temperatures: [f64; 2],
+    pub k_v: f64,
+    pub boiling_point: f64,
+    /// Diffusivities over those of the base.
+    pub diffusion: f64,
+    pub upside_down: bool,
+    /// Where the scene is in the stage, metres.
+    pub origin: [f64; 3],
+    /// How far its places are off from its origin, metres.
+    pub place: [f64; 3],
+    pub crowd: Crowd,
+    pub motion: Motion,
+}
+
+impl Recipe {
+    /// The scene as it is without any extreme.
+    pub fn of(base: Base) -> Self {
+        let real = Self {
+            base,
+            spacing: 0.0025,
+            support_ratio: 2.0,
+            frame_time: 1.0 / 90.0,
+            gravity: 9.81,
+            rest_density: 1000.0,
+            length_scale: 1.0,
+            substeps: 10,
+            iterations: 3,
+            chebyshev: true,
+            omega: 0.33,
+            carry: 0.005,
+            v_max: 10.0,
+            boundary_particles: false,
+            viscosity: 0.05,
+            radius: 5.0,
+            height: 24.0,
+            particles: Some(400),
+            temperatures: [20.0; 2],
+            k_v: 1.0,
+            boiling_point: 100.0,
+            diffusion: 1.0,
+            upside_down: false,
+            origin: [0.0; 3],
+            place: [0.0; 3],
+            crowd: Crowd::Filled,
+            motion: Motion::Still,
+        };
+        match base {
+            Base::Water | Base::Physical => real,
+            Base::Paper => Self {
+                spacing: 0.05,
+                frame_time: 1.0 / 60.0,
+                length_scale: 0.05,
+                substeps: 3,
+                iterations: 2,
+                chebyshev: false,
+                omega: 0.35,
+                carry: 0.0,
+                v_max: 25.0,
+                viscosity: 0.3,
+                ..real
+            },
+        }
+    }
+
+    /// Δt_s, s.
+    pub fn substep(&self) -> f64 {
+        self.frame_time / f64::from(self.substeps)
+    }
+
+    /// Support radius h, m.
+    pub fn support(&self) -> f64 {
+        self.spacing * self.support_ratio
+    }
+
+    /// Where the flask's base stands.
+    pub fn flask_position(&self) -> [f64; 3] {
+        let [x, y, z] = self.place;
+        let up = if self.upside_down {
+            (self.height + WALL + 1.0) * self.spacing
+        } else {
+            0.0
+        };
+        [x, y + TABLE * self.spacing + up, z]
+    }
+
+    /// Diffusivities D_T and D_c of the paper's chemistry, m²/s.
+    pub fn diffusivities(&self) -> [f64; 2] {
+        [0.01, 0.007].map(|d| d * self.diffusion)
+    }
+
+    /// The scene's file.
+    pub fn text(&self) -> String {
+        let mut t = String::new();
+        let d = self.spacing;
+        let model = match self.base {
+            Base::Water => "",
+            Base::Paper => "\"heat\", \"dilution\", \"boiling\"",
+            Base::Physical => {
+                "\"heat\", \"dilution\", \"boiling\", \"density\", \"viscosity\", \
+                 \"evaporation\", \"steam\", \"losses\""
+            }
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(
+            t,
+            "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = [{model}]\n\
+             origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
+             rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
+             [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{}\"\nomega = {:?}\n\
+             carry = {:?}\nv_max = {:?}\nboundary = \"{}\"\nviscosity = {:?}\n",
+            self.origin,
+            self.support_ratio,
+            self.frame_time,
+            self.gravity,
+            self.rest_density,
+            self.length_scale,
+            self.substeps,
+            self.iterations,
+            if self.chebyshev {
+                "chebyshev"
+            } else {
+                "jacobi"
+            },
+            self.omega,
+            self.carry,
+            self.v_max,
+            if self.boundary_particles {
+                "particles"
+            } else {
+                "map"
+            },
+            self.viscosity,
+        );
+        let [d_t, d_c] = self.diffusivities();
+        let _ = match self.base {
+            Base::Water => Ok(()),
+            Base::Paper => write!(
+                t,
+                "[paper]\nT_a = 20.0\nT_B = {:?}\nk_d = 0.017\nk_v = {:?}\nD_T = {d_t:?}\n\
+                 D_c = {d_c:?}\n",
+                self.boiling_point, self.k_v
+            ),
+            Base::Physical => write!(
+                t,
+                "[physical]\nambient = 20.0\nmixing = {:?}\nlewis = 0.7\nsuperheat_time = 0.4\n\
+                 bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
+                0.041 * self.diffusion,
+                0.005 * self.k_v
+            ),
+        };
+        let [x, y, z] = self.place;
+        let [fx, fy, fz] = self.flask_position();
+        let roll = if self.upside_down { 180.0 } else { 0.0 };
+        let (height, radius) = (self.height * d, self.radius * d);
+        // The table is wider than any flask here.
+        let side = (2.0 * (self.radius + 60.0)) * d;
+        let _ = write!(
+            t,
+            "[table]\ntop = {:?}\ncentre = [{x:?}, {z:?}]\nsize = [{side:?}, {side:?}]\n\
+             [floor]\nheight = {y:?}\n\
+             [[flask]]\nname = \"glass\"\npoints = [[0.0, {radius:?}], [{height:?}, {radius:?}]]\n\
+             wall = {:?}\nposition = [{fx:?}, {fy:?}, {fz:?}]\nrotation = [0.0, 0.0, {roll:?}]\n\
+             fixed = {}\n",
+            y + TABLE * d,
+            WALL * d,
+            self.upside_down,
+        );
+        let halves = match self.particles {
+            Some(count) => [count / 2, count - count / 2].map(|n| format!("particles = {n}")),
+            None => ["fraction = 0.5".to_owned(), "fraction = 0.5".to_owned()],
+        };
+        let acids = if self.base == Base::Water {
+            [0.0; 2]
+        } else {
+            [0.98, 0.0]
+        };
+        for ((amount, temperature), acid) in halves.iter().zip(self.temperatures).zip(acids) {
+            let _ = write!(
+                t,
+                "[[liquid]]\nflask = \"glass\"\n{amount}\ntemperature = {temperature:?}\n\
+                 acid_fraction = {acid:?}\n"
+            );
+        }
+        t
+    }
+
+    /// Depth of the liquid in the flask, m.
+    pub fn depth(&self) -> f64 {
+        let full = self.height * self.spacing;
+        match self.particles {
+            Some(count) => {
+                let area = PI * self.radius * self.radius;
+                (f64::from(count) / area * self.spacing).min(full)
+            }
+            None => full,
+        }
+    }
+}
+
+/// Wall and height of the table's top over d.
+const WALL: f64 = 0.8;
+const TABLE: f64 = 100.0;

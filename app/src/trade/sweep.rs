@@ -1,0 +1,134 @@
+//! Which settings are tried.
+
+use vitriol_sim::scene::{Preset, Scene};
+
+use super::setting::{Knob, Setting};
+use super::tank::VOLUME;
+
+/// Carried share where it is not a preset's own.
+const CARRY: f64 = 0.005;
+
+/// The finest setting, beyond all presets, with `particles` of them: what the f64
+/// reference vouches for, and what poured volumes are compared with.
+pub fn finest(scene: &Scene, particles: f64) -> Setting {
+    let fine = Setting {
+        substeps: 24,
+        ..Setting::of(scene, Preset::Reference)
+    };
+    fine.with_particles(particles, VOLUME)
+}
+
+/// Every setting once: the presets, one knob at a time from each of them, and the
+/// pairs that are known to matter. `quick` is what two cores do in some minutes.
+pub fn sweep(scene: &Scene, quick: bool) -> Vec<(Preset, Knob, Setting)> {
+    let mut all: Vec<(Preset, Knob, Setting)> = Vec::new();
+    let mut add = |preset, knob, setting: Setting| {
+        if !all.iter().any(|(_, _, known)| *known == setting) {
+            all.push((preset, knob, setting));
+        }
+    };
+    let presets = [Preset::Fast, Preset::Balanced, Preset::Reference];
+    let of = |preset| {
+        let own = Setting::of(scene, preset);
+        if quick {
+            own.with_particles(4_000.0, VOLUME)
+        } else {
+            own
+        }
+    };
+    for preset in presets {
+        add(preset, Knob::Preset, of(preset));
+    }
+    let turned = if quick { &presets[1..2] } else { &presets[..] };
+    for &preset in turned {
+        for (knob, setting) in one_at_a_time(of(preset), quick) {
+            add(preset, knob, setting);
+        }
+    }
+    if !quick {
+        for (knob, setting) in pairs(of(Preset::Balanced)) {
+            add(Preset::Balanced, knob, setting);
+        }
+    }
+    all
+}
+
+fn one_at_a_time(own: Setting, quick: bool) -> Vec<(Knob, Setting)> {
+    let mut all = Vec::new();
+    let all_of = |knob, settings: Vec<Setting>| settings.into_iter().map(move |s| (knob, s));
+    let substeps: &[u32] = if quick {
+        &[6, 16]
+    } else {
+        &[5, 6, 8, 10, 12, 16]
+    };
+    let of_substeps = substeps.iter().map(|&substeps| Setting { substeps, ..own });
+    all.extend(all_of(Knob::Substeps, of_substeps.collect()));
+    let iterations: &[u32] = if quick {
+        &[1, 2, 6]
+    } else {
+        &[1, 2, 3, 4, 6, 8]
+    };
+    let of_iterations = iterations
+        .iter()
+        .map(|&iterations| Setting { iterations, ..own });
+    all.extend(all_of(Knob::Iterations, of_iterations.collect()));
+    let jacobi = Setting {
+        chebyshev: false,
+        omega: 0.35,
+        carry: 0.0,
+        ..own
+    };
+    let cold = Setting { carry: 0.0, ..own };
+    all.extend(all_of(Knob::Acceleration, vec![jacobi, cold]));
+    if quick {
+        return all;
+    }
+    let particles = [4e3, 8e3, 14e3, 28e3, 56e3, 110e3, 200e3];
+    let of_particles = particles.map(|n| own.with_particles(n, VOLUME));
+    all.extend(all_of(Knob::Particles, of_particles.to_vec()));
+    let rates = [45.0, 60.0, 120.0, 240.0];
+    let of_rates = rates.map(|rate| Setting {
+        frame_time: 1.0 / rate,
+        ..own
+    });
+    all.extend(all_of(Knob::FrameTime, of_rates.to_vec()));
+    let solids = Setting {
+        boundary_particles: true,
+        ..own
+    };
+    all.extend(all_of(Knob::Boundary, vec![solids]));
+    let ratios = [1.6, 1.8, 2.3, 2.6].map(|support_ratio| Setting {
+        support_ratio,
+        ..own
+    });
+    all.extend(all_of(Knob::Support, ratios.to_vec()));
+    let margins = [0.05, 0.1, 0.25, 0.35].map(|list_margin| Setting { list_margin, ..own });
+    all.extend(all_of(Knob::Margin, margins.to_vec()));
+    all
+}
+
+/// From the setting in the middle.
+fn pairs(own: Setting) -> Vec<(Knob, Setting)> {
+    let mut all = Vec::new();
+    for substeps in [6, 8, 10, 12] {
+        for iterations in [1, 2, 4, 6, 8] {
+            let setting = Setting {
+                substeps,
+                iterations,
+                carry: CARRY,
+                ..own
+            };
+            all.push((Knob::SubstepsIterations, setting));
+        }
+    }
+    for particles in [4e3, 28e3, 56e3] {
+        for rate in [60.0, 120.0, 180.0] {
+            let setting = Setting {
+                frame_time: 1.0 / rate,
+                ..own.with_particles(particles, VOLUME)
+            };
+            all.push((Knob::ParticlesFrameTime, setting));
+        }
+    }
+    all
+}

@@ -1,0 +1,68 @@
+//! What cannot be simulated is refused before it begins.
+
+use super::Scene;
+use super::error::Problem;
+
+/// Steps of single precision between 1 and 2.
+const PRECISION: f64 = 8_388_608.0;
+
+/// Δt_s over its limit 0.4 d/√(gH) beyond which a column no longer stands. Up to
+/// the limit it is calm, between the two it is compressed but bounded
+/// (docs/solver.md); at twice the limit, deep ones leave their vessel.
+const LONGEST_SUBSTEP: f64 = 1.75;
+
+impl Scene {
+    /// Whether all is so near to the scene's origin that single precision still
+    /// tells a wall from the margin before it, 0.001 h: beyond, liquid would be
+    /// found in glass.
+    pub(super) fn check_reach(&self) -> Result<(), Problem> {
+        let reach = 0.5 * PRECISION * 0.001 * self.scale.support();
+        let flasks = (0..).zip(&self.flasks).map(|(index, flask)| {
+            let place = flask.stage_from_flask.position.abs().max_element();
+            (format!("flask[{index}].position"), f64::from(place))
+        });
+        let table = self.table.map(|table| {
+            let centre = table.centre[0].abs().max(table.centre[1].abs());
+            ("table".to_owned(), centre.max(table.top.abs()))
+        });
+        for (field, place) in flasks.chain(table) {
+            if place > reach {
+                let problem = format!(
+                    "{place:.0} m from the scene's origin, where particles of {} m are told from \
+                     walls up to {reach:.0} m off; give places by a nearer one, and say in \
+                     `origin` where that is",
+                    self.scale.spacing
+                );
+                return Err(Problem::new(field, problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the liquid of every flask stands up under the scene's substep.
+    pub(super) fn check_substep(&self) -> Result<(), Problem> {
+        let (scale, solver) = (&self.scale, &self.solver);
+        let substep = scale.frame_time / f64::from(solver.substeps);
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let liquids = self.liquids.iter().filter(|liquid| liquid.flask == index);
+            let volume: f64 = liquids.map(|liquid| liquid.volume).sum();
+            let full = flask.profile.rim_height();
+            let level = flask.profile.level_for_volume(volume).unwrap_or(full);
+            if volume <= 0.0 || scale.gravity <= 0.0 {
+                continue;
+            }
+            let depth = (level - flask.profile.floor_height()).max(scale.spacing);
+            let limit = LONGEST_SUBSTEP * 0.4 * scale.spacing / (scale.gravity * depth).sqrt();
+            if substep > limit {
+                let needed = (scale.frame_time / limit).ceil();
+                let problem = format!(
+                    "{} in {} s are too long for the {depth:.3} m of liquid in {:?}, which would \
+                     leap out; take {needed} or more, a shorter frame_time, or a larger spacing",
+                    solver.substeps, scale.frame_time, flask.name
+                );
+                return Err(Problem::new("solver.substeps", problem));
+            }
+        }
+        Ok(())
+    }
+}
