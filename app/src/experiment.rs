@@ -187,17 +187,13 @@ impl Experiment for Laboratory {
             view.position -= origin.as_vec3();
             camera.follow(&view);
         }
-        let scene = self.world.scene();
-        let frame_time = scene.scale.frame_time;
-        let origin = scene.origin.as_vec3();
-        let length_scale = scene.scale.length_scale;
-        let hands = frame.hands.each_ref().map(|hand| {
-            let mut hand = grip(hand, length_scale);
-            hand.stage_from_grip.position -= origin;
-            hand
-        });
+        let scale = self.world.scene().scale;
+        let hands = hands(&frame.hands, self.world.scene());
         self.world.step(&StepInput { hands }).map_err(blame_world)?;
-        Ok(Taken { frame_time, anew })
+        Ok(Taken {
+            frame_time: scale.frame_time,
+            anew,
+        })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
@@ -271,9 +267,19 @@ impl Experiment for Laboratory {
     }
 }
 
+/// Recorded hands in the simulation's terms, where the scene is near its own origin.
+pub fn hands(hands: &[Hand; 2], scene: &Scene) -> [bodies::Hand; 2] {
+    let origin = scene.origin.as_vec3();
+    hands.each_ref().map(|hand| {
+        let mut hand = grip(hand, scene.scale.length_scale);
+        hand.stage_from_grip.position -= origin;
+        hand
+    })
+}
+
 /// A recorded hand in the simulation's terms, in the frame of the scene's file.
 /// Hands move in real metres, the scene in its own.
-pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,
@@ -286,8 +292,10 @@ pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
 
 /// stage_from_flask of each flask as a track keeps it, in real metres.
 pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
-    let scale = world.scene().scale.length_scale as f32;
-    let real = |pose: &Pose| vitriol_xr::Pose::new(scale * pose.position, pose.orientation);
+    let scene = world.scene();
+    let (scale, origin) = (scene.scale.length_scale as f32, scene.origin.as_vec3());
+    let real =
+        |pose: &Pose| vitriol_xr::Pose::new(scale * (pose.position + origin), pose.orientation);
     world.poses().iter().map(real).collect()
 }
 

@@ -67,6 +67,8 @@ pub struct World {
     solver: Solver,
     /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
     loads: VecDeque<PendingLoad>,
+    /// By flask: what [`World::stirring`] says.
+    stirring: Vec<f32>,
     step: u64,
     last: Option<Ticket>,
 }
@@ -131,6 +133,7 @@ impl World {
             solver: Solver::new(gpu, library, &spec)?,
             scene: scene.clone(),
             loads: VecDeque::new(),
+            stirring: vec![0.0; scene.flasks.len()],
             step: 0,
             last: None,
         })
@@ -210,6 +213,13 @@ impl World {
     /// Index of the hand that holds a flask.
     pub fn holder(&self, flask: usize) -> Option<usize> {
         self.bodies.holder(flask)
+    }
+
+    /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it
+    /// boils and sloshes there. As it was [`LOAD_DELAY`] steps ago, so that nobody waits for it;
+    /// 0 of a flask that is not there, and where no flask can be lifted.
+    pub fn stirring(&self, flask: usize) -> f32 {
+        self.stirring.get(flask).copied().unwrap_or(0.0)
     }
 
     /// What the liquid did to each flask in the last step, which acts on it
@@ -294,7 +304,11 @@ impl World {
         let Some(due) = self.loads.pop_front() else {
             return Ok(Vec::new());
         };
-        Ok(self.in_si(&due.read()?))
+        let loads = due.read()?;
+        for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
+            *stirring = sum.angular[3];
+        }
+        Ok(self.in_si(&loads))
     }
 
     fn in_si(&self, loads: &[LiquidLoad]) -> Vec<Load> {

@@ -2,8 +2,6 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 
 use serde::Serialize;
@@ -20,8 +18,8 @@ use crate::report::units::{grouped, three_digits};
 use crate::vr::bench::Plan;
 use crate::vr::menu;
 use crate::vr::record::Recorded;
-use crate::vr::session::{self, Decision, Options, Outcome, Session, WARM_UP};
-use crate::vr::stand_in::{PANEL, Pace, Ready, StandIn, StandInSpec};
+use crate::vr::session::{self, Decision, Options, Outcome, PANEL, Session, WARM_UP};
+use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
 use crate::vr::tally::{Holdings, Spread};
 
 /// What `vitriol vr` prints at the session's end.
@@ -94,7 +92,6 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         posture: args.posture,
         frames: args.frames,
         record: args.record.clone(),
-        leave: leaving()?,
     };
     let timed = args.frames.is_some();
     let (name, outcome, stand_in) = match &args.stand_in {
@@ -106,7 +103,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 pace: Pace::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
-            let outcome = Session::new(&headset, options, keys())?.run(&mut headset)?;
+            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
             (
                 headset.name().to_owned(),
                 outcome,
@@ -124,27 +121,25 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 panel: PANEL,
             })
             .map_err(session::blame)?;
-            let outcome = Session::new(&headset, options, keys())?.run(&mut headset)?;
+            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
             (headset.name().to_owned(), outcome, None)
         }
     };
     emit(format, &state(name, &outcome, stand_in)?, describe)
 }
 
-/// Set when the program is asked to end (Ctrl-C, SIGTERM): the runtime is told, and the recording
-/// is whole.
-fn leaving() -> Result<Arc<AtomicBool>, Failure> {
-    let leave = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&leave);
-    ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)).other()?;
-    Ok(leave)
-}
-
-/// What is typed into the terminal, a line each.
-fn keys() -> Receiver<Decision> {
+/// What is typed into the terminal, a line each; and the end, where the program is asked for it
+/// (Ctrl-C, SIGTERM): the runtime is told, and the recording is whole.
+fn keys() -> Result<Receiver<Decision>, Failure> {
     let (decisions, taken) = channel();
+    let asked = decisions.clone();
+    ctrlc::set_handler(move || {
+        // A session that has ended hears nothing.
+        let _ = asked.send(Decision::End);
+    })
+    .other()?;
     if std::io::stdin().is_terminal() {
-        tracing::info!("{}", menu::lines());
+        eprintln!("{}", menu::lines());
         std::thread::spawn(move || {
             for line in std::io::stdin().lines().map_while(Result::ok) {
                 let decided = line.trim().chars().next().and_then(menu::decision);
@@ -154,7 +149,7 @@ fn keys() -> Receiver<Decision> {
             }
         });
     }
-    taken
+    Ok(taken)
 }
 
 fn state(

@@ -6,8 +6,10 @@
 pub mod bench;
 pub mod clock;
 pub mod hands;
+pub mod haptics;
 pub mod inputs;
 pub mod menu;
+pub mod panel;
 pub mod picture;
 pub mod placement;
 pub mod record;

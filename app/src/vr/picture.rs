@@ -113,11 +113,16 @@ impl Picture {
     }
 
     /// Submits the part of a picture that reads the particles as they are after the last step,
-    /// behind it on its queue.
+    /// behind it on its queue; `also` records what else reads them.
     ///
     /// # Errors
     /// What the device says.
-    pub fn shapes(&self, gpu: &Gpu, world: &World) -> Result<Ticket, Failure> {
+    pub fn shapes(
+        &self,
+        gpu: &Gpu,
+        world: &World,
+        also: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
+    ) -> Result<Ticket, Failure> {
         let slot = self.drawn % 2;
         let mut rec = gpu.recorder(QueueKind::Async).other()?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_shapes(&mut rec, frame, slot);
@@ -130,6 +135,7 @@ impl Picture {
             };
             rec.copy(from, &copies[slot], &[whole]).other()?;
         }
+        also(&mut rec)?;
         // The picture that had this slot before.
         let before = self.under_way.iter().rev().nth(1);
         gpu.submit_after(rec, before.as_slice()).other()

@@ -1,31 +1,36 @@
-//! The frame loop.
+//! The session: the frame loop's turns, and what it is made of. A frame is in `frame`, what the user
+//! chooses in `choose`.
+
+mod choose;
+mod frame;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use vitriol_gpu::{QueueKind, Ticket};
+use vitriol_gpu::Ticket;
 use vitriol_shaders::Library;
-use vitriol_sim::world::StepInput;
+use vitriol_sim::solver::{FlaskReading, ReadingRecord};
 use vitriol_xr::track::TrackMetadata;
-use vitriol_xr::{Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, Shown, Switch, Turn};
+use vitriol_xr::{Headset, HeadsetError, Pose, PoseFrame, Switch, Turn};
 
 use super::bench::{Bench, Builder, Plan};
 use super::clock::StepClock;
-use super::hands;
-use super::inputs::{Buttons, Pressed, sound};
-use super::picture::{Eyes, Picture, Sight, eye};
-use super::placement::{self, Posture};
+use super::inputs::Buttons;
+use super::panel::Panel;
+use super::picture::Eyes;
+use super::placement::Posture;
 use super::record::{Recorded, Recording};
 use super::tally::{Holdings, Tally};
-use crate::experiment::{self, SWITCH_SCENE, SWITCH_START};
 use crate::failure::{Blame, Failure};
 use crate::replay::SimulatedTime;
 
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`].
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
+
+/// Width and height of the panel, pixels.
+pub const PANEL: [u32; 2] = [1024, 640];
 
 /// Frames before what is measured counts: a second and more, in which the driver compiles what it
 /// compiles late.
@@ -42,8 +47,6 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
-    /// Set from outside where the session is to end.
-    pub leave: Arc<AtomicBool>,
 }
 
 /// What the user wants.
@@ -117,6 +120,14 @@ pub struct Session {
     began_with: Option<Holdings>,
     /// Submissions of steps since the last picture.
     solved: Vec<Ticket>,
+    panel: Panel,
+    /// What was decided and not done yet.
+    wanted: Vec<Decision>,
+    /// A reading under way, and the last one that came.
+    reading: Option<(ReadingRecord, Ticket)>,
+    read: Vec<FlaskReading>,
+    /// Simulated time over display time, lately.
+    speed: f64,
 }
 
 impl Session {
@@ -132,11 +143,14 @@ impl Session {
     ) -> Result<Self, Failure> {
         let (gpu, eyes) = (headset.gpu(), Eyes::of(headset));
         let library = Arc::new(Library::embedded());
+        let bench = Bench::new(gpu, &library, &options.plan, &eyes)?;
+        // Last of what can fail: a session that never was leaves no file.
         let recording = options.record.as_ref().map(|file| {
             Recording::create(file, &metadata(&options.plan)).map_err(crate::command::track::blame)
         });
         Ok(Self {
-            bench: Bench::new(gpu, &library, &options.plan, &eyes)?,
+            bench,
+            panel: Panel::new(gpu, &library, PANEL)?,
             tally: Tally::new(gpu.options().timestamps),
             recording: recording.transpose()?,
             options,
@@ -156,6 +170,10 @@ impl Session {
             renewals: 0,
             began_with: None,
             solved: Vec::new(),
+            wanted: Vec::new(),
+            reading: None,
+            read: Vec::new(),
+            speed: 1.0,
         })
     }
 
@@ -166,9 +184,7 @@ impl Session {
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<Outcome, Failure> {
         let mut lost = false;
         loop {
-            if self.options.leave.swap(false, Ordering::Relaxed) {
-                headset.request_exit().map_err(blame)?;
-            }
+            self.hear(headset)?;
             match headset.next().map_err(blame)? {
                 Turn::Frame(frame) => {
                     self.frame(headset, &frame)?;
@@ -193,188 +209,6 @@ impl Session {
         }
     }
 
-    /// One frame, from after its begin to after its end.
-    fn frame(&mut self, headset: &mut dyn Headset, frame: &HeadsetFrame) -> Result<(), Failure> {
-        let begun = Instant::now();
-        self.count(frame);
-        let now = sound(&frame.poses, self.last.as_ref());
-        let pressed = self.buttons.advance(&now.hands);
-        self.decide(headset, pressed, frame.recentred, &now)?;
-        self.take_up_bench()?;
-        self.plan_steps(now);
-        // What would wait for the device waits until the frame has ended.
-        while !self.due.is_empty() && self.bench.world.is_ready().other()? {
-            self.take_step()?;
-        }
-        if frame.should_render {
-            self.draw(headset)?;
-        } else {
-            headset.end(None).map_err(blame)?;
-        }
-        self.tally.cpu_ms.push(milliseconds(begun.elapsed()));
-        self.after()
-    }
-
-    /// What may wait for the device: no frame is open now.
-    fn after(&mut self) -> Result<(), Failure> {
-        while !self.due.is_empty() {
-            self.take_step()?;
-        }
-        self.bench.picture.keep_up()?;
-        self.tally.collect()
-    }
-
-    fn count(&mut self, frame: &HeadsetFrame) {
-        self.frames += 1;
-        if self.frames == WARM_UP + 1 {
-            self.tally.restart();
-            self.skipped = 0;
-            self.began_with = Holdings::now();
-        }
-        let info = &frame.poses.info;
-        if let (Some(last), true) = (&self.last, info.period_ns > 0) {
-            let passed = info.xr_time.saturating_sub(last.info.xr_time) as f64;
-            let periods = (passed / info.period_ns as f64).round();
-            self.skipped += (periods - 1.0).max(0.0) as u64;
-        }
-    }
-
-    fn decide(
-        &mut self,
-        headset: &mut dyn Headset,
-        pressed: Pressed,
-        recentred: bool,
-        now: &PoseFrame,
-    ) -> Result<(), Failure> {
-        let mut recentre = pressed.recentre || recentred || self.placed.is_none();
-        let mut scene = pressed.start.then(|| self.bench.plan.scene.clone());
-        while let Ok(decision) = self.decisions.try_recv() {
-            match decision {
-                Decision::Scene(name) => scene = Some(name),
-                Decision::Start => scene = Some(self.bench.plan.scene.clone()),
-                Decision::Recentre => recentre = true,
-                Decision::End => headset.request_exit().map_err(blame)?,
-            }
-        }
-        if let Some(scene) = scene {
-            self.build(headset, scene);
-        }
-        if recentre {
-            let placed = placement::before(&now.stage_from_view, self.options.posture);
-            self.placed = Some(placed);
-            self.switch(SWITCH_PLACEMENT, placement::as_text(&placed));
-            // In between lies the leap from one stage to the other.
-            self.last = None;
-            self.clock.pause();
-        }
-        Ok(())
-    }
-
-    /// Begins to build a scene at its start.
-    fn build(&mut self, headset: &dyn Headset, scene: String) {
-        let same = scene == self.bench.plan.scene;
-        let switch = Switch {
-            key: if same { SWITCH_START } else { SWITCH_SCENE }.into(),
-            value: scene.clone(),
-        };
-        let plan = Plan {
-            scene,
-            ..self.bench.plan.clone()
-        };
-        let (gpu, eyes) = (headset.gpu(), self.eyes.clone());
-        let builder = Builder::start(gpu, &self.library, plan, eyes);
-        self.coming = Some(Coming { builder, switch });
-    }
-
-    /// Takes up the bench that was built meanwhile.
-    fn take_up_bench(&mut self) -> Result<(), Failure> {
-        let Some(coming) = self.coming.take_if(|coming| coming.builder.is_finished()) else {
-            return Ok(());
-        };
-        match coming.builder.finish() {
-            Ok(bench) => {
-                self.bench = bench;
-                self.switches.push(coming.switch);
-            }
-            Err(failure) => tracing::warn!("the bench stays as it is: {failure}"),
-        }
-        Ok(())
-    }
-
-    fn switch(&mut self, key: &str, value: String) {
-        self.switches.push(Switch {
-            key: key.into(),
-            value,
-        });
-    }
-
-    /// Finds the steps that are due, with the poses of their own times.
-    fn plan_steps(&mut self, now: PoseFrame) {
-        let frame_time = self.bench.world.scene().scale.frame_time;
-        let due = self.clock.advance(now.info.xr_time, frame_time);
-        if let (Some(last), Some(placed)) = (&self.last, &self.placed) {
-            for s in due.ends {
-                let mut frame = placement::in_scene(&last.between(&now, s), placed);
-                let passed = (now.info.xr_time - last.info.xr_time) as f64;
-                frame.info.xr_time = last.info.xr_time + (f64::from(s) * passed).round() as i64;
-                self.due.push(frame);
-            }
-        }
-        self.last = Some(now);
-    }
-
-    /// Takes the next step that is due.
-    fn take_step(&mut self) -> Result<(), Failure> {
-        let mut frame = self.due.remove(0);
-        frame.step = self.time.steps();
-        frame.time_ns = nanoseconds(&self.time);
-        frame.scenario = std::mem::take(&mut self.switches);
-        let world = &mut self.bench.world;
-        let scale = world.scene().scale;
-        let hands = frame
-            .hands
-            .each_ref()
-            .map(|hand| experiment::grip(hand, scale.length_scale));
-        let input = StepInput { hands };
-        world.step_on(QueueKind::Async, &input).other()?;
-        self.solved.extend(world.last_step().cloned());
-        if let Some(recording) = &mut self.recording {
-            recording.push(&frame, experiment::flasks(world));
-        }
-        self.time.advance(scale.frame_time);
-        Ok(())
-    }
-
-    fn draw(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
-        let targets = headset.acquire().map_err(blame)?;
-        let Bench { world, picture, .. } = &mut self.bench;
-        let gpu = world.gpu().clone();
-        let shapes = picture.shapes(&gpu, world)?;
-        let views = headset.locate_views().map_err(blame)?;
-        let located = Instant::now();
-        let placed = self.placed.unwrap_or(Pose::IDENTITY);
-        let beads = self.last.as_ref().map_or_else(Vec::new, |last| {
-            hands::beads(&placement::in_scene(last, &placed))
-        });
-        let sight = Sight {
-            views: views.each_ref().map(|view| eye(view, &placed)),
-            beads: &beads,
-        };
-        let drawn = picture.draw(world, shapes, &sight, &targets, |_| Ok(()))?;
-        self.tally.pose_age_ms.push(milliseconds(located.elapsed()));
-        let behind = self.clock.behind() / world.scene().scale.frame_time;
-        self.tally.delay_steps.push(behind + self.due.len() as f64);
-        let mut solved = std::mem::take(&mut self.solved);
-        solved.push(drawn.shapes);
-        self.tally.submitted(solved, drawn.picture);
-        let shown = Shown {
-            views,
-            near: Picture::near(),
-            panel: None,
-        };
-        headset.end(Some(&shown)).map_err(blame)
-    }
-
     /// The headset shows nothing: time stands still.
     fn pause(&mut self) -> Result<(), Failure> {
         self.clock.pause();
@@ -391,7 +225,9 @@ impl Session {
         let plan = &self.bench.plan;
         self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state)?;
         self.tally.restart();
+        self.panel = Panel::new(gpu, &self.library, PANEL)?;
         self.solved.clear();
+        self.reading = None;
         self.last = None;
         if let Some(coming) = self.coming.take() {
             let (plan, eyes) = (coming.builder.plan().clone(), self.eyes.clone());

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use super::session::PANEL;
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
 use vitriol_xr::track::{Track, TrackSource};
@@ -14,9 +15,6 @@ use vitriol_xr::{
     Fov, Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, PoseSource, SessionState, Shown,
     Side, Targets, Turn, View,
 };
-
-/// Width and height of the panel, pixels.
-pub const PANEL: [u32; 2] = [1024, 640];
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand adults
 /// (N. Dodgson, 2004).

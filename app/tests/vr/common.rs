@@ -1,7 +1,6 @@
 //! A small session, its headset, and the replay of what it recorded.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 use vitriol::vr::bench::Plan;
@@ -56,6 +55,8 @@ pub struct Worn<T> {
     pub frames: u64,
     /// What was shown with each frame.
     pub shown: Vec<Shown>,
+    /// What the left and the right hand felt in each.
+    pub felt: Vec<[f32; 2]>,
 }
 
 impl<T: Trouble> Worn<T> {
@@ -70,6 +71,7 @@ impl<T: Trouble> Worn<T> {
             trouble,
             frames,
             shown: Vec::new(),
+            felt: Vec::new(),
         }
     }
 }
@@ -111,6 +113,7 @@ impl<T: Trouble> Headset for Worn<T> {
     }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
+        self.felt.push(self.inner.felt());
         self.inner.end(shown)
     }
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
@@ -142,7 +145,6 @@ pub fn session(
         posture: Posture::Seated,
         frames: None,
         record: Some(file.clone()),
-        leave: Arc::default(),
     };
     let outcome = Session::new(headset, options, decisions)
         .unwrap()

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
+mod hands;
 mod loss;
+mod panel;
 mod pour;
 mod recorder;
 mod switches;

@@ -112,7 +112,8 @@ impl Painter {
             for vertex in &mesh.vertices {
                 let floats = [vertex.pos.x, vertex.pos.y, vertex.uv.x, vertex.uv.y];
                 self.vertices.extend(floats.map(f32::to_bits));
-                self.vertices.push(u32::from_le_bytes(vertex.color.to_array()));
+                self.vertices
+                    .push(u32::from_le_bytes(vertex.color.to_array()));
             }
             self.indices
                 .push(mesh.indices.iter().map(|index| first + index).collect());
