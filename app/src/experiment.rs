@@ -279,7 +279,7 @@ pub fn hands(hands: &[Hand; 2], scene: &Scene) -> [bodies::Hand; 2] {
 
 /// A recorded hand in the simulation's terms, in the frame of the scene's file.
 /// Hands move in real metres, the scene in its own.
-fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,
@@ -294,9 +294,8 @@ fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
 pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
     let scene = world.scene();
     let (scale, origin) = (scene.scale.length_scale as f32, scene.origin.as_vec3());
-    let real = |pose: &Pose| {
-        vitriol_xr::Pose::new(scale * (pose.position + origin), pose.orientation)
-    };
+    let real =
+        |pose: &Pose| vitriol_xr::Pose::new(scale * (pose.position + origin), pose.orientation);
     world.poses().iter().map(real).collect()
 }
 

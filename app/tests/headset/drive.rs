@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use vitriol_tests::monado::{Controller, Remote, Rig};
 use vitriol_xr::track::Keyframes;
-use vitriol_xr::{PoseFrame, Side};
+use vitriol_xr::{Hand, PoseFrame, Side};
 
 /// Time between packets: an eighth of the runtime's display period.
 const TICK: Duration = Duration::from_millis(6);
@@ -31,6 +31,8 @@ struct Shared {
     speed: f64,
     clock: Mutex<Clock>,
     remote: Mutex<Option<Remote>>,
+    /// The controllers are switched off.
+    asleep: AtomicBool,
     stop: AtomicBool,
 }
 
@@ -60,12 +62,16 @@ impl Driver {
             speed,
             clock: Mutex::default(),
             remote: Mutex::new(Some(rig.remote())),
+            asleep: AtomicBool::new(false),
             stop: AtomicBool::new(false),
         });
         let of = Arc::clone(&shared);
         let thread = std::thread::spawn(move || {
             while !of.stop.load(Ordering::Relaxed) {
-                let frame = of.track.sample(0, of.time());
+                let mut frame = of.track.sample(0, of.time());
+                if of.asleep.load(Ordering::Relaxed) {
+                    frame.hands = [Hand::default(), Hand::default()];
+                }
                 let mut remote = of.remote.lock().unwrap();
                 // Without an answer the service was killed.
                 if remote.as_mut().is_some_and(|it| send(it, &frame).is_err()) {
@@ -93,6 +99,19 @@ impl Driver {
             before,
             since: None,
         };
+    }
+
+    /// Lets it run from its start.
+    pub fn restart(&self) {
+        *self.shared.clock.lock().unwrap() = Clock {
+            before: 0.0,
+            since: Some(Instant::now()),
+        };
+    }
+
+    /// Switches the controllers off, or on again.
+    pub fn sleep(&self, asleep: bool) {
+        self.shared.asleep.store(asleep, Ordering::Relaxed);
     }
 
     /// Waits until the track is there, s.
