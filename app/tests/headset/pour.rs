@@ -140,11 +140,7 @@ pub fn replay(track: &Track) -> Replayed {
         if flasks.is_empty() {
             break;
         }
-        let length = scene.scale.length_scale;
-        let hands = frame
-            .hands
-            .each_ref()
-            .map(|hand| experiment::grip(hand, length));
+        let hands = experiment::hands(&frame.hands, &scene);
         world.step(&StepInput { hands }).unwrap();
         assert_eq!(&experiment::flasks(&world), flasks, "step {}", frame.step);
         lifted = lifted.max(flasks[0].position.y);
