@@ -151,7 +151,7 @@ impl Session {
         Ok(Self {
             bench,
             panel: Panel::new(gpu, &library, PANEL)?,
-            tally: Tally::new(gpu.options().timestamps),
+            tally: Tally::new(options.frames.is_some(), gpu.options().timestamps),
             recording: recording.transpose()?,
             options,
             decisions,

@@ -52,6 +52,8 @@ pub struct Tally {
     pub solve_ms: Vec<f64>,
     /// The picture's, ms.
     pub picture_ms: Vec<f64>,
+    /// Whether anything is kept: a session that nobody measures would only grow by it.
+    counts: bool,
     /// Whether submissions are timed.
     timed: bool,
     pending: VecDeque<Pending>,
@@ -64,17 +66,34 @@ struct Pending {
 }
 
 impl Tally {
-    /// One that asks the device for times, where it was opened for that.
-    pub fn new(timed: bool) -> Self {
+    /// One that keeps times if it `counts`, and asks the device for its own, where that was opened
+    /// for it.
+    pub fn new(counts: bool, timed: bool) -> Self {
         Self {
+            counts,
             timed,
             ..Self::default()
         }
     }
 
+    /// Takes a frame's processor time, ms.
+    pub fn frame(&mut self, cpu_ms: f64) {
+        if self.counts {
+            self.cpu_ms.push(cpu_ms);
+        }
+    }
+
+    /// Takes a picture's age of the eyes' pose (ms) and delay of the flasks (steps).
+    pub fn picture(&mut self, pose_age_ms: f64, delay_steps: f64) {
+        if self.counts {
+            self.pose_age_ms.push(pose_age_ms);
+            self.delay_steps.push(delay_steps);
+        }
+    }
+
     /// Takes a frame's submissions.
     pub fn submitted(&mut self, solved: Vec<Ticket>, picture: Ticket) {
-        if self.timed {
+        if self.counts && self.timed {
             self.pending.push_back(Pending { solved, picture });
         }
     }
@@ -101,7 +120,7 @@ impl Tally {
 
     /// Forgets what was measured so far: it was the warming up.
     pub fn restart(&mut self) {
-        *self = Self::new(self.timed);
+        *self = Self::new(self.counts, self.timed);
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Panel {
     /// Where a hand points, pixels.
     pointer: Option<Pos2>,
     pressed: bool,
+    /// Whether the pointing hand has had its trigger released here.
+    armed: bool,
     shown: Option<(Info, Option<Pos2>, bool)>,
 }
 
@@ -53,6 +55,7 @@ impl Panel {
             image: draw::image(gpu, extent)?,
             pointer: None,
             pressed: false,
+            armed: false,
             shown: None,
         })
     }
@@ -78,7 +81,8 @@ impl Panel {
                 let least = if self.pressed { 0.5 * PRESSES } else { PRESSES };
                 let presses = trigger >= least;
                 // A hand that comes in with its trigger pulled presses nothing.
-                if presses != self.pressed && (was.is_some() || !presses) {
+                self.armed = !presses || (self.armed && was.is_some());
+                if presses != self.pressed && self.armed {
                     self.pressed = presses;
                     events.push(button(at, presses));
                 }

@@ -106,7 +106,7 @@ fn readings(ui: &mut Ui, info: &Info) {
         ui.label(RichText::new(text).color(WARNING));
     }
     if let Some(seconds) = info.recording {
-        let text = format!("● recording, {} min {:02} s", seconds / 60, seconds % 60);
+        let text = format!("recording, {} min {:02} s", seconds / 60, seconds % 60);
         ui.label(RichText::new(text).color(RECORDING));
     }
     if info.unwritten > 0 {

@@ -1,6 +1,7 @@
 //! What the user chooses, by button, key and panel.
 
-use vitriol_sim::scene::Feature;
+use glam::Vec3;
+use vitriol_sim::scene::Flask;
 use vitriol_xr::{Hand, Headset, PoseFrame, Side, Switch};
 
 use super::{Coming, Decision, SWITCH_PLACEMENT, Session, blame};
@@ -117,12 +118,11 @@ impl Session {
 
     fn info(&self) -> Info {
         let scene = self.bench.world.scene();
-        let heat = scene.models(Feature::Heat);
         let acid = scene
             .liquids
             .iter()
             .any(|liquid| liquid.acid_fraction > 0.0);
-        let line = |(index, flask): (usize, &vitriol_sim::scene::Flask)| {
+        let line = |(index, flask): (usize, &Flask)| {
             let reading = self.read.get(index).filter(|reading| reading.particles > 0);
             FlaskLine {
                 name: flask.name.clone(),
@@ -132,9 +132,10 @@ impl Session {
                     .map(|reading| (100.0 * reading.acid).round() as i32),
             }
         };
-        // Vessels that are clamped, funnels, hold nothing for long.
+        // A funnel, which hangs upside down, holds nothing for long.
+        let upright = |flask: &Flask| (flask.stage_from_flask.orientation * Vec3::Y).y > 0.0;
         let flasks = scene.flasks.iter().enumerate();
-        let flasks = flasks.filter(|(_, flask)| !flask.fixed || !heat).map(line);
+        let flasks = flasks.filter(|(_, flask)| upright(flask)).map(line);
         let recorded = self.recording.as_ref().map(|recording| recording.state());
         Info {
             scene: self.bench.plan.scene.clone(),

@@ -45,7 +45,7 @@ impl Session {
         } else {
             headset.end(None).map_err(blame)?;
         }
-        self.tally.cpu_ms.push(milliseconds(begun.elapsed()));
+        self.tally.frame(milliseconds(begun.elapsed()));
         self.after()
     }
 
@@ -165,9 +165,9 @@ impl Session {
             panel.record(rec)?;
             rec.copy_image(panel.image(), &targets.panel).other()
         })?;
-        self.tally.pose_age_ms.push(milliseconds(located.elapsed()));
+        let age = milliseconds(located.elapsed());
         let behind = self.clock.behind() / world.scene().scale.frame_time;
-        self.tally.delay_steps.push(behind + self.due.len() as f64);
+        self.tally.picture(age, behind + self.due.len() as f64);
         let mut solved = std::mem::take(&mut self.solved);
         solved.push(drawn.shapes);
         self.tally.submitted(solved, drawn.picture);
