@@ -316,7 +316,7 @@ pub(crate) fn liquid_of(world: &World) -> LiquidSource<'_> {
     }
 }
 
-fn filter(scene: &Scene) -> SurfaceFilter {
+pub(crate) fn filter(scene: &Scene) -> SurfaceFilter {
     match scene.picture.filter {
         PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
         PictureFilter::CurvatureFlow => SurfaceFilter::CurvatureFlow,

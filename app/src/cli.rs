@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::console::Format;
+use crate::vr::placement::Posture;
 use vitriol_render::SurfaceFilter;
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -45,6 +46,8 @@ pub enum Command {
     Replay(ReplayArgs),
     /// Replay a recorded pour up to a time and take one picture
     Picture(PictureArgs),
+    /// Pour by hand, in a headset
+    Vr(VrArgs),
     /// Convert, list or look into pose tracks
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
@@ -173,9 +176,10 @@ pub struct ReplayArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Trade of speed for accuracy
-    #[arg(long, value_enum, default_value_t)]
-    pub preset: PresetName,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
     /// In place of a preset: the most accurate setting by which a frame's solution
     /// takes at most so many milliseconds on this device (99th percentile)
     #[arg(long, value_name = "MS", value_parser = positive_seconds, conflicts_with_all = ["preset", "solver"])]
@@ -221,9 +225,10 @@ pub struct PictureArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Trade of speed for accuracy
-    #[arg(long, value_enum, default_value_t)]
-    pub preset: PresetName,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_enum)]
+    pub preset: Option<PresetName>,
     /// Simulated time of the picture, seconds
     #[arg(long, value_name = "S", value_parser = positive_seconds)]
     pub at: f64,
@@ -247,6 +252,42 @@ pub struct PictureArgs {
     pub filter: Option<FilterName>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol vr`.
+#[derive(Debug, Args)]
+pub struct VrArgs {
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file
+    #[arg(long, value_name = "SCENE", default_value = "acid-into-water")]
+    pub scene: String,
+    /// Trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t)]
+    pub preset: PresetName,
+    /// Seed of the particles' initial jitter
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// How you are at the bench
+    #[arg(long, value_enum, default_value_t, value_name = "POSTURE")]
+    pub posture: Posture,
+    /// Keep the session as a pose track in this new file, for `vitriol replay`
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Measure that many frames, after some to warm up, and end
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub frames: Option<u64>,
+    /// In place of a headset images and a clock, worn by who moves as in this
+    /// track (by name or file), over and over: for measurements
+    #[arg(long, value_name = "TRACK")]
+    pub stand_in: Option<String>,
+    /// Width and height of an eye's picture of the stand-in, pixels
+    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = size, requires = "stand_in")]
+    pub size: [u32; 2],
+    /// Frames a second of the stand-in
+    #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, requires = "stand_in")]
+    pub rate: f64,
+    /// Device of the stand-in: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long, requires = "stand_in")]
     pub device: Option<String>,
 }
 
@@ -493,6 +534,13 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     match sides {
         Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
         _ => Err("give two whole numbers above 0, such as 960x540".into()),
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(rate),
+        _ => Err("give a rate of 1 to 1000 frames a second, such as 90".into()),
     }
 }
 

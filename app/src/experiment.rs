@@ -9,17 +9,22 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::bodies;
 use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
-use vitriol_xr::{Hand, PoseFrame};
+use vitriol_xr::{Hand, PoseFrame, Switch};
 
 use crate::camera::{Camera, Shot};
 use crate::cli::ColourName;
 use crate::command::replay::Setup;
 use crate::device;
 use crate::failure::{Blame, Failure};
-use crate::replay::{Experiment, Outcome};
+use crate::replay::{Experiment, Outcome, Taken};
 use crate::report::{Counters, HeatSample, LedgerSample, MassByPlace, Sample};
+
+/// Key of the switch to another scene, which its value names.
+pub const SWITCH_SCENE: &str = "scene";
+/// Key of the switch back to the start of the scene, which its value names.
+pub const SWITCH_START: &str = "start";
 
 /// The experiment of a scene on the device that was asked for.
 ///
@@ -45,26 +50,22 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
             failure => failure,
         }
     })?;
-    let mut film = match setup.picture {
-        Some((width, height)) => {
-            let liquid = setup.colours.contains(&ColourName::Liquid);
-            let filter = setup.filter.map(Into::into);
-            let shot = Shot {
-                extent: [width, height],
-                eyes: setup.eyes,
-                liquid: liquid.then(|| world.solver().count()),
-                filter,
-            };
-            Some(Camera::new(gpu, library, setup.scene, &shot)?)
-        }
-        None => None,
-    };
+    let shot = setup.picture.map(|(width, height)| Shot {
+        extent: [width, height],
+        eyes: setup.eyes,
+        liquid: None,
+        filter: setup.filter.map(Into::into),
+    });
+    let mut film = camera(&world, library, shot, &setup.colours)?;
     if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
         camera.follow(head);
     }
     Ok(Box::new(Laboratory {
         world,
         film,
+        shot,
+        preset: setup.preset,
+        switched: None,
         follows_head: setup.head.is_some(),
         seed: setup.seed,
         shaders: setup.shaders.clone(),
@@ -76,9 +77,32 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
     }))
 }
 
+/// The camera for the pictures that were asked for.
+fn camera(
+    world: &World,
+    library: &Library,
+    shot: Option<Shot>,
+    colours: &[ColourName],
+) -> Result<Option<Camera>, Failure> {
+    let liquid = colours.contains(&ColourName::Liquid);
+    let of_world = |shot: Shot| {
+        let shot = Shot {
+            liquid: liquid.then(|| world.solver().count()),
+            ..shot
+        };
+        Camera::new(world.gpu(), library, world.scene(), &shot)
+    };
+    shot.map(of_world).transpose()
+}
+
 struct Laboratory {
     world: World,
     film: Option<Camera>,
+    /// What the film's pictures are like, whatever the scene.
+    shot: Option<Shot>,
+    preset: Preset,
+    /// The scene that a switch brought up.
+    switched: Option<String>,
     follows_head: bool,
     seed: u64,
     shaders: Arc<Library>,
@@ -122,6 +146,22 @@ impl Laboratory {
         Ok(())
     }
 
+    /// Does what the switches say; whether that brought up a scene.
+    fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
+        let brought_up = |switch: &&Switch| [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key);
+        let Some(switch) = switches.iter().rfind(brought_up) else {
+            return Ok(false);
+        };
+        let name = &switch.value;
+        let scene = Scene::load(name).input()?.with_preset(self.preset);
+        let gpu = self.world.gpu().clone();
+        self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
+        self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
+        (self.departures, self.start) = (Departures::default(), None);
+        self.switched = Some(name.clone());
+        Ok(true)
+    }
+
     /// A new world with the old one's state: shaders change seldom, and a
     /// state that survives a change of device survives this too.
     fn renewed_world(&self) -> Result<World, Failure> {
@@ -134,8 +174,9 @@ impl Laboratory {
 }
 
 impl Experiment for Laboratory {
-    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure> {
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure> {
         self.take_up_shaders();
+        let anew = self.switch(&frame.scenario)?;
 
         if let Some(camera) = &mut self.film
             && self.follows_head
@@ -146,14 +187,13 @@ impl Experiment for Laboratory {
             view.position -= origin.as_vec3();
             camera.follow(&view);
         }
-        let length_scale = self.world.scene().scale.length_scale;
-        let origin = self.world.scene().origin.as_vec3();
-        let hands = frame.hands.each_ref().map(|hand| {
-            let mut hand = grip(hand, length_scale);
-            hand.stage_from_grip.position -= origin;
-            hand
-        });
-        self.world.step(&StepInput { hands }).map_err(blame_world)
+        let scale = self.world.scene().scale;
+        let hands = hands(&frame.hands, self.world.scene());
+        self.world.step(&StepInput { hands }).map_err(blame_world)?;
+        Ok(Taken {
+            frame_time: scale.frame_time,
+            anew,
+        })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
@@ -209,6 +249,7 @@ impl Experiment for Laboratory {
             ("density taken at the end of its table", counted.table_ends),
         ];
         Ok(Outcome {
+            scene: self.switched.clone(),
             fluid_particles: self.world.solver().count().into(),
             lost_particles: self.lost.max(measured.lost_particles),
             nan_particles: measured.nan_particles,
@@ -226,9 +267,19 @@ impl Experiment for Laboratory {
     }
 }
 
+/// Recorded hands in the simulation's terms, where the scene is near its own origin.
+pub fn hands(hands: &[Hand; 2], scene: &Scene) -> [bodies::Hand; 2] {
+    let origin = scene.origin.as_vec3();
+    hands.each_ref().map(|hand| {
+        let mut hand = grip(hand, scene.scale.length_scale);
+        hand.stage_from_grip.position -= origin;
+        hand
+    })
+}
+
 /// A recorded hand in the simulation's terms, in the frame of the scene's file.
 /// Hands move in real metres, the scene in its own.
-pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
+pub fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
     bodies::Hand {
         stage_from_grip: Pose {
             position: hand.stage_from_grip.position / length_scale as f32,
@@ -237,6 +288,15 @@ pub(crate) fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
         squeeze: hand.squeeze.max(hand.trigger),
         present: hand.active && hand.valid,
     }
+}
+
+/// stage_from_flask of each flask as a track keeps it, in real metres.
+pub fn flasks(world: &World) -> Vec<vitriol_xr::Pose> {
+    let scene = world.scene();
+    let (scale, origin) = (scene.scale.length_scale as f32, scene.origin.as_vec3());
+    let real =
+        |pose: &Pose| vitriol_xr::Pose::new(scale * (pose.position + origin), pose.orientation);
+    world.poses().iter().map(real).collect()
 }
 
 fn by_flask<T: Copy>(scene: &Scene, values: &[T]) -> BTreeMap<String, T> {

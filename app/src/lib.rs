@@ -21,3 +21,4 @@ pub mod replay;
 pub mod report;
 mod statement;
 pub mod trade;
+pub mod vr;

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
-use crate::replay::{Experiment, Span};
+use crate::replay::{Experiment, SimulatedTime, Span};
 use crate::report::Sample;
 
 /// Frame rate of the film, Hz.
@@ -27,6 +27,9 @@ pub struct Recorder {
     films: Vec<Film>,
     film_frames: u64,
     samples: Vec<Sample>,
+    /// Number of the last sample's time.
+    sampled: Option<u64>,
+    time: SimulatedTime,
     bar: ProgressBar,
     begin: Instant,
 }
@@ -38,8 +41,11 @@ pub struct Recording {
     pub films: Vec<PathBuf>,
     /// Frames in each.
     pub film_frames: u64,
-    /// Samples over time; the first is of the start, the last of the end.
+    /// Samples over time; the first is of the start, or of the first step after
+    /// the last switch to a scene; the last is of the end.
     pub samples: Vec<Sample>,
+    /// Steps and simulated time.
+    pub time: SimulatedTime,
     /// Wall-clock time of the run, its film's included.
     pub wall: Duration,
 }
@@ -52,18 +58,24 @@ impl Recorder {
             films,
             film_frames: 0,
             samples: Vec::new(),
+            sampled: None,
+            time: SimulatedTime::default(),
             bar: progress_bar(span.steps),
             begin: Instant::now(),
         }
     }
 
-    /// Takes what is due after `done` steps.
+    /// Takes what is due at that time.
     ///
     /// # Errors
     /// What experiment or film say.
-    pub fn observe(&mut self, done: u64, experiment: &mut dyn Experiment) -> Result<(), Failure> {
-        let time = done as f64 * self.span.frame_time;
-        let due = self.film_frames_due(done);
+    pub fn observe(
+        &mut self,
+        time: &SimulatedTime,
+        experiment: &mut dyn Experiment,
+    ) -> Result<(), Failure> {
+        self.time = *time;
+        let due = self.film_frames_due(time);
         if due > self.film_frames {
             for (index, film) in self.films.iter_mut().enumerate() {
                 let picture = experiment.picture(index)?;
@@ -75,11 +87,20 @@ impl Recorder {
             }
             self.film_frames = due;
         }
-        if done == self.span.steps || self.sample_due(done) {
-            self.samples.push(experiment.sample(time)?);
+        let number = Some((time.seconds() * SAMPLES_PER_SECOND + 1e-6).floor() as u64);
+        if self.sampled < number || self.span.is_over(time) {
+            self.sampled = number;
+            self.samples.push(experiment.sample(time.seconds())?);
         }
-        self.bar.set_position(done);
+        self.bar.set_position(time.steps());
         Ok(())
+    }
+
+    /// Forgets the samples: what follows is another scene, or the same from its
+    /// start, and curves over both would be of neither. Films go on.
+    pub fn start_over(&mut self) {
+        self.samples.clear();
+        self.sampled = None;
     }
 
     /// Ends the films and hands over what was kept.
@@ -93,29 +114,23 @@ impl Recorder {
             films: films.other()?,
             film_frames: self.film_frames,
             samples: self.samples,
+            time: self.time,
             wall: self.begin.elapsed(),
         })
     }
 
-    /// Film frames whose time has come after `done` steps: frame n shows the
+    /// Film frames whose time has come: frame n shows the
     /// first state at or after n / [`FILM_FPS`] s, and the film is as long as
     /// the run. The first frame waits for the first step, which finds the
     /// neighbours that a liquid's surface is made of.
-    fn film_frames_due(&self, done: u64) -> u64 {
-        if done == 0 {
+    fn film_frames_due(&self, time: &SimulatedTime) -> u64 {
+        if time.steps() == 0 {
             return 0;
         }
         let fps = f64::from(FILM_FPS);
         let all = (self.span.seconds() * fps - 1e-6).ceil() as u64;
-        let now = (done as f64 * self.span.frame_time * fps + 1e-6).floor() as u64 + 1;
+        let now = (time.seconds() * fps + 1e-6).floor() as u64 + 1;
         now.min(all)
-    }
-
-    fn sample_due(&self, done: u64) -> bool {
-        let number = |done: u64| {
-            (done as f64 * self.span.frame_time * SAMPLES_PER_SECOND + 1e-6).floor() as u64
-        };
-        done == 0 || number(done) > number(done - 1)
     }
 }
 

@@ -9,11 +9,13 @@ use crate::report::{Counters, DeviceStatement, Sample};
 
 /// What the loop drives: the simulated world, and the picture of it.
 pub trait Experiment {
-    /// Advances by one fixed step with what the user did at its time.
+    /// Does what the frame's switches say, and advances by one fixed step with
+    /// what the user did at its time.
     ///
     /// # Errors
-    /// What device or solver say.
-    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure>;
+    /// What device or solver say; [`Failure::Input`] for a switch to a scene
+    /// that is not there.
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure>;
 
     /// Measures the state now, which is that at time `t` (s). Waits for the
     /// device.
@@ -37,9 +39,20 @@ pub trait Experiment {
     fn outcome(&mut self) -> Result<Outcome, Failure>;
 }
 
+/// A step that was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taken {
+    /// Its Δt_f, s.
+    pub frame_time: f64,
+    /// Before it a switch brought up a scene at its start.
+    pub anew: bool,
+}
+
 /// What an experiment states of itself at its end.
 #[derive(Debug, Clone)]
 pub struct Outcome {
+    /// The scene at the end, where a switch brought it up.
+    pub scene: Option<String>,
     /// Fluid particles at the start.
     pub fluid_particles: u64,
     /// Most particles that were on the wrong side of a wall in any measurement
@@ -62,6 +75,8 @@ pub struct Span {
     pub frame_time: f64,
     /// Number of steps.
     pub steps: u64,
+    /// What was asked for, s; the steps end at it or after.
+    asked: f64,
 }
 
 impl Span {
@@ -72,6 +87,7 @@ impl Span {
         Self {
             frame_time,
             steps: steps as u64,
+            asked: seconds,
         }
     }
 
@@ -79,10 +95,48 @@ impl Span {
     pub fn seconds(self) -> f64 {
         self.steps as f64 * self.frame_time
     }
+
+    /// Whether the time is up.
+    pub fn is_over(self, time: &SimulatedTime) -> bool {
+        time.steps() > 0 && time.seconds() >= self.asked - 1e-6 * self.frame_time
+    }
+}
+
+/// Simulated time, step by step: a whole number of steps after the last
+/// change of their length, so that it is the same however often it is asked for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SimulatedTime {
+    base: f64,
+    since: u64,
+    frame_time: f64,
+    steps: u64,
+}
+
+impl SimulatedTime {
+    /// Steps so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Time at their end, s.
+    pub fn seconds(&self) -> f64 {
+        self.base + self.since as f64 * self.frame_time
+    }
+
+    /// A step of `frame_time` (s) more.
+    pub fn advance(&mut self, frame_time: f64) {
+        if frame_time != self.frame_time {
+            self.base = self.seconds();
+            (self.since, self.frame_time) = (0, frame_time);
+        }
+        self.since += 1;
+        self.steps += 1;
+    }
 }
 
 /// Runs an experiment with the poses of a source. Where the source ends before
-/// the span does, its last poses are held.
+/// the span does, its last poses are held. The span's steps are those of the scene
+/// at the start; where a switch brings up one with others, the time counts.
 ///
 /// # Errors
 /// What source, experiment or film say.
@@ -92,11 +146,12 @@ pub fn run(
     span: Span,
     recorder: &mut Recorder,
 ) -> Result<(), Failure> {
-    recorder.observe(0, experiment)?;
+    let mut time = SimulatedTime::default();
+    recorder.observe(&time, experiment)?;
     let mut held: Option<PoseFrame> = None;
-    for step in 0..span.steps {
-        let time = step as f64 * span.frame_time;
-        match source.next(step, time).other()? {
+    while !span.is_over(&time) {
+        let step = time.steps();
+        match source.next(step, time.seconds()).other()? {
             Some(frame) => held = Some(frame),
             None => {
                 if let Some(frame) = &mut held {
@@ -109,8 +164,12 @@ pub fn run(
         let Some(frame) = &held else {
             return Err("the track has no pose at its start; record it again").input();
         };
-        experiment.step(frame)?;
-        recorder.observe(step + 1, experiment)?;
+        let taken = experiment.step(frame)?;
+        if taken.anew {
+            recorder.start_over();
+        }
+        time.advance(taken.frame_time);
+        recorder.observe(&time, experiment)?;
     }
     Ok(())
 }
@@ -125,5 +184,19 @@ mod tests {
         assert_eq!(steps(8.0, 1.0 / 90.0), 720);
         assert_eq!(steps(8.001, 1.0 / 90.0), 721);
         assert_eq!(steps(1e-9, 1.0 / 90.0), 1);
+    }
+
+    #[test]
+    fn time_is_whole_steps_of_each_length() {
+        let mut time = SimulatedTime::default();
+        for _ in 0..900 {
+            time.advance(1.0 / 90.0);
+        }
+        assert_eq!(time.seconds(), 900.0 * (1.0 / 90.0));
+        for _ in 0..60 {
+            time.advance(1.0 / 60.0);
+        }
+        assert_eq!(time.seconds(), 900.0 * (1.0 / 90.0) + 60.0 * (1.0 / 60.0));
+        assert_eq!(time.steps(), 960);
     }
 }

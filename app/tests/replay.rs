@@ -10,7 +10,7 @@ use vitriol::cli::{Cli, ColourName, Command};
 use vitriol::command::replay::run;
 use vitriol::console::Format;
 use vitriol::failure::{Blame, Failure};
-use vitriol::replay::{Experiment, Outcome};
+use vitriol::replay::{Experiment, Outcome, Taken};
 use vitriol::report::{
     Counters, DeviceStatement, HeatSample, LedgerSample, MassByPlace, Report, Sample,
 };
@@ -58,6 +58,9 @@ fn heat(t: f64) -> HeatSample {
     }
 }
 
+/// As of the scene that the track names, s.
+const FRAME_TIME: f64 = 0.011111111111111;
+
 /// A name that breaks a page which does not escape it.
 const FLASK: &str = "beaker <script>alert(1)</script>";
 
@@ -73,13 +76,16 @@ impl Toy {
 }
 
 impl Experiment for Toy {
-    fn step(&mut self, frame: &PoseFrame) -> Result<(), Failure> {
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure> {
         assert_eq!(frame.step, self.steps, "steps come in order, none twice");
         self.steps += 1;
         if self.steps == self.fails_at {
             return Err("the device was lost").other();
         }
-        Ok(())
+        Ok(Taken {
+            frame_time: FRAME_TIME,
+            anew: false,
+        })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
@@ -117,6 +123,7 @@ impl Experiment for Toy {
             return Err("the device was lost").other();
         }
         Ok(Outcome {
+            scene: None,
             fluid_particles: 13_894,
             lost_particles: 0,
             nan_particles: 0,

@@ -67,6 +67,8 @@ pub struct World {
     solver: Solver,
     /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
     loads: VecDeque<PendingLoad>,
+    /// By flask: what [`World::stirring`] says.
+    stirring: Vec<f32>,
     step: u64,
     last: Option<Ticket>,
 }
@@ -131,6 +133,7 @@ impl World {
             solver: Solver::new(gpu, library, &spec)?,
             scene: scene.clone(),
             loads: VecDeque::new(),
+            stirring: vec![0.0; scene.flasks.len()],
             step: 0,
             last: None,
         })
@@ -142,10 +145,18 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn step(&mut self, input: &StepInput) -> Result<(), WorldError> {
+        self.step_on(QueueKind::Main, input)
+    }
+
+    /// The same on that queue; always on one, since two know no order.
+    ///
+    /// # Errors
+    /// As for [`World::step`].
+    pub fn step_on(&mut self, queue: QueueKind, input: &StepInput) -> Result<(), WorldError> {
         let loads = self.due_loads()?;
         let before = self.bodies.poses().to_vec();
         self.bodies.step(&input.hands, &loads);
-        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let mut rec = self.gpu.recorder(queue)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;
         self.loads
@@ -153,6 +164,20 @@ impl World {
         self.last = Some(ticket);
         self.step += 1;
         Ok(())
+    }
+
+    /// Whether the next step would find what it needs on the host already,
+    /// and not wait for the device.
+    ///
+    /// # Errors
+    /// [`WorldError::Gpu`] where the device is lost.
+    pub fn is_ready(&self) -> Result<bool, WorldError> {
+        match self.loads.front() {
+            Some(PendingLoad::Device(_, ticket)) if self.loads.len() >= LOAD_DELAY => {
+                Ok(ticket.is_done()?)
+            }
+            _ => Ok(true),
+        }
     }
 
     /// Steps done.
@@ -190,6 +215,13 @@ impl World {
         self.bodies.holder(flask)
     }
 
+    /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it
+    /// boils and sloshes there. As it was [`LOAD_DELAY`] steps ago, so that nobody waits for it;
+    /// 0 of a flask that is not there, and where no flask can be lifted.
+    pub fn stirring(&self, flask: usize) -> f32 {
+        self.stirring.get(flask).copied().unwrap_or(0.0)
+    }
+
     /// What the liquid did to each flask in the last step, which acts on it
     /// later; nothing where no flask can move. Waits for the device.
     ///
@@ -207,6 +239,7 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn counters(&self) -> Result<Counters, WorldError> {
+        self.wait()?;
         Ok(self.solver.counters()?)
     }
 
@@ -215,6 +248,7 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn snapshot(&self) -> Result<WorldState, WorldError> {
+        self.wait()?;
         let solver = self.solver.snapshot()?;
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
@@ -256,6 +290,12 @@ impl World {
         Ok(())
     }
 
+    /// Waits for the last step, which may be on another queue than what reads
+    /// its particles.
+    fn wait(&self) -> Result<(), WorldError> {
+        Ok(self.last.as_ref().map_or(Ok(()), Ticket::wait)?)
+    }
+
     /// What the liquid did [`LOAD_DELAY`] steps ago.
     fn due_loads(&mut self) -> Result<Vec<Load>, WorldError> {
         if self.loads.len() < LOAD_DELAY {
@@ -264,7 +304,11 @@ impl World {
         let Some(due) = self.loads.pop_front() else {
             return Ok(Vec::new());
         };
-        Ok(self.in_si(&due.read()?))
+        let loads = due.read()?;
+        for (stirring, sum) in self.stirring.iter_mut().zip(&loads) {
+            *stirring = sum.angular[3];
+        }
+        Ok(self.in_si(&loads))
     }
 
     fn in_si(&self, loads: &[LiquidLoad]) -> Vec<Load> {

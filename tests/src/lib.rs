@@ -4,4 +4,6 @@
 
 pub mod browser;
 pub mod gpu;
+#[cfg(target_os = "linux")]
+pub mod monado;
 pub mod random;

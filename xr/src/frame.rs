@@ -26,6 +26,31 @@ impl PoseFrame {
     pub fn hand(&self, side: Side) -> &Hand {
         &self.hands[side as usize]
     }
+
+    /// Poses and analogue values at `s` in 0..=1 of the way to `later`, whose own they are at 1,
+    /// bit for bit; the rest is of the earlier frame.
+    #[must_use]
+    pub fn between(&self, later: &Self, s: f32) -> Self {
+        let value = |a: f32, b: f32| if s >= 1.0 { b } else { a + (b - a) * s };
+        let mut frame = self.clone();
+        frame.stage_from_view = self.stage_from_view.interpolate(&later.stage_from_view, s);
+        for (hand, later) in frame.hands.iter_mut().zip(&later.hands) {
+            // Towards a controller that sleeps there is no way: its squeeze of 0 would open a
+            // hand that nobody opened, and let a flask fall.
+            let is_known = |hand: &Hand| hand.active && hand.valid;
+            if !(is_known(hand) && is_known(later)) {
+                continue;
+            }
+            hand.stage_from_grip = hand.stage_from_grip.interpolate(&later.stage_from_grip, s);
+            hand.stage_from_aim = hand.stage_from_aim.interpolate(&later.stage_from_aim, s);
+            hand.squeeze = value(hand.squeeze, later.squeeze);
+            hand.trigger = value(hand.trigger, later.trigger);
+            for (axis, later) in hand.thumbstick.iter_mut().zip(later.thumbstick) {
+                *axis = value(*axis, later);
+            }
+        }
+        frame
+    }
 }
 
 /// Which hand; its value is the index into [`PoseFrame::hands`].
@@ -184,4 +209,37 @@ pub struct Switch {
     pub key: String,
     /// What it was set to.
     pub value: String,
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+
+    fn with(active: bool, squeeze: f32) -> PoseFrame {
+        let hand = Hand {
+            active,
+            valid: active,
+            squeeze,
+            ..Hand::default()
+        };
+        PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: Pose::IDENTITY,
+            hands: [hand, Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        }
+    }
+
+    #[test]
+    fn a_hand_that_falls_asleep_does_not_open_on_the_way() {
+        let between = |from: &PoseFrame, to: &PoseFrame| from.between(to, 0.75).hands[0].squeeze;
+        assert_eq!(between(&with(true, 1.0), &with(true, 0.0)), 0.25);
+        assert_eq!(between(&with(true, 1.0), &with(false, 0.0)), 1.0);
+        // Nor does it close halfway when it wakes.
+        let woken = with(false, 0.0).between(&with(true, 1.0), 0.75);
+        assert!(!woken.hands[0].active && woken.hands[0].squeeze == 0.0);
+    }
 }

@@ -37,10 +37,7 @@ pub fn probe() -> Probe {
     let entry = match unsafe { Entry::load(&()) } {
         Ok(entry) => entry,
         Err(error) => {
-            found.missing.push(format!(
-                "The OpenXR loader cannot be loaded ({error}): install it (Debian: package \
-                 libopenxr-loader1) to use a headset."
-            ));
+            found.missing.push(no_loader(&error));
             return found;
         }
     };
@@ -48,20 +45,12 @@ pub fn probe() -> Probe {
     let offered = match entry.enumerate_extensions() {
         Ok(offered) => offered,
         Err(error) => {
-            found.missing.push(no_runtime(&found.manifest, error));
+            found.missing.push(no_runtime(error));
             return found;
         }
     };
     found.extensions = wanted(&offered);
-    // The loader of Debian 12 refuses API 1.1.
-    let application = ApplicationInfo {
-        application_name: "vitriol",
-        application_version: 0,
-        engine_name: "vitriol",
-        engine_version: 0,
-        api_version: Version::new(1, 0, 0),
-    };
-    let instance = entry.create_instance(&application, &ExtensionSet::default(), &[], &());
+    let instance = entry.create_instance(&application(), &ExtensionSet::default(), &[], &());
     match instance.and_then(|instance| instance.properties()) {
         Ok(properties) => {
             found.runtime = Some(format!(
@@ -69,20 +58,41 @@ pub fn probe() -> Probe {
                 properties.runtime_name, properties.runtime_version
             ));
         }
-        Err(error) => found.missing.push(no_runtime(&found.manifest, error)),
+        Err(error) => found.missing.push(no_runtime(error)),
     }
     if !offered.khr_vulkan_enable2 {
-        found.missing.push(
-            "The OpenXR runtime lacks XR_KHR_vulkan_enable2: update it, or choose another \
-             runtime in XR_RUNTIME_JSON."
-                .to_owned(),
-        );
+        found.missing.push(NO_VULKAN.to_owned());
     }
     found
 }
 
-fn no_runtime(manifest: &Option<PathBuf>, error: openxr::sys::Result) -> String {
-    match manifest {
+/// What the program tells a runtime of itself.
+pub(crate) fn application() -> ApplicationInfo<'static> {
+    ApplicationInfo {
+        application_name: "vitriol",
+        application_version: 0,
+        engine_name: "vitriol",
+        engine_version: 0,
+        // The loader of Debian 12 refuses API 1.1.
+        api_version: Version::new(1, 0, 0),
+    }
+}
+
+/// A runtime without the extension that everything is built on.
+pub(crate) const NO_VULKAN: &str = "The OpenXR runtime lacks XR_KHR_vulkan_enable2: update it, or \
+                                    choose another runtime in XR_RUNTIME_JSON.";
+
+/// A machine without the loader.
+pub(crate) fn no_loader(error: &openxr::EntryError) -> String {
+    format!(
+        "The OpenXR loader cannot be loaded ({error}): install it (Debian: package \
+         libopenxr-loader1) to use a headset."
+    )
+}
+
+/// A loader without a runtime that answers.
+pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
+    match manifest() {
         Some(manifest) => format!(
             "The OpenXR runtime of {} does not answer ({error}): start it, or name another one's \
              file in XR_RUNTIME_JSON.",
@@ -110,6 +120,10 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
         (
             "XR_FB_display_refresh_rate",
             offered.fb_display_refresh_rate,
+        ),
+        (
+            "XR_BD_controller_interaction",
+            offered.bd_controller_interaction,
         ),
     ]
 }

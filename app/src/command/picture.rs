@@ -11,7 +11,7 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::replay::{Setup, head, scene_of};
+use crate::command::replay::{Setup, head, preset_of, scene_of};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
@@ -47,7 +47,9 @@ pub fn run(
     let path = output::new_file(dir, file).map_err(output::blame)?;
     let track = track::load(&args.track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
-    let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
+    let scene = Scene::load(&name)
+        .input()?
+        .with_preset(preset_of(args.preset, &track).into());
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(
@@ -60,6 +62,7 @@ pub fn run(
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
+        preset: preset_of(args.preset, &track).into(),
         seed: track.metadata.seed,
         device: args.device.as_deref(),
         picture: Some((width, height)),

@@ -6,12 +6,14 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::{Feature, Preset, Scene};
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Track, TrackSource};
 
+use clap::ValueEnum;
+
 use crate::budget;
-use crate::cli::{CameraName, ColourName, FilterName, ReplayArgs};
+use crate::cli::{CameraName, ColourName, FilterName, PresetName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::device;
@@ -41,6 +43,8 @@ pub struct Setup<'a> {
     pub scene: &'a Scene,
     /// Name or file that it was loaded from, for messages.
     pub scene_name: &'a str,
+    /// That preset, for scenes that the track switches to.
+    pub preset: Preset,
     /// Seed of the initial jitter.
     pub seed: u64,
     /// Number or part of the name of the device; the best one without.
@@ -74,7 +78,8 @@ pub fn run(
     let track = track::load(&args.track)?;
     whole(args, &track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
-    let scene = Scene::load(&name).input()?.with_preset(args.preset.into());
+    let preset = preset_of(args.preset, &track);
+    let scene = Scene::load(&name).input()?.with_preset(preset.into());
     let (scene, chosen) = chosen(args, scene)?;
     let head = head(args.camera, &args.track, &track)?;
     let colours = colours(args, &scene, &name)?;
@@ -83,6 +88,7 @@ pub fn run(
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
+        preset: preset.into(),
         seed,
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
@@ -112,6 +118,14 @@ pub fn run(
     for film in &recording.films {
         out.adopt(film.clone());
     }
+    let outcome = experiment.outcome()?;
+    let (name, scene) = match &outcome.scene {
+        Some(switched) => (
+            switched.clone(),
+            Scene::load(switched).input()?.with_preset(preset.into()),
+        ),
+        None => (name, scene),
+    };
     let statements = (
         statement::of_scene(&name, &scene),
         statement::of_solver(&scene),
@@ -119,10 +133,10 @@ pub fn run(
     let report = assemble(
         (args, chosen),
         &colours,
+        preset,
         seed,
-        span,
         statements,
-        experiment.outcome()?,
+        outcome,
         recording,
     );
     write(&mut out, &report)?;
@@ -163,6 +177,14 @@ pub(super) fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result
         .input(),
         None => Ok(track.metadata.scene.clone()),
     }
+}
+
+/// The preset that was asked for, or else the one that the track was recorded
+/// with, or else the default.
+pub(super) fn preset_of(asked: Option<PresetName>, track: &Track) -> PresetName {
+    let recorded = track.metadata.parameters.get("preset");
+    let recorded = recorded.and_then(|name| PresetName::from_str(name, false).ok());
+    asked.or(recorded).unwrap_or_default()
 }
 
 /// What the films' colours stand for; the first is the film, the second, if
@@ -208,13 +230,13 @@ fn stem(track: &str) -> String {
 fn assemble(
     (args, chosen): (&ReplayArgs, Option<[u32; 2]>),
     colours: &[ColourName],
+    preset: PresetName,
     seed: u64,
-    span: Span,
     (scene, solver): (SceneStatement, SolverStatement),
     outcome: Outcome,
     recording: Recording,
 ) -> Report {
-    let samples = recording.samples;
+    let samples = &recording.samples;
     // The filling is not the solver's work, so the start does not count.
     let solved = || samples.iter().skip(1);
     let count = solved().count().max(1) as f64;
@@ -231,31 +253,31 @@ fn assemble(
     };
     Report {
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
-        command: command_line(args, seed, chosen),
+        command: command_line(args, preset, seed, chosen),
         track: args.track.clone(),
-        preset: args.preset.name().into(),
+        preset: preset.name().into(),
         seed,
         fluid_particles: outcome.fluid_particles,
         lost_particles: outcome.lost_particles,
         nan_particles: outcome.nan_particles,
         density_error_mean: solved().map(|s| s.density_error_mean).sum::<f64>() / count,
         density_error_p99: solved().map(|s| s.density_error_p99).fold(0.0, f64::max),
-        frames: span.steps,
-        simulated_s: span.seconds(),
+        frames: recording.time.steps(),
+        simulated_s: recording.time.seconds(),
         wall_s: recording.wall.as_secs_f64(),
         state_hash: format!("{:016x}", outcome.state_hash),
         mass_kg: samples
             .last()
             .map(|s| s.mass_kg.clone())
             .unwrap_or_default(),
-        boiling_particle_seconds: boiling(&samples),
+        boiling_particle_seconds: boiling(samples),
         film: film(0),
         film_temperature: film(1),
         device: outcome.device,
         scene,
         solver,
         counters: outcome.counters,
-        series: samples,
+        series: recording.samples,
     }
 }
 
@@ -274,12 +296,17 @@ fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
 
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
-fn command_line(args: &ReplayArgs, seed: u64, solver: Option<[u32; 2]>) -> String {
+fn command_line(
+    args: &ReplayArgs,
+    preset: PresetName,
+    seed: u64,
+    solver: Option<[u32; 2]>,
+) -> String {
     let mut line = format!("vitriol replay {}", quoted(&args.track));
     if let Some(scene) = &args.scene {
         line += &format!(" --scene {}", quoted(scene));
     }
-    line += &format!(" --preset {} --seed {}", args.preset.name(), seed);
+    line += &format!(" --preset {} --seed {}", preset.name(), seed);
     if let Some([substeps, iterations]) = solver {
         line += &format!(" --solver {substeps}x{iterations}");
     }

@@ -133,7 +133,8 @@ fn describe(info: &TrackInfo) -> String {
     text
 }
 
-fn blame(error: TrackError) -> Failure {
+/// Whose fault a track's error is.
+pub fn blame(error: TrackError) -> Failure {
     match &error {
         // A folder, or a file that this user may not read, was named.
         TrackError::Io { action, .. } if *action != "read" => Failure::Other(error.into()),

@@ -9,7 +9,7 @@ use vitriol::experiment::on_device;
 use vitriol::replay::Experiment;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame};
 
 /// Width and height of the pictures.
@@ -27,6 +27,7 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
     let setup = Setup {
         scene: &scene(),
         scene_name: "beaker",
+        preset: Preset::Balanced,
         seed: 1,
         device: None,
         picture: Some(SIZE),

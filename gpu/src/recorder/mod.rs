@@ -2,6 +2,7 @@
 
 mod arena;
 mod binder;
+mod copy_image;
 mod draw;
 mod encode;
 mod pass;

@@ -215,7 +215,7 @@ impl Recorder {
 }
 
 impl Storage {
-    fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
+    pub(super) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
         let slot = self.buffer_slot(buffer);
         self.uses.push(Use { slot, scope });
     }
@@ -270,7 +270,7 @@ impl Gpu {
 }
 
 /// Bytes of a texel of the uncompressed colour and depth formats in use.
-fn texel_bytes(format: vk::Format) -> Option<u64> {
+pub(super) fn texel_bytes(format: vk::Format) -> Option<u64> {
     Some(match format {
         vk::Format::R8_UNORM | vk::Format::R8_UINT => 1,
         vk::Format::R8G8_UNORM

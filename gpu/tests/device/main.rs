@@ -6,6 +6,7 @@
 mod bindings;
 mod common;
 mod compute;
+mod copy_image;
 mod loss;
 mod memory;
 mod open;

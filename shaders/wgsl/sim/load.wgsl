@@ -1,5 +1,6 @@
 // What the liquid did to each flask in a frame: impulse and angular impulse
-// about the flask's origin, by workgroup; the host adds the workgroups up.
+// about the flask's origin, and how it stirs at the wall, by workgroup; the host adds
+// the workgroups up.
 //!include common/particle.wgsl
 //!include common/kernel.wgsl
 //!include common/step.wgsl
@@ -13,7 +14,8 @@ override PHYSICAL: bool = false;
 struct LiquidLoad {
     /// Impulse, N s; w: mass in the flask, in particles of rest density.
     impulse: vec4<f32>,
-    /// Angular impulse about the flask's origin, N m s.
+    /// Angular impulse about the flask's origin, N m s; w: kinetic energy relative to the flask of
+    /// what its wall pushes, J.
     angular: vec4<f32>,
     /// Sum of the particles' offsets from the flask's origin times their mass, m, stage axes.
     offsets: vec4<f32>,
@@ -25,10 +27,17 @@ struct LiquidLoad {
 @group(0) @binding(3) var<storage, read_write> loads: array<LiquidLoad>;
 /// (c, h, y, mass over V0·ρ0).
 @group(0) @binding(4) var<storage, read> matter: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> velocity: array<vec4<f32>>;
 
 var<workgroup> impulses: array<vec4<f32>, 256>;
 var<workgroup> angulars: array<vec4<f32>, 256>;
 var<workgroup> offsets: array<vec4<f32>, 256>;
+
+/// Velocity of flask k at a point that moves with it, m/s.
+fn velocity_of(k: u32, x: vec3<f32>) -> vec3<f32> {
+    let fixed = flask_from_stage(poses[step.after + k], x);
+    return (x - stage_from_flask(poses[step.before + k], fixed)) / step.time;
+}
 
 @compute @workgroup_size(256)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) group: vec3<u32>,
@@ -38,18 +47,23 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     var impulse = vec3<f32>(0.0);
     var x = vec3<f32>(0.0);
     var mass = 1.0;
+    var energy = 0.0;
     if (i < COUNT) {
         tag = tags[i].x;
         if (PHYSICAL) { mass = matter[i].w; }
         impulse = wall_push[i].xyz * (-MASS * mass / step.time);
         x = position[i].xyz;
+        if (tag > NOBODYS && tag <= FLASKS && any(wall_push[i].xyz != vec3<f32>(0.0))) {
+            let relative = velocity[i].xyz - velocity_of(tag - 1u, x);
+            energy = 0.5 * MASS * mass * dot(relative, relative);
+        }
     }
     for (var k = 0u; k < FLASKS; k++) {
         let mine = tag == k + 1u;
         let arm = x - poses[step.after + k].position.xyz;
         let none = vec4<f32>(0.0);
         impulses[local] = select(none, vec4<f32>(impulse, mass), mine);
-        angulars[local] = select(none, vec4<f32>(cross(arm, impulse), 0.0), mine);
+        angulars[local] = select(none, vec4<f32>(cross(arm, impulse), energy), mine);
         offsets[local] = select(none, vec4<f32>(arm * mass, 0.0), mine);
         workgroupBarrier();
         for (var reach = 128u; reach > 0u; reach >>= 1u) {

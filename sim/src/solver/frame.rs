@@ -293,6 +293,7 @@ impl Solver {
             .read("tags", &b.tags)
             .read("wall_push", &b.wall_push)
             .read("matter", &b.matter)
+            .read("velocity", &b.velocity)
             .write("loads", &b.loads)
             .constants(&self.step(self.parameters.substeps - 1))
             .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;

@@ -76,7 +76,7 @@ impl TrackSource {
             let apart = next.time_ns - frame.time_ns;
             if apart <= GAP_NS {
                 let s = (since as f64 / apart as f64) as f32;
-                blend(&mut frame, &self.frame(later), s);
+                frame = frame.between(&self.frame(later), s);
             }
         }
         frame.time_ns = time_ns;
@@ -129,18 +129,4 @@ fn hold(frames: &[PoseFrame]) -> Vec<[[Pose; 2]; 2]> {
             now
         })
         .collect()
-}
-
-fn blend(frame: &mut PoseFrame, next: &PoseFrame, s: f32) {
-    let between = |a: f32, b: f32| a + (b - a) * s;
-    frame.stage_from_view = frame.stage_from_view.interpolate(&next.stage_from_view, s);
-    for (hand, next) in frame.hands.iter_mut().zip(&next.hands) {
-        hand.stage_from_grip = hand.stage_from_grip.interpolate(&next.stage_from_grip, s);
-        hand.stage_from_aim = hand.stage_from_aim.interpolate(&next.stage_from_aim, s);
-        hand.squeeze = between(hand.squeeze, next.squeeze);
-        hand.trigger = between(hand.trigger, next.trigger);
-        for (axis, next) in hand.thumbstick.iter_mut().zip(next.thumbstick) {
-            *axis = between(*axis, next);
-        }
-    }
 }

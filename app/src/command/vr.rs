@@ -1,0 +1,271 @@
+//! `vitriol vr`: in the headset, or on its stand-in.
+
+use std::fmt::Write;
+use std::io::IsTerminal;
+use std::sync::mpsc::{Receiver, channel};
+
+use serde::Serialize;
+use vitriol_sim::measure::Measurement;
+use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
+
+use crate::cli::VrArgs;
+use crate::command::track;
+use crate::console::{Format, emit};
+use crate::device;
+use crate::failure::{Blame, Failure};
+use crate::report::DeviceStatement;
+use crate::report::units::{grouped, three_digits};
+use crate::vr::bench::Plan;
+use crate::vr::menu;
+use crate::vr::record::Recorded;
+use crate::vr::session::{self, Decision, Options, Outcome, PANEL, Session, WARM_UP};
+use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
+use crate::vr::tally::{Holdings, Spread};
+
+/// What `vitriol vr` prints at the session's end.
+#[derive(Debug, Serialize)]
+struct SessionReport {
+    /// The headset, or what stood in for it.
+    headset: String,
+    device: DeviceStatement,
+    scene: String,
+    fluid_particles: u64,
+    lost_particles: u64,
+    nan_particles: u64,
+    /// Frames that count.
+    frames: u64,
+    steps: u64,
+    simulated_s: f64,
+    /// Time that was shown as slow motion, s.
+    slow_motion_s: f64,
+    /// Display periods without a picture of their own.
+    missed_frames: u64,
+    /// Times that a lost session was found again.
+    renewals: u64,
+    #[serde(flatten)]
+    times: Times,
+    /// What the process held after warming up and at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holdings: Option<[Holdings; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<Recorded>,
+    state_hash: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Times {
+    /// Processor time of a frame from begin to end, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cpu_ms: Option<Spread>,
+    /// The solver's time on the device in a frame, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu_solver_ms: Option<Spread>,
+    /// The picture's, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu_picture_ms: Option<Spread>,
+    /// From a frame's begin to the end of all its work on the device, ms; of a stand-in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ready_ms: Option<Spread>,
+    /// Length of a display period, ms; of a stand-in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period_ms: Option<f64>,
+    /// From the eyes' location to the picture's submission, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_age_ms: Option<Spread>,
+    /// From the hand's pose to the flask in the picture, simulation steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input_to_flask_steps: Option<Spread>,
+}
+
+/// Runs `vitriol vr`.
+///
+/// # Errors
+/// [`Failure::NoDevice`] without runtime or device; [`Failure::Input`] for a scene or track that is
+/// not there or a recording that is; [`Failure::Other`].
+pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
+    let options = Options {
+        plan: Plan {
+            scene: args.scene.clone(),
+            preset: args.preset.into(),
+            seed: args.seed,
+        },
+        posture: args.posture,
+        frames: args.frames,
+        record: args.record.clone(),
+    };
+    let timed = args.frames.is_some();
+    let (name, outcome, stand_in) = match &args.stand_in {
+        Some(wearer) => {
+            let gpu = device::open(args.device.as_deref(), timed)?;
+            let spec = StandInSpec {
+                extent: args.size,
+                rate_hz: args.rate,
+                pace: Pace::Real,
+            };
+            let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
+            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
+            (
+                headset.name().to_owned(),
+                outcome,
+                Some((spec, headset.ready())),
+            )
+        }
+        None => {
+            let mut headset = OpenXr::open(OpenXrOptions {
+                gpu: vitriol_gpu::Options {
+                    timestamps: timed,
+                    ..vitriol_gpu::Options::default()
+                },
+                instance_extensions: Vec::new(),
+                device_extensions: Vec::new(),
+                panel: PANEL,
+            })
+            .map_err(session::blame)?;
+            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
+            (headset.name().to_owned(), outcome, None)
+        }
+    };
+    emit(format, &state(name, &outcome, stand_in)?, describe)
+}
+
+/// What is typed into the terminal, a line each; and the end, where the program is asked for it
+/// (Ctrl-C, SIGTERM): the runtime is told, and the recording is whole.
+fn keys() -> Result<Receiver<Decision>, Failure> {
+    let (decisions, taken) = channel();
+    let asked = decisions.clone();
+    ctrlc::set_handler(move || {
+        // A session that has ended hears nothing.
+        let _ = asked.send(Decision::End);
+    })
+    .other()?;
+    if std::io::stdin().is_terminal() {
+        eprintln!("{}", menu::lines());
+        std::thread::spawn(move || {
+            for line in std::io::stdin().lines().map_while(Result::ok) {
+                let decided = line.trim().chars().next().and_then(menu::decision);
+                if decided.is_some_and(|decided| decisions.send(decided).is_err()) {
+                    return;
+                }
+            }
+        });
+    }
+    Ok(taken)
+}
+
+fn state(
+    headset: String,
+    outcome: &Outcome,
+    stand_in: Option<(StandInSpec, Vec<Ready>)>,
+) -> Result<SessionReport, Failure> {
+    let world = &outcome.bench.world;
+    let measured: Measurement = world.measure().other()?;
+    let tally = &outcome.tally;
+    let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {
+        let counted = ready.iter().filter(|frame| frame.index >= WARM_UP);
+        counted
+            .map(|frame| 1e3 * frame.after.as_secs_f64())
+            .collect()
+    });
+    let period = stand_in.as_ref().map(|(spec, _)| 1e3 / spec.rate_hz);
+    let late = counted.iter().filter(|ready| Some(**ready) > period);
+    Ok(SessionReport {
+        headset,
+        device: device::statement(world.gpu()),
+        scene: outcome.bench.plan.scene.clone(),
+        fluid_particles: world.solver().count().into(),
+        lost_particles: measured.lost_particles,
+        nan_particles: measured.nan_particles,
+        frames: outcome.frames.saturating_sub(WARM_UP),
+        steps: outcome.steps,
+        simulated_s: outcome.simulated,
+        slow_motion_s: outcome.slowed,
+        missed_frames: outcome.skipped + late.count() as u64,
+        renewals: outcome.renewals,
+        times: Times {
+            cpu_ms: Spread::of(&tally.cpu_ms),
+            gpu_solver_ms: Spread::of(&tally.solve_ms),
+            gpu_picture_ms: Spread::of(&tally.picture_ms),
+            ready_ms: Spread::of(&counted),
+            period_ms: period,
+            pose_age_ms: Spread::of(&tally.pose_age_ms),
+            input_to_flask_steps: Spread::of(&tally.delay_steps),
+        },
+        holdings: match outcome.holdings {
+            [Some(before), Some(after)] => Some([before, after]),
+            _ => None,
+        },
+        recording: outcome.recorded.clone(),
+        state_hash: format!("{:016x}", world.snapshot().other()?.solver.hash()),
+    })
+}
+
+fn describe(session: &SessionReport) -> String {
+    let mut text = format!(
+        "{}\n{}, {} particles; {} steps, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
+         {} frames, {} missed\n",
+        session.headset,
+        session.scene,
+        grouped(session.fluid_particles),
+        session.steps,
+        three_digits(session.simulated_s),
+        three_digits(session.slow_motion_s),
+        session.lost_particles,
+        session.nan_particles,
+        session.frames,
+        session.missed_frames,
+    );
+    let times = &session.times;
+    let rows = [
+        ("processor, a frame, ms", times.cpu_ms),
+        ("device, solver, ms", times.gpu_solver_ms),
+        ("device, picture, ms", times.gpu_picture_ms),
+        ("from begin to done, ms", times.ready_ms),
+        ("age of the eyes' pose, ms", times.pose_age_ms),
+        ("hand to flask, steps", times.input_to_flask_steps),
+    ];
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{:<28} {:>9} {:>9} {:>9} {:>9}",
+        "", "median", "95 %", "99 %", "most"
+    );
+    for (name, spread) in rows {
+        if let Some(Spread { p50, p95, p99, max }) = spread {
+            let _ = writeln!(
+                text,
+                "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {max:>9.3}"
+            );
+        }
+    }
+    if let (Some(period), Some(ready)) = (times.period_ms, times.ready_ms) {
+        let _ = writeln!(
+            text,
+            "left of {period:.2} ms: {:.2} ms in the 99th percentile",
+            period - ready.p99
+        );
+    }
+    if let Some([before, after]) = session.holdings {
+        let _ = writeln!(
+            text,
+            "memory {} to {} MB, {} to {} handles",
+            before.memory / 1_000_000,
+            after.memory / 1_000_000,
+            before.handles,
+            after.handles
+        );
+    }
+    if let Some(recording) = &session.recording {
+        let _ = writeln!(
+            text,
+            "recorded {} steps, not {}{}",
+            grouped(recording.steps),
+            recording.unwritten,
+            recording
+                .cause
+                .as_ref()
+                .map_or_else(String::new, |cause| format!(": {cause}"))
+        );
+    }
+    let _ = write!(text, "state {}", session.state_hash);
+    text
+}

@@ -1,0 +1,159 @@
+//! What a runtime gives, made fit to be simulated and recorded; buttons as events.
+
+use std::f32::consts::FRAC_PI_2;
+
+use vitriol_xr::{Hand, Pose, PoseFrame, Side};
+
+/// `frame` with values in their ranges and poses that are poses: the one that is consumed is the
+/// one that is recorded, and a track refuses what lies outside. In place of a pose that is none
+/// stands the last one, of a hand that then is not valid.
+pub fn sound(frame: &PoseFrame, last: Option<&PoseFrame>) -> PoseFrame {
+    let mut frame = frame.clone();
+    let known = |pose: Option<Pose>| pose.unwrap_or(Pose::IDENTITY);
+    if !frame.stage_from_view.is_valid() {
+        frame.stage_from_view = known(last.map(|last| last.stage_from_view));
+    }
+    for side in Side::BOTH {
+        let before = last.map(|last| last.hand(side));
+        let hand = &mut frame.hands[side as usize];
+        if !(hand.stage_from_grip.is_valid() && hand.stage_from_aim.is_valid()) {
+            hand.valid = false;
+            hand.stage_from_grip = known(before.map(|hand| hand.stage_from_grip));
+            hand.stage_from_aim = known(before.map(|hand| hand.stage_from_aim));
+        }
+        hand.squeeze = within(hand.squeeze, 0.0, 1.0);
+        hand.trigger = within(hand.trigger, 0.0, 1.0);
+        hand.thumbstick = hand.thumbstick.map(|axis| within(axis, -1.0, 1.0));
+    }
+    for fov in &mut frame.info.fov {
+        for angle in [&mut fov.left, &mut fov.right, &mut fov.up, &mut fov.down] {
+            *angle = within(*angle, -FRAC_PI_2, FRAC_PI_2);
+        }
+    }
+    frame
+}
+
+fn within(value: f32, least: f32, most: f32) -> f32 {
+    if value.is_finite() {
+        value.clamp(least, most)
+    } else {
+        0.0
+    }
+}
+
+/// What was pressed in a frame and not in the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pressed {
+    /// B (Y on the left): back to the start.
+    pub start: bool,
+    /// A (X on the left): the bench before the user.
+    pub recentre: bool,
+    /// The trigger, by hand.
+    pub triggers: [bool; 2],
+}
+
+/// Remembers what is held down.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Buttons {
+    held: [[bool; 3]; 2],
+}
+
+/// A trigger counts as pressed from here on, and as released below half of it.
+const TRIGGER: f32 = 0.6;
+
+impl Buttons {
+    /// Takes in a frame's hands.
+    pub fn advance(&mut self, hands: &[Hand; 2]) -> Pressed {
+        let mut pressed = Pressed::default();
+        for (index, (held, hand)) in self.held.iter_mut().zip(hands).enumerate() {
+            // Of a hand that is away nothing changes.
+            if !hand.active {
+                continue;
+            }
+            let least = if held[2] { 0.5 * TRIGGER } else { TRIGGER };
+            let now = [hand.button_b, hand.button_a, hand.trigger >= least];
+            pressed.start |= now[0] && !held[0];
+            pressed.recentre |= now[1] && !held[1];
+            pressed.triggers[index] = now[2] && !held[2];
+            *held = now;
+        }
+        pressed
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use glam::{Quat, Vec3};
+    use vitriol_xr::FrameInfo;
+    use vitriol_xr::track::{Existing, TrackMetadata, TrackWriter};
+
+    fn frame() -> PoseFrame {
+        PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: Pose::IDENTITY,
+            hands: [Hand::default(), Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        }
+    }
+
+    /// What comes out can be recorded, whatever went in.
+    #[test]
+    fn a_track_takes_what_a_runtime_made_up() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("x.mcap");
+        let metadata = TrackMetadata::default();
+        let mut writer = TrackWriter::create(&file, &metadata, Existing::Refuse).unwrap();
+        let mut good = frame();
+        good.hands[1].valid = true;
+        good.hands[1].stage_from_grip = Pose::new(Vec3::ONE, Quat::from_rotation_x(0.5));
+        let mut bad = good.clone();
+        bad.step = 1;
+        bad.time_ns = 1;
+        bad.stage_from_view.position.x = f32::NAN;
+        bad.hands[0].squeeze = 1.0001;
+        bad.hands[0].thumbstick = [f32::INFINITY, -7.0];
+        bad.hands[1].trigger = f32::NAN;
+        bad.hands[1].stage_from_grip.orientation = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        bad.info.fov[1].up = 2.0;
+        assert!(writer.write(&bad, &[]).is_err());
+        writer.write(&sound(&good, None), &[]).unwrap();
+        let mended = sound(&bad, Some(&good));
+        writer.write(&mended, &[]).unwrap();
+        assert_eq!(mended.hands[0].squeeze, 1.0);
+        assert_eq!(mended.hands[0].thumbstick, [0.0, -1.0]);
+        // The hand is where it was last, and not there.
+        assert!(!mended.hands[1].valid);
+        let held = mended.hands[1].stage_from_grip;
+        assert_eq!(held, good.hands[1].stage_from_grip);
+        // What is sound is left alone.
+        assert_eq!(sound(&good, None), good);
+    }
+
+    #[test]
+    fn a_button_counts_once() {
+        let mut buttons = Buttons::default();
+        let mut hands = [Hand::default(), Hand::default()];
+        let mut press = |active, b, a, trigger| {
+            hands[1] = Hand {
+                active,
+                button_b: b,
+                button_a: a,
+                trigger,
+                ..Hand::default()
+            };
+            let pressed = buttons.advance(&hands);
+            (pressed.start, pressed.recentre, pressed.triggers[1])
+        };
+        assert_eq!(press(true, true, false, 0.0), (true, false, false));
+        assert_eq!(press(true, true, true, 0.7), (false, true, true));
+        // Asleep: what was held down still is.
+        assert_eq!(press(false, false, false, 0.0), (false, false, false));
+        assert_eq!(press(true, true, true, 0.4), (false, false, false));
+        assert_eq!(press(true, false, false, 0.2), (false, false, false));
+        assert_eq!(press(true, true, false, 0.7), (true, false, true));
+    }
+}

@@ -1,0 +1,76 @@
+//! What can be chosen while it runs: on the panel, and by a key of the computer's keyboard.
+
+use super::session::Decision;
+
+/// A scene that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Its key.
+    pub key: char,
+    /// Name of the scene.
+    pub scene: &'static str,
+    /// What it is, for people.
+    pub title: &'static str,
+}
+
+/// The scenes.
+pub const CHOICES: [Choice; 6] = [
+    choice('1', "acid-into-water", "Correct: acid into water"),
+    choice('2', "water-into-acid", "Incorrect: water into acid"),
+    choice('3', "triple-dilution", "The paper's three flasks"),
+    choice('4', "vr-dilution", "The paper's VR dilution"),
+    choice('5', "two-flasks", "Water, two flasks"),
+    choice('6', "three-flasks", "Water, three flasks"),
+];
+
+/// Key of [`Decision::Start`].
+pub const START: char = 'b';
+/// Key of [`Decision::Recentre`].
+pub const RECENTRE: char = 'a';
+/// Key of [`Decision::End`].
+pub const END: char = 'q';
+
+const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
+    Choice { key, scene, title }
+}
+
+/// What a key stands for.
+pub fn decision(key: char) -> Option<Decision> {
+    let key = key.to_ascii_lowercase();
+    match key {
+        START => Some(Decision::Start),
+        RECENTRE => Some(Decision::Recentre),
+        END => Some(Decision::End),
+        _ => {
+            let chosen = CHOICES.iter().find(|choice| choice.key == key);
+            chosen.map(|choice| Decision::Scene(choice.scene.into()))
+        }
+    }
+}
+
+/// The keys and what they do, for a terminal.
+pub fn lines() -> String {
+    let mut text = String::from("keys, each with Enter:");
+    for Choice { key, title, .. } in CHOICES {
+        text += &format!("\n  {key}  {title}");
+    }
+    text + &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {END}  end")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_sim::scene::Scene;
+
+    #[test]
+    fn each_choice_has_a_scene_and_a_key_of_its_own() {
+        for choice in CHOICES {
+            assert!(Scene::builtin_names().contains(&choice.scene));
+            let decided = decision(choice.key).unwrap();
+            assert_eq!(decided, Decision::Scene(choice.scene.into()));
+        }
+        assert_eq!(decision('B'), Some(Decision::Start));
+        assert_eq!(decision('x'), None);
+    }
+}

@@ -1,0 +1,218 @@
+//! Draws egui's triangles through a pipeline of our own: three buffers and a shader, in place of a
+//! renderer that would want the device's command buffers.
+
+use std::sync::Arc;
+
+use egui::epaint::{ImageData, Primitive};
+use egui::{ClippedPrimitive, Rect, TexturesDelta};
+use vitriol_gpu::{
+    Blend, Buffer, ColourFormat, ColourTarget, Cull, Gpu, Image, ImageDesc, Load, RasterDesc,
+    RasterPipeline, RasterTarget, Recorder, Topology, vk,
+};
+use vitriol_shaders::{Library, layout, panel};
+
+use crate::failure::{Blame, Failure};
+
+/// Of the picture: bytes are sRGB-encoded, and blended so.
+const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+/// What is under everything, sRGB: dark, so that it does not shine over the bench.
+const GROUND: [f32; 4] = [0.075, 0.085, 0.10, 1.0];
+
+/// The panel's picture.
+pub fn image(gpu: &Gpu, extent: [u32; 2]) -> Result<Image, Failure> {
+    let desc = ImageDesc {
+        extent,
+        layers: 1,
+        format: FORMAT,
+        usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+    };
+    Image::new(gpu, "panel", desc).other()
+}
+
+/// Triangles within a rectangle.
+struct Part {
+    clip: Rect,
+    indices: u32,
+}
+
+pub struct Painter {
+    gpu: Gpu,
+    pipeline: RasterPipeline,
+    texture: Texture,
+    vertices: Vec<u32>,
+    indices: Vec<Vec<u32>>,
+    parts: Vec<Part>,
+    buffers: Option<Buffers>,
+    changed: bool,
+}
+
+/// On the device; made anew where they are too small.
+struct Buffers {
+    vertices: Buffer,
+    indices: Vec<Buffer>,
+    texture: Buffer,
+}
+
+/// egui's font and what else it fills areas with.
+#[derive(Default)]
+struct Texture {
+    size: [usize; 2],
+    texels: Vec<u32>,
+}
+
+impl Painter {
+    pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
+        let compile = |entry| library.compile(&panel::PANEL, entry, &[]).other();
+        let pipeline = RasterPipeline::new(
+            gpu,
+            &RasterDesc {
+                vertex: &compile("vertex")?,
+                fragment: Some(&compile("fragment")?),
+                colours: &[ColourFormat {
+                    format: FORMAT,
+                    blend: Blend::Premultiplied,
+                }],
+                depth: None,
+                topology: Topology::Triangles,
+                cull: Cull::None,
+                view_mask: 0,
+            },
+        );
+        Ok(Self {
+            gpu: gpu.clone(),
+            pipeline: pipeline.other()?,
+            texture: Texture::default(),
+            vertices: Vec::new(),
+            indices: Vec::new(),
+            parts: Vec::new(),
+            buffers: None,
+            changed: false,
+        })
+    }
+
+    /// Takes a new picture.
+    pub fn take(&mut self, meshes: Vec<ClippedPrimitive>, textures: TexturesDelta) {
+        for (_, delta) in textures.set {
+            let ImageData::Color(image) = delta.image;
+            self.texture.set(delta.pos, &image);
+        }
+        self.vertices.clear();
+        self.indices.clear();
+        self.parts.clear();
+        for ClippedPrimitive {
+            clip_rect,
+            primitive,
+        } in meshes
+        {
+            // Nothing of ours draws by a callback.
+            let Primitive::Mesh(mesh) = primitive else {
+                continue;
+            };
+            let first = (self.vertices.len() / 5) as u32;
+            for vertex in &mesh.vertices {
+                let floats = [vertex.pos.x, vertex.pos.y, vertex.uv.x, vertex.uv.y];
+                self.vertices.extend(floats.map(f32::to_bits));
+                self.vertices
+                    .push(u32::from_le_bytes(vertex.color.to_array()));
+            }
+            self.indices
+                .push(mesh.indices.iter().map(|index| first + index).collect());
+            self.parts.push(Part {
+                clip: clip_rect,
+                indices: mesh.indices.len() as u32,
+            });
+        }
+        self.changed = true;
+    }
+
+    /// Records the picture, if there is a new one.
+    pub fn record(&mut self, rec: &mut Recorder, image: &Image) -> Result<(), Failure> {
+        if !std::mem::take(&mut self.changed) {
+            return Ok(());
+        }
+        self.make_room()?;
+        let Some(buffers) = &self.buffers else {
+            return Ok(());
+        };
+        rec.upload(&buffers.vertices, &self.vertices).other()?;
+        rec.upload(&buffers.texture, &self.texture.texels).other()?;
+        for (buffer, indices) in buffers.indices.iter().zip(&self.indices) {
+            rec.upload(buffer, indices).other()?;
+        }
+        let [width, height] = image.desc().extent;
+        let target = RasterTarget {
+            label: "panel",
+            colours: &[ColourTarget {
+                image,
+                load: Load::Clear(GROUND),
+            }],
+            depth: None,
+            view_mask: 0,
+        };
+        rec.raster(&target, |raster| {
+            for (part, indices) in self.parts.iter().zip(&buffers.indices) {
+                let Rect { min, max } = part.clip;
+                raster
+                    .draw(&self.pipeline)
+                    .read("vertices", &buffers.vertices)
+                    .read("texture", &buffers.texture)
+                    .constants(&layout::PanelDraw {
+                        clip: [min.x, min.y, max.x, max.y],
+                        size: [width as f32, height as f32],
+                        texels: self.texture.size.map(|side| side as u32),
+                    })
+                    .indexed(indices, part.indices, 1)?;
+            }
+            Ok(())
+        })
+        .other()
+    }
+
+    fn make_room(&mut self) -> Result<(), Failure> {
+        let fits = |buffer: &Buffer, words: usize| buffer.bytes() >= 4 * words as u64;
+        let enough = self.buffers.as_ref().is_some_and(|buffers| {
+            fits(&buffers.vertices, self.vertices.len())
+                && fits(&buffers.texture, self.texture.texels.len())
+                && buffers.indices.len() >= self.indices.len()
+                && (buffers.indices.iter().zip(&self.indices))
+                    .all(|(buffer, indices)| fits(buffer, indices.len()))
+        });
+        if enough {
+            return Ok(());
+        }
+        // Half as much again, since texts grow and shrink.
+        let room = |label, words: usize| {
+            let bytes = 4 * (words + words / 2).max(1024) as u64;
+            Buffer::storage(&self.gpu, label, bytes).other()
+        };
+        let indices = self.indices.iter();
+        self.buffers = Some(Buffers {
+            vertices: room("panel's vertices", self.vertices.len())?,
+            texture: room("panel's texture", self.texture.texels.len())?,
+            indices: indices
+                .map(|indices| room("panel's indices", indices.len()))
+                .collect::<Result<_, _>>()?,
+        });
+        Ok(())
+    }
+}
+
+impl Texture {
+    /// Replaces all, or the part at `pos`.
+    fn set(&mut self, pos: Option<[usize; 2]>, image: &Arc<egui::ColorImage>) {
+        let texels = image.pixels.iter();
+        let texels = texels.map(|colour| u32::from_le_bytes(colour.to_array()));
+        let Some([left, upper]) = pos else {
+            self.size = image.size;
+            self.texels = texels.collect();
+            return;
+        };
+        let width = image.size[0].max(1);
+        for (n, texel) in texels.enumerate() {
+            let at = (upper + n / width) * self.size[0] + left + n % width;
+            if let Some(slot) = self.texels.get_mut(at) {
+                *slot = texel;
+            }
+        }
+    }
+}

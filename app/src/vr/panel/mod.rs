@@ -1,0 +1,182 @@
+//! The panel behind the bench: temperatures, state, and buttons for who points at it.
+
+mod draw;
+mod view;
+
+use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
+use glam::{Quat, Vec3};
+use vitriol_gpu::{Gpu, Image, Recorder};
+use vitriol_shaders::Library;
+use vitriol_xr::{Hand, Pose};
+
+use super::session::Decision;
+use crate::failure::Failure;
+use draw::Painter;
+pub use view::{FlaskLine, Info};
+
+/// Width of the panel, m.
+pub const WIDTH: f32 = 0.60;
+
+/// Where it stands in the scene's stage: behind the vessels, over the table's far edge, leaning back
+/// a little, so that it is read from 0.8 m, by who sits or stands, past what is held up.
+pub fn scene_from_panel() -> Pose {
+    Pose::new(Vec3::new(0.0, 1.16, -0.80), Quat::from_rotation_x(-0.12))
+}
+
+/// The trigger presses from here on, and releases below half of it.
+const PRESSES: f32 = 0.6;
+
+/// See the module.
+pub struct Panel {
+    context: egui::Context,
+    extent: [u32; 2],
+    painter: Painter,
+    image: Image,
+    /// Where a hand points, pixels.
+    pointer: Option<Pos2>,
+    pressed: bool,
+    /// Whether the pointing hand has had its trigger released here.
+    armed: bool,
+    shown: Option<(Info, Option<Pos2>, bool)>,
+}
+
+impl Panel {
+    /// A panel of `extent` pixels.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(gpu: &Gpu, library: &Library, extent: [u32; 2]) -> Result<Self, Failure> {
+        let context = egui::Context::default();
+        view::style(&context);
+        Ok(Self {
+            context,
+            extent,
+            painter: Painter::new(gpu, library)?,
+            image: draw::image(gpu, extent)?,
+            pointer: None,
+            pressed: false,
+            armed: false,
+            shown: None,
+        })
+    }
+
+    /// Its picture.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// Takes in where the free hands point (in the scene's stage), shows `info`, and returns what
+    /// was pressed. `None` stands for a hand that is not there or holds something.
+    pub fn update(&mut self, hands: [Option<&Hand>; 2], info: &Info) -> Option<Decision> {
+        let mut events = Vec::new();
+        // The right hand first: only one can point at a time.
+        let pointing = hands.into_iter().rev().flatten().find_map(|hand| {
+            let at = pointed_at(&hand.stage_from_aim, self.extent)?;
+            Some((at, hand.trigger))
+        });
+        let was = std::mem::replace(&mut self.pointer, pointing.map(|(at, _)| at));
+        match pointing {
+            Some((at, trigger)) => {
+                events.push(Event::PointerMoved(at));
+                let least = if self.pressed { 0.5 * PRESSES } else { PRESSES };
+                let presses = trigger >= least;
+                // A hand that comes in with its trigger pulled presses nothing.
+                self.armed = !presses || (self.armed && was.is_some());
+                if presses != self.pressed && self.armed {
+                    self.pressed = presses;
+                    events.push(button(at, presses));
+                }
+            }
+            None if was.is_some() => {
+                self.pressed = false;
+                events.push(Event::PointerGone);
+            }
+            None => {}
+        }
+        let now = (info.clone(), self.pointer, self.pressed);
+        if self.shown.as_ref() == Some(&now) {
+            return None;
+        }
+        self.shown = Some(now);
+        self.show(info, events)
+    }
+
+    fn show(&mut self, info: &Info, events: Vec<Event>) -> Option<Decision> {
+        let [width, height] = self.extent.map(|side| side as f32);
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
+            events,
+            ..RawInput::default()
+        };
+        let mut decided = None;
+        let pointer = self.pointer;
+        let output = self.context.run(input, |context| {
+            decided = view::show(context, info, pointer);
+        });
+        let meshes = self.context.tessellate(output.shapes, 1.0);
+        self.painter.take(meshes, output.textures_delta);
+        decided
+    }
+
+    /// Records the picture, if it has changed since it was recorded last.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record(&mut self, rec: &mut Recorder) -> Result<(), Failure> {
+        self.painter.record(rec, &self.image)
+    }
+}
+
+fn button(at: Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::default(),
+    }
+}
+
+/// The pixel that a ray along −Z meets, if it meets the panel's face.
+fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<Pos2> {
+    let panel_from_scene = scene_from_panel().inverse();
+    let from = panel_from_scene.transform_point(scene_from_aim.position);
+    let along = panel_from_scene.orientation * scene_from_aim.orientation * Vec3::NEG_Z;
+    if from.z <= 0.0 || along.z >= -1e-3 {
+        return None;
+    }
+    let at = from + along * (-from.z / along.z);
+    let pixels = width as f32 / WIDTH;
+    let (x, y) = (
+        0.5 * width as f32 + pixels * at.x,
+        0.5 * height as f32 - pixels * at.y,
+    );
+    let inside = (0.0..width as f32).contains(&x) && (0.0..height as f32).contains(&y);
+    inside.then_some(Pos2::new(x, y))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_meets_the_pixel_that_it_is_aimed_at() {
+        let extent = [1024, 640];
+        for (x, y) in [(512.0, 320.0), (10.0, 20.0), (1000.0, 600.0)] {
+            // The pixel's place in the room, from the panel's own definition.
+            let metres = WIDTH / 1024.0;
+            let on_panel = Vec3::new((x - 512.0) * metres, (320.0 - y) * metres, 0.0);
+            let target = scene_from_panel().transform_point(on_panel);
+            let hand = Vec3::new(0.2, 0.9, -0.2);
+            let turn = Quat::from_rotation_arc(Vec3::NEG_Z, (target - hand).normalize());
+            let at = pointed_at(&Pose::new(hand, turn), extent).unwrap();
+            assert!((at - Pos2::new(x, y)).length() < 0.1, "{at:?}");
+        }
+        // Past its edge, away from it, and from behind.
+        let aim = |at: Vec3, turn| pointed_at(&Pose::new(at, turn), extent);
+        assert_eq!(aim(Vec3::new(0.5, 1.16, 0.0), Quat::IDENTITY), None);
+        let back = Quat::from_rotation_y(std::f32::consts::PI);
+        assert_eq!(aim(Vec3::new(0.0, 1.16, 0.0), back), None);
+        assert_eq!(aim(Vec3::new(0.0, 1.16, -1.5), back), None);
+    }
+}

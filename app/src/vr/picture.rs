@@ -1,0 +1,264 @@
+//! The picture for both eyes, drawn while the next steps are solved.
+
+use glam::Affine3A;
+use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
+use vitriol_render::camera::NEAR;
+use vitriol_render::{
+    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, RenderDesc, RenderError, Renderer,
+    SteamSource, View,
+};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::PUFFS;
+use vitriol_sim::world::World;
+use vitriol_xr::{Headset, Pose, Targets};
+
+use super::hands::{BEAD_RADIUS, Bead, MOST_BEADS};
+use crate::camera::{affine, filter, laboratory, liquid_of};
+use crate::failure::{Blame, Failure};
+
+/// Pictures under way at most: one is shown, one is drawn, and the processor is not farther ahead
+/// than the poses are good for.
+const UNDER_WAY: usize = 2;
+
+/// What pictures are made for.
+#[derive(Clone, Debug)]
+pub struct Eyes {
+    /// Width and height of each, pixels.
+    pub extent: [u32; 2],
+    /// Corners of the triangles that neither sees.
+    pub hidden: [Vec<[f32; 2]>; 2],
+}
+
+impl Eyes {
+    /// Those of a headset.
+    pub fn of(headset: &dyn Headset) -> Self {
+        Self {
+            extent: headset.extent(),
+            hidden: headset.hidden_area(),
+        }
+    }
+}
+
+/// Draws a world for two eyes, with the hands.
+pub struct Picture {
+    renderer: Renderer,
+    /// Each slot's copy of the steam, which the solver changes meanwhile.
+    puffs: Option<[Buffer; 2]>,
+    /// Middles and attributes of the hands' beads.
+    beads: [Buffer; 2],
+    /// The last pictures, the oldest first; at most [`UNDER_WAY`].
+    under_way: Vec<Ticket>,
+    drawn: usize,
+}
+
+/// What one picture shows.
+pub struct Sight<'a> {
+    /// Both eyes in the scene's stage, real metres.
+    pub views: [View; 2],
+    /// The hands.
+    pub beads: &'a [Bead],
+}
+
+/// A picture's submissions.
+pub struct Drawn {
+    /// What reads the particles, on the solver's queue.
+    pub shapes: Ticket,
+    /// The rest.
+    pub picture: Ticket,
+}
+
+impl Picture {
+    /// Pictures of a scene with that many particles.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(
+        gpu: &Gpu,
+        library: &Library,
+        scene: &Scene,
+        world: &World,
+        eyes: &Eyes,
+    ) -> Result<Self, Failure> {
+        let liquid = LiquidDesc {
+            filter: filter(scene),
+            ..LiquidDesc::new(world.solver().count())
+        };
+        let desc = RenderDesc {
+            views: 2,
+            liquid: Some(liquid),
+            ..RenderDesc::film(eyes.extent)
+        };
+        let mut renderer = Renderer::new(gpu, library, &desc).other()?;
+        renderer.set_scene(&laboratory(scene)).other()?;
+        if eyes.hidden.iter().any(|mesh| !mesh.is_empty()) {
+            let [left, right] = &eyes.hidden;
+            renderer.set_visibility_mask(&[left, right]).other()?;
+        }
+        let bytes = world.solver().puffs().map(Buffer::bytes);
+        let puffs = bytes
+            .map(|bytes| -> Result<_, Failure> {
+                let copy = || Buffer::storage(gpu, "puffs, drawn", bytes).other();
+                Ok([copy()?, copy()?])
+            })
+            .transpose()?;
+        let beads = || Buffer::storage(gpu, "hands", 16 * u64::from(MOST_BEADS)).other();
+        Ok(Self {
+            renderer,
+            puffs,
+            beads: [beads()?, beads()?],
+            under_way: Vec::new(),
+            drawn: 0,
+        })
+    }
+
+    /// Submits the part of a picture that reads the particles as they are after the last step,
+    /// behind it on its queue; `also` records what else reads them.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn shapes(
+        &self,
+        gpu: &Gpu,
+        world: &World,
+        also: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
+    ) -> Result<Ticket, Failure> {
+        let slot = self.drawn % 2;
+        let mut rec = gpu.recorder(QueueKind::Async).other()?;
+        let record = |frame: &FrameDesc<'_>| self.renderer.record_shapes(&mut rec, frame, slot);
+        self.with_frame(world, None, record)?;
+        if let (Some(from), Some(copies)) = (world.solver().puffs(), &self.puffs) {
+            let whole = CopyRegion {
+                from: 0,
+                to: 0,
+                bytes: from.bytes(),
+            };
+            rec.copy(from, &copies[slot], &[whole]).other()?;
+        }
+        also(&mut rec)?;
+        // The picture that had this slot before.
+        let before = self.under_way.iter().rev().nth(1);
+        gpu.submit_after(rec, before.as_slice()).other()
+    }
+
+    /// Submits the rest of the picture, and its copy to `targets`; `also` records what else is to be
+    /// done behind it.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn draw(
+        &mut self,
+        world: &World,
+        shapes: Ticket,
+        sight: &Sight<'_>,
+        targets: &Targets,
+        also: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
+    ) -> Result<Drawn, Failure> {
+        let (gpu, slot) = (world.gpu(), self.drawn % 2);
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        self.upload_beads(&mut rec, world, sight.beads)?;
+        let record = |frame: &FrameDesc<'_>| self.renderer.record_picture(&mut rec, frame, slot);
+        self.with_frame(world, Some(sight), record)?;
+        rec.copy_image(self.renderer.image(), &targets.colour)
+            .other()?;
+        if let Some(depth) = &targets.depth {
+            rec.copy_to_image(self.renderer.depth(), depth).other()?;
+        }
+        also(&mut rec)?;
+        let picture = gpu.submit_after(rec, &[&shapes]).other()?;
+        self.drawn += 1;
+        self.under_way.push(picture.clone());
+        Ok(Drawn { shapes, picture })
+    }
+
+    /// Waits until no more pictures are under way than there may be; between frames.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn keep_up(&mut self) -> Result<(), Failure> {
+        while self.under_way.len() > UNDER_WAY {
+            self.under_way.remove(0).wait().other()?;
+        }
+        Ok(())
+    }
+
+    /// Distance of the near plane, real m.
+    pub fn near() -> f32 {
+        NEAR
+    }
+
+    /// The colour image, a layer an eye.
+    pub fn image(&self) -> &vitriol_gpu::Image {
+        self.renderer.image()
+    }
+
+    fn upload_beads(
+        &self,
+        rec: &mut Recorder,
+        world: &World,
+        beads: &[Bead],
+    ) -> Result<(), Failure> {
+        let scale = world.scene().scale.length_scale as f32;
+        let [middles, attributes] = &self.beads;
+        let shown = beads.iter().take(MOST_BEADS as usize);
+        let placed = shown
+            .clone()
+            .map(|(middle, _)| (*middle / scale).extend(0.0).to_array());
+        rec.upload(middles, &placed.collect::<Vec<_>>()).other()?;
+        // A bead's colour is that of a speed.
+        let coloured = shown.map(|&(_, closed)| [0.35 + 0.4 * closed, 0.0, 0.0, 0.0]);
+        rec.upload(attributes, &coloured.collect::<Vec<_>>())
+            .other()
+    }
+
+    fn with_frame(
+        &self,
+        world: &World,
+        sight: Option<&Sight<'_>>,
+        f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
+    ) -> Result<(), Failure> {
+        let scale = world.scene().scale.length_scale as f32;
+        let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
+        let [positions, attributes] = &self.beads;
+        let hands = sight.map(|sight| ParticleSource {
+            positions,
+            attributes,
+            count: sight.beads.len().min(MOST_BEADS as usize) as u32,
+            radius: BEAD_RADIUS / scale,
+        });
+        let nowhere = View {
+            stage_from_eye: Affine3A::IDENTITY,
+            fov: Fov::symmetric(1.0, 1.0),
+        };
+        let frame = FrameDesc {
+            views: &sight.map_or([nowhere; 2], |sight| sight.views),
+            vessels: &vessels,
+            particles: hands.filter(|hands| hands.count > 0),
+            liquid: Some(liquid_of(world)),
+            steam: self.puffs.as_ref().map(|puffs| SteamSource {
+                puffs: &puffs[self.drawn % 2],
+                count: PUFFS,
+            }),
+            colour_by: ColourBy::Speed(1.0),
+            length_scale: scale,
+        };
+        f(&frame).other()
+    }
+}
+
+/// An eye as the renderer takes it, in the scene's stage.
+pub fn eye(view: &vitriol_xr::View, stage_from_scene: &Pose) -> View {
+    let scene_from_eye = stage_from_scene.inverse().compose(&view.stage_from_eye);
+    View {
+        stage_from_eye: Affine3A::from_rotation_translation(
+            scene_from_eye.orientation.normalize(),
+            scene_from_eye.position,
+        ),
+        fov: Fov {
+            left: view.fov.left,
+            right: view.fov.right,
+            up: view.fov.up,
+            down: view.fov.down,
+        },
+    }
+}

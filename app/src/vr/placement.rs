@@ -1,0 +1,151 @@
+//! Where the bench stands in the room: before the user, at the height of her hands.
+//!
+//! A scene has its own stage, with the table's top at 0.75 m and a user at the origin who looks along
+//! −Z. It is laid into the headset's stage, `stage_from_scene`, so that the table's top lies as far
+//! below the eyes as it does for a grown person who sits or stands at a bench, and turned to where
+//! she looks. Everything behind this (bodies, liquid, picture, recording) is in the scene's stage: a
+//! recording holds what the steps consumed, and a replay needs no placement. It is kept in the track
+//! none the less, for who wants to know where in the room it was.
+
+use glam::{EulerRot, Quat, Vec3};
+use vitriol_xr::{Pose, PoseFrame};
+
+/// Height of the eyes above a table at which one sits, m: a seated grown person's eyes are some
+/// 1.20 m above the floor (0.79 m above a seat of 0.42 m: NASA-STD-3000, eye height, sitting), a
+/// table is 0.75 m high.
+const SEATED: f32 = 0.45;
+/// Height of the eyes above a bench at which one stands, m: eyes at 1.58 m (mean of men and women:
+/// NASA-STD-3000, eye height, standing), a laboratory bench at 0.90 m.
+const STANDING: f32 = 0.68;
+/// Eyes higher above the floor than this stand, m: between tall people who sit and small ones who
+/// stand.
+const STANDS: f32 = 1.38;
+/// Height of the table's top in a scene, real metres.
+const SCENE_TABLE: f32 = 0.75;
+
+/// Whether the user sits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Posture {
+    /// By the height of the head above the floor; where the runtime knows no floor, seated
+    #[default]
+    Auto,
+    /// At a table
+    Seated,
+    /// At a laboratory bench
+    Standing,
+}
+
+/// `stage_from_scene` for a user whose head is there.
+pub fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
+    let head = stage_from_view.position;
+    let stands = match posture {
+        Posture::Auto => head.y > STANDS,
+        Posture::Seated => false,
+        Posture::Standing => true,
+    };
+    let drop = if stands { STANDING } else { SEATED };
+    // Where she looks, or where the top of her head points if she looks straight down.
+    let ahead = stage_from_view.orientation * Vec3::NEG_Z;
+    let up = stage_from_view.orientation * Vec3::Y;
+    let level = if ahead.y.abs() < 0.99 {
+        ahead
+    } else {
+        up * -ahead.y.signum()
+    };
+    let yaw = (-level.x).atan2(-level.z);
+    Pose::new(
+        Vec3::new(head.x, head.y - drop - SCENE_TABLE, head.z),
+        Quat::from_rotation_y(yaw),
+    )
+}
+
+/// What the user does, seen from the scene.
+pub fn in_scene(frame: &PoseFrame, stage_from_scene: &Pose) -> PoseFrame {
+    let scene_from_stage = stage_from_scene.inverse();
+    let moved = |stage_from_it: &Pose| {
+        let pose = scene_from_stage.compose(stage_from_it);
+        Pose::new(pose.position, pose.orientation.normalize())
+    };
+    let mut frame = frame.clone();
+    frame.stage_from_view = moved(&frame.stage_from_view);
+    for hand in &mut frame.hands {
+        hand.stage_from_grip = moved(&hand.stage_from_grip);
+        hand.stage_from_aim = moved(&hand.stage_from_aim);
+    }
+    frame
+}
+
+/// The same in the frame of a scene's file, whose vessels stand around `origin` (real m).
+pub fn shifted(mut frame: PoseFrame, origin: Vec3) -> PoseFrame {
+    frame.stage_from_view.position += origin;
+    for hand in &mut frame.hands {
+        hand.stage_from_grip.position += origin;
+        hand.stage_from_aim.position += origin;
+    }
+    frame
+}
+
+/// As a switch keeps it: position (m), then the angle about Y (rad).
+pub fn as_text(stage_from_scene: &Pose) -> String {
+    let Vec3 { x, y, z } = stage_from_scene.position;
+    let (yaw, _, _) = stage_from_scene.orientation.to_euler(EulerRot::YXZ);
+    format!("{x} {y} {z} {yaw}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vitriol_xr::{FrameInfo, Hand};
+
+    fn head(y: f32, yaw: f32, pitch: f32) -> Pose {
+        let turned = Quat::from_rotation_y(yaw) * Quat::from_rotation_x(pitch);
+        Pose::new(Vec3::new(0.3, y, -0.2), turned)
+    }
+
+    #[test]
+    fn the_bench_is_before_the_user_at_her_height() {
+        for (y, posture, top) in [
+            (1.20, Posture::Auto, 0.75),
+            (1.60, Posture::Auto, 0.92),
+            (1.60, Posture::Seated, 1.15),
+            (1.20, Posture::Standing, 0.52),
+            // A stage whose floor is unknown begins at the head.
+            (0.0, Posture::Auto, -0.45),
+        ] {
+            for (yaw, pitch) in [(0.0, 0.0), (0.7, -0.6), (-2.5, 0.4), (3.0, -1.57)] {
+                let placed = before(&head(y, yaw, pitch), posture);
+                let table = placed.transform_point(Vec3::new(0.0, SCENE_TABLE, -0.4));
+                assert!((table.y - top).abs() < 1e-5, "{y} {posture:?}: {table}");
+                let ahead = Quat::from_rotation_y(yaw) * Vec3::NEG_Z * 0.4;
+                let expected = Vec3::new(0.3 + ahead.x, top, -0.2 + ahead.z);
+                // Straight down, the direction is what rounding leaves of it.
+                assert!((table - expected).length() < 2e-3, "{table} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_scene_sees_what_the_stage_sees() {
+        let placed = before(&head(1.3, 1.0, 0.0), Posture::Auto);
+        let hand = Hand {
+            stage_from_grip: Pose::new(Vec3::new(0.1, 0.9, -0.5), Quat::from_rotation_z(0.4)),
+            ..Hand::default()
+        };
+        let frame = PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view: head(1.3, 1.0, 0.0),
+            hands: [hand.clone(), Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        };
+        let seen = in_scene(&frame, &placed);
+        let back = placed.compose(&seen.hands[0].stage_from_grip);
+        assert!((back.position - hand.stage_from_grip.position).length() < 1e-6);
+        assert!(back.orientation.dot(hand.stage_from_grip.orientation).abs() > 1.0 - 1e-6);
+        // The head is over the scene's origin and looks along its −Z.
+        let view = seen.stage_from_view;
+        assert!(view.position.x.abs() < 1e-6 && view.position.z.abs() < 1e-6);
+        assert!((view.orientation * Vec3::NEG_Z - Vec3::NEG_Z).length() < 1e-5);
+    }
+}

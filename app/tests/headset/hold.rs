@@ -1,0 +1,92 @@
+//! Long sessions, and controllers that fall asleep.
+
+use std::time::{Duration, Instant};
+
+use vitriol_tests::monado;
+use vitriol_xr::Side;
+use vitriol_xr::track::load;
+
+use crate::drive::{self, Driver};
+use crate::pour::SPEED;
+use crate::program::{self, Program};
+
+#[test]
+fn a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask() {
+    let name = "hold::a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask";
+    let Some(rig) = monado::enter(name) else {
+        return;
+    };
+    let scene = program::scene(rig.folder());
+    let recording = rig.folder().join("sleep.mcap");
+    let driver = Driver::start(&rig, drive::track(), SPEED);
+    let program = Program::start(&scene, &recording);
+    program.says("Focused");
+    std::thread::sleep(Duration::from_secs(1));
+    driver.go();
+    // The flask is in the air, upright.
+    driver.reach(2.0);
+    driver.halt();
+    std::thread::sleep(Duration::from_secs(1));
+    driver.sleep(true);
+    std::thread::sleep(Duration::from_secs(2));
+    driver.sleep(false);
+    std::thread::sleep(Duration::from_secs(1));
+    let report = program.end();
+    assert_eq!(report["lost_particles"], 0);
+
+    let track = load(recording.to_str().unwrap()).unwrap();
+    let steps: Vec<_> = track
+        .frames
+        .iter()
+        .zip(&track.stage_from_flasks)
+        .filter(|(_, flasks)| !flasks.is_empty())
+        .collect();
+    let asleep = |at: usize| !steps[at].0.hand(Side::Right).active;
+    let lifted = steps
+        .iter()
+        .position(|(_, flasks)| flasks[0].position.y > 0.80);
+    let fell_asleep = (lifted.unwrap()..steps.len())
+        .find(|at| asleep(*at))
+        .unwrap();
+    let slept = (fell_asleep..steps.len())
+        .take_while(|at| asleep(*at))
+        .count();
+    assert!(slept > 20, "{slept} steps asleep");
+    assert!(fell_asleep + slept < steps.len(), "it does not wake");
+    let held = steps[fell_asleep - 1].1[0];
+    for (frame, flasks) in &steps[fell_asleep..] {
+        // It hangs where the hand was, though the controller says that it is at the origin.
+        let leap = flasks[0].position.distance(held.position);
+        assert!(leap < 1e-3, "step {}: {leap} m", frame.step);
+    }
+}
+
+#[test]
+fn nothing_grows_in_a_long_session() {
+    let Some(rig) = monado::enter("hold::nothing_grows_in_a_long_session") else {
+        return;
+    };
+    let scene = program::scene(rig.folder());
+    let recording = rig.folder().join("long.mcap");
+    let length = match std::env::var_os("VITRIOL_LONG") {
+        Some(_) => Duration::from_secs(600),
+        None => Duration::from_secs(120),
+    };
+    let driver = Driver::start(&rig, drive::track(), SPEED);
+    let program = Program::start(&scene, &recording);
+    program.says("Focused");
+    let begun = Instant::now();
+    while begun.elapsed() < length {
+        driver.restart();
+        driver.wait();
+    }
+    let report = program.end();
+    eprintln!("{:#}", report["holdings"]);
+    assert_eq!(report["lost_particles"], 0);
+    assert_eq!(report["recording"]["unwritten"], 0);
+    let held = |at: usize, what: &str| report["holdings"][at][what].as_u64().unwrap();
+    assert!(held(1, "handles") <= held(0, "handles") + 1);
+    // What an allocator keeps for itself; a leak of a kilobyte a frame would be 2 MB and more.
+    let growth = held(1, "memory") as f64 - held(0, "memory") as f64;
+    assert!(growth < 2e6, "{growth} bytes more");
+}

@@ -1,0 +1,9 @@
+//! `vitriol vr` in a headset from end to end: against Monado, which a track drives.
+#![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod drive;
+mod hold;
+mod loss;
+mod pour;
+mod program;

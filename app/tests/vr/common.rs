@@ -1,0 +1,171 @@
+//! A small session, its headset, and the replay of what it recorded.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+
+use vitriol::vr::bench::Plan;
+use vitriol::vr::placement::Posture;
+use vitriol::vr::session::{Decision, Options, Outcome, Session};
+use vitriol::vr::stand_in::{Pace, StandIn, StandInSpec};
+use vitriol_gpu::Gpu;
+use vitriol_sim::scene::Preset;
+use vitriol_xr::track::{Keyframes, Track};
+use vitriol_xr::{Headset, HeadsetError, HeadsetFrame, Pose, Shown, Side, Targets, Turn, View};
+
+/// Keyframes that pour from one flask into the other, see the track's own text.
+pub fn pour() -> Keyframes {
+    let text = vitriol_xr::track::builtin::text("two-flasks").unwrap();
+    Keyframes::parse(text, Path::new("two-flasks.toml")).unwrap()
+}
+
+/// `two-flasks` with 1,200 particles, as a file in `folder`.
+pub fn scene(folder: &Path) -> PathBuf {
+    let text = include_str!("../../../sim/scenes/two-flasks.toml");
+    let small = text
+        .replace("spacing = 0.0025 ", "spacing = 0.005 ")
+        .replace("substeps = 10", "substeps = 5");
+    assert_ne!(small, text);
+    let file = folder.join("small.toml");
+    std::fs::write(&file, small).unwrap();
+    file
+}
+
+/// What goes wrong, or is pressed, in a session.
+pub trait Trouble {
+    /// Before a turn: `Some` in its place.
+    fn turn(&mut self, headset: &mut StandIn) -> Option<Turn>;
+    /// In a frame that has begun.
+    fn frame(&mut self, frame: &mut HeadsetFrame);
+}
+
+/// None.
+pub struct Calm;
+
+impl Trouble for Calm {
+    fn turn(&mut self, _: &mut StandIn) -> Option<Turn> {
+        None
+    }
+    fn frame(&mut self, _: &mut HeadsetFrame) {}
+}
+
+/// A stand-in with trouble, taken off after some frames.
+pub struct Worn<T> {
+    pub inner: StandIn,
+    pub trouble: T,
+    pub frames: u64,
+    /// What was shown with each frame.
+    pub shown: Vec<Shown>,
+    /// What the left and the right hand felt in each.
+    pub felt: Vec<[f32; 2]>,
+}
+
+impl<T: Trouble> Worn<T> {
+    pub fn new(gpu: &Gpu, track: Track, rate_hz: f64, frames: u64, trouble: T) -> Self {
+        let spec = StandInSpec {
+            extent: [96, 64],
+            rate_hz,
+            pace: Pace::Free,
+        };
+        Self {
+            inner: StandIn::new(gpu, track, spec).unwrap(),
+            trouble,
+            frames,
+            shown: Vec::new(),
+            felt: Vec::new(),
+        }
+    }
+}
+
+impl<T: Trouble> Headset for Worn<T> {
+    fn gpu(&self) -> &Gpu {
+        self.inner.gpu()
+    }
+    fn extent(&self) -> [u32; 2] {
+        self.inner.extent()
+    }
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
+        // A corner of each eye's.
+        let corner = vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]];
+        [corner.clone(), corner]
+    }
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+    fn next(&mut self) -> Result<Turn, HeadsetError> {
+        if let Some(turn) = self.trouble.turn(&mut self.inner) {
+            return Ok(turn);
+        }
+        if self.frames == 0 {
+            self.inner.request_exit()?;
+        }
+        let mut turn = self.inner.next()?;
+        if let Turn::Frame(frame) = &mut turn {
+            self.frames -= 1;
+            self.trouble.frame(frame);
+        }
+        Ok(turn)
+    }
+    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
+        self.inner.acquire()
+    }
+    fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
+        self.inner.locate_views()
+    }
+    fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
+        self.shown.extend(shown.copied());
+        self.felt.push(self.inner.felt());
+        self.inner.end(shown)
+    }
+    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
+        self.inner.vibrate(side, amplitude)
+    }
+    fn request_exit(&mut self) -> Result<(), HeadsetError> {
+        self.inner.request_exit()
+    }
+}
+
+/// Nothing comes from the keyboard.
+pub fn nobody() -> Receiver<Decision> {
+    channel().1
+}
+
+/// A session to its end, and its recording.
+pub fn session(
+    headset: &mut dyn Headset,
+    folder: &Path,
+    decisions: Receiver<Decision>,
+) -> (Outcome, Track) {
+    let file = folder.join("session.mcap");
+    let options = Options {
+        plan: Plan {
+            scene: scene(folder).to_str().unwrap().into(),
+            preset: Preset::Balanced,
+            seed: 3,
+        },
+        posture: Posture::Seated,
+        frames: None,
+        record: Some(file.clone()),
+    };
+    let outcome = Session::new(headset, options, decisions)
+        .unwrap()
+        .run(headset)
+        .unwrap();
+    let recorded = outcome.recorded.as_ref().unwrap();
+    assert_eq!((recorded.steps, recorded.unwritten), (outcome.steps, 0));
+    let track = Track::open(&file).unwrap();
+    assert!(!track.recovered);
+    (outcome, track)
+}
+
+/// Hash of the state that a session ended with.
+pub fn hash(outcome: &Outcome) -> u64 {
+    outcome.bench.world.snapshot().unwrap().solver.hash()
+}
+
+/// How far two poses are apart: m, rad.
+pub fn apart(a: &Pose, b: &Pose) -> (f32, f32) {
+    (
+        (a.position - b.position).length(),
+        a.orientation.angle_between(b.orientation),
+    )
+}

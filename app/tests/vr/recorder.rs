@@ -1,0 +1,106 @@
+//! The recorder beside the frame loop.
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use vitriol::vr::record::{Recording, Sink};
+use vitriol_xr::track::TrackError;
+use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
+
+/// A disk that writes a step when it is told to.
+struct Disk {
+    allowed: Receiver<()>,
+    written: Arc<Mutex<Vec<PoseFrame>>>,
+    full_after: usize,
+}
+
+impl Sink for Disk {
+    fn write(&mut self, frame: &PoseFrame, _: &[Pose]) -> Result<(), TrackError> {
+        // At the end, whose sender is gone, it writes what it has.
+        let _ = self.allowed.recv();
+        let mut written = self.written.lock().unwrap();
+        if written.len() >= self.full_after {
+            return Err(TrackError::Io {
+                file: "session.mcap".into(),
+                action: "write",
+                source: std::io::Error::from(std::io::ErrorKind::StorageFull),
+            });
+        }
+        written.push(frame.clone());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), TrackError> {
+        Ok(())
+    }
+}
+
+fn disk(full_after: usize) -> (Box<Disk>, Sender<()>, Arc<Mutex<Vec<PoseFrame>>>) {
+    let (allow, allowed) = channel();
+    let written = Arc::<Mutex<Vec<PoseFrame>>>::default();
+    let disk = Disk {
+        allowed,
+        written: Arc::clone(&written),
+        full_after,
+    };
+    (Box::new(disk), allow, written)
+}
+
+fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
+    PoseFrame {
+        step,
+        time_ns: step as i64,
+        stage_from_view: Pose::IDENTITY,
+        hands: [Hand::default(), Hand::default()],
+        scenario: switched
+            .map(|value| Switch {
+                key: "scene".into(),
+                value: value.into(),
+            })
+            .into_iter()
+            .collect(),
+        info: FrameInfo::default(),
+    }
+}
+
+#[test]
+fn a_full_queue_delays_nobody_and_is_counted() {
+    let (disk, allow, written) = disk(usize::MAX);
+    let mut recording = Recording::into_sink(disk, 4);
+    let begun = Instant::now();
+    for step in 0..20 {
+        recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
+        // The first is taken off the queue, and waits for the disk.
+        if step == 0 {
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+    assert!(begun.elapsed() < Duration::from_secs(1));
+    let state = recording.state();
+    assert_eq!((state.steps, state.unwritten), (0, 15));
+    assert!(state.cause.unwrap().contains("did not keep up"));
+    drop(allow);
+    let state = recording.finish(20, 20);
+    assert_eq!((state.steps, state.unwritten), (5, 15));
+    let written = written.lock().unwrap();
+    let steps: Vec<u64> = written.iter().map(|frame| frame.step).collect();
+    assert_eq!(steps, [0, 1, 2, 3, 4, 20]);
+    // What was switched in a step that is missing is not: a replay would be another scene's.
+    assert_eq!(written[5].scenario[0].value, "x");
+}
+
+#[test]
+fn a_full_disk_is_counted_and_said() {
+    let (disk, allow, _) = disk(3);
+    drop(allow);
+    let mut recording = Recording::into_sink(disk, 64);
+    for step in 0..10 {
+        recording.push(&frame(step, None), Vec::new());
+    }
+    let state = recording.finish(10, 10);
+    // Of ten steps and the end.
+    assert_eq!(state.unwritten, 8);
+    let cause = state.cause.unwrap();
+    assert!(cause.contains("session.mcap"), "{cause}");
+}

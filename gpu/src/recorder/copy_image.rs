@@ -1,0 +1,119 @@
+//! Copies to whole images, such as of a picture to an XR runtime's swapchain.
+
+use ash::vk;
+
+use super::Recorder;
+use super::transfer::texel_bytes;
+use crate::barrier::Scope;
+use crate::{Buffer, GpuError, Image};
+
+impl Recorder {
+    /// Copies all of `from` to `to`, texel by texel and bit by bit: both have the
+    /// same extent, layers and aspect, and texels of the same size, so that sRGB and
+    /// linear formats of the same channels may be mixed.
+    ///
+    /// # Errors
+    /// [`GpuError::ImageUnsupported`] where the two do not fit each other.
+    pub fn copy_image(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
+        let (source, target) = (*from.desc(), *to.desc());
+        let fits = source.extent == target.extent
+            && source.layers == target.layers
+            && source.aspect() == target.aspect()
+            && texel_bytes(source.format).is_some()
+            && texel_bytes(source.format) == texel_bytes(target.format)
+            // Vulkan copies depth between equal formats only.
+            && (!source.is_depth() || source.format == target.format);
+        if !fits || from.handle() == to.handle() {
+            return Err(GpuError::ImageUnsupported {
+                label: to.label().to_owned(),
+                cause: format!(
+                    "it takes no copy of \"{}\" ({source:?} to {target:?}); two images of the \
+                     same extent, layers and size of texel are needed",
+                    from.label()
+                ),
+            });
+        }
+        let (reads, writes) = (
+            vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+        );
+        let storage = &mut *self.storage;
+        storage.clear_pass();
+        storage.use_image(from, reads, Scope::COPY_READ, false)?;
+        storage.use_image(to, writes, Scope::COPY_WRITE, true)?;
+        storage.open_pass(b"copy image")?;
+        let layers = vk::ImageSubresourceLayers::default()
+            .aspect_mask(source.aspect())
+            .layer_count(source.layers);
+        let region = vk::ImageCopy::default()
+            .src_subresource(layers)
+            .dst_subresource(layers)
+            .extent(vk::Extent3D {
+                width: source.extent[0],
+                height: source.extent[1],
+                depth: 1,
+            });
+        // SAFETY: both are held, of the same size and of formats that may be copied, and
+        // in the named layouts.
+        unsafe {
+            storage.core.device.cmd_copy_image(
+                storage.cmd,
+                from.inner.handle,
+                reads,
+                to.inner.handle,
+                writes,
+                &[region],
+            );
+        }
+        storage.close_pass()
+    }
+
+    /// Copies texels from the start of `from` to all of `to`: layer by layer, row by row,
+    /// without padding.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfRange`] where the buffer is too short;
+    /// [`GpuError::ImageUnsupported`] for a format whose texel size is not known here.
+    pub fn copy_to_image(&mut self, from: &Buffer, to: &Image) -> Result<(), GpuError> {
+        let desc = *to.desc();
+        let texel = texel_bytes(desc.format).ok_or_else(|| GpuError::ImageUnsupported {
+            label: to.label().to_owned(),
+            cause: format!(
+                "{:?} takes no copy; use an 8, 16 or 32-bit format",
+                desc.format
+            ),
+        })?;
+        let [width, height] = desc.extent;
+        let texels = u64::from(width) * u64::from(height) * u64::from(desc.layers);
+        from.inner.check(0, texel * texels)?;
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let storage = &mut *self.storage;
+        storage.clear_pass();
+        storage.use_buffer(from, Scope::COPY_READ);
+        storage.use_image(to, layout, Scope::COPY_WRITE, true)?;
+        storage.open_pass(b"copy to image")?;
+        let region = vk::BufferImageCopy::default()
+            .image_subresource(
+                vk::ImageSubresourceLayers::default()
+                    .aspect_mask(desc.aspect())
+                    .layer_count(desc.layers),
+            )
+            .image_extent(vk::Extent3D {
+                width,
+                height,
+                depth: 1,
+            });
+        // SAFETY: both are held, the buffer is as large as the layers, and the image is in the
+        // named layout.
+        unsafe {
+            storage.core.device.cmd_copy_buffer_to_image(
+                storage.cmd,
+                from.inner.handle,
+                to.inner.handle,
+                layout,
+                &[region],
+            );
+        }
+        storage.close_pass()
+    }
+}

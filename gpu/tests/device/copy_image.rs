@@ -1,0 +1,123 @@
+//! Copies between images: colour from a linear to an sRGB format, depth, an imported target.
+
+use vitriol_gpu::{
+    Buffer, ColourTarget, DepthTarget, Gpu, GpuError, Image, ImageDesc, Load, QueueKind,
+    RasterTarget, vk,
+};
+
+use crate::common::{assert_silent, open};
+
+fn image(gpu: &Gpu, label: &str, format: vk::Format, layers: u32, width: u32) -> Image {
+    let depth = format == vk::Format::D32_SFLOAT;
+    let desc = ImageDesc {
+        extent: [width, 4],
+        layers,
+        format,
+        usage: if depth {
+            vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT
+        } else {
+            vk::ImageUsageFlags::COLOR_ATTACHMENT
+        },
+    };
+    Image::new(gpu, label, desc).unwrap()
+}
+
+#[test]
+fn both_layers_arrive_bit_by_bit_in_a_swapchain_image() {
+    let gpu = open();
+    let (linear, srgb) = (vk::Format::R8G8B8A8_UNORM, vk::Format::R8G8B8A8_SRGB);
+    let d32 = vk::Format::D32_SFLOAT;
+    let picture = image(&gpu, "picture", linear, 2, 8);
+    let depth = image(&gpu, "depth", d32, 2, 8);
+    // As an XR runtime's: made by another, found and left as an attachment.
+    let owners = [
+        image(&gpu, "owner", srgb, 2, 8),
+        image(&gpu, "owner of depth", d32, 2, 8),
+    ];
+    let [shown, shown_depth] = [
+        (&owners[0], vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL),
+        (
+            &owners[1],
+            vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+        ),
+    ]
+    .map(|(owner, layout)| {
+        // SAFETY: the owner outlives the import, and has that description.
+        unsafe { Image::import(&gpu, "imported", owner.handle(), *owner.desc(), layout) }.unwrap()
+    });
+
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let target = RasterTarget {
+        label: "clear",
+        colours: &[ColourTarget {
+            image: &picture,
+            load: Load::Clear([0.25, 0.5, 0.75, 1.0]),
+        }],
+        depth: Some(DepthTarget {
+            image: &depth,
+            load: Load::Clear(0.375),
+        }),
+        view_mask: 0b11,
+    };
+    rec.raster(&target, |_| Ok(())).unwrap();
+    rec.copy_image(&picture, &shown).unwrap();
+    rec.copy_image(&depth, &shown_depth).unwrap();
+    let colours = rec.read_back_image(&shown).unwrap();
+    let depths = rec.read_back_image(&shown_depth).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    // A clear of a linear format stores round(255 x); a copy that converted would store the
+    // sRGB codes, 137, 188 and 225.
+    for texel in colours.get::<[u8; 4]>().unwrap() {
+        assert!(
+            texel[0].abs_diff(64) <= 1 && texel[1].abs_diff(128) <= 1,
+            "{texel:?}"
+        );
+        assert!(texel[2].abs_diff(191) <= 1 && texel[3] == 255, "{texel:?}");
+    }
+    assert_eq!(depths.get::<f32>().unwrap(), [0.375; 2 * 8 * 4]);
+    assert_silent(&gpu);
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let gpu = open();
+    let (linear, d32) = (vk::Format::R8G8B8A8_UNORM, vk::Format::D32_SFLOAT);
+    let picture = image(&gpu, "picture", linear, 2, 8);
+    let others = [
+        image(&gpu, "narrower", linear, 2, 7),
+        image(&gpu, "one layer", linear, 1, 8),
+        image(&gpu, "depth", d32, 2, 8),
+        image(&gpu, "wider texels", vk::Format::R16G16B16A16_SFLOAT, 2, 8),
+        picture.clone(),
+    ];
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    for other in &others {
+        let refused = rec.copy_image(&picture, other);
+        assert!(
+            matches!(&refused, Err(GpuError::ImageUnsupported { .. })),
+            "{}",
+            other.label()
+        );
+    }
+    gpu.submit(rec).unwrap().wait().unwrap();
+    assert_silent(&gpu);
+}
+
+#[test]
+fn a_buffers_texels_arrive_in_rows_and_layers() {
+    let gpu = open();
+    let image = image(&gpu, "depth", vk::Format::D32_SFLOAT, 2, 8);
+    // One more than there are.
+    let depths: Vec<f32> = (0..=64).map(|n| n as f32 / 64.0).collect();
+    let buffer = Buffer::storage(&gpu, "depths", 65 * 4).unwrap();
+    let short = Buffer::storage(&gpu, "short", 60 * 4).unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.upload(&buffer, &depths).unwrap();
+    rec.copy_to_image(&buffer, &image).unwrap();
+    let refused = rec.copy_to_image(&short, &image);
+    assert!(matches!(refused, Err(GpuError::OutOfRange { .. })));
+    let copied = rec.read_back_image(&image).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    assert_eq!(copied.get::<f32>().unwrap(), depths[..64]);
+    assert_silent(&gpu);
+}

@@ -1,0 +1,153 @@
+//! What the frame loop asks of a headset, whether it is an OpenXR session or a stand-in of the same size.
+//!
+//! One frame, in this order: [`next`](Headset::next) (wait, begin, sync actions, locate),
+//! the simulation's steps, [`acquire`](Headset::acquire), [`locate_views`](Headset::locate_views) as
+//! late as can be, the picture's submission, [`end`](Headset::end). Each frame that `next` gives is
+//! ended, drawn or not. Nothing between them waits for the GPU.
+
+use vitriol_gpu::{Gpu, GpuError, Image};
+
+use crate::{Fov, Pose, PoseFrame, Side};
+
+/// A headset's frames, images and hands.
+pub trait Headset {
+    /// The device that simulation and picture use. Another one after [`Turn::Renewed`].
+    fn gpu(&self) -> &Gpu;
+
+    /// Width and height of each eye's picture, pixels.
+    fn extent(&self) -> [u32; 2];
+
+    /// Corners of triangles that no eye sees, three each, for the left and the right eye: 0 to 1
+    /// from the picture's upper left. Empty where the runtime gives none.
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2];
+
+    /// Runtime and device in a line, for people.
+    fn name(&self) -> &str;
+
+    /// Takes the runtime's events, waits for the next frame and begins it.
+    ///
+    /// # Errors
+    /// What cannot be mended by asking again; a lost runtime or session is a [`Turn`].
+    fn next(&mut self) -> Result<Turn, HeadsetError>;
+
+    /// Where the frame's pictures are to be copied to; `end` hands them over.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn acquire(&mut self) -> Result<Targets, HeadsetError>;
+
+    /// The eyes at the frame's display time, located anew.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn locate_views(&mut self) -> Result<[View; 2], HeadsetError>;
+
+    /// Ends the frame; without `shown` nothing is shown.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError>;
+
+    /// What the hand feels until the next call: 0 nothing, 1 the strongest. It is to be said in
+    /// each frame: after 200 ms it ends by itself, so that a program that hangs does not go on
+    /// shaking a hand.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
+
+    /// Asks the runtime for the end; [`Turn::Ended`] follows some turns later.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn request_exit(&mut self) -> Result<(), HeadsetError>;
+}
+
+/// What comes next.
+#[derive(Debug)]
+pub enum Turn {
+    /// A frame has begun.
+    Frame(Box<HeadsetFrame>),
+    /// No frame now: the headset is off, or the session is not running. It has waited a little (100 ms at most).
+    Paused,
+    /// The runtime or its session is gone, and is sought again. It has waited a little.
+    Lost {
+        /// What was lost.
+        cause: String,
+    },
+    /// The session is new, and so are device, images and sizes: what lived on the old device moves over.
+    Renewed,
+    /// The runtime or the student asked to end.
+    Ended,
+}
+
+/// A frame that has begun.
+#[derive(Clone, Debug)]
+pub struct HeadsetFrame {
+    /// Counted from 0, over losses too.
+    pub index: u64,
+    /// Head and hands at the display time ([`FrameInfo::xr_time`](crate::FrameInfo)); `step` and
+    /// `time_ns` are the simulation's, and zero here; `scenario` is empty. A hand that is not valid holds its last pose.
+    pub poses: PoseFrame,
+    /// Whether a picture would be shown.
+    pub should_render: bool,
+    /// Whether the session has the input focus.
+    pub focused: bool,
+    /// The runtime moved the stage (the student recentred).
+    pub recentred: bool,
+}
+
+/// An eye at the display time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The eye in the stage (-Z is the line of sight).
+    pub stage_from_eye: Pose,
+    /// Its field of view.
+    pub fov: Fov,
+}
+
+/// The runtime's images for a frame. They take copies of pictures of the same extent.
+#[derive(Clone)]
+pub struct Targets {
+    /// Two layers, 8 bits a channel, sRGB.
+    pub colour: Image,
+    /// Two layers of reversed depth, where the runtime takes it.
+    pub depth: Option<Image>,
+    /// The panel, one layer, 8 bits a channel, sRGB.
+    pub panel: Image,
+}
+
+/// What a frame shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// With which the picture was drawn, as [`Headset::locate_views`] gave them.
+    pub views: [View; 2],
+    /// Distance of the near plane, m, where depth is 1; it is 0 at infinity.
+    pub near: f32,
+    /// Where the panel stands (its middle; +Z is its face's normal), and its width, m; its height follows from
+    /// its pixels.
+    pub panel: Option<(Pose, f32)>,
+}
+
+/// Why a headset cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum HeadsetError {
+    /// Nothing to talk to.
+    #[error("{remedy}")]
+    NoRuntime {
+        /// What is missing, and what to install or start.
+        remedy: String,
+    },
+    /// The runtime refused a call.
+    #[error("the OpenXR runtime refused {call} ({cause}); restart it, or update it if that stays")]
+    Refused {
+        /// OpenXR's name of the call.
+        call: &'static str,
+        /// What it answered.
+        cause: String,
+    },
+    /// The device failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}

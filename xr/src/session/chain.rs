@@ -1,0 +1,135 @@
+//! A swapchain and its images.
+
+use openxr as xr;
+use vitriol_gpu::ash::vk::Handle;
+use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
+
+use super::convert::{Failure, failed};
+
+/// A swapchain of one size and format.
+pub(super) struct Chain {
+    /// Before the swapchain, whose images they view.
+    images: Vec<Image>,
+    chain: xr::Swapchain<xr::Vulkan>,
+    /// Of the image that is ours now.
+    held: Option<usize>,
+}
+
+impl Chain {
+    /// A swapchain whose images can be copied to.
+    pub(super) fn new(
+        gpu: &Gpu,
+        session: &xr::Session<xr::Vulkan>,
+        label: &str,
+        extent: [u32; 2],
+        layers: u32,
+        format: vk::Format,
+    ) -> Result<Self, Failure> {
+        let depth = format == vk::Format::D32_SFLOAT;
+        let (xr_use, usage, layout) = if depth {
+            (
+                xr::SwapchainUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+            )
+        } else {
+            (
+                xr::SwapchainUsageFlags::COLOR_ATTACHMENT,
+                vk::ImageUsageFlags::COLOR_ATTACHMENT,
+                vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+            )
+        };
+        let chain = session
+            .create_swapchain(&xr::SwapchainCreateInfo {
+                create_flags: xr::SwapchainCreateFlags::EMPTY,
+                usage_flags: xr_use
+                    | xr::SwapchainUsageFlags::TRANSFER_DST
+                    | xr::SwapchainUsageFlags::TRANSFER_SRC,
+                format: format.as_raw() as u32,
+                sample_count: 1,
+                width: extent[0],
+                height: extent[1],
+                face_count: 1,
+                array_size: layers,
+                mip_count: 1,
+            })
+            .map_err(failed("xrCreateSwapchain"))?;
+        let desc = ImageDesc {
+            extent,
+            layers,
+            format,
+            usage: usage | vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
+        };
+        let images = chain
+            .enumerate_images()
+            .map_err(failed("xrEnumerateSwapchainImages"))?
+            .into_iter()
+            .map(|handle| {
+                // SAFETY: the runtime made the image on this device with these properties. It
+                // lives until the swapchain is destroyed, before which `Live` waits for the
+                // device; a view may be destroyed after its image.
+                unsafe { Image::import(gpu, label, vk::Image::from_raw(handle), desc, layout) }
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        if images.is_empty() {
+            return Err(failed("xrEnumerateSwapchainImages")(
+                xr::sys::Result::ERROR_VALIDATION_FAILURE,
+            ));
+        }
+        Ok(Self {
+            images,
+            chain,
+            held: None,
+        })
+    }
+
+    /// The image for this frame, when the compositor has let go of it.
+    pub(super) fn acquire(&mut self, gpu: &Gpu) -> Result<Image, Failure> {
+        if let Some(held) = self.held {
+            return Ok(self.images[held].clone());
+        }
+        let index = gpu
+            .with_queue(QueueKind::Main, |_| self.chain.acquire_image())
+            .map_err(failed("xrAcquireSwapchainImage"))?;
+        self.chain
+            .wait_image(xr::Duration::INFINITE)
+            .map_err(failed("xrWaitSwapchainImage"))?;
+        let held = index as usize % self.images.len();
+        self.held = Some(held);
+        Ok(self.images[held].clone())
+    }
+
+    /// Gives the image back with what was submitted for it.
+    pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), Failure> {
+        if self.held.take().is_none() {
+            return Ok(());
+        }
+        gpu.with_queue(QueueKind::Main, |_| self.chain.release_image())
+            .map_err(failed("xrReleaseSwapchainImage"))
+    }
+
+    /// Any of the images, for a frame that is lost anyhow.
+    pub(super) fn stale(&self) -> Image {
+        self.images[self.held.unwrap_or(0)].clone()
+    }
+
+    /// Width and height, pixels.
+    pub(super) fn extent(&self) -> [u32; 2] {
+        self.images[0].desc().extent
+    }
+
+    /// One layer of it, as composition layers name it.
+    pub(super) fn part(&self, layer: u32) -> xr::SwapchainSubImage<'_, xr::Vulkan> {
+        let [width, height] = self.extent();
+        xr::SwapchainSubImage::new()
+            .swapchain(&self.chain)
+            .image_array_index(layer)
+            .image_rect(xr::Rect2Di {
+                offset: xr::Offset2Di { x: 0, y: 0 },
+                extent: xr::Extent2Di {
+                    width: width as i32,
+                    height: height as i32,
+                },
+            })
+    }
+}

@@ -1,0 +1,86 @@
+//! What the runtime tells: states of the session, losses, moves of the stage.
+
+use openxr as xr;
+
+use super::convert::{Failure, failed, state};
+use super::live::{Live, STEREO};
+use super::mask::Mask;
+
+impl Live {
+    /// Takes all events that wait.
+    pub(super) fn take_events(&mut self) -> Result<(), Failure> {
+        let mut buffer = xr::EventDataBuffer::new();
+        // A clone, so that the event's borrow does not hold `self`.
+        let instance = self.instance.clone();
+        while let Some(event) = instance
+            .poll_event(&mut buffer)
+            .map_err(failed("xrPollEvent"))?
+        {
+            self.take(event)?;
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, event: xr::Event<'_>) -> Result<(), Failure> {
+        match event {
+            xr::Event::SessionStateChanged(change) => self.change_state(change.state())?,
+            xr::Event::InstanceLossPending(_) => {
+                return Err(Failure::Lost("the runtime is ending".to_owned()));
+            }
+            xr::Event::EventsLost(lost) => {
+                // A change of state among them comes again only with the next one; what can be
+                // asked for is asked for.
+                tracing::warn!(count = lost.lost_event_count(), "OpenXR events lost");
+                self.refresh()?;
+            }
+            xr::Event::InteractionProfileChanged(_) => {
+                self.actions.name_profiles(&self.instance, &self.session)?;
+            }
+            xr::Event::ReferenceSpaceChangePending(change)
+                if change.reference_space_type() == self.stage.kind =>
+            {
+                self.moves_at = Some(change.change_time());
+            }
+            xr::Event::VisibilityMaskChangedKHR(change)
+                if change.view_configuration_type() == STEREO =>
+            {
+                self.refresh_masks();
+            }
+            xr::Event::UserPresenceChangedEXT(change) => self.present = change.is_user_present(),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn change_state(&mut self, to: xr::SessionState) -> Result<(), Failure> {
+        self.state = state(to);
+        tracing::info!(state = ?self.state, "OpenXR session");
+        match to {
+            xr::SessionState::READY => {
+                self.session
+                    .begin(STEREO)
+                    .map_err(failed("xrBeginSession"))?;
+                self.running = true;
+            }
+            xr::SessionState::STOPPING => {
+                self.session.end().map_err(failed("xrEndSession"))?;
+                self.running = false;
+            }
+            xr::SessionState::EXITING => self.ended = true,
+            xr::SessionState::LOSS_PENDING => {
+                return Err(Failure::Lost("the session is ending".to_owned()));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn refresh(&mut self) -> Result<(), Failure> {
+        self.refresh_masks();
+        self.actions.name_profiles(&self.instance, &self.session)
+    }
+
+    fn refresh_masks(&mut self) {
+        self.masks = [Mask::of(&self.session, 0), Mask::of(&self.session, 1)];
+    }
+}

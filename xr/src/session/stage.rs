@@ -1,0 +1,53 @@
+//! The stage: which reference space it is.
+
+use openxr as xr;
+
+use super::convert::{Failure, failed};
+
+/// The space that all poses are in.
+pub(super) struct Stage {
+    pub space: xr::Space,
+    pub kind: xr::ReferenceSpaceType,
+}
+
+impl Stage {
+    /// STAGE, else LOCAL_FLOOR, else LOCAL, whose origin is where the eyes were: there the floor
+    /// is not known, and the bench is placed by the head.
+    pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, Failure> {
+        let offered = session
+            .enumerate_reference_spaces()
+            .map_err(failed("xrEnumerateReferenceSpaces"))?;
+        let kind = choose(&offered);
+        let space = session
+            .create_reference_space(kind, xr::Posef::IDENTITY)
+            .map_err(failed("xrCreateReferenceSpace"))?;
+        Ok(Self { space, kind })
+    }
+}
+
+/// The best of the offered spaces.
+fn choose(offered: &[xr::ReferenceSpaceType]) -> xr::ReferenceSpaceType {
+    let floors = [
+        xr::ReferenceSpaceType::STAGE,
+        xr::ReferenceSpaceType::LOCAL_FLOOR,
+    ];
+    let floor = floors.into_iter().find(|kind| offered.contains(kind));
+    floor.unwrap_or(xr::ReferenceSpaceType::LOCAL)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+
+    #[test]
+    fn a_known_floor_is_preferred() {
+        use xr::ReferenceSpaceType as T;
+        assert_eq!(
+            choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR, T::STAGE]),
+            T::STAGE
+        );
+        assert_eq!(choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR]), T::LOCAL_FLOOR);
+        assert_eq!(choose(&[T::VIEW, T::LOCAL]), T::LOCAL);
+    }
+}

@@ -1,0 +1,151 @@
+//! The least that a program does with a headset.
+
+use std::time::{Duration, Instant};
+
+use glam::{Quat, Vec3};
+use vitriol_gpu::{
+    ColourTarget, DepthTarget, Image, ImageDesc, Load, Options, QueueKind, RasterTarget, vk,
+};
+use vitriol_xr::{Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, Shown, Targets, Turn};
+
+/// Longest wait for a frame: the runtime's slowest answer on two busy cores.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+const PANEL: [u32; 2] = [64, 32];
+
+/// A headset and pictures of its size.
+pub struct Client {
+    pub xr: OpenXr,
+    pictures: Option<Pictures>,
+}
+
+struct Pictures {
+    colour: Image,
+    depth: Image,
+    panel: Image,
+}
+
+impl Client {
+    pub fn open() -> Self {
+        let xr = OpenXr::open(OpenXrOptions {
+            gpu: Options {
+                validation: true,
+                ..Options::default()
+            },
+            instance_extensions: Vec::new(),
+            device_extensions: Vec::new(),
+            panel: PANEL,
+        })
+        .unwrap();
+        Self { xr, pictures: None }
+    }
+
+    /// Turns up to and with the next frame; what was no frame, in words.
+    pub fn frame(&mut self) -> (HeadsetFrame, Vec<String>) {
+        let begun = Instant::now();
+        let mut others = Vec::new();
+        while begun.elapsed() < PATIENCE {
+            match self.xr.next().unwrap() {
+                Turn::Frame(frame) => return (*frame, others),
+                Turn::Renewed => {
+                    self.pictures = None;
+                    others.push("renewed".to_owned());
+                }
+                Turn::Paused => others.push("paused".to_owned()),
+                Turn::Lost { cause } => others.push(format!("lost: {cause}")),
+                Turn::Ended => panic!("ended"),
+            }
+        }
+        panic!("no frame came: {others:?}");
+    }
+
+    /// Frames until one has the focus.
+    pub fn focus(&mut self) -> HeadsetFrame {
+        let begun = Instant::now();
+        while begun.elapsed() < PATIENCE {
+            let (frame, _) = self.frame();
+            self.draw();
+            if frame.focused {
+                return frame;
+            }
+        }
+        panic!("no focus came");
+    }
+
+    /// Draws the frame and ends it; gives the colour target.
+    pub fn draw(&mut self) -> Image {
+        let targets = self.xr.acquire().unwrap();
+        self.submit(&targets);
+        let views = self.xr.locate_views().unwrap();
+        let panel = Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY);
+        let shown = Shown {
+            views,
+            near: 0.05,
+            panel: Some((panel, 0.3)),
+        };
+        self.xr.end(Some(&shown)).unwrap();
+        targets.colour
+    }
+
+    /// Clears pictures of our own and copies them to `targets`.
+    pub fn submit(&mut self, targets: &Targets) {
+        let gpu = self.xr.gpu().clone();
+        let pictures = self.pictures.get_or_insert_with(|| {
+            let image = |label: &str, extent, layers, format, usage| {
+                let desc = ImageDesc {
+                    extent,
+                    layers,
+                    format,
+                    usage,
+                };
+                Image::new(&gpu, label, desc).unwrap()
+            };
+            let eyes = targets.colour.desc().extent;
+            let linear = vk::Format::R8G8B8A8_UNORM;
+            let colour = vk::ImageUsageFlags::COLOR_ATTACHMENT;
+            let depth = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+            Pictures {
+                colour: image("eyes", eyes, 2, linear, colour),
+                depth: image("depth", eyes, 2, vk::Format::D32_SFLOAT, depth),
+                panel: image("panel", PANEL, 1, linear, colour),
+            }
+        });
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        let eyes = RasterTarget {
+            label: "eyes",
+            colours: &[ColourTarget {
+                image: &pictures.colour,
+                load: Load::Clear([0.25, 0.5, 0.75, 1.0]),
+            }],
+            depth: Some(DepthTarget {
+                image: &pictures.depth,
+                load: Load::Clear(0.0),
+            }),
+            view_mask: 0b11,
+        };
+        rec.raster(&eyes, |_| Ok(())).unwrap();
+        let panel = RasterTarget {
+            label: "panel",
+            colours: &[ColourTarget {
+                image: &pictures.panel,
+                load: Load::Clear([1.0, 0.0, 0.0, 1.0]),
+            }],
+            depth: None,
+            view_mask: 0,
+        };
+        rec.raster(&panel, |_| Ok(())).unwrap();
+        rec.copy_image(&pictures.colour, &targets.colour).unwrap();
+        rec.copy_image(&pictures.panel, &targets.panel).unwrap();
+        if let Some(depth) = &targets.depth {
+            rec.copy_image(&pictures.depth, depth).unwrap();
+        }
+        gpu.submit(rec).unwrap();
+    }
+
+    /// Fails where Vulkan's validation layer has said anything about the present device.
+    pub fn assert_silent(&self) {
+        self.xr.gpu().wait_idle().unwrap();
+        let messages = self.xr.gpu().take_validation_messages();
+        assert!(messages.is_empty(), "Vulkan's layer says: {messages:#?}");
+    }
+}
