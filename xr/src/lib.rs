@@ -1,12 +1,13 @@
 //! Where poses of head and hands come from.
 //!
-//! A simulation step asks a [`PoseSource`] where the head and the hands are, and what the
-//! hands squeeze, at that step's own simulation time. A pose track replayed from a file
-//! ([`track`]) is such a source; a live OpenXR session is the other one, so that the loop
-//! above cannot tell them apart. Nothing here knows what the poses act on.
+//! A pose track replayed from a file ([`track`]) is a [`PoseSource`]: a simulation step asks it
+//! where the head and the hands are, and what the hands squeeze, at that step's own simulation
+//! time. A live OpenXR session ([`OpenXr`]) is a [`Headset`]: its display frames come at times of
+//! their own, and the loop above makes the steps' frames from them. Nothing here knows what the
+//! poses act on.
 //!
-//! Poses are in the stage frame: Y up, metres, the floor at y = 0, the user at the origin
-//! looking along -Z (OpenXR's STAGE reference space).
+//! Poses are in the stage frame: Y up, metres, -Z ahead; OpenXR's STAGE reference space with
+//! the floor at y = 0 where the runtime knows it.
 
 mod frame;
 mod headset;

@@ -121,6 +121,10 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
             "XR_FB_display_refresh_rate",
             offered.fb_display_refresh_rate,
         ),
+        (
+            "XR_BD_controller_interaction",
+            offered.bd_controller_interaction,
+        ),
     ]
 }
 

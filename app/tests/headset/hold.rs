@@ -44,7 +44,7 @@ fn a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask() {
     let asleep = |at: usize| !steps[at].0.hand(Side::Right).active;
     let lifted = steps
         .iter()
-        .position(|(_, flasks)| flasks[0].position.y > 0.88);
+        .position(|(_, flasks)| flasks[0].position.y > 0.80);
     let fell_asleep = (lifted.unwrap()..steps.len())
         .find(|at| asleep(*at))
         .unwrap();

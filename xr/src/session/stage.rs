@@ -1,14 +1,8 @@
-//! The stage: which reference space it is, and where its floor lies.
+//! The stage: which reference space it is.
 
-use glam::{Quat, Vec3};
 use openxr as xr;
 
-use super::convert::{Failure, failed, posef};
-use crate::Pose;
-
-/// Height of the eyes above the floor where a runtime knows no floor, m: LOCAL has its origin at
-/// the eyes. Between the medians of standing women and men, 1.52 and 1.63 m (DIN 33402-2:2005).
-const EYES: f32 = 1.6;
+use super::convert::{Failure, failed};
 
 /// The space that all poses are in.
 pub(super) struct Stage {
@@ -17,28 +11,28 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// STAGE, else LOCAL_FLOOR, else LOCAL, put down to the floor.
+    /// STAGE, else LOCAL_FLOOR, else LOCAL, whose origin is where the eyes were: there the floor
+    /// is not known, and the bench is placed by the head.
     pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, Failure> {
         let offered = session
             .enumerate_reference_spaces()
             .map_err(failed("xrEnumerateReferenceSpaces"))?;
-        let (kind, drop) = choose(&offered);
-        let origin = Pose::new(Vec3::new(0.0, -drop, 0.0), Quat::IDENTITY);
+        let kind = choose(&offered);
         let space = session
-            .create_reference_space(kind, posef(&origin))
+            .create_reference_space(kind, xr::Posef::IDENTITY)
             .map_err(failed("xrCreateReferenceSpace"))?;
         Ok(Self { space, kind })
     }
 }
 
-/// The best of the offered spaces, and how far its origin is above the floor, m.
-fn choose(offered: &[xr::ReferenceSpaceType]) -> (xr::ReferenceSpaceType, f32) {
+/// The best of the offered spaces.
+fn choose(offered: &[xr::ReferenceSpaceType]) -> xr::ReferenceSpaceType {
     let floors = [
         xr::ReferenceSpaceType::STAGE,
         xr::ReferenceSpaceType::LOCAL_FLOOR,
     ];
     let floor = floors.into_iter().find(|kind| offered.contains(kind));
-    floor.map_or((xr::ReferenceSpaceType::LOCAL, EYES), |kind| (kind, 0.0))
+    floor.unwrap_or(xr::ReferenceSpaceType::LOCAL)
 }
 
 #[cfg(test)]
@@ -51,12 +45,9 @@ mod tests {
         use xr::ReferenceSpaceType as T;
         assert_eq!(
             choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR, T::STAGE]),
-            (T::STAGE, 0.0)
+            T::STAGE
         );
-        assert_eq!(
-            choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR]),
-            (T::LOCAL_FLOOR, 0.0)
-        );
-        assert_eq!(choose(&[T::VIEW, T::LOCAL]), (T::LOCAL, EYES));
+        assert_eq!(choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR]), T::LOCAL_FLOOR);
+        assert_eq!(choose(&[T::VIEW, T::LOCAL]), T::LOCAL);
     }
 }
