@@ -51,7 +51,7 @@ pub enum Command {
     /// Convert, list or look into pose tracks
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
-    Scenes,
+    Scenes(ScenesArgs),
     /// Measure the time of each pass, with the density error beside it
     Bench(BenchArgs),
     /// Fig. 5 of the paper: a flask moved violently, without and with the flask
@@ -180,6 +180,13 @@ pub struct ReplayArgs {
     /// recorded with, or else balanced
     #[arg(long, value_enum)]
     pub preset: Option<PresetName>,
+    /// In place of a preset: the most accurate setting by which a frame's solution
+    /// takes at most so many milliseconds on this device (99th percentile)
+    #[arg(long, value_name = "MS", value_parser = positive_seconds, conflicts_with_all = ["preset", "solver"])]
+    pub budget_ms: Option<f64>,
+    /// Substeps and iterations in place of the preset's, such as 10x3
+    #[arg(long, value_name = "SxI", value_parser = size)]
+    pub solver: Option<[u32; 2]>,
     /// Simulated seconds; without it the whole track
     #[arg(long, value_name = "S", value_parser = positive_seconds)]
     pub seconds: Option<f64>,
@@ -452,6 +459,21 @@ pub struct CalorimeterArgs {
     pub device: Option<String>,
 }
 
+/// Arguments of `vitriol scenes`.
+#[derive(Debug, Args)]
+pub struct ScenesArgs {
+    /// What each scene takes: passes of a frame, bytes a particle; and what is left
+    /// out of it
+    #[arg(long)]
+    pub cost: bool,
+    /// With --cost: trade of speed for accuracy
+    #[arg(long, value_enum, default_value_t, requires = "cost")]
+    pub preset: PresetName,
+    /// With --cost: device to use, its number or a part of its name
+    #[arg(long, requires = "cost")]
+    pub device: Option<String>,
+}
+
 /// Parts of `vitriol trade`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum TradePart {
@@ -511,7 +533,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
     match sides {
         Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
-        _ => Err("give width and height in pixels, such as 960x540".into()),
+        _ => Err("give two whole numbers above 0, such as 960x540".into()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Vitriol, the program: the parts of the binary `vitriol`, open to its tests.
 
+mod budget;
 pub mod calorimeter;
 mod camera;
 pub mod cli;

@@ -162,6 +162,23 @@ fn passes(gpu: &Gpu, scene: &Scene, frames: u32) -> Result<(Vec<PassRow>, Timing
     Ok(tally.rows())
 }
 
+/// Passes of a first frame of `scene`, which rebuilds its lists in every substep that
+/// asks for it, and bytes of device memory a particle.
+///
+/// # Errors
+/// What the device says.
+pub(crate) fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure> {
+    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let poses = world.poses().to_vec();
+    let mut rec = gpu.recorder(QueueKind::Main).other()?;
+    world.solver().record(&mut rec, &poses, &poses).other()?;
+    let ticket = gpu.submit(rec).other()?;
+    ticket.wait().other()?;
+    let mut tally = Tally::default();
+    tally.add(&ticket)?;
+    Ok((tally.rows().0, world.solver().bytes_per_particle()))
+}
+
 /// A world whose liquid has come to rest.
 fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
     let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;

@@ -31,26 +31,49 @@ pub fn count_for_volume(volume: f64, d: f64) -> usize {
 /// where half a lattice step away from a full boundary the density is that
 /// of the lattice.
 pub fn sites(profile: &Profile, d: f64) -> Vec<Vec<DVec3>> {
+    let mut layers = Vec::new();
+    visit(profile, d, |layer, site| {
+        layers.resize(layers.len().max(layer + 1), Vec::new());
+        layers[layer].push(site);
+    });
+    layers
+}
+
+/// How many [`sites`] there are, without the memory for them.
+pub fn count_sites(profile: &Profile, d: f64) -> usize {
+    let mut count = 0;
+    visit(profile, d, |_, _| count += 1);
+    count
+}
+
+/// Calls `found` with each site and the number of its layer.
+fn visit(profile: &Profile, d: f64, mut found: impl FnMut(usize, DVec3)) {
     let reach = (profile.outer_radius() / d).ceil() as i64;
     let gap = 0.5 * d * (1.0 - 1e-9);
-    let layer = |y: f64| {
-        let mut sites = Vec::new();
+    let lowest = profile.floor_height() + 0.5 * d;
+    let layers = ((profile.rim_height() - lowest - gap) / d).floor();
+    for layer in 0..=layers.max(-1.0) as i64 {
+        let y = lowest + layer as f64 * d;
+        // No wall within the gap is nearer to the axis: what is clear of this needs no
+        // distance to be found, which is most sites of a wide vessel.
+        let narrowest = profile.narrowest(y - gap, y + gap);
+        let widest = profile.inner_radius(y);
         for i in -reach..=reach {
+            let x = i as f64 * d;
+            if x.abs() > widest {
+                continue;
+            }
             for k in -reach..=reach {
-                let (x, z) = (i as f64 * d, k as f64 * d);
+                let z = k as f64 * d;
                 let r = x.hypot(z);
-                if profile.is_inside(r, y) && profile.signed_distance_inner(r, y) >= gap {
-                    sites.push(DVec3::new(x, y, z));
+                let clear = r + gap < narrowest
+                    || (profile.is_inside(r, y) && profile.signed_distance_inner(r, y) >= gap);
+                if clear {
+                    found(layer as usize, DVec3::new(x, y, z));
                 }
             }
         }
-        sites
-    };
-    let lowest = profile.floor_height() + 0.5 * d;
-    let layers = ((profile.rim_height() - lowest - gap) / d).floor();
-    (0..=layers.max(-1.0) as i64)
-        .map(|j| layer(lowest + j as f64 * d))
-        .collect()
+    }
 }
 
 /// Places `count` particles of spacing `d` (metres) in the flask and returns

@@ -31,7 +31,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Bench(args) => bench::run(args, format, measure::measure),
         Command::Track(args) => track::run(args, format),
         Command::Vr(args) => vr::run(args, format),
-        Command::Scenes => scenes::run(format),
+        Command::Scenes(args) => scenes::run(args, format),
         Command::Fidelity(args) => fidelity::run(args, format),
         Command::Fig5(args) => fig5::run(args, format),
         Command::DamBreak(args) => dam_break::run(args, format),

@@ -12,9 +12,11 @@ use vitriol_xr::track::{Track, TrackSource};
 
 use clap::ValueEnum;
 
+use crate::budget;
 use crate::cli::{CameraName, ColourName, FilterName, PresetName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
+use crate::device;
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
 use crate::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON, blame};
@@ -78,6 +80,7 @@ pub fn run(
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     let preset = preset_of(args.preset, &track);
     let scene = Scene::load(&name).input()?.with_preset(preset.into());
+    let (scene, chosen) = chosen(args, scene)?;
     let head = head(args.camera, &args.track, &track)?;
     let colours = colours(args, &scene, &name)?;
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
@@ -127,7 +130,14 @@ pub fn run(
         statement::of_scene(&name, &scene),
         statement::of_solver(&scene),
     );
-    let report = assemble(args, &colours, preset, seed, statements, outcome, recording);
+    let report = assemble(
+        (args, preset, chosen),
+        &colours,
+        seed,
+        statements,
+        outcome,
+        recording,
+    );
     write(&mut out, &report)?;
 
     let replayed = Replayed {
@@ -217,9 +227,8 @@ fn stem(track: &str) -> String {
 }
 
 fn assemble(
-    args: &ReplayArgs,
+    (args, preset, chosen): (&ReplayArgs, PresetName, Option<[u32; 2]>),
     colours: &[ColourName],
-    preset: PresetName,
     seed: u64,
     (scene, solver): (SceneStatement, SolverStatement),
     outcome: Outcome,
@@ -242,7 +251,7 @@ fn assemble(
     };
     Report {
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
-        command: command_line(args, preset, seed),
+        command: command_line(args, preset, seed, chosen),
         track: args.track.clone(),
         preset: preset.name().into(),
         seed,
@@ -285,12 +294,20 @@ fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
 
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
-fn command_line(args: &ReplayArgs, preset: PresetName, seed: u64) -> String {
+fn command_line(
+    args: &ReplayArgs,
+    preset: PresetName,
+    seed: u64,
+    solver: Option<[u32; 2]>,
+) -> String {
     let mut line = format!("vitriol replay {}", quoted(&args.track));
     if let Some(scene) = &args.scene {
         line += &format!(" --scene {}", quoted(scene));
     }
     line += &format!(" --preset {} --seed {}", preset.name(), seed);
+    if let Some([substeps, iterations]) = solver {
+        line += &format!(" --solver {substeps}x{iterations}");
+    }
     if let Some(seconds) = args.seconds {
         line += &format!(" --seconds {seconds}");
     }
@@ -319,6 +336,30 @@ fn quoted(argument: &str) -> String {
         argument.to_owned()
     } else {
         format!("'{}'", argument.replace('\'', r"'\''"))
+    }
+}
+
+/// The scene with the substeps and iterations that were asked for, or that hold the
+/// budget; and these, where it was one of the two.
+fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), Failure> {
+    let solver = match (args.solver, args.budget_ms) {
+        (None, None) => return Ok((scene, None)),
+        (Some(solver), _) => solver,
+        (None, Some(budget)) => {
+            let gpu = device::open(args.device.as_deref(), false)?;
+            let (solver, time) = budget::within(&gpu, &scene, budget)?;
+            tracing::warn!(
+                "--budget-ms {budget}: {} × {}, of which a frame takes {time:.2} ms here",
+                solver[0],
+                solver[1]
+            );
+            solver
+        }
+    };
+    let scene = budget::with(&scene, solver);
+    match scene.problem_of_substep() {
+        Some(problem) => Err(format!("--solver: {problem}")).input(),
+        None => Ok((scene, Some(solver))),
     }
 }
 

@@ -3,13 +3,15 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::{Feature, Preset, Scene};
 
-use crate::cli::PresetName;
+use crate::cli::{PresetName, ScenesArgs};
 use crate::console::{Format, emit};
+use crate::device;
 use crate::failure::{Blame, Failure};
+use crate::measure::anatomy;
 use crate::report::units::{grouped, length, three_digits, with_unit};
-use crate::report::{SceneStatement, SolverStatement};
+use crate::report::{DeviceStatement, SceneStatement, SolverStatement};
 use crate::statement;
 
 #[derive(Debug, Serialize)]
@@ -41,13 +43,119 @@ struct PresetInfo {
 /// # Errors
 /// [`Failure::Other`] where a built-in scene is broken or standard output
 /// cannot be written.
-pub fn run(format: Format) -> Result<(), Failure> {
+pub fn run(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
+    if args.cost {
+        return cost(args, format);
+    }
     let scenes = Scene::builtin_names().into_iter().map(look_into);
     let scenes = scenes.collect::<Result<_, _>>()?;
     emit(format, &SceneList { scenes }, |list| {
         let scenes: Vec<String> = list.scenes.iter().map(describe).collect();
         scenes.join("\n")
     })
+}
+
+/// What a scene takes.
+#[derive(Debug, Serialize)]
+struct SceneCost {
+    scene: String,
+    preset: &'static str,
+    fluid_particles: usize,
+    /// What is modelled beyond incompressible flow.
+    models: Vec<String>,
+    /// What is not; the size of what that makes is in docs/accuracy.md.
+    left_out: Vec<String>,
+    /// Walls: maps or boundary particles.
+    boundary: String,
+    bytes_per_particle: u64,
+    /// Dispatches of a frame, all together.
+    dispatches: u32,
+    /// Label and dispatches of each pass.
+    passes: Vec<(String, u32)>,
+}
+
+#[derive(Debug, Serialize)]
+struct Costs {
+    device: DeviceStatement,
+    scenes: Vec<SceneCost>,
+}
+
+/// All that a scene may model.
+const FEATURES: [Feature; 10] = [
+    Feature::Heat,
+    Feature::Dilution,
+    Feature::Boiling,
+    Feature::Density,
+    Feature::Viscosity,
+    Feature::Evaporation,
+    Feature::Steam,
+    Feature::Losses,
+    Feature::Cohesion,
+    Feature::Vorticity,
+];
+
+fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
+    let gpu = device::open(args.device.as_deref(), true)?;
+    let scenes = Scene::builtin_names().into_iter().map(|name| {
+        let scene = Scene::load(name).other()?.with_preset(args.preset.into());
+        let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;
+        let [mut models, mut left_out] = [Vec::new(), Vec::new()];
+        for feature in FEATURES {
+            let list = if scene.models(feature) {
+                &mut models
+            } else {
+                &mut left_out
+            };
+            list.push(feature.name());
+        }
+        Ok(SceneCost {
+            scene: name.to_owned(),
+            preset: args.preset.name(),
+            fluid_particles: scene.liquids.iter().map(|l| scene.particle_count(l)).sum(),
+            models,
+            left_out,
+            boundary: statement::of_solver(&scene).boundary,
+            bytes_per_particle,
+            dispatches: passes.iter().map(|pass| pass.dispatches).sum(),
+            passes: passes.into_iter().map(|p| (p.name, p.dispatches)).collect(),
+        })
+    });
+    let costs = Costs {
+        device: device::statement(&gpu),
+        scenes: scenes.collect::<Result<_, Failure>>()?,
+    };
+    emit(format, &costs, |costs| {
+        let scenes: Vec<String> = costs.scenes.iter().map(describe_cost).collect();
+        scenes.join("\n")
+    })
+}
+
+fn describe_cost(cost: &SceneCost) -> String {
+    let list = |names: &[String]| {
+        if names.is_empty() {
+            "nothing".to_owned()
+        } else {
+            names.join(", ")
+        }
+    };
+    let passes: Vec<String> = cost
+        .passes
+        .iter()
+        .map(|(name, dispatches)| format!("{name} {dispatches}"))
+        .collect();
+    format!(
+        "{}, {}: {} particles, {} bytes each; walls by {}\n  modelled: {}\n  left out: {}\n  \
+         {} dispatches a frame: {}\n",
+        cost.scene,
+        cost.preset,
+        grouped(cost.fluid_particles as u64),
+        grouped(cost.bytes_per_particle),
+        cost.boundary,
+        list(&cost.models),
+        list(&cost.left_out),
+        cost.dispatches,
+        passes.join(", ")
+    )
 }
 
 fn look_into(name: &str) -> Result<SceneInfo, Failure> {

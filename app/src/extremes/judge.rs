@@ -190,7 +190,10 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
     let free = run.boiling > 0 || recipe.upside_down || recipe.gravity == 0.0;
     // What is pushed apart out of one place, or shaken, sloshes on.
     let sloshes = recipe.crowd != Crowd::Filled;
-    if !run.rested || free || sloshes || run.members < FEW {
+    // So is what its own filling throws up, where little weight brings it down.
+    let mass = recipe.rest_density * recipe.spacing.powi(3) * run.particles as f64;
+    let thrown = run.settling > 0.25 * mass * recipe.gravity * recipe.depth();
+    if !run.rested || free || sloshes || thrown || run.members < FEW {
         return None;
     }
     // In energy 2 % of what its depth holds.

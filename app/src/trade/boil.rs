@@ -14,7 +14,7 @@ use crate::experiment::grip;
 use crate::failure::{Blame, Failure};
 
 /// Looks a second.
-const LOOKS: f64 = 20.0;
+const LOOKS: f64 = 10.0;
 /// Particles above their boiling point from which on it boils, as a share of all.
 const BOILS: f64 = 1e-3;
 

@@ -11,7 +11,7 @@ use crate::report::units::{grouped, percent, three_digits};
 
 /// Size of a plot and room for its axes, pixels.
 const SIZE: [f64; 2] = [640.0, 400.0];
-const ROOM: [f64; 4] = [64.0, 14.0, 16.0, 44.0];
+const ROOM: [f64; 4] = [84.0, 14.0, 16.0, 44.0];
 
 /// The page; every string in it is escaped.
 pub fn page(trade: &Trade) -> String {
@@ -126,7 +126,7 @@ fn scatter(trade: &Trade, name: &str, error: fn(&Errors) -> f64) -> Markup {
         .collect();
     html! {
         figure.plot {
-            figcaption { strong { (name) } " " span.unit { "over the 99th percentile of a frame's time" } }
+            figcaption { strong { (name) } " " span.unit { "over the time of 1/90 s, 99th percentile" } }
             div.canvas {
                 svg viewBox={ "0 0 " (SIZE[0]) " " (SIZE[1]) } role="img" aria-label=(name) {
                     @for tick in up.ticks() {
@@ -139,7 +139,7 @@ fn scatter(trade: &Trade, name: &str, error: fn(&Errors) -> f64) -> Markup {
                             (three_digits(tick))
                         }
                     }
-                    text x=(SIZE[0] - right) y=(SIZE[1] - 6.0) text-anchor="end" { "ms a frame" }
+                    text x=(SIZE[0] - right) y=(SIZE[1] - 6.0) text-anchor="end" { "ms for 1/90 s" }
                     polyline.line points=(line.join(" ")) {}
                     @for (i, value) in values.iter().enumerate() {
                         circle.dot.on[best.contains(&i)] cx=(across.at(value.0)) cy=(up.at(value.1)) r="4" {
@@ -178,7 +178,7 @@ fn presets(trade: &Trade) -> Markup {
         .iter()
         .filter(|point| point.knob == Knob::Preset);
     html! { div.wide { table {
-        (head(&["Preset", "Setting", "Frame, median and 99th percentile", "At rest", "Pouring",
+        (head(&["Preset", "Setting", "Frame's median; 1/90 s, 99th percentile", "At rest", "Pouring",
             "Poured volume", "Lost volume", "Calorimeter, worst"]))
         tbody { @for point in rows {
             tr {
@@ -229,7 +229,7 @@ fn boiling(trade: &Trade) -> Markup {
 
 fn settings(trade: &Trade) -> Markup {
     html! { div.wide { table {
-        (head(&["From", "Knob", "Setting", "Particles", "Frame, ms", "At rest", "Pouring",
+        (head(&["From", "Knob", "Setting", "Particles", "1/90 s, ms", "At rest", "Pouring",
             "Poured volume", "Lost volume", "Δt over its limit"]))
         tbody { @for point in &trade.points {
             tr {

@@ -33,6 +33,8 @@ pub struct Trade {
     pub boiling_costs: Vec<Cost>,
     /// The finest setting by the f64 reference.
     pub vouched: Option<Vouched>,
+    /// What each effect that plain water leaves out would change of a pour.
+    pub effects: Vec<Effect>,
     /// How errors shrink.
     pub orders: Vec<Convergence>,
     /// Wall time, s.
@@ -71,6 +73,17 @@ pub struct Errors {
     pub lost_volume: f64,
 }
 
+/// A pour with an effect that scenes of water leave out.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Effect {
+    /// The effect.
+    pub name: &'static str,
+    /// At rest.
+    pub rest: Rested,
+    /// While it is poured.
+    pub pour: Tipped,
+}
+
 /// What the calorimeter says of one mix.
 #[derive(Clone, Debug, Serialize)]
 pub struct Calorimetry {
@@ -85,15 +98,21 @@ pub struct Calorimetry {
 }
 
 impl Point {
-    /// What the frame costs at its worst, ms.
+    /// 99th percentile of the time, ms, that a ninetieth of a second takes, at rest or
+    /// poured, whichever is more: settings of other frame times have as many frames
+    /// in it as they need.
     pub fn cost(&self) -> f64 {
-        self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
+        let frames = 1.0 / 90.0 / self.setting.frame_time;
+        frames * self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
     }
 }
 
+/// A name, and how the error is read.
+type NamedError = (&'static str, fn(&Errors) -> f64);
+
 impl Errors {
     /// Names and readers of each.
-    pub const ALL: [(&'static str, fn(&Self) -> f64); 4] = [
+    pub const ALL: [NamedError; 4] = [
         ("density error at rest, 99th percentile", |e| e.rest_p99),
         ("density error while pouring, 99th percentile", |e| {
             e.pour_p99
@@ -184,6 +203,19 @@ pub fn describe(trade: &Trade) -> String {
             1e3 * v.centre[0],
             1e3 * v.centre[1],
             1e3 * v.apart
+        );
+    }
+    for effect in &trade.effects {
+        let _ = writeln!(
+            t,
+            "{}: {:.3} mL poured; density error p99 {} at rest, {} while pouring; rms speed at \
+             rest {:.4} m/s; a frame {:.3} ms",
+            effect.name,
+            1e6 * effect.pour.poured,
+            percent(effect.rest.density_p99),
+            percent(effect.pour.density_p99),
+            effect.rest.speed,
+            effect.pour.cost.median_ms
         );
     }
     for order in &trade.orders {

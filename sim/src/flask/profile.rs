@@ -12,6 +12,10 @@ const BASE_ROWS: usize = 8;
 /// Trial offsets per outer row when the inner region is dilated.
 const DILATION_TRIALS: usize = 128;
 
+/// Height or radius over the wall, at most: surfaces are walked in steps of half a
+/// wall.
+const THINNEST: f64 = 1000.0;
+
 /// Why a list of points is not the profile of a vessel.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ProfileError {
@@ -51,6 +55,17 @@ pub enum ProfileError {
     /// The rim or the whole vessel is closed.
     #[error("the mouth has radius {0} m; a vessel is open at its rim, so give a radius above zero")]
     ClosedMouth(f64),
+    /// A wall too thin for its vessel.
+    #[error(
+        "a wall of {wall} m around {size} m; give at least a thousandth of the vessel's size \
+         (laboratory glass: a fiftieth)"
+    )]
+    WallTooThin {
+        /// The wall, metres.
+        wall: f64,
+        /// Height or radius, metres.
+        size: f64,
+    },
     /// Too narrow for a particle.
     #[error(
         "{diameter} m wide at height {height} m, narrower than a particle ({spacing} m); \
@@ -174,6 +189,20 @@ impl Profile {
         let i = (position as usize).min(INTERVALS - 1);
         let t = (position - i as f64).min(1.0);
         self.radii[i] + t * (self.radii[i + 1] - self.radii[i])
+    }
+
+    /// Least inner radius between two heights of the flask's frame, metres; zero
+    /// where they reach below the inner floor.
+    pub fn narrowest(&self, from: f64, to: f64) -> f64 {
+        let first = ((from - self.wall) / self.step).max(0.0) as usize;
+        let last = ((to - self.wall) / self.step).max(0.0) as usize + 1;
+        let rows = &self.radii[first.min(INTERVALS)..=last.min(INTERVALS)];
+        let least = rows.iter().copied().fold(f64::INFINITY, f64::min);
+        if from < self.floor_height() {
+            0.0
+        } else {
+            least
+        }
     }
 
     /// Outer radius at height `y` of the flask's frame; zero outside of
@@ -392,6 +421,10 @@ fn validate(points: &[[f64; 2]], wall: f64) -> Result<(), ProfileError> {
             }
             _ => {}
         }
+    }
+    let size = points.iter().flatten().copied().fold(0.0, f64::max);
+    if size > THINNEST * wall {
+        return Err(ProfileError::WallTooThin { wall, size });
     }
     let mouth = points[points.len() - 1][1];
     if mouth <= 0.0 {

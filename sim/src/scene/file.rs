@@ -187,8 +187,13 @@ impl LiquidEntry {
                     ok,
                     "between 0 and 1 (1: to the brim)",
                 )?;
-                let sites = fill::sites(&flasks[flask].profile, scale.spacing);
-                let fitting: usize = sites.iter().map(Vec::len).sum();
+                let profile = &flasks[flask].profile;
+                if fill::count_for_volume(profile.capacity(), scale.spacing) > super::MOST_SITES {
+                    let problem =
+                        "of a vessel that holds too many particles; take a larger spacing";
+                    return Err(Problem::new(field("fraction"), problem));
+                }
+                let fitting = fill::count_sites(profile, scale.spacing);
                 (fraction * fitting as f64).floor() * scale.spacing.powi(3)
             }
             _ => {

@@ -7,9 +7,10 @@ use super::error::Problem;
 const PRECISION: f64 = 8_388_608.0;
 
 /// Δt_s over its limit 0.4 d/√(gH) beyond which a column no longer stands. Up to
-/// the limit it is calm, between the two it is compressed but bounded
-/// (docs/solver.md); at twice the limit, deep ones leave their vessel.
-const LONGEST_SUBSTEP: f64 = 1.75;
+/// the limit it is calm, between the two it is compressed but rests; from here on
+/// it does not come to rest, and at twice the limit deep ones leave their vessel
+/// (docs/solver.md, docs/accuracy.md).
+const LONGEST_SUBSTEP: f64 = 1.4;
 
 impl Scene {
     /// Whether all is so near to the scene's origin that single precision still
@@ -37,6 +38,12 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// Why the liquid of some flask would not stand up under the scene's substep;
+    /// `None` where all do. For who changes substeps or frame time after loading.
+    pub fn problem_of_substep(&self) -> Option<String> {
+        self.check_substep().err().map(|problem| problem.problem)
     }
 
     /// Whether the liquid of every flask stands up under the scene's substep.

@@ -368,10 +368,7 @@ impl Scene {
             let sites = if volume > capacity {
                 fill::count_for_volume(capacity, spacing)
             } else {
-                fill::sites(&flask.profile, spacing)
-                    .iter()
-                    .map(Vec::len)
-                    .sum()
+                fill::count_sites(&flask.profile, spacing)
             };
             if wanted > sites {
                 let error = FillError {

@@ -3,7 +3,7 @@
 //! that none touches another.
 
 use crate::common::*;
-use glam::{DVec3, Quat, Vec3};
+use glam::{DVec3, Quat};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
