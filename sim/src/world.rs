@@ -216,7 +216,7 @@ impl World {
     }
 
     /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it
-    /// boils and sloshes there. As it was [`LOAD_DELAY`] steps ago, so that nobody waits for it;
+    /// boils and sloshes there. As it was two steps ago, so that nobody waits for it;
     /// 0 of a flask that is not there, and where no flask can be lifted.
     pub fn stirring(&self, flask: usize) -> f32 {
         self.stirring.get(flask).copied().unwrap_or(0.0)

@@ -26,7 +26,7 @@ use super::tally::{Holdings, Tally};
 use crate::failure::{Blame, Failure};
 use crate::replay::SimulatedTime;
 
-/// Key of the switch that keeps where the bench stands in the room, see [`placement`].
+/// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
 
 /// Width and height of the panel, pixels.
