@@ -335,7 +335,7 @@ fn a_replay_watches_the_shaders_that_it_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let shaders = folder.path().join("wgsl/render");
     fs::create_dir_all(&shaders).unwrap();
-    fs::write(shaders.join("glass.wgsl"), "fn nonsense(").unwrap();
+    fs::write(shaders.join("picture.wgsl"), "fn nonsense(").unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
         .args(["replay", "two-flasks", "--seconds", "0.001", "--out", "new"])
         .args(["--preset", "fast", "--camera", "head"])
@@ -345,7 +345,7 @@ fn a_replay_watches_the_shaders_that_it_is_told() {
         .unwrap();
     let message = text(&output.stderr);
     assert!(output.status.success(), "{message}");
-    for part in ["the built-in render/glass.wgsl is used", "glass.wgsl:1:"] {
+    for part in ["the built-in render/picture.wgsl is used", "picture.wgsl:1:"] {
         assert!(message.contains(part), "{message}");
     }
     let report = fs::read_to_string(folder.path().join("new/report.json")).unwrap();

@@ -10,3 +10,4 @@ mod extremes;
 mod fidelity;
 mod fig5;
 mod reload;
+mod trade;

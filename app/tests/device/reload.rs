@@ -143,14 +143,14 @@ fn a_running_replay_takes_up_what_is_sound() {
     // Valid, but not with what the program binds.
     folder.edit("render/particles.wgsl", "nonsense *", "");
     folder.edit(
-        "render/glass.wgsl",
+        "render/picture.wgsl",
         "var<immediate> vessel",
         "var<private> vessel",
     );
     let still = step(laboratory.as_mut());
     assert!(red(&still) > 250, "{}", red(&still));
     let said = messages.take();
-    assert!(said.contains("the old render/glass.wgsl stays"), "{said}");
+    assert!(said.contains("the old render/picture.wgsl stays"), "{said}");
 }
 
 #[test]
