@@ -144,8 +144,8 @@ fn a_running_replay_takes_up_what_is_sound() {
     folder.edit("render/particles.wgsl", "nonsense *", "");
     folder.edit(
         "render/picture.wgsl",
-        "var<immediate> vessel",
-        "var<private> vessel",
+        "var<immediate> picture",
+        "var<private> picture",
     );
     let still = step(laboratory.as_mut());
     assert!(red(&still) > 250, "{}", red(&still));
