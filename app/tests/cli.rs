@@ -345,7 +345,10 @@ fn a_replay_watches_the_shaders_that_it_is_told() {
         .unwrap();
     let message = text(&output.stderr);
     assert!(output.status.success(), "{message}");
-    for part in ["the built-in render/picture.wgsl is used", "picture.wgsl:1:"] {
+    for part in [
+        "the built-in render/picture.wgsl is used",
+        "picture.wgsl:1:",
+    ] {
         assert!(message.contains(part), "{message}");
     }
     let report = fs::read_to_string(folder.path().join("new/report.json")).unwrap();
