@@ -13,11 +13,21 @@ use vitriol_sim::world::{StepInput, World};
 use crate::failure::{Blame, Failure};
 
 /// Substeps and iterations on the front that `vitriol trade` found at real size,
-/// 13,894 particles and 90 Hz (docs/accuracy.md), the most accurate first: 99th
-/// percentile of the density error while pouring 0.04, 0.08, 0.12, 0.24, 0.45, 1.3
+/// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md), the most accurate first: 99th
+/// percentile of the density error while pouring 0.024, 0.035, 0.049, 0.081, 0.12, 0.15, 0.24, 0.36
 /// and 3.2 %.
-const FRONT: [[u32; 2]; 7] = [[16, 6], [12, 6], [10, 6], [10, 4], [10, 3], [8, 3], [8, 2]];
-/// Where `balanced` is among them: other scenes have as many times what theirs has.
+const FRONT: [[u32; 2]; 9] = [
+    [16, 8],
+    [16, 6],
+    [12, 8],
+    [10, 8],
+    [10, 6],
+    [12, 4],
+    [10, 4],
+    [8, 4],
+    [8, 2],
+];
+/// What `balanced` has there: other scenes have as many times what theirs has.
 const BALANCED: [u32; 2] = [10, 3];
 
 /// Frames of a calibration: the first ones are not counted.
@@ -125,13 +135,14 @@ fn key(gpu: &Gpu, scene: &Scene) -> String {
     let count: usize = scene.liquids.iter().map(|l| scene.particle_count(l)).sum();
     let models: Vec<String> = scene.model.iter().map(|feature| feature.name()).collect();
     format!(
-        "{} | {} | {} | {} | {count} particles | {} x {}",
+        "{} | {} | {} | {} | {count} particles | {} s, h/d {} | {:?}",
         env!("CARGO_PKG_VERSION"),
         info.name,
         info.driver,
         models.join("+"),
-        scene.solver.substeps,
-        scene.solver.iterations
+        scene.scale.frame_time,
+        scene.scale.support() / scene.scale.spacing,
+        scene.solver
     )
 }
 

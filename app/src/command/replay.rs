@@ -78,6 +78,15 @@ pub fn run(
     let track = track::load(&args.track)?;
     whole(args, &track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
+    if (args.solver.is_some() || args.budget_ms.is_some()) && changes_scene(&track) {
+        // The scenes that it changes to have presets of their own.
+        return Err(
+            "--solver and --budget-ms are for one scene, and the track changes it; \
+                    choose a --preset"
+                .to_owned(),
+        )
+        .input();
+    }
     let preset = preset_of(args.preset, &track);
     let scene = Scene::load(&name).input()?.with_preset(preset.into());
     let (scene, chosen) = chosen(args, scene)?;
@@ -343,6 +352,12 @@ fn quoted(argument: &str) -> String {
 
 /// The scene with the substeps and iterations that were asked for, or that hold the
 /// budget; and these, where it was one of the two.
+/// Whether someone changed the scene, or began it anew, while the track was recorded.
+fn changes_scene(track: &Track) -> bool {
+    let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    switches.any(|switch| switch.key == "scene" || switch.key == "start")
+}
+
 fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), Failure> {
     let solver = match (args.solver, args.budget_ms) {
         (None, None) => return Ok((scene, None)),

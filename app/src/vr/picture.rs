@@ -69,6 +69,14 @@ pub struct Drawn {
 }
 
 impl Picture {
+    /// Leaves out of the pictures what the lenses hide; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn hide(&mut self, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
+        hide(&mut self.renderer, hidden)
+    }
+
     /// Pictures of a scene with that many particles.
     ///
     /// # Errors
@@ -91,10 +99,7 @@ impl Picture {
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
-        if eyes.hidden.iter().any(|mesh| !mesh.is_empty()) {
-            let [left, right] = &eyes.hidden;
-            renderer.set_visibility_mask(&[left, right]).other()?;
-        }
+        hide(&mut renderer, &eyes.hidden)?;
         let bytes = world.solver().puffs().map(Buffer::bytes);
         let puffs = bytes
             .map(|bytes| -> Result<_, Failure> {
@@ -261,4 +266,10 @@ pub fn eye(view: &vitriol_xr::View, stage_from_scene: &Pose) -> View {
             down: view.fov.down,
         },
     }
+}
+
+/// Leaves out of the pictures what the lenses hide.
+fn hide(renderer: &mut Renderer, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
+    let [left, right] = hidden;
+    renderer.set_visibility_mask(&[left, right]).other()
 }

@@ -105,6 +105,9 @@ pub struct Session {
     buttons: Buttons,
     /// The last frame, in the headset's stage.
     last: Option<PoseFrame>,
+    /// Display time of the last frame, ns, unless the headset was off since: what is missed is counted
+    /// from it.
+    counted: Option<i64>,
     /// Where the bench stands; `None` until the user has been seen.
     placed: Option<Pose>,
     /// Steps that the frame has still to take, in the scene's stage.
@@ -161,6 +164,7 @@ impl Session {
             clock: StepClock::default(),
             buttons: Buttons::default(),
             last: None,
+            counted: None,
             placed: None,
             due: Vec::new(),
             switches: Vec::new(),
@@ -212,6 +216,7 @@ impl Session {
     /// The headset shows nothing: time stands still.
     fn pause(&mut self) -> Result<(), Failure> {
         self.clock.pause();
+        self.counted = None;
         self.after()
     }
 

@@ -123,4 +123,6 @@ fn nothing_happens_while_the_headset_is_off() {
     // 39 intervals less the one that was not seen.
     assert_eq!(outcome.steps, 38);
     assert_eq!(outcome.slowed, 0.0);
+    // What nobody would have seen was not missed.
+    assert_eq!(outcome.skipped, 0);
 }

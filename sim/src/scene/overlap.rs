@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 /// Whether the glass of two flasks overlaps. A small flask inside of a large
 /// one is fine, so glass is compared with glass: points of each one's surface,
-/// half a wall apart or nearer, against the other's signed distance.
+/// half a wall apart or nearer where it matters, against the other's signed distance.
 pub(super) fn overlap(a: &Flask, b: &Flask) -> bool {
     let (centre_a, radius_a) = bounding_sphere(a);
     let (centre_b, radius_b) = bounding_sphere(b);
@@ -27,6 +27,9 @@ fn stage_from(flask: &Flask, point: DVec3) -> DVec3 {
     pose.orientation.as_dquat().normalize() * point + pose.position.as_dvec3()
 }
 
+/// A distance is at most that of a patch's middle plus the patch's own size, so what lies further from
+/// the other's glass than that is not looked at in detail: a walk over all of a wide
+/// vessel in steps of another's thin wall would not end.
 fn surface_in_glass(of: &Flask, other: &Flask) -> bool {
     let pose = other.stage_from_flask;
     let inverse = pose.orientation.as_dquat().normalize().inverse();
@@ -34,34 +37,53 @@ fn surface_in_glass(of: &Flask, other: &Flask) -> bool {
     // Flasks that touch, as stacked or side by side, do not overlap.
     let touching = -0.05 * profile.wall();
     let step = 0.5 * of.profile.wall().min(profile.wall());
-    let reach = profile.outer_radius();
-    surface(of, step).any(|point| {
+    let depth = |point: DVec3| {
         let local = inverse * (stage_from(of, point) - pose.position.as_dvec3());
-        let r = local.x.hypot(local.z);
-        let near = r <= reach && (0.0..=profile.rim_height()).contains(&local.y);
-        near && profile.signed_distance_glass(r, local.y) < touching
+        profile.signed_distance_glass(local.x.hypot(local.z), local.y) - touching
+    };
+    of.profile.outer_outline().windows(2).any(|pair| {
+        let patch = Patch {
+            ends: [pair[0], pair[1]],
+            angles: [0.0, TAU],
+        };
+        patch.any_below_zero(&depth, step)
     })
 }
 
-/// Points of the outer surface, in the flask's frame, up to `step` apart.
-fn surface(flask: &Flask, step: f64) -> impl Iterator<Item = DVec3> + '_ {
-    flask
-        .profile
-        .outer_outline()
-        .windows(2)
-        .flat_map(move |pair| {
-            let [a, b] = [pair[0], pair[1]];
-            let rows = ((b[0] - a[0]).hypot(b[1] - a[1]) / step).ceil().max(1.0) as usize;
-            (0..=rows).map(move |i| {
-                let t = i as f64 / rows as f64;
-                [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
-            })
-        })
-        .flat_map(move |[r, y]| {
-            let count = (TAU * r / step).ceil().max(1.0) as usize;
-            (0..count).map(move |i| {
-                let angle = TAU * i as f64 / count as f64;
-                DVec3::new(r * angle.cos(), y, r * angle.sin())
-            })
-        })
+/// A part of a surface of revolution: between two points (r, y) and two angles.
+struct Patch {
+    ends: [[f64; 2]; 2],
+    angles: [f64; 2],
+}
+
+impl Patch {
+    /// Whether `depth`, which changes by no more than one's way, is below zero somewhere on
+    /// the patch, as far as middles of parts up to `step` in size tell.
+    fn any_below_zero(&self, depth: &impl Fn(DVec3) -> f64, step: f64) -> bool {
+        let [a, b] = self.ends;
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        let angle = 0.5 * (self.angles[0] + self.angles[1]);
+        let high = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let wide = a[0].max(b[0]) * (self.angles[1] - self.angles[0]);
+        let here = depth(DVec3::new(
+            middle[0] * angle.cos(),
+            middle[1],
+            middle[0] * angle.sin(),
+        ));
+        if here < 0.0 {
+            return true;
+        }
+        if here > 0.5 * (high + wide) || high.max(wide) < step {
+            return false;
+        }
+        let (ends, angles) = (self.ends, self.angles);
+        let halves = if high > wide {
+            [([a, middle], angles), ([middle, b], angles)]
+        } else {
+            [(ends, [angles[0], angle]), (ends, [angle, angles[1]])]
+        };
+        halves
+            .into_iter()
+            .any(|(ends, angles)| Patch { ends, angles }.any_below_zero(depth, step))
+    }
 }

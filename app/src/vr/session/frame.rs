@@ -14,7 +14,7 @@ use crate::vr::hands;
 use crate::vr::haptics;
 use crate::vr::inputs::sound;
 use crate::vr::panel;
-use crate::vr::picture::{Picture, Sight, eye};
+use crate::vr::picture::{Eyes, Picture, Sight, eye};
 use crate::vr::placement;
 use crate::vr::tally::Holdings;
 
@@ -46,7 +46,19 @@ impl Session {
             headset.end(None).map_err(blame)?;
         }
         self.tally.frame(milliseconds(begun.elapsed()));
-        self.after()
+        self.after()?;
+        self.take_up_mask(headset)
+    }
+
+    /// What the lenses hide is known with the eyes' fields of view, which come with the first views, and
+    /// may change. It waits for an upload, so no frame is open now.
+    fn take_up_mask(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
+        let eyes = Eyes::of(headset);
+        if eyes.hidden != self.eyes.hidden {
+            self.bench.picture.hide(&eyes.hidden)?;
+            self.eyes = eyes;
+        }
+        Ok(())
     }
 
     /// What may wait for the device: no frame is open now.
@@ -67,8 +79,9 @@ impl Session {
             self.began_with = Holdings::now();
         }
         let info = &frame.poses.info;
-        if let (Some(last), true) = (&self.last, info.period_ns > 0) {
-            let passed = info.xr_time.saturating_sub(last.info.xr_time) as f64;
+        let last = self.counted.replace(info.xr_time);
+        if let (Some(last), true) = (last, info.period_ns > 0) {
+            let passed = info.xr_time.saturating_sub(last) as f64;
             let periods = (passed / info.period_ns as f64).round();
             self.skipped += (periods - 1.0).max(0.0) as u64;
         }
