@@ -190,7 +190,7 @@ mod tests {
         // The paper's 3 × 2.
         let paper = Scene::load("single-dilution").unwrap();
         let points = points(&paper);
-        assert_eq!(points[0], [5, 4]);
+        assert_eq!(points[0], [5, 5]);
         assert!(points.contains(&[3, 2]) && points.iter().all(|p| p[0] >= 2));
         // What does not stand up is never chosen.
         assert!(with(&paper, [1, 2]).problem_of_substep().is_some());
