@@ -55,9 +55,7 @@ pub use error::GpuError;
 pub use memory::{
     Address, Buffer, Filter, Image, ImageDesc, Sampler, SamplerDesc, bytes_of_elements,
 };
-pub use pipeline::{
-    Blend, ColourFormat, ComputePipeline, Cull, DepthFormat, RasterDesc, RasterPipeline, Topology,
-};
+pub use pipeline::{Blend, ColourFormat, ComputePipeline, DepthFormat, RasterDesc, RasterPipeline};
 pub use recorder::{
     ColourTarget, CopyRegion, DepthTarget, Draw, Load, Pass, PassTiming, Raster, RasterTarget,
     Readback, Recorder,

@@ -1,8 +1,7 @@
 //! The pipelines of the picture.
 
 use vitriol_gpu::{
-    Blend, ColourFormat, ComputePipeline, Cull, DepthFormat, Gpu, RasterDesc, RasterPipeline,
-    Topology, vk,
+    Blend, ColourFormat, ComputePipeline, DepthFormat, Gpu, RasterDesc, RasterPipeline, vk,
 };
 use vitriol_shaders::{Library, ShaderId, render};
 
@@ -50,8 +49,6 @@ impl Pipelines {
                         compare: vk::CompareOp::GREATER,
                         write: true,
                     }),
-                    topology: Topology::Triangles,
-                    cull: Cull::None,
                     view_mask,
                 },
             )?,

@@ -18,12 +18,8 @@ pub enum Blend {
     /// Replaces it.
     #[default]
     Replace,
-    /// `new · α + old · (1 − α)`.
-    Alpha,
     /// `new + old · (1 − α)`, for premultiplied colour.
     Premultiplied,
-    /// `new + old`, for thickness.
-    Add,
 }
 
 /// One colour target of a pipeline.
@@ -46,33 +42,7 @@ pub struct DepthFormat {
     pub write: bool,
 }
 
-/// Primitive.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Topology {
-    /// Three vertices each.
-    #[default]
-    Triangles,
-    /// Each vertex after the second closes a triangle.
-    TriangleStrip,
-    /// Two vertices each.
-    Lines,
-    /// One vertex each.
-    Points,
-}
-
-/// Which triangles are left out; front faces are counter-clockwise on screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Cull {
-    /// None.
-    #[default]
-    None,
-    /// Front faces.
-    Front,
-    /// Back faces.
-    Back,
-}
-
-/// What a raster pipeline is made of.
+/// What a raster pipeline of triangles, seen from either side, is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterDesc<'a> {
     /// Vertex shader.
@@ -83,10 +53,6 @@ pub struct RasterDesc<'a> {
     pub colours: &'a [ColourFormat],
     /// Depth target.
     pub depth: Option<DepthFormat>,
-    /// Primitive.
-    pub topology: Topology,
-    /// Which triangles are left out.
-    pub cull: Cull,
     /// Bit per view (multiview); 0 for one picture. The shader reads
     /// `@builtin(view_index)`.
     pub view_mask: u32,
@@ -170,19 +136,14 @@ fn create(
         })
         .collect();
     let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-    let assembly =
-        vk::PipelineInputAssemblyStateCreateInfo::default().topology(topology(desc.topology));
+    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+        .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
     let viewport = vk::PipelineViewportStateCreateInfo::default()
         .viewport_count(1)
         .scissor_count(1);
     let rasterisation = vk::PipelineRasterizationStateCreateInfo::default()
         .polygon_mode(vk::PolygonMode::FILL)
-        .cull_mode(match desc.cull {
-            Cull::None => vk::CullModeFlags::NONE,
-            Cull::Front => vk::CullModeFlags::FRONT,
-            Cull::Back => vk::CullModeFlags::BACK,
-        })
-        .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+        .cull_mode(vk::CullModeFlags::NONE)
         .line_width(1.0);
     let samples = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(vk::SampleCountFlags::TYPE_1);
@@ -228,15 +189,6 @@ fn create(
     }
 }
 
-fn topology(topology: Topology) -> vk::PrimitiveTopology {
-    match topology {
-        Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
-        Topology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
-        Topology::Lines => vk::PrimitiveTopology::LINE_LIST,
-        Topology::Points => vk::PrimitiveTopology::POINT_LIST,
-    }
-}
-
 fn depth_state(depth: &DepthFormat) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
     vk::PipelineDepthStencilStateCreateInfo::default()
         .depth_test_enable(depth.compare != vk::CompareOp::ALWAYS || depth.write)
@@ -248,9 +200,7 @@ fn blend(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
     use vk::BlendFactor as F;
     let (source, destination) = match blend {
         Blend::Replace => (F::ONE, F::ZERO),
-        Blend::Alpha => (F::SRC_ALPHA, F::ONE_MINUS_SRC_ALPHA),
         Blend::Premultiplied => (F::ONE, F::ONE_MINUS_SRC_ALPHA),
-        Blend::Add => (F::ONE, F::ONE),
     };
     // Alpha itself is always covered as if premultiplied.
     let source_alpha = F::ONE;

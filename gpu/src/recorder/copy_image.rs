@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::Recorder;
-use super::transfer::texel_bytes;
+use super::transfer::{texel_bytes, whole_image};
 use crate::barrier::Scope;
 use crate::{Buffer, GpuError, Image};
 
@@ -92,17 +92,7 @@ impl Recorder {
         storage.use_buffer(from, Scope::COPY_READ);
         storage.use_image(to, layout, Scope::COPY_WRITE, true)?;
         storage.open_pass(b"copy to image")?;
-        let region = vk::BufferImageCopy::default()
-            .image_subresource(
-                vk::ImageSubresourceLayers::default()
-                    .aspect_mask(desc.aspect())
-                    .layer_count(desc.layers),
-            )
-            .image_extent(vk::Extent3D {
-                width,
-                height,
-                depth: 1,
-            });
+        let region = whole_image(&desc);
         // SAFETY: both are held, the buffer is as large as the layers, and the image is in the
         // named layout.
         unsafe {

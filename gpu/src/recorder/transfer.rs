@@ -9,7 +9,7 @@ use super::Recorder;
 use super::storage::Storage;
 use crate::barrier::{Scope, Use};
 use crate::device::Submission;
-use crate::{Buffer, Gpu, GpuError, Image, QueueKind};
+use crate::{Buffer, Gpu, GpuError, Image, ImageDesc, QueueKind};
 
 /// A piece of a copy, in bytes; all multiples of 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,17 +177,7 @@ impl Recorder {
             false,
         )?;
         storage.open_pass(b"read back")?;
-        let region = vk::BufferImageCopy::default()
-            .image_subresource(
-                vk::ImageSubresourceLayers::default()
-                    .aspect_mask(desc.aspect())
-                    .layer_count(desc.layers),
-            )
-            .image_extent(vk::Extent3D {
-                width,
-                height,
-                depth: 1,
-            });
+        let region = whole_image(&desc);
         // SAFETY: both are held, the buffer is as large as the layers, and the
         // image is in the named layout.
         unsafe {
@@ -267,6 +257,22 @@ impl Gpu {
         rec.storage.images[index].layout = vk::ImageLayout::UNDEFINED;
         self.submit(rec)?.wait()
     }
+}
+
+/// All layers of an image, next to each other in a buffer.
+pub(super) fn whole_image(desc: &ImageDesc) -> vk::BufferImageCopy {
+    let [width, height] = desc.extent;
+    vk::BufferImageCopy::default()
+        .image_subresource(
+            vk::ImageSubresourceLayers::default()
+                .aspect_mask(desc.aspect())
+                .layer_count(desc.layers),
+        )
+        .image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })
 }
 
 /// Bytes of a texel of the uncompressed colour and depth formats in use.

@@ -1,9 +1,9 @@
 //! Raster scopes: views, blending, depth, sampling, imported images.
 
 use vitriol_gpu::{
-    Blend, Buffer, ColourFormat, ColourTarget, ComputePipeline, Cull, DepthFormat, DepthTarget,
-    Gpu, Image, ImageDesc, Load, QueueKind, RasterDesc, RasterPipeline, RasterTarget, Readback,
-    Sampler, SamplerDesc, Topology, vk,
+    Blend, Buffer, ColourFormat, ColourTarget, ComputePipeline, DepthFormat, DepthTarget, Gpu,
+    Image, ImageDesc, Load, QueueKind, RasterDesc, RasterPipeline, RasterTarget, Readback, Sampler,
+    SamplerDesc, vk,
 };
 
 use crate::common::{assert_silent, compile, compile_entry, open};
@@ -19,8 +19,8 @@ struct Quad { corners: vec4<f32>, colour: vec4<f32>, depth: f32, shift: f32, pad
 struct Out { @builtin(position) position: vec4<f32>, @location(0) colour: vec4<f32> }
 fn place(vertex: u32, instance: u32, view: u32) -> Out {
     let q = quads[instance];
-    let x = select(q.corners.x, q.corners.z, (vertex & 1u) != 0u) + f32(view) * q.shift;
-    let y = select(q.corners.y, q.corners.w, (vertex & 2u) != 0u);
+    let x = select(q.corners.x, q.corners.z, vertex == 1u || vertex == 2u || vertex == 4u) + f32(view) * q.shift;
+    let y = select(q.corners.y, q.corners.w, vertex == 2u || vertex == 4u || vertex == 5u);
     return Out(vec4<f32>(x, y, q.depth, 1.0), q.colour);
 }
 @vertex fn stereo(@builtin(vertex_index) v: u32, @builtin(instance_index) i: u32,
@@ -60,8 +60,6 @@ fn pipeline(gpu: &Gpu, vertex: &str, view_mask: u32, blend: Blend, depth: bool) 
             compare: vk::CompareOp::LESS,
             write: true,
         }),
-        topology: Topology::TriangleStrip,
-        cull: Cull::None,
         view_mask,
     };
     RasterPipeline::new(gpu, &desc).unwrap()
@@ -112,7 +110,7 @@ fn each_view_gets_its_own_layer() {
         view_mask: 0b11,
     };
     rec.raster(&scope, |r| {
-        r.draw(&stereo).read("quads", &list).instances(4, 1)
+        r.draw(&stereo).read("quads", &list).instances(6, 1)
     })
     .unwrap();
     let picture = rec.read_back_image(&target).unwrap();
@@ -155,7 +153,7 @@ fn depth_and_blending_over_two_scopes() {
     // Between the two: adds blue where it is in front, on the right.
     let glow = quads(&gpu, &[(all, [0.0, 0.0, 0.4, 0.0], 0.4, 0.0)]);
     let solid = pipeline(&gpu, "mono", 0, Blend::Replace, true);
-    let add = pipeline(&gpu, "mono", 0, Blend::Add, true);
+    let add = pipeline(&gpu, "mono", 0, Blend::Premultiplied, true);
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     let scope = |label, colour, near| {
         (
@@ -186,7 +184,7 @@ fn depth_and_blending_over_two_scopes() {
             view_mask: 0,
         };
         rec.raster(&target, |r| {
-            r.draw(pipeline).read("quads", list).instances(4, count)
+            r.draw(pipeline).read("quads", list).instances(6, count)
         })
         .unwrap();
     }
@@ -236,7 +234,7 @@ fn a_picture_is_sampled_and_stored_by_compute() {
                 depth: None,
                 view_mask: 0,
             };
-            rec.raster(&scope, |r| r.draw(&mono).read("quads", &list).vertices(4))
+            rec.raster(&scope, |r| r.draw(&mono).read("quads", &list).vertices(6))
                 .unwrap();
             rec.pass(&flip)
                 .sampled("source", &source)
@@ -277,7 +275,7 @@ fn an_imported_image_is_drawn_into_and_left_to_its_owner() {
         depth: None,
         view_mask: 0b11,
     };
-    rec.raster(&scope, |r| r.draw(&stereo).read("quads", &list).vertices(4))
+    rec.raster(&scope, |r| r.draw(&stereo).read("quads", &list).vertices(6))
         .unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     drop(imported);
@@ -319,7 +317,7 @@ fn targets_and_pipelines_that_do_not_fit_are_refused() {
     assert!(error.contains("needs 2"), "{error}");
     let error = rec
         .raster(&scope(0), |r| {
-            r.draw(&with_depth).read("quads", &list).vertices(4)
+            r.draw(&with_depth).read("quads", &list).vertices(6)
         })
         .unwrap_err()
         .to_string();
@@ -357,8 +355,8 @@ fn indexed_and_indirect_draws_follow_the_passes_that_wrote_them() {
         @group(0) @binding(0) var<storage, read_write> indices: array<u32>;
         @group(0) @binding(1) var<storage, read_write> arguments: array<u32>;
         @compute @workgroup_size(1) fn main() {
-            for (var i = 0u; i < 4u; i++) { indices[i] = 3u - i; }
-            arguments[1] = 4u; arguments[2] = 1u; arguments[3] = 0u; arguments[4] = 1u;
+            for (var i = 0u; i < 6u; i++) { indices[i] = 5u - i; }
+            arguments[1] = 6u; arguments[2] = 1u; arguments[3] = 0u; arguments[4] = 1u;
         }";
     let write = ComputePipeline::new(&gpu, &compile(text)).unwrap();
     let [indices, arguments] =
@@ -380,7 +378,7 @@ fn indexed_and_indirect_draws_follow_the_passes_that_wrote_them() {
         view_mask: 0,
     };
     rec.raster(&scope, |r| {
-        r.draw(&mono).read("quads", &list).indexed(&indices, 4, 1)?;
+        r.draw(&mono).read("quads", &list).indexed(&indices, 6, 1)?;
         r.draw(&mono).read("quads", &list).indirect(&arguments, 4)
     })
     .unwrap();
