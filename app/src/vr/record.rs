@@ -12,8 +12,8 @@ use vitriol_xr::{Pose, PoseFrame, Switch};
 /// Steps that may wait for the disk: some five seconds, as long as one sleeps.
 pub const QUEUE: usize = 512;
 
-/// A step: what it consumed, and stage_from_flask of each flask after it (real m).
-type Entry = (PoseFrame, Vec<Pose>);
+/// A step: what it consumed, and stage_from_flask of each flask after it (real m); none marks the end.
+type Entry = (PoseFrame, Option<Vec<Pose>>);
 
 /// Where steps are written to.
 pub trait Sink: Send {
@@ -105,7 +105,7 @@ impl Recording {
             return;
         };
         if let Err(TrySendError::Full((frame, _)) | TrySendError::Disconnected((frame, _))) =
-            queue.try_send((frame, flasks))
+            queue.try_send((frame, Some(flasks)))
         {
             self.switches = frame.scenario;
             lock(&self.done).fail("the disk did not keep up".into());
@@ -129,13 +129,10 @@ impl Recording {
                 ..last
             };
             // Now there is time to wait; a thread that has ended has said why.
-            let _ = queue.send((end, Vec::new()));
+            let _ = queue.send((end, None));
         }
         self.close();
-        let mut recorded = lock(&self.done).clone();
-        // The end is no step.
-        recorded.steps = recorded.steps.saturating_sub(1);
-        recorded
+        lock(&self.done).clone()
     }
 
     fn close(&mut self) {
@@ -143,7 +140,9 @@ impl Recording {
         if let Some(thread) = self.thread.take()
             && thread.join().is_err()
         {
-            lock(&self.done).fail("the recorder broke down; report it".into());
+            let mut done = lock(&self.done);
+            done.cause
+                .get_or_insert("the recorder broke down; report it".into());
         }
     }
 }
@@ -160,17 +159,22 @@ fn lock(done: &Mutex<Recorded>) -> std::sync::MutexGuard<'_, Recorded> {
 
 fn write(mut sink: Box<dyn Sink>, entries: &Receiver<Entry>, done: &Mutex<Recorded>) {
     for (frame, flasks) in entries {
-        match sink.write(&frame, &flasks) {
-            Ok(()) => lock(done).steps += 1,
-            Err(error) => fail(done, &error),
+        let is_step = flasks.is_some();
+        match sink.write(&frame, &flasks.unwrap_or_default()) {
+            Ok(()) => lock(done).steps += u64::from(is_step),
+            Err(error) => {
+                say(done, &error);
+                lock(done).unwritten += u64::from(is_step);
+            }
         }
     }
     if let Err(error) = sink.finish() {
-        fail(done, &error);
+        say(done, &error);
     }
 }
 
-fn fail(done: &Mutex<Recorded>, error: &TrackError) {
+/// Keeps the first cause, and says it.
+fn say(done: &Mutex<Recorded>, error: &TrackError) {
     let cause = match std::error::Error::source(error) {
         Some(source) => format!("{error}: {source}"),
         None => error.to_string(),
@@ -179,5 +183,5 @@ fn fail(done: &Mutex<Recorded>, error: &TrackError) {
     if done.cause.is_none() {
         tracing::warn!("the recording is not whole: {cause}");
     }
-    done.fail(cause);
+    done.cause.get_or_insert(cause);
 }

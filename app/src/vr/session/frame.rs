@@ -44,6 +44,8 @@ impl Session {
             self.draw(headset)?;
         } else {
             headset.end(None).map_err(blame)?;
+            // Times are of frames that are shown.
+            self.solved.clear();
         }
         self.tally.frame(milliseconds(begun.elapsed()));
         self.after()?;
