@@ -3,8 +3,16 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
-use vitriol_xr::track::Track;
+use vitriol_xr::PoseSource;
+use vitriol_xr::track::{Track, TrackSource};
 
 fuzz_target!(|bytes: &[u8]| {
-    let _ = Track::parse(bytes, Path::new("fuzz.mcap"));
+    let Ok(track) = Track::parse(bytes, Path::new("fuzz.mcap")) else {
+        return;
+    };
+    let mut source = TrackSource::new(track);
+    for step in 0..100 {
+        let played = source.next(step, step as f64 / 90.0);
+        assert!(played.is_ok(), "{played:?}");
+    }
 });
