@@ -11,6 +11,7 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};
 
 use crate::failure::{Blame, Failure};
+use crate::rank::Ranks;
 
 /// Substeps and iterations on the front that `vitriol trade` found at real size,
 /// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md), the most accurate first: 99th
@@ -101,8 +102,8 @@ fn points(scene: &Scene) -> Vec<[u32; 2]> {
     all
 }
 
-/// 99th percentile of a frame's time, ms, while the liquid settles: its lists are
-/// rebuilt then as while it is moved. Where the first frames all take longer than
+/// The longest of a few frames' times, ms, while the liquid settles: its lists are
+/// rebuilt then as while it is moved. Of so few it stands for their 99th percentile. Where the first frames all take longer than
 /// `budget`, the least of them and `false`: it is over already.
 fn calibrate(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<(f64, bool), Failure> {
     let mut world = World::new(gpu, &Library::embedded(), scene, 0).input()?;
@@ -125,9 +126,7 @@ fn calibrate(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<(f64, bool), Failu
             }
         }
     }
-    times.sort_by(f64::total_cmp);
-    let rank = (0.99 * times.len() as f64).ceil() as usize;
-    Ok((times.get(rank - 1).copied().unwrap_or(f64::INFINITY), true))
+    Ok((Ranks::of(&times).at(1.0).unwrap_or(f64::INFINITY), true))
 }
 
 fn key(gpu: &Gpu, scene: &Scene) -> String {

@@ -16,6 +16,7 @@ pub mod film;
 mod legend;
 mod measure;
 pub mod output;
+mod rank;
 pub mod recorder;
 pub mod replay;
 pub mod report;

@@ -1,5 +1,7 @@
 //! Which cases there are.
 
+use vitriol_sim::fill::split_mix;
+
 use super::extreme::{Extreme, directed, random};
 use super::recipe::{Base, Recipe};
 
@@ -72,14 +74,6 @@ fn drawn(seed: u64, number: u64) -> (Base, Vec<Extreme>) {
         }
     }
     (base, extremes)
-}
-
-/// SplitMix64's output function (Steele, Lea, Flood 2014).
-fn split_mix(state: u64) -> u64 {
-    let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -311,7 +311,7 @@ impl Watch {
         let kinetic = measured.kinetic_energy;
         self.run.turnover = self.run.turnover.max(self.least() + kinetic);
         let excess = energy - self.start_energy - self.declared;
-        self.run.excess = self.run.excess.max(excess);
+        self.run.excess = larger(self.run.excess, excess);
         if self.frame_time * step as f64 <= BEFORE {
             // A filling is no equilibrium: the lattice is too dense at the wall, and
             // what is in one place is pushed apart. What that sets free counts as there.
@@ -359,7 +359,7 @@ impl Watch {
             run.not_finite += values.iter().filter(|value| !value.is_finite()).count() as u64;
             let [u, v, w, _] = state.velocities[slot];
             let speed = f64::from(Vec3::new(u, v, w).length());
-            run.speed = run.speed.max(speed);
+            run.speed = larger(run.speed, speed);
             if self.last_part && state.flask_of(slot).is_some() {
                 self.squares[0] += speed * speed;
                 self.squares[1] += 1.0;
@@ -386,7 +386,7 @@ impl Watch {
             enthalpy,
         ];
         for (largest, now) in self.run.drifts.iter_mut().zip(drifts) {
-            *largest = largest.max(now);
+            *largest = larger(*largest, now);
         }
     }
 
@@ -401,4 +401,9 @@ impl Watch {
         self.run.hash = state.hash();
         Ok(self.run)
     }
+}
+
+/// The larger one; NaN of NaN, which `f64::max` would pass over.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
 }

@@ -16,6 +16,7 @@ use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
 use super::exact;
 use super::setting::Setting;
 use crate::failure::{Blame, Failure};
+use crate::rank::Ranks;
 
 /// Water at rest, m³: the paper's single dilution at d = 2.5 mm.
 pub const VOLUME: f64 = 217.09e-6;
@@ -42,15 +43,8 @@ pub struct Cost {
 impl Cost {
     /// Of times in ms.
     pub fn of(times: &[f64]) -> Self {
-        let mut sorted = times.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let rank = |share: f64| {
-            let rank = (share * sorted.len() as f64).ceil() as usize;
-            sorted
-                .get(rank.saturating_sub(1))
-                .copied()
-                .unwrap_or(f64::NAN)
-        };
+        let ranks = Ranks::of(times);
+        let rank = |share| ranks.at(share).unwrap_or(f64::NAN);
         Self {
             median_ms: rank(0.5),
             p99_ms: rank(0.99),
@@ -168,13 +162,11 @@ impl Tank {
         self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
         let densities = copy.get::<f32>().other()?;
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
-        let mut errors: Vec<f64> = members
+        let errors: Vec<f64> = members
             .map(|slot| (f64::from(densities[slot]) - 1.0).max(0.0))
             .collect();
-        errors.sort_by(f64::total_cmp);
         let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
-        let rank = (0.99 * errors.len() as f64).ceil() as usize;
-        let p99 = errors.get(rank.saturating_sub(1)).copied().unwrap_or(0.0);
+        let p99 = Ranks::of(&errors).at(0.99).unwrap_or(0.0);
         Ok((mean, p99))
     }
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use vitriol_gpu::Ticket;
 
 use crate::failure::{Blame, Failure};
+use crate::rank::Ranks;
 
 /// Median, 95th and 99th percentile and the greatest of what was measured, each a value that was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,17 +24,12 @@ pub struct Spread {
 impl Spread {
     /// Of values by nearest rank; `None` of none.
     pub fn of(values: &[f64]) -> Option<Self> {
-        let mut sorted = values.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let rank = |share: f64| {
-            let rank = (share * sorted.len() as f64).ceil() as usize;
-            sorted.get(rank.saturating_sub(1)).copied()
-        };
+        let ranks = Ranks::of(values);
         Some(Self {
-            p50: rank(0.5)?,
-            p95: rank(0.95)?,
-            p99: rank(0.99)?,
-            max: rank(1.0)?,
+            p50: ranks.at(0.5)?,
+            p95: ranks.at(0.95)?,
+            p99: ranks.at(0.99)?,
+            max: ranks.at(1.0)?,
         })
     }
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use egui::epaint::{ImageData, Primitive};
 use egui::{ClippedPrimitive, Rect, TexturesDelta};
 use vitriol_gpu::{
-    Blend, Buffer, ColourFormat, ColourTarget, Cull, Gpu, Image, ImageDesc, Load, RasterDesc,
-    RasterPipeline, RasterTarget, Recorder, Topology, vk,
+    Blend, Buffer, ColourFormat, ColourTarget, Gpu, Image, ImageDesc, Load, RasterDesc,
+    RasterPipeline, RasterTarget, Recorder, vk,
 };
 use vitriol_shaders::{Library, layout, panel};
 
@@ -73,8 +73,6 @@ impl Painter {
                     blend: Blend::Premultiplied,
                 }],
                 depth: None,
-                topology: Topology::Triangles,
-                cull: Cull::None,
                 view_mask: 0,
             },
         );
