@@ -87,6 +87,7 @@ fn shader_names(sources: &BTreeMap<String, String>, root: &Path) -> Result<Strin
         ("render", "render", "renderer"),
         ("fluid", "render/fluid", "renderer's liquid surface"),
         ("panel", "panel", "headset's panel"),
+        ("mirror", "mirror", "mirror window"),
     ];
     for (module, folder, whose) in modules {
         writeln!(code, "/// Shaders of the {whose}.\npub mod {module} {{")?;

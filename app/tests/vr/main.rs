@@ -4,6 +4,8 @@
 mod common;
 mod hands;
 mod loss;
+#[cfg(target_os = "linux")]
+mod mirror;
 mod panel;
 mod pour;
 mod recorder;

@@ -42,6 +42,10 @@ impl Session {
         self.feel(headset)?;
         if frame.should_render {
             self.draw(headset)?;
+            // Behind the picture, and nothing that the headset waits for.
+            if let Some(mirror) = &mut self.mirror {
+                mirror.take(self.bench.picture.image(), frame.poses.info.xr_time)?;
+            }
         } else {
             headset.end(None).map_err(blame)?;
             // Times are of frames that are shown.
@@ -69,6 +73,9 @@ impl Session {
             self.take_step()?;
         }
         self.bench.picture.keep_up()?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.hand_over()?;
+        }
         self.take_reading()?;
         self.tally.collect()
     }
