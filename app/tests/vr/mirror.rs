@@ -273,12 +273,15 @@ fn keys_and_closing_are_heard() {
     let window = screen.wait_for("small.toml");
     screen.press(window, 'b');
     screen.wait_for("setting up");
+    while screen.title(window).unwrap().contains("setting up") {
+        std::thread::sleep(Duration::from_millis(20));
+    }
     // Closed, it is gone, and the session goes on until it is asked to end.
     screen.close(window);
     while screen.find("Vitriol").is_some() {
         std::thread::sleep(Duration::from_millis(20));
     }
-    std::thread::sleep(Duration::from_secs(4));
+    std::thread::sleep(Duration::from_secs(1));
     assert!(program.runs());
     let asked = Command::new("kill")
         .arg(program.0.id().to_string())

@@ -90,7 +90,7 @@ impl Window {
                 // Who opens waits for it.
                 let _ = opened.send(Ok(events.create_proxy()));
                 let mut face = Face {
-                    extent: shared,
+                    extent: Arc::clone(&shared),
                     decisions,
                     frame: None,
                     shown: None,
@@ -98,7 +98,7 @@ impl Window {
                 if let Err(error) = events.run_app(&mut face) {
                     tracing::warn!("the mirror window is gone: {error}");
                 }
-                face.extent.set([0, 0]);
+                shared.set([0, 0]);
             });
         let thread = thread.map_err(|error| Failure::Other(error.into()))?;
         let proxy = match opening.recv_timeout(PATIENCE) {
@@ -231,6 +231,12 @@ impl ApplicationHandler<Say> for Face {
             let heard = self.hear(what);
             self.settle(events, heard);
         }
+    }
+
+    /// The window goes while the loop still is: it is the loop that sends this to the screen.
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        self.frame = None;
+        self.extent.set([0, 0]);
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
