@@ -28,6 +28,14 @@ pub enum RenderError {
         /// How many were set up.
         wanted: usize,
     },
+    /// A scene has more vessels than a picture.
+    #[error("{given} vessels; a picture has at most {most}: leave some out, or draw none")]
+    TooManyVessels {
+        /// How many the scene has.
+        given: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A liquid surface was asked of a renderer that was made without one.
     #[error("this renderer has no liquid surface; make it with RenderDesc::liquid")]
     NoLiquid,
