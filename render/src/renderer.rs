@@ -22,7 +22,7 @@ const PICTURE_FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 /// Size, views and format of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderDesc {
-    /// Width and height of each view, pixels.
+    /// Width and height of each view's image, pixels.
     pub extent: [u32; 2],
     /// 1 (a film) or 2 (a headset's eyes).
     pub views: u32,
@@ -186,7 +186,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Width and height of each view, pixels.
+    /// Width and height of each view, pixels, at most.
     pub fn extent(&self) -> [u32; 2] {
         self.desc.extent
     }
@@ -225,9 +225,8 @@ impl Renderer {
         frame: &FrameDesc<'_>,
         slot: usize,
     ) -> Result<(), RenderError> {
-        frame.check(&self.scene, self.desc.views)?;
-        let extent = self.desc.extent;
-        let uniforms = frame.uniforms(&self.scene, extent, self.hidden.is_some());
+        frame.check(&self.scene, &self.desc)?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent, self.hidden.is_some());
         rec.upload(&self.frame, &[uniforms])?;
         let liquid = self.liquid(frame)?;
         let shapes = match &liquid {
@@ -240,7 +239,12 @@ impl Renderer {
             self.spheres
                 .record_nearest(rec, &self.frame, particles, &self.tiles)?;
         }
-        self.tiles.list(rec, &self.frame, self.hidden())?;
+        self.tiles.list(
+            rec,
+            &self.frame,
+            self.hidden(),
+            frame.extent(self.desc.extent),
+        )?;
         liquid.map_or(Ok(()), |(fluid, source)| {
             fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
         })

@@ -51,8 +51,6 @@ pub(crate) struct Tiles {
     arguments: Buffer,
     puffs: Buffer,
     views: u32,
-    /// Of all views.
-    count: u32,
 }
 
 struct Pipelines {
@@ -78,7 +76,6 @@ impl Tiles {
             arguments: words("tile dispatches", 3 * CLASSES)?,
             puffs: words("puffs in tiles", u64::from(PUFF_WORDS) * u64::from(count))?,
             views,
-            count,
         })
     }
 
@@ -115,13 +112,15 @@ impl Tiles {
         })
     }
 
-    /// Records the lists of the tiles that are marked.
+    /// Records the lists of the tiles that are marked, in views of `extent`.
     pub(crate) fn list(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
         hidden: &Buffer,
+        extent: [u32; 2],
     ) -> Result<(), GpuError> {
+        let [columns, rows] = tiles_of(extent);
         rec.group("tiles", |rec| {
             rec.pass(&self.pipelines.lists)
                 .label("tiles")
@@ -130,7 +129,7 @@ impl Tiles {
                 .read("hidden_area", hidden)
                 .write("tile_lists", &self.lists)
                 .write("arguments", &self.arguments)
-                .invocations(self.count)
+                .invocations(columns * rows * self.views)
         })
     }
 

@@ -124,7 +124,10 @@ fn a_running_replay_takes_up_what_is_sound() {
         red(&after)
     );
     let said = messages.take();
-    assert!(said.contains("taken up: render/spheres/light.wgsl"), "{said}");
+    assert!(
+        said.contains("taken up: render/spheres/light.wgsl"),
+        "{said}"
+    );
 
     // Broken: the one that was taken up stays, and the message has the line.
     folder.edit("render/spheres/light.wgsl", "5.0 *", "5.0 * nonsense *");
