@@ -4,8 +4,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The folders under `wgsl`: what is only included, the solver's shaders, the renderer's, those of
-/// its liquid surface, the panel's and the mirror window's.
-pub const FOLDERS: [&str; 6] = ["common", "sim", "render", "render/fluid", "panel", "mirror"];
+/// its liquid surface and of its coloured spheres, the panel's and the mirror window's.
+pub const FOLDERS: [&str; 7] = [
+    "common",
+    "sim",
+    "render",
+    "render/fluid",
+    "render/spheres",
+    "panel",
+    "mirror",
+];
 
 /// The WGSL files under `root`: path relative to it (with forward slashes) and full path, sorted.
 /// A folder that does not exist is empty.

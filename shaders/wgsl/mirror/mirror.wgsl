@@ -3,6 +3,8 @@
 //!include common/encode.wgsl
 
 struct MirrorDraw {
+    /// Width and height of the eye's picture, in the upper left corner of its image, pixels.
+    drawn: vec2<u32>,
     /// Width and height of the window's picture, pixels; at most those of the eye's.
     extent: vec2<u32>,
 }
@@ -17,7 +19,7 @@ var<immediate> mirror: MirrorDraw;
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (any(id.xy >= mirror.extent)) { return; }
-    let texels = vec2<f32>(textureDimensions(picture));
+    let texels = vec2<f32>(mirror.drawn);
     let covered = texels / vec2<f32>(mirror.extent);
     let low = vec2<f32>(id.xy) * covered;
     let high = min(low + covered, texels);

@@ -57,12 +57,12 @@ impl Mirror {
         Ok(())
     }
 
-    /// Takes the picture that is shown at `time` (ns, the runtime's clock), if it is time for one.
-    /// To be called between frames, behind the picture.
+    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns, the runtime's clock),
+    /// if it is time for one. To be called between frames, behind the picture.
     ///
     /// # Errors
     /// What the device says.
-    pub fn take(&mut self, picture: &Image, time: i64) -> Result<(), Failure> {
+    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         let Some(extent) = self.window.extent() else {
             return Ok(());
         };
@@ -71,7 +71,7 @@ impl Mirror {
             return Ok(());
         }
         self.due = time.max(self.due.saturating_add(EVERY));
-        self.shrink.begin(picture, extent)
+        self.shrink.begin(picture, drawn, extent)
     }
 
     /// Hands over what the device is done with; does not wait.

@@ -67,25 +67,30 @@ impl Shrink {
         })
     }
 
-    /// Begins to shrink the first layer of `picture` for a window of that size, behind what was
-    /// submitted before; leaves it where no slot is free.
+    /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size,
+    /// behind what was submitted before; leaves it where no slot is free.
     ///
     /// # Errors
     /// What the device says.
-    pub fn begin(&mut self, picture: &Image, window: [u32; 2]) -> Result<(), Failure> {
+    pub fn begin(
+        &mut self,
+        picture: &Image,
+        drawn: [u32; 2],
+        window: [u32; 2],
+    ) -> Result<(), Failure> {
         let mut slots = self.slots.iter_mut();
         let Some(pixels) =
             slots.find_map(|slot| Arc::get_mut(slot).is_some().then(|| Arc::clone(slot)))
         else {
             return Ok(());
         };
-        let most = [0, 1].map(|side| self.most[side].min(window[side]));
-        let extent = fit(picture.desc().extent, most);
+        let most = [0, 1].map(|side| self.most[side].min(drawn[side]).min(window[side]));
+        let extent = fit(drawn, most).map(|side| side.min(LONGEST));
         let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
         rec.pass(&self.pipeline)
             .sampled("picture", picture)
             .write("shrunk", &self.shrunk)
-            .constants(&layout::MirrorDraw { extent })
+            .constants(&layout::MirrorDraw { drawn, extent })
             .invocations_2d(extent)
             .other()?;
         let all = CopyRegion {

@@ -42,10 +42,6 @@ impl Session {
         self.feel(headset)?;
         if frame.should_render {
             self.draw(headset)?;
-            // Behind the picture, and nothing that the headset waits for.
-            if let Some(mirror) = &mut self.mirror {
-                mirror.take(self.bench.picture.image(), frame.poses.info.xr_time)?;
-            }
         } else {
             headset.end(None).map_err(blame)?;
             // Times are of frames that are shown.
@@ -162,6 +158,7 @@ impl Session {
         self.show_panel(seen.as_ref());
         let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
 
+        let extent = self.eyes.extent;
         let targets = headset.acquire().map_err(blame)?;
         let Bench { world, picture, .. } = &mut self.bench;
         let gpu = world.gpu().clone();
@@ -198,7 +195,12 @@ impl Session {
             near: Picture::near(),
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         };
-        headset.end(Some(&shown)).map_err(blame)
+        headset.end(Some(&shown)).map_err(blame)?;
+        // Behind the picture, and nothing that the headset waits for.
+        if let (Some(mirror), Some(time)) = (&mut self.mirror, self.counted) {
+            mirror.take(self.bench.picture.image(), extent, time)?;
+        }
+        Ok(())
     }
 
     /// Takes a reading that has come.
