@@ -9,4 +9,5 @@ mod mirror;
 mod panel;
 mod pour;
 mod recorder;
+mod rules;
 mod switches;

@@ -85,7 +85,7 @@ impl Shrink {
             return Ok(());
         };
         let most = [0, 1].map(|side| self.most[side].min(drawn[side]).min(window[side]));
-        let extent = fit(drawn, most).map(|side| side.min(LONGEST));
+        let extent = fit(drawn, most);
         let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
         rec.pass(&self.pipeline)
             .sampled("picture", picture)

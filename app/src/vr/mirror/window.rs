@@ -147,11 +147,14 @@ fn event_loop() -> Result<EventLoop<Say>, EventLoopError> {
     builder.build()
 }
 
+/// What the window shows, as memory.
+type Pixels = Surface<Rc<Frame>, Rc<Frame>>;
+
 /// The window on its own thread.
 struct Face {
     extent: Arc<Extent>,
     decisions: Sender<Decision>,
-    frame: Option<(Rc<Frame>, Surface<Rc<Frame>, Rc<Frame>>)>,
+    frame: Option<(Rc<Frame>, Pixels)>,
     /// The last picture, 0x00RRGGBB row by row, and its width and height.
     shown: Option<(Vec<u32>, [u32; 2])>,
 }
