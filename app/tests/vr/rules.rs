@@ -53,10 +53,11 @@ impl Subscriber for Ear {
     fn exit(&self, _: &Id) {}
 }
 
-/// Another pose in each frame than the one that the frame began with.
+/// Another pose in each frame than the one that the frame began with, turned so far that a wall at
+/// the side is seen, by which a shift to that side shows.
 fn disturbed(frame: u64) -> Pose {
     let n = frame as f32;
-    let turn = Quat::from_rotation_y(0.10 + 0.002 * n) * Quat::from_rotation_x(0.06);
+    let turn = Quat::from_rotation_y(0.60 + 0.002 * n) * Quat::from_rotation_x(0.06);
     Pose::new(
         Vec3::new(0.05, 0.03 + 0.001 * n, 0.04),
         turn * Quat::from_rotation_z(-0.08),
@@ -182,20 +183,28 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     let room = room.room.unwrap();
     let [across, deep] = table.size.map(|side| 0.5 * side as f32);
     let middle = Vec3::new(table.centre[0] as f32, 0.0, table.centre[1] as f32);
-    let on_face = |p: Vec3| {
+    // Across which axis the face lies, if it is on one.
+    let face = |p: Vec3| {
         const NEAR: f32 = 2e-3;
-        let on_room = (0..3).any(|axis| {
-            (p[axis] - room.min[axis]).abs() < NEAR || (p[axis] - room.max[axis]).abs() < NEAR
-        });
         let from = (p - middle).abs();
         let above = from.x < across + NEAR && from.z < deep + NEAR;
-        on_room || (above && (p.y - table.top as f32).abs() < NEAR)
+        if above && (p.y - table.top as f32).abs() < NEAR {
+            return Some(1);
+        }
+        (0..3).find(|&axis| {
+            (p[axis] - room.min[axis]).abs() < NEAR || (p[axis] - room.max[axis]).abs() < NEAR
+        })
     };
     let [width, height] = headset.extent().map(|side| side as usize);
     for (eye, view) in shown.views.iter().enumerate() {
         let scene_from_eye = stage_from_scene.inverse().compose(&view.stage_from_eye);
-        let mut on = 0;
-        for (index, reversed) in depth.chunks(width * height).nth(eye).unwrap().iter().enumerate()
+        let mut on = [0; 3];
+        for (index, reversed) in depth
+            .chunks(width * height)
+            .nth(eye)
+            .unwrap()
+            .iter()
+            .enumerate()
         {
             let part = |at: usize, of: usize, low: f32, high: f32| {
                 let s = (at as f32 + 0.5) / of as f32;
@@ -204,9 +213,15 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
             let x = part(index % width, width, view.fov.left, view.fov.right);
             let y = part(index / width, height, view.fov.up, view.fov.down);
             let way = shown.near / reversed;
-            on += usize::from(on_face(scene_from_eye.transform_point(way * Vec3::new(x, y, -1.0))));
+            let point = scene_from_eye.transform_point(way * Vec3::new(x, y, -1.0));
+            if let Some(axis) = face(point) {
+                on[axis] += 1;
+            }
         }
-        // The table's edges, and what stands on it, are the rest.
-        assert!(on > width * height * 9 / 10, "eye {eye}: {on} pixels");
+        // The table's edges, and what stands on it, are the rest. Of each direction there is enough
+        // to be seen that a shift along it is.
+        let all = width * height;
+        assert!(on.iter().sum::<usize>() > all * 9 / 10, "eye {eye}: {on:?}");
+        assert!(on.iter().all(|on| *on > all / 20), "eye {eye}: {on:?}");
     }
 }
