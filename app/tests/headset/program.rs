@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// A pour with 1,760 particles, in the places of `two-flasks`.
@@ -19,11 +20,20 @@ pub fn scene(folder: &Path) -> PathBuf {
     file
 }
 
-/// `vitriol vr` at work.
+/// What Vulkan's layer says first of each instance, at its level of information.
+const GREETING: &str = "Khronos Validation Layer Active";
+/// What the layer's lines of interest have; the text of an objection is in lines of their own.
+const SAID: [&str; 3] = [GREETING, "Validation Error", "Validation Warning"];
+/// An objection to what is not ours, see `docs/headset.md`.
+const NOT_OURS: &str = "VUID-VkDeviceCreateInfo-pNext-02830";
+
+/// `vitriol vr` at work, with Vulkan's validation layer.
 pub struct Program {
     child: Child,
     /// Its log's lines.
     log: Receiver<String>,
+    /// What Vulkan's layer says among them, at their end.
+    layer: Option<JoinHandle<Vec<String>>>,
 }
 
 impl Program {
@@ -34,6 +44,12 @@ impl Program {
             .arg(scene)
             .arg("--record")
             .arg(recording)
+            // By the loader's own means: the program has no flag for it. The layer would open a file
+            // anew, and empty, with each instance; what goes to the log stays.
+            .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
+            .env("VK_LAYER_DEBUG_ACTION", "VK_DBG_LAYER_ACTION_LOG_MSG")
+            .env("VK_LAYER_REPORT_FLAGS", "error,warn,info")
+            .env("VK_LAYER_LOG_FILENAME", "/dev/stderr")
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -41,15 +57,23 @@ impl Program {
             .unwrap();
         let stderr = child.stderr.take().unwrap();
         let (sender, log) = channel();
-        std::thread::spawn(move || {
+        let layer = std::thread::spawn(move || {
+            let mut layer = Vec::new();
             for line in BufReader::new(stderr).lines().map_while(Result::ok) {
                 eprintln!("vitriol: {line}");
-                if sender.send(line).is_err() {
-                    break;
+                if SAID.iter().any(|part| line.contains(part)) {
+                    layer.push(line.clone());
                 }
+                // Who waits for a word has it.
+                let _ = sender.send(line);
             }
+            layer
         });
-        Self { child, log }
+        Self {
+            child,
+            log,
+            layer: Some(layer),
+        }
     }
 
     /// Waits for a line of the log that has `part`.
@@ -67,7 +91,8 @@ impl Program {
         }
     }
 
-    /// Asks it to end, as the system does, and gives what it printed.
+    /// Asks it to end, as the system does, and gives what it printed. Vulkan's layer must have greeted
+    /// each of its instances, and else have said nothing.
     pub fn end(mut self) -> serde_json::Value {
         // The shell's own kill: the rig has no other.
         let asked = Command::new("sh")
@@ -78,9 +103,22 @@ impl Program {
         let text = std::io::read_to_string(stdout).unwrap();
         let status = self.child.wait().unwrap();
         assert!(status.success(), "{status}");
-        // OpenXR's validation layer greets on standard output.
+        let (greetings, objections): (Vec<_>, Vec<_>) = (self.layer.take())
+            .map_or_else(Vec::new, |layer| layer.join().unwrap())
+            .into_iter()
+            .filter(|line| !line.contains(NOT_OURS))
+            .partition(|line| line.contains(GREETING));
+        assert!(
+            objections.is_empty(),
+            "Vulkan's layer says: {objections:#?}"
+        );
+        // OpenXR's layer greets on standard output, and Vulkan's has a word there too.
         let json = &text[text.find("\n{").map_or(0, |at| at + 1)..];
-        serde_json::from_str(json).unwrap_or_else(|error| panic!("{error} in: {text}"))
+        let mut json = serde_json::Deserializer::from_str(json).into_iter();
+        let report: serde_json::Value = json.next().unwrap().unwrap();
+        let instances = 1 + report["renewals"].as_u64().unwrap();
+        assert_eq!(greetings.len() as u64, instances, "{greetings:#?}");
+        report
     }
 }
 

@@ -71,6 +71,12 @@ impl Window {
     /// # Errors
     /// Why there is none: no screen, or none that can be used.
     pub fn open(eye: [u32; 2], decisions: Sender<Decision>) -> Result<Self, Failure> {
+        // winit would say it with a place in its own source.
+        if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() {
+            return Err(Failure::Other(
+                "there is no X server (DISPLAY is not set)".into(),
+            ));
+        }
         let extent = Arc::new(Extent::default());
         extent.set(fit(eye, [OPENS_AT; 2]));
         let (shared, (opened, opening)) = (Arc::clone(&extent), channel());
