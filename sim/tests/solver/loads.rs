@@ -4,6 +4,7 @@ use crate::common::*;
 use glam::{DVec3, Quat, Vec3};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::Particle;
 use vitriol_tests::gpu;
 
 fn vector(v: [f32; 4]) -> DVec3 {
@@ -60,4 +61,90 @@ fn a_glass_bears_the_weight_of_its_water() {
     let torque = (centre - poses[0].position.as_dvec3()).cross(weight);
     let off = angular.distance(torque) / (weight.length() * 0.013);
     assert!(off < 0.03, "{angular} for {torque}");
+}
+
+/// Particles that fly apart in two glasses that move, each too far from the next to feel it, so that
+/// a wall pushes those alone that would be past it after the step. Their kinetic energy relative to
+/// their glass, by a loop over the state.
+#[test]
+fn what_a_wall_pushes_stirs() {
+    let device = gpu::device();
+    let p = Parameters {
+        viscosity: 0.0,
+        ..single_substeps()
+    };
+    let (mass, time) = (p.particle_mass(), p.frame_time);
+    let turned = |angle| Quat::from_rotation_x(0.3) * Quat::from_rotation_z(angle);
+    let before = [
+        Pose::new(Vec3::new(0.1, 0.05, 0.02), turned(0.1)),
+        Pose::new(Vec3::new(0.3, 0.0, 0.0), Quat::IDENTITY),
+    ];
+    let after = [
+        Pose::new(Vec3::new(0.1008, 0.0505, 0.02), turned(0.11)),
+        Pose::new(Vec3::new(0.3, 0.0, -0.0009), Quat::IDENTITY),
+    ];
+    let inside = |k: usize, stage: DVec3| {
+        let to_flask = after[k].inverse();
+        to_flask.transform_point(stage.as_vec3()).as_dvec3()
+    };
+    // How far past the wall or the bottom a place is, m.
+    let past = |k: usize, stage: DVec3| {
+        let at = inside(k, stage);
+        (at.x.hypot(at.z) - 0.013).max(-at.y)
+    };
+    let fall = DVec3::Y * (-9.81 * time);
+    let mut random = Random(5);
+    let (mut given, mut pushed) = (Vec::new(), Vec::new());
+    for k in 0..2 {
+        for (layer, corner) in
+            (0..6).flat_map(|l| (0..4).map(move |c| (f64::from(l), f64::from(c))))
+        {
+            let angle = corner * std::f64::consts::FRAC_PI_2;
+            let out = DVec3::new(angle.cos(), 0.0, angle.sin());
+            let start = out * 0.009 + DVec3::Y * (0.008 + 0.008 * layer);
+            let position = before[k].transform_point(start.as_vec3()).as_dvec3();
+            // Outwards, and not so that rounding decides whether it gets past.
+            let velocity = loop {
+                let along = out * (7.0 * random.number()) + random.point(2.0);
+                let velocity = before[k].orientation.as_dquat() * along;
+                if past(k, position + (velocity + fall) * time).abs() > 1e-4 {
+                    break velocity;
+                }
+            };
+            given.push(Particle {
+                flask: Some(k),
+                ..drop_at(position, velocity)
+            });
+            pushed.push(past(k, position + (velocity + fall) * time) > 0.0);
+        }
+    }
+    // Nobody's, which no wall pushes.
+    given.push(drop_at(DVec3::new(0.2, 0.3, 0.0), DVec3::X * 3.0));
+    pushed.push(false);
+    let count = pushed.iter().filter(|pushed| **pushed).count();
+    assert!((12..36).contains(&count), "{count} are pushed");
+
+    let setup = Setup {
+        loads: true,
+        ..Setup::new(p, vec![narrow_glass(); 2], given)
+    };
+    let solver = setup.solver(&device);
+    let loads = frame(&device, &solver, &before, &after);
+    let mut energies = [0.0; 2];
+    let found = particles(&solver.snapshot().unwrap());
+    for (particle, _) in found.iter().zip(&pushed).filter(|(_, pushed)| **pushed) {
+        let k = particle.flask.unwrap();
+        let was = before[k].transform_point(inside(k, particle.position).as_vec3());
+        let wall = (particle.position - was.as_dvec3()) / time;
+        energies[k] += 0.5 * mass * (particle.velocity - wall).length_squared();
+    }
+    for (load, energy) in loads.iter().zip(energies) {
+        // A float's place at 0.3 m, 3e-8 m, is 3e-5 m/s in a step, of some m/s.
+        let off = (f64::from(load.angular[3]) / energy - 1.0).abs();
+        assert!(
+            energy > 0.0 && off < 1e-3,
+            "{} for {energy}",
+            load.angular[3]
+        );
+    }
 }

@@ -128,6 +128,11 @@ fn the_focus_goes_to_another_program_and_comes_back() {
     let other = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", name])
         .env(OTHER, "")
+        // Its validation layer would empty the file of ours.
+        .env(
+            "XR_CORE_VALIDATION_FILE_NAME",
+            rig.folder().join("other.txt"),
+        )
         .spawn()
         .unwrap();
     let _other = Other(other);
