@@ -78,13 +78,19 @@ fn root() -> Result<Option<PathBuf>, String> {
         .or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".cache")));
     let root = cache.map(|cache| cache.join("vitriol/monado-debian-13"));
     match root {
-        Some(root) if root.join("usr/bin/monado-service").exists() => Ok(Some(root)),
+        Some(root) if root.join(dumps()).exists() => Ok(Some(root)),
         _ => Err(
             "Monado is not installed, and `./lab setup`, which unpacks it on Debian, has not been \
              run"
             .to_owned(),
         ),
     }
+}
+
+/// What was added last to the packages that are unpacked: the layer that dumps OpenXR's calls.
+fn dumps() -> String {
+    let manifest = "usr/share/openxr/1/api_layers/explicit.d/XrApiLayer_api_dump";
+    format!("{manifest}.{}-linux-gnu.json", std::env::consts::ARCH)
 }
 
 /// Whether namespaces can be made here.
@@ -238,6 +244,15 @@ impl Rig {
     /// Where the remote driver does not answer.
     #[must_use]
     pub fn remote(&self) -> Remote {
+        Self::remote_here()
+    }
+
+    /// The same for a process that a test has started in its rig.
+    ///
+    /// # Panics
+    /// Where the remote driver does not answer.
+    #[must_use]
+    pub fn remote_here() -> Remote {
         Remote::try_open(PORT).expect("the remote driver answers")
     }
 

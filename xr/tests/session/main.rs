@@ -6,3 +6,4 @@ mod client;
 mod hands;
 mod life;
 mod loss;
+mod rules;
