@@ -9,6 +9,7 @@ pub mod hands;
 pub mod haptics;
 pub mod inputs;
 pub mod menu;
+pub mod mirror;
 pub mod panel;
 pub mod picture;
 pub mod placement;

@@ -4,7 +4,10 @@
 mod common;
 mod hands;
 mod loss;
+#[cfg(target_os = "linux")]
+mod mirror;
 mod panel;
 mod pour;
 mod recorder;
+mod rules;
 mod switches;

@@ -69,6 +69,9 @@ impl Session {
             self.take_step()?;
         }
         self.bench.picture.keep_up()?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.hand_over()?;
+        }
         self.take_reading()?;
         self.tally.collect()
     }
@@ -155,6 +158,7 @@ impl Session {
         self.show_panel(seen.as_ref());
         let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
 
+        let extent = self.eyes.extent;
         let targets = headset.acquire().map_err(blame)?;
         let Bench { world, picture, .. } = &mut self.bench;
         let gpu = world.gpu().clone();
@@ -191,7 +195,12 @@ impl Session {
             near: Picture::near(),
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         };
-        headset.end(Some(&shown)).map_err(blame)
+        headset.end(Some(&shown)).map_err(blame)?;
+        // Behind the picture, and nothing that the headset waits for.
+        if let (Some(mirror), Some(time)) = (&mut self.mirror, self.counted) {
+            mirror.take(self.bench.picture.image(), extent, time)?;
+        }
+        Ok(())
     }
 
     /// Takes a reading that has come.
