@@ -5,6 +5,7 @@
 
 pub mod bench;
 pub mod clock;
+pub mod governor;
 pub mod hands;
 pub mod haptics;
 pub mod inputs;
