@@ -86,6 +86,7 @@ fn shader_names(sources: &BTreeMap<String, String>, root: &Path) -> Result<Strin
         ("sim", "sim", "solver"),
         ("render", "render", "renderer"),
         ("fluid", "render/fluid", "renderer's liquid surface"),
+        ("spheres", "render/spheres", "renderer's coloured spheres"),
         ("panel", "panel", "headset's panel"),
     ];
     for (module, folder, whose) in modules {

@@ -198,6 +198,7 @@ impl Camera {
         };
         let liquid = (colour == ColourName::Liquid).then(|| liquid_of(world));
         let frame = FrameDesc {
+            extent: None,
             views: &self.views(),
             vessels: &vessels,
             particles: liquid.is_none().then_some(particles),

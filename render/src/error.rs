@@ -28,6 +28,24 @@ pub enum RenderError {
         /// How many were set up.
         wanted: usize,
     },
+    /// A frame's picture is larger than the renderer's images, or of no pixels.
+    #[error(
+        "a picture of {extent:?} pixels of a renderer of {held:?}; draw at most that, and at least one"
+    )]
+    Extent {
+        /// What the frame asks for.
+        extent: [u32; 2],
+        /// What there is.
+        held: [u32; 2],
+    },
+    /// A scene has more vessels than a picture.
+    #[error("{given} vessels; a picture has at most {most}: leave some out, or draw none")]
+    TooManyVessels {
+        /// How many the scene has.
+        given: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A liquid surface was asked of a renderer that was made without one.
     #[error("this renderer has no liquid surface; make it with RenderDesc::liquid")]
     NoLiquid,

@@ -8,6 +8,7 @@ use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::fluid::LiquidSource;
+use crate::renderer::RenderDesc;
 use crate::scene::Scene;
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints;
@@ -87,6 +88,9 @@ impl ColourBy {
 /// One frame.
 #[derive(Clone, Copy)]
 pub struct FrameDesc<'a> {
+    /// Width and height of each view as drawn, pixels, if that is less than the renderer's: the picture is
+    /// in the upper left corner of its images then. What is beside it there is of no meaning.
+    pub extent: Option<[u32; 2]>,
     /// As many as the renderer has.
     pub views: &'a [View],
     /// `stage_from_vessel` of each vessel of the scene, rigid, in the scene's
@@ -107,10 +111,20 @@ pub struct FrameDesc<'a> {
 }
 
 impl FrameDesc<'_> {
+    /// Width and height of each view as drawn, in images of `held` pixels.
+    pub(crate) fn extent(&self, held: [u32; 2]) -> [u32; 2] {
+        self.extent.unwrap_or(held)
+    }
+
     /// Whether the frame fits the scene, the views and its own buffers.
-    pub(crate) fn check(&self, scene: &Scene, views: u32) -> Result<(), RenderError> {
+    pub(crate) fn check(&self, scene: &Scene, desc: &RenderDesc) -> Result<(), RenderError> {
+        let held = desc.extent;
+        let extent = self.extent(held);
+        if extent.contains(&0) || extent[0] > held[0] || extent[1] > held[1] {
+            return Err(RenderError::Extent { extent, held });
+        }
         let counts = [
-            ("views", self.views.len(), views as usize),
+            ("views", self.views.len(), desc.views as usize),
             ("vessel poses", self.vessels.len(), scene.vessels.len()),
         ];
         for (what, given, wanted) in counts {
@@ -149,9 +163,10 @@ impl FrameDesc<'_> {
         Ok(())
     }
 
-    /// The frame's uniforms for pictures of `extent` pixels, of which the lenses
+    /// The frame's uniforms for images of `held` pixels, of which the lenses
     /// may hide a part.
-    pub(crate) fn uniforms(&self, scene: &Scene, extent: [u32; 2], hides: bool) -> layout::Frame {
+    pub(crate) fn uniforms(&self, scene: &Scene, held: [u32; 2], hides: bool) -> layout::Frame {
+        let extent = self.extent(held);
         let [tile_columns, tile_rows] = tiles_of(extent);
         let corner = |corner: Option<Vec3>| corner.unwrap_or(Vec3::ZERO).to_array();
         let mut frame = layout::Frame {
@@ -163,6 +178,7 @@ impl FrameDesc<'_> {
             room_max: corner(scene.room.map(|room| room.max)),
             spacing: self.liquid.map_or(0.0, |liquid| liquid.spacing),
             extent: extent.map(|side| side as f32),
+            held: held.map(|side| side as f32),
             tile_columns,
             tile_rows,
             view_count: self.views.len() as u32,

@@ -31,12 +31,14 @@ mod error;
 mod fluid;
 mod frame;
 mod hidden;
+mod lanes;
 mod outline;
 mod pipelines;
 mod readback;
 pub mod reference;
 mod renderer;
 mod scene;
+mod spheres;
 mod tiles;
 pub mod tints;
 

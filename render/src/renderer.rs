@@ -1,18 +1,18 @@
 //! Draws a frame: the liquid's surface, then the picture with the glass over it, then its edges and steam.
 
 use vitriol_gpu::{
-    Buffer, ColourTarget, DepthTarget, Filter, Gpu, Image, ImageDesc, Load, RasterTarget, Recorder,
-    Sampler, SamplerDesc, bytes_of_elements, vk,
+    Buffer, Filter, Gpu, Image, ImageDesc, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
 };
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, zeros};
-use crate::frame::{ColourBy, FrameDesc, ParticleSource};
+use crate::frame::FrameDesc;
 use crate::hidden::hidden_words;
-use crate::pipelines::{DEPTH_FORMAT, Pipelines, SPHERES_FORMAT};
+use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
+use crate::spheres::Spheres;
 use crate::tiles::Tiles;
 
 /// Format of the picture. Its values are sRGB's all the same: shaders write it, and they cannot write
@@ -22,7 +22,7 @@ const PICTURE_FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 /// Size, views and format of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderDesc {
-    /// Width and height of each view, pixels.
+    /// Width and height of each view's image, pixels.
     pub extent: [u32; 2],
     /// 1 (a film) or 2 (a headset's eyes).
     pub views: u32,
@@ -58,8 +58,7 @@ pub struct Renderer {
     tiles: Tiles,
     /// Bound where there is nothing to bind.
     nothing: Buffer,
-    spheres: Image,
-    sphere_depth: Image,
+    spheres: Spheres,
     /// The picture before its edges are smoothed.
     drawn: Image,
     between: Sampler,
@@ -77,22 +76,21 @@ impl Renderer {
         if !(1..=2).contains(&desc.views) {
             return Err(RenderError::ViewCount { views: desc.views });
         }
-        let image = |label, format, usage| {
+        let image = |label| {
             let desc = ImageDesc {
                 extent: desc.extent,
                 layers: desc.views,
-                format,
-                usage: usage | vk::ImageUsageFlags::SAMPLED,
+                format: PICTURE_FORMAT,
+                usage: vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED,
             };
             Image::new(gpu, label, desc)
         };
-        let written = vk::ImageUsageFlags::STORAGE;
         let (extent, views) = (desc.extent, desc.views);
         let pixels = (views * extent[0] * extent[1]) as usize;
         Ok(Self {
             gpu: gpu.clone(),
             desc: *desc,
-            pipelines: Pipelines::new(gpu, library, view_mask(views))?,
+            pipelines: Pipelines::new(gpu, library)?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
@@ -102,17 +100,8 @@ impl Renderer {
             hidden: None,
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
-            spheres: image(
-                "spheres",
-                SPHERES_FORMAT,
-                vk::ImageUsageFlags::COLOR_ATTACHMENT,
-            )?,
-            sphere_depth: image(
-                "sphere depth",
-                DEPTH_FORMAT,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
-            )?,
-            drawn: image("drawn", PICTURE_FORMAT, written)?,
+            spheres: Spheres::new(gpu, library, extent, views)?,
+            drawn: image("drawn")?,
             between: Sampler::new(
                 gpu,
                 SamplerDesc {
@@ -120,7 +109,7 @@ impl Renderer {
                     ..SamplerDesc::default()
                 },
             )?,
-            picture: image("picture", PICTURE_FORMAT, written)?,
+            picture: image("picture")?,
             depths: Buffer::storage(gpu, "picture depth", bytes_of_elements::<f32>(pixels))?,
         })
     }
@@ -131,13 +120,23 @@ impl Renderer {
     /// # Errors
     /// [`RenderError::Shader`], [`RenderError::Gpu`].
     pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
-        if let Some(fluid) = self.fluid.as_mut().filter(|_| Fluid::uses(changed)) {
-            fluid.reload(library)?;
-        }
+        // All that can fail comes before anything is replaced.
+        let (gpu, RenderDesc { extent, views, .. }) = (&self.gpu, self.desc);
+        let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
+        let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views));
+        let fluid = fluid.transpose()?;
+        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, extent, views));
+        let spheres = spheres.transpose()?;
         if Pipelines::uses(changed) {
-            self.tiles.reload(&self.gpu, library)?;
-            let mask = view_mask(self.desc.views);
-            self.pipelines = Pipelines::new(&self.gpu, library, mask)?;
+            let tiles = Tiles::new(gpu, library, extent, views)?;
+            self.pipelines = Pipelines::new(gpu, library)?;
+            self.tiles = tiles;
+        }
+        if fluid.is_some() {
+            self.fluid = fluid;
+        }
+        if let Some(spheres) = spheres {
+            self.spheres = spheres;
         }
         Ok(())
     }
@@ -187,7 +186,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Width and height of each view, pixels.
+    /// Width and height of each view, pixels, at most.
     pub fn extent(&self) -> [u32; 2] {
         self.desc.extent
     }
@@ -226,9 +225,8 @@ impl Renderer {
         frame: &FrameDesc<'_>,
         slot: usize,
     ) -> Result<(), RenderError> {
-        frame.check(&self.scene, self.desc.views)?;
-        let extent = self.desc.extent;
-        let uniforms = frame.uniforms(&self.scene, extent, self.hidden.is_some());
+        frame.check(&self.scene, &self.desc)?;
+        let uniforms = frame.uniforms(&self.scene, self.desc.extent, self.hidden.is_some());
         rec.upload(&self.frame, &[uniforms])?;
         let liquid = self.liquid(frame)?;
         let shapes = match &liquid {
@@ -236,8 +234,17 @@ impl Renderer {
             None => (&self.nothing, 0),
         };
         let steam = frame.steam.as_ref();
-        self.tiles
-            .record(rec, &self.frame, shapes, steam, self.hidden())?;
+        self.tiles.mark(rec, &self.frame, shapes, steam)?;
+        if let Some(particles) = &frame.particles {
+            self.spheres
+                .record_nearest(rec, &self.frame, particles, &self.tiles)?;
+        }
+        self.tiles.list(
+            rec,
+            &self.frame,
+            self.hidden(),
+            frame.extent(self.desc.extent),
+        )?;
         liquid.map_or(Ok(()), |(fluid, source)| {
             fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
         })
@@ -292,7 +299,9 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         self.prepare(rec, frame, slot)?;
         if let Some(particles) = &frame.particles {
-            self.draw_spheres(rec, particles, frame.colour_by)?;
+            let colour_by = frame.colour_by;
+            self.spheres
+                .record_light(rec, &self.frame, particles, colour_by, &self.tiles)?;
         }
         self.draw_picture(rec, frame)?;
         self.finish(rec, frame)
@@ -316,8 +325,8 @@ impl Renderer {
                     .read("hidden_area", self.hidden())
                     .read("outlines", &self.scene.outlines)
                     .read("tiles", self.tiles.marks())
-                    .sampled("sphere_colours", &self.spheres)
-                    .sampled("sphere_depths", &self.sphere_depth)
+                    .read("sphere_light", self.spheres.light())
+                    .read("sphere_depths", self.spheres.depths())
                     .storage_image("drawn", &self.drawn)
                     .storage_image("finished", &self.picture)
                     .write("depths", &self.depths)
@@ -368,42 +377,6 @@ impl Renderer {
         Ok(Some((fluid, source)))
     }
 
-    fn draw_spheres(
-        &self,
-        rec: &mut Recorder,
-        particles: &ParticleSource<'_>,
-        colour_by: ColourBy,
-    ) -> Result<(), RenderError> {
-        let target = RasterTarget {
-            label: "spheres",
-            colours: &[ColourTarget {
-                image: &self.spheres,
-                load: Load::Clear([0.0; 4]),
-            }],
-            depth: Some(DepthTarget {
-                image: &self.sphere_depth,
-                load: Load::Clear(0.0),
-            }),
-            view_mask: view_mask(self.desc.views),
-        };
-        let [start, end] = colour_by.range();
-        rec.raster(&target, |raster| {
-            raster
-                .draw(&self.pipelines.spheres)
-                .uniform("frame", &self.frame)
-                .read("positions", particles.positions)
-                .read("attributes", particles.attributes)
-                .constants(&layout::ParticleDraw {
-                    radius: particles.radius,
-                    colour_by: colour_by.attribute(),
-                    start,
-                    inverse_range: (end - start).max(f32::MIN_POSITIVE).recip(),
-                })
-                .vertices(3 * particles.count)
-        })?;
-        Ok(())
-    }
-
     /// Records the copy of the picture to the host, after
     /// [`Renderer::record`]. The bytes can be fetched when the submission has
     /// finished; a film encodes them while the next frame is simulated.
@@ -434,9 +407,4 @@ impl Renderer {
         let spacing = frame.liquid.map_or(0.0, |liquid| liquid.spacing);
         fluid.read_back(rec, frame.nears(), spacing)
     }
-}
-
-/// A bit per view.
-fn view_mask(views: u32) -> u32 {
-    (1 << views) - 1
 }

@@ -7,6 +7,9 @@ use vitriol_shaders::layout;
 use crate::RenderError;
 use crate::outline::segments;
 
+/// Vessels that a picture has at most: a tile has a bit for each.
+pub(crate) const MOST_VESSELS: usize = 8;
+
 /// Heights at which the shaders have a vessel's inner radius.
 const INNER_RADII: usize = 16;
 
@@ -155,6 +158,10 @@ pub(crate) struct Scene {
 impl Scene {
     /// Uploads the outlines and waits for it; a scene is set once.
     pub(crate) fn new(gpu: &Gpu, desc: &SceneDesc) -> Result<Self, RenderError> {
+        let (given, most) = (desc.vessels.len(), MOST_VESSELS);
+        if given > most {
+            return Err(RenderError::TooManyVessels { given, most });
+        }
         let mut table: Vec<[f32; 4]> = Vec::new();
         let mut add = |rows: Vec<[f32; 4]>| {
             let first = table.len() as u32;

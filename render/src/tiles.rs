@@ -1,6 +1,6 @@
 //! Which tiles of the picture have what, and lists of them for the passes over their pixels.
 
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Pass, Recorder};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Library, ShaderId, layout, render};
 
 use crate::RenderError;
@@ -36,9 +36,11 @@ pub(crate) enum Class {
     Edges = 3,
     /// Steam, and perhaps edges.
     Steam = 4,
+    /// Coloured spheres.
+    Spheres = 5,
 }
 
-const CLASSES: u64 = 5;
+const CLASSES: u64 = 6;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {
@@ -49,8 +51,6 @@ pub(crate) struct Tiles {
     arguments: Buffer,
     puffs: Buffer,
     views: u32,
-    /// Of all views.
-    count: u32,
 }
 
 struct Pipelines {
@@ -76,25 +76,17 @@ impl Tiles {
             arguments: words("tile dispatches", 3 * CLASSES)?,
             puffs: words("puffs in tiles", u64::from(PUFF_WORDS) * u64::from(count))?,
             views,
-            count,
         })
     }
 
-    /// Takes up changed shaders.
-    pub(crate) fn reload(&mut self, gpu: &Gpu, library: &Library) -> Result<(), RenderError> {
-        self.pipelines = Pipelines::new(gpu, library)?;
-        Ok(())
-    }
-
-    /// Records the marking and listing of a frame's tiles, with `count` of `ellipsoids`.
-    pub(crate) fn record(
+    /// Records the marking of a frame's tiles, with `count` of `ellipsoids`.
+    pub(crate) fn mark(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
         (ellipsoids, count): (&Buffer, u32),
         steam: Option<&SteamSource<'_>>,
-        hidden: &Buffer,
-    ) -> Result<(), RenderError> {
+    ) -> Result<(), GpuError> {
         rec.group("tiles", |rec| {
             rec.fill(&self.marks, 0)?;
             rec.fill(&self.arguments, 0)?;
@@ -116,6 +108,20 @@ impl Tiles {
                     .constants(&layout::PuffCount { count: steam.count })
                     .workgroups([steam.count.div_ceil(64), self.views, 1])?;
             }
+            Ok(())
+        })
+    }
+
+    /// Records the lists of the tiles that are marked, in views of `extent`.
+    pub(crate) fn list(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        hidden: &Buffer,
+        extent: [u32; 2],
+    ) -> Result<(), GpuError> {
+        let [columns, rows] = tiles_of(extent);
+        rec.group("tiles", |rec| {
             rec.pass(&self.pipelines.lists)
                 .label("tiles")
                 .uniform("frame", uniforms)
@@ -123,9 +129,8 @@ impl Tiles {
                 .read("hidden_area", hidden)
                 .write("tile_lists", &self.lists)
                 .write("arguments", &self.arguments)
-                .invocations(self.count)
-        })?;
-        Ok(())
+                .invocations(columns * rows * self.views)
+        })
     }
 
     /// The marks, row by row, view by view.
@@ -139,7 +144,7 @@ impl Tiles {
     }
 
     /// Records a pass over the pixels of the tiles of a class; the pipeline is specialised for it.
-    pub(crate) fn over(&self, class: Class, pass: Pass<'_>) -> Result<(), vitriol_gpu::GpuError> {
+    pub(crate) fn over(&self, class: Class, pass: Pass<'_>) -> Result<(), GpuError> {
         pass.read("tile_lists", &self.lists)
             .indirect(&self.arguments, 12 * class as u64)
     }

@@ -2,7 +2,7 @@
 //! SPIR-V. There is no Vulkan here.
 //!
 //! The files lie in `wgsl/common` (only included, by a line `//!include common/name.wgsl`),
-//! `wgsl/sim`, `wgsl/render` and `wgsl/render/fluid`. `build.rs` checks them all: a shader error is a cargo error with
+//! `wgsl/sim`, `wgsl/render`, its `fluid` and `spheres`, and `wgsl/panel`. `build.rs` checks them all: a shader error is a cargo error with
 //! its line. For `wgsl/sim/density.wgsl` there is [`ShaderId`] `sim::DENSITY`; for each struct of
 //! a buffer or of `var<immediate>` there is one in [`layout`].
 //!

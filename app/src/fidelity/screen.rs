@@ -96,6 +96,7 @@ impl Draw for Screen {
         };
         let vessels: Vec<Affine3A> = state.world.poses().iter().map(affine).collect();
         let frame = FrameDesc {
+            extent: None,
             views: eyes,
             vessels: &vessels,
             particles: None,

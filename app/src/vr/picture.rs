@@ -236,6 +236,7 @@ impl Picture {
             fov: Fov::symmetric(1.0, 1.0),
         };
         let frame = FrameDesc {
+            extent: None,
             views: &sight.map_or([nowhere; 2], |sight| sight.views),
             vessels: &vessels,
             particles: hands.filter(|hands| hands.count > 0),

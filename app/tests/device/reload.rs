@@ -109,11 +109,11 @@ fn a_running_replay_takes_up_what_is_sound() {
     assert_eq!(messages.take(), "");
 
     // The liquid's colour; one file, one pipeline.
-    let light = "let light = in.colour.rgb *";
+    let light = "let light = colour_of(particle) *";
     folder.edit(
-        "render/particles.wgsl",
+        "render/spheres/light.wgsl",
         light,
-        "let light = 5.0 * in.colour.gbr *",
+        "let light = 5.0 * colour_of(particle).gbr *",
     );
     let after = step(laboratory.as_mut());
     // The liquid is 1 % of the picture.
@@ -124,16 +124,19 @@ fn a_running_replay_takes_up_what_is_sound() {
         red(&after)
     );
     let said = messages.take();
-    assert!(said.contains("taken up: render/particles.wgsl"), "{said}");
+    assert!(
+        said.contains("taken up: render/spheres/light.wgsl"),
+        "{said}"
+    );
 
     // Broken: the one that was taken up stays, and the message has the line.
-    folder.edit("render/particles.wgsl", "5.0 *", "5.0 * nonsense *");
+    folder.edit("render/spheres/light.wgsl", "5.0 *", "5.0 * nonsense *");
     let still = step(laboratory.as_mut());
     assert!(red(&still) > 250, "{}", red(&still));
     let said = messages.take();
     for part in [
-        "the old render/particles.wgsl stays",
-        "particles.wgsl:1",
+        "the old render/spheres/light.wgsl stays",
+        "light.wgsl:5",
         "nonsense",
     ] {
         assert!(said.contains(part), "{said}");
@@ -141,7 +144,7 @@ fn a_running_replay_takes_up_what_is_sound() {
     assert_eq!(said.lines().count(), 1, "{said}");
 
     // Valid, but not with what the program binds.
-    folder.edit("render/particles.wgsl", "nonsense *", "");
+    folder.edit("render/spheres/light.wgsl", "nonsense *", "");
     folder.edit(
         "render/picture.wgsl",
         "var<immediate> picture",

@@ -11,6 +11,8 @@ use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::frame::FrameDesc;
+use crate::lanes::workgroups;
+use crate::scene::MOST_VESSELS;
 use crate::tiles::{Class, Tiles};
 use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
@@ -21,7 +23,6 @@ pub(crate) const SLOTS: usize = 2;
 
 /// Buffers and pipelines of the liquid surface.
 pub(crate) struct Fluid {
-    gpu: Gpu,
     desc: LiquidDesc,
     extent: [u32; 2],
     views: u32,
@@ -53,7 +54,6 @@ impl Fluid {
         let blocks = pixels(blocks_of(extent));
         let ellipsoids = bytes_of_elements::<layout::Ellipsoid>(desc.particles as usize);
         Ok(Self {
-            gpu: gpu.clone(),
             desc,
             extent,
             views,
@@ -72,12 +72,6 @@ impl Fluid {
             filtered: [floats("liquid surface")?, floats("half-filtered")?],
             sums: Buffer::storage(gpu, "thickness", bytes_of_elements::<[u32; 2]>(blocks))?,
         })
-    }
-
-    /// Takes up changed shaders.
-    pub(crate) fn reload(&mut self, library: &Library) -> Result<(), RenderError> {
-        self.passes = Passes::new(&self.gpu, library, self.desc.filter)?;
-        Ok(())
     }
 
     /// Whether any of these shaders is the liquid's.
@@ -115,7 +109,7 @@ impl Fluid {
                     .read("ellipsoids", self.ellipsoids(slot))
                     .write(name, into)
                     .constants(&layout::Splats { count })
-                    .workgroups([(count * lanes).div_ceil(64), self.views, 1])
+                    .workgroups(workgroups(count, lanes, self.views))
             })
         };
         splat(
@@ -143,8 +137,7 @@ impl Fluid {
         source: &LiquidSource<'_>,
         slot: usize,
     ) -> Result<(), RenderError> {
-        let poses: Vec<layout::FlaskPose> =
-            frame.vessels.iter().map(pose).take(MOST_VESSELS).collect();
+        let poses: Vec<layout::FlaskPose> = frame.vessels.iter().map(pose).collect();
         rec.upload(&self.poses, &poses)?;
         let neighbours = source.neighbours.filter(|_| self.desc.anisotropic);
         let list = |of: fn(Neighbours<'_>) -> &Buffer| neighbours.map_or(&self.nothing, of);
@@ -241,9 +234,6 @@ impl Fluid {
 fn blocks_of(extent: [u32; 2]) -> [u32; 2] {
     extent.map(|side| side.div_ceil(2))
 }
-
-/// Vessels that a frame holds at most.
-pub(crate) const MOST_VESSELS: usize = 8;
 
 fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {
     let orientation = Quat::from_mat3a(&stage_from_vessel.matrix3);

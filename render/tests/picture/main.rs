@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod ellipsoids;
+mod extent;
 mod golden;
 mod liquid;
 mod rig;

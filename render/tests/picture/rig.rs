@@ -121,6 +121,7 @@ impl Rig {
 /// A frame of an empty scene at real size.
 pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
     FrameDesc {
+        extent: None,
         views,
         vessels: &[],
         particles: None,

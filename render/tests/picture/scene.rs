@@ -201,6 +201,7 @@ fn another_length_scale_gives_the_same_picture() {
         let velocities = rig.buffer("velocities", &[[0.7 / scale, 0.0, 0.0, 0.0]]);
         let vessels = [Affine3A::from_translation(at)];
         rig.draw(&FrameDesc {
+            extent: None,
             views: &views,
             vessels: &vessels,
             liquid: None,

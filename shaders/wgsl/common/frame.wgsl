@@ -80,8 +80,10 @@ struct Frame {
     room_max: vec3<f32>,
     /// Tiles in a row of the picture, and rows of tiles.
     tile_columns: u32,
-    /// Width and height of a view, pixels.
+    /// Width and height of a view as drawn, pixels.
     extent: vec2<f32>,
+    /// The same of the images and arrays that hold it, in whose upper left corner it is.
+    held: vec2<f32>,
     /// Rows of tiles of a view.
     tile_rows: u32,
     /// How many eyes there are.
@@ -104,8 +106,8 @@ fn seen_along(eye: u32, pixel: vec2<f32>) -> vec3<f32> {
 
 /// Where a pixel is in arrays of all eyes' pixels, row by row, eye by eye.
 fn pixel_index(pixel: vec2<i32>, eye: u32) -> u32 {
-    let extent = vec2<u32>(frame.extent);
-    return (eye * extent.y + u32(pixel.y)) * extent.x + u32(pixel.x);
+    let held = vec2<u32>(frame.held);
+    return (eye * held.y + u32(pixel.y)) * held.x + u32(pixel.x);
 }
 
 /// The nearest pixel of the picture.

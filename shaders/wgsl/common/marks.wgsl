@@ -8,4 +8,6 @@ const MARK_LIQUID = 0x80000000u;
 /// An edge that is neither liquid's nor a vessel's.
 const MARK_EDGE = 0x40000000u;
 const MARK_STEAM = 0x20000000u;
+/// Particles as coloured spheres.
+const MARK_SPHERES = 0x10000000u;
 const MARK_VESSELS = 0xffu;

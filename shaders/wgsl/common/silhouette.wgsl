@@ -9,19 +9,6 @@
 //!include common/frame.wgsl
 //!include common/ellipsoid.wgsl
 
-@group(0) @binding(1) var<storage, read> ellipsoids: array<Ellipsoid>;
-
-struct Splats {
-    /// Number of particles.
-    count: u32,
-}
-
-var<immediate> splats: Splats;
-
-/// Invocations that share an ellipsoid: its pixels are looped over in blocks of eight by this over
-/// eight.
-override LANES: u32 = 8u;
-
 struct Silhouette {
     /// The pixels that it may cover: from the first to before the second.
     low: vec2<i32>,
@@ -50,10 +37,11 @@ fn bounds(at: vec3<f32>, depth: vec4<f32>) -> vec2<f32> {
     let xx = dot(at, at);
     let xw = dot(at, depth.xyz);
     let ww = dot(depth.xyz, depth.xyz) - depth.w * depth.w;
-    return vec2<f32>(xw, sqrt(max(xw * xw - xx * ww, 0.0))) / -ww;
+    return vec2<f32>(-xw, sqrt(max(xw * xw - xx * ww, 0.0))) / -ww;
 }
 
-/// The silhouette of e for an eye; of no pixels for an eye within it.
+/// The silhouette of e for an eye; of no pixels for an eye within it, or where none of it is beyond the
+/// near plane.
 fn silhouette_of(e: Ellipsoid, eye: u32) -> Silhouette {
     var none: Silhouette;
     let m = mat3x3<f32>(
@@ -73,28 +61,32 @@ fn silhouette_of(e: Ellipsoid, eye: u32) -> Silhouette {
     let depth = extent_of(clip[3], m, e.centre);
     let x = extent_of(clip[0], m, e.centre);
     let y = extent_of(clip[1], m, e.centre);
-    // Wholly to the side or behind the eye; the trace bounds the greatest half axis. What crosses the
-    // eye's plane is left out by this too, but for what is about to touch the eye.
-    let reach = dot(e.diagonal, vec3<f32>(1.0));
-    let scale = 2.0 * frame.views[eye].focal / frame.extent;
-    let beside = abs(vec2<f32>(x.w, y.w)) - depth.w > reach * (1.0 + scale);
+    // Half of its length along the eye's axis and across it, in clip space.
+    let reach = vec3<f32>(length(x.xyz), length(y.xyz), length(depth.xyz));
+    let near = frame.views[eye].near;
+    let far = depth.w + reach.z;
     // The comparisons fail for NaN, for a shape without volume and for what lies absurdly far.
-    if !(distance_squared > 1.0 && distance_squared < 1e12 && determinant > 0.0)
-        || any(beside) || depth.w < -reach {
+    if !(distance_squared > 1.0 && distance_squared < 1e12 && determinant > 0.0) || far < near {
         return none;
     }
-    let whole = dot(depth.xyz, depth.xyz) >= 0.99 * depth.w * depth.w;
-    let seen = select(vec2<f32>(x.w, y.w) / depth.w, vec2<f32>(0.0), whole);
+    // Of what crosses the eye's plane, or nearly, only what is beyond the near plane is seen: a box
+    // around that. A conic's bounds would be the whole picture.
+    let crosses = reach.z >= 0.99 * abs(depth.w);
+    let least = vec2<f32>(x.w, y.w) - reach.xy;
+    let most = vec2<f32>(x.w, y.w) + reach.xy;
+    let seen = select(vec2<f32>(x.w, y.w) / depth.w, vec2<f32>(0.0), crosses);
     let over_x = bounds(x.xyz - seen.x * depth.xyz, depth);
     let over_y = bounds(y.xyz - seen.y * depth.xyz, depth);
     let ndc = seen + vec2<f32>(over_x.x, over_y.x);
     let half_length = vec2<f32>(over_x.y, over_y.y);
-    let low = (0.5 + 0.5 * (ndc - half_length)) * frame.extent;
-    let high = (0.5 + 0.5 * (ndc + half_length)) * frame.extent;
+    let first = select(ndc - half_length, min(least / near, least / far), crosses);
+    let last = select(ndc + half_length, max(most / near, most / far), crosses);
+    let low = (0.5 + 0.5 * first) * frame.extent;
+    let high = (0.5 + 0.5 * last) * frame.extent;
     let middle = (0.5 + 0.5 * seen) * frame.extent;
     return Silhouette(
-        vec2<i32>(select(clamp(low, vec2<f32>(0.0), frame.extent), vec2<f32>(0.0), whole)),
-        vec2<i32>(select(clamp(ceil(high), vec2<f32>(0.0), frame.extent), frame.extent, whole)),
+        vec2<i32>(clamp(low, vec2<f32>(0.0), frame.extent)),
+        vec2<i32>(clamp(ceil(high), vec2<f32>(0.0), frame.extent)),
         middle,
         inverse * seen_along(eye, middle),
         inverse * frame.views[eye].across,

@@ -24,7 +24,8 @@ fn brightness(pixel: vec2<i32>, eye: u32) -> f32 {
 }
 
 fn tap(place: vec2<f32>, eye: u32) -> vec3<f32> {
-    return textureSampleLevel(drawn, between, place / frame.extent, eye, 0.0).rgb;
+    let within = clamp(place, vec2<f32>(0.5), frame.extent - 0.5);
+    return textureSampleLevel(drawn, between, within / frame.held, eye, 0.0).rgb;
 }
 
 fn smoothed(pixel: vec2<i32>, eye: u32) -> vec3<f32> {

@@ -8,6 +8,7 @@
 //!include common/liquid.wgsl
 //!include common/glass.wgsl
 //!include common/encode.wgsl
+//!include common/packed_light.wgsl
 
 /// Whether the class's tiles have glass, and liquid.
 override GLASS: bool = false;
@@ -22,8 +23,9 @@ var<immediate> picture: PictureDraw;
 
 /// Marks of the tiles.
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
-@group(0) @binding(7) var sphere_colours: texture_2d_array<f32>;
-@group(0) @binding(8) var sphere_depths: texture_depth_2d_array;
+/// The light of the nearest sphere, and its reversed depth, 0 where there is none.
+@group(0) @binding(7) var<storage, read> sphere_light: array<u32>;
+@group(0) @binding(8) var<storage, read> sphere_depths: array<f32>;
 @group(0) @binding(9) var drawn: texture_storage_2d_array<rgba8unorm, write>;
 /// The same where no edges are to be smoothed.
 @group(0) @binding(10) var finished: texture_storage_2d_array<rgba8unorm, write>;
@@ -76,10 +78,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         colour = display(kept * light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (picture.spheres != 0u) {
-            let sphere = textureLoad(sphere_depths, place.pixel, eye, 0);
+            let index = pixel_index(place.pixel, eye);
+            let sphere = sphere_depths[index];
             if (sphere > reversed) {
                 reversed = sphere;
-                colour = textureLoad(sphere_colours, place.pixel, eye, 0).rgb;
+                colour = unpacked(sphere_light[index]);
             }
         }
         if (GLASS) {

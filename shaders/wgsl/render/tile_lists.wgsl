@@ -16,7 +16,7 @@ fn append(class_: u32, tile: u32, all: u32) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if (id.x < 5u) {
+    if (id.x < 6u) {
         atomicStore(&arguments[3u * id.x + 1u], 4u);
         atomicStore(&arguments[3u * id.x + 2u], 1u);
     }
@@ -27,14 +27,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tile = id.x - eye * of_view;
     let row = tile / frame.tile_columns;
     let column = tile - row * frame.tile_columns;
-    let end = min((row + 1u) * TILE, u32(frame.extent.y));
-    var hidden = 0xffffffffu;
-    for (var y = row * TILE; y < end; y++) { hidden &= hidden_word(column, y, eye); }
+    let low = vec2<u32>(column, row) * TILE;
+    let high = min(low + TILE, vec2<u32>(frame.extent));
     // What no eye sees is only made black.
-    let marks = select(tiles[id.x], 0u, hidden == 0xffffffffu);
+    let marks = select(tiles[id.x], 0u, is_all_hidden(low, high, eye));
     var class_ = 2u;
     if ((marks & MARK_VESSELS) != 0u) { class_ = 1u; }
     if ((marks & MARK_LIQUID) != 0u) { class_ = 0u; }
     append(class_, id.x, all);
+    if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
     if (marks != 0u) { append(select(3u, 4u, (marks & MARK_STEAM) != 0u), id.x, all); }
 }

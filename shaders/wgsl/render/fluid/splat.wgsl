@@ -1,13 +1,14 @@
 //! The nearest ellipsoid at each pixel, as reversed depth: its bits are ordered as the numbers are.
 
-//!include common/silhouette.wgsl
+//!include common/splats.wgsl
 
 /// Zero where there is none.
 @group(0) @binding(2) var<storage, read_write> depth: array<atomic<u32>>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let particle = id.x / LANES;
+    let index = invocation(id);
+    let particle = index / LANES;
     let eye = id.y;
     if (particle >= splats.count) { return; }
     let e = ellipsoids[particle];
@@ -15,7 +16,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if !(e.visible > 0.0) { return; }
     let s = silhouette_of(e, eye);
     let near = frame.views[eye].near;
-    let lane = vec2<i32>(i32(id.x % 8u), i32(id.x % LANES / 8u));
+    let lane = vec2<i32>(i32(index % 8u), i32(index % LANES / 8u));
     for (var y = s.low.y + lane.y; y < s.high.y; y += i32(LANES / 8u)) {
         for (var x = s.low.x + lane.x; x < s.high.x; x += 8) {
             let ray = ray_at(s, vec2<f32>(f32(x), f32(y)) + 0.5);

@@ -5,7 +5,7 @@
 //! sees where one begins. (Chords of the ellipsoids would count each overlap twice.) Sums are of
 //! whole numbers, so that their order does not show.
 
-//!include common/silhouette.wgsl
+//!include common/splats.wgsl
 //!include common/held.wgsl
 
 /// Thickness, and its part that is acid, of each block of four pixels, in parts of a spacing.
@@ -13,7 +13,8 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let particle = id.x / LANES;
+    let index = invocation(id);
+    let particle = index / LANES;
     let eye = id.y;
     if (particle >= splats.count) { return; }
     let e = ellipsoids[particle];
@@ -26,7 +27,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let d = frame.spacing;
     let volume = d * d * d / (4.18879 * max(s.determinant, 1e-30));
     let middle = 2.6666667 * inverseSqrt(s.beyond + 1.0) * centre.w * volume / d * PARTS;
-    let lane = vec2<i32>(i32(id.x % 8u), i32(id.x % LANES / 8u));
+    let lane = vec2<i32>(i32(index % 8u), i32(index % LANES / 8u));
     let low = s.low / 2;
     let high = (s.high + 1) / 2;
     for (var y = low.y + lane.y; y < high.y; y += i32(LANES / 8u)) {

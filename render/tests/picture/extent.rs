@@ -1,0 +1,140 @@
+//! A picture smaller than the renderer's images, as the headset draws it when time is short.
+
+use crate::liquid::{Liquid, SPACING, frame, lattice, rig};
+use crate::rig::{Picture, Rig, without_particles};
+use glam::{Affine3A, Vec3};
+use vitriol_gpu::Buffer;
+use vitriol_render::{
+    FrameDesc, ParticleSource, RenderError, SceneDesc, SteamSource, SurfaceFilter, VesselDesc, View,
+};
+use vitriol_shaders::layout::Puff;
+
+const SMALL: [u32; 2] = [200, 150];
+/// Twice as large, so that a mask's pixels fall together; and by no whole number, nor of whole tiles.
+const LARGE: [u32; 2] = [400, 300];
+const ODD: [u32; 2] = [333, 251];
+
+const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
+
+/// The left quarter of one eye, a corner of the other.
+const HIDDEN: [&[[f32; 2]]; 2] = [
+    &[
+        [0.0, 0.0],
+        [0.25, 0.0],
+        [0.25, 1.0],
+        [0.0, 0.0],
+        [0.25, 1.0],
+        [0.0, 1.0],
+    ],
+    &[
+        [0.5, 0.5],
+        [1.0, 0.5],
+        [1.0, 1.0],
+        [0.5, 0.5],
+        [1.0, 1.0],
+        [0.5, 1.0],
+    ],
+];
+
+/// Glass, liquid, coloured spheres and steam for two eyes, drawn with `extent` by a renderer of `held`,
+/// after another picture that filled its images.
+fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
+    let mut rig: Rig = rig(held, 2, SurfaceFilter::NarrowRange);
+    let glass = VesselDesc {
+        inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
+        outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
+        marks: vec![0.012, 0.022],
+    };
+    rig.set_scene(&SceneDesc::laboratory(vec![glass], 0.75, 1.0));
+    if masked {
+        rig.renderer.set_visibility_mask(&HIDDEN).unwrap();
+    }
+    let places = lattice(7, 0.3, |x| x.length() < 6.0);
+    let middle = FOOT + Vec3::new(0.0, 0.02, 0.0);
+    let places: Vec<_> = places.iter().map(|place| middle + *place).collect();
+    let liquid = Liquid::new(&rig, &places, |x| if x.y < middle.y { 0.9 } else { 0.0 });
+    let beads: Vec<_> = (0..5)
+        .map(|n| [0.03 * n as f32 - 0.06, 0.8, -0.38, 1.0])
+        .collect();
+    let attributes: Vec<_> = (0..5).map(|n| [0.2 * n as f32, 0.0, 0.0, 0.0]).collect();
+    let beads = (
+        rig.buffer("beads", &beads),
+        rig.buffer("attributes", &attributes),
+    );
+    let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
+    let puff = Puff {
+        position: (middle + Vec3::Y * 0.03).to_array(),
+        radius: 0.02,
+        depth: 1.0,
+        ..Puff::default()
+    };
+    rig.gpu.write(&puffs, &[puff]).unwrap();
+    let look = |x: f32| {
+        let eye = FOOT + Vec3::new(x, 0.1, 0.2);
+        View::look_at(eye, FOOT + Vec3::Y * 0.02, View::bench(4.0 / 3.0).fov)
+    };
+    let views = [look(0.02), look(0.09)];
+    let vessels = [Affine3A::from_translation(FOOT)];
+    let of = |extent| FrameDesc {
+        extent,
+        particles: Some(ParticleSource {
+            positions: &beads.0,
+            attributes: &beads.1,
+            count: 5,
+            radius: 2.0 * SPACING,
+        }),
+        steam: Some(SteamSource {
+            puffs: &puffs,
+            count: 1,
+        }),
+        ..frame(&views, &vessels, &liquid)
+    };
+    rig.draw(&of(None));
+    rig.draw(&of(Some(extent)))
+}
+
+/// Its upper left corner is, bit by bit, what a renderer of its own size draws: nothing of what lies
+/// beside it is read, and every pass finds its pixels.
+#[test]
+fn smaller_picture_is_that_of_a_smaller_renderer() {
+    for (held, masked) in [(LARGE, true), (LARGE, false), (ODD, false)] {
+        let alone = pictures(SMALL, SMALL, masked);
+        let within = pictures(held, SMALL, masked);
+        let of_row = |all: &[u8], y: u32, width: u32| -> Vec<u8> {
+            let from = (4 * y * width) as usize;
+            all[from..from + 4 * SMALL[0] as usize].to_vec()
+        };
+        for eye in 0..2 {
+            let (small, large) = (&alone.colour[eye], &within.colour[eye]);
+            assert!(small.chunks(4).any(|pixel| pixel != &small[..4]));
+            for y in 0..SMALL[1] {
+                let (a, b) = (of_row(small, y, SMALL[0]), of_row(large, y, held[0]));
+                assert!(a == b, "{held:?}, eye {eye}, row {y}");
+                let row = |all: &[f32], width: u32| {
+                    let from = (y * width) as usize;
+                    all[from..from + SMALL[0] as usize].to_vec()
+                };
+                let (a, b) = (&alone.depth[eye], &within.depth[eye]);
+                assert!(
+                    row(a, SMALL[0]) == row(b, held[0]),
+                    "{held:?}, depth, row {y}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn picture_larger_than_the_images_is_refused() {
+    let rig = Rig::new(SMALL, 1);
+    let views = [View::bench(4.0 / 3.0)];
+    for extent in [[201, 150], [200, 151], [0, 10]] {
+        let frame = FrameDesc {
+            extent: Some(extent),
+            ..without_particles(&views)
+        };
+        let mut rec = rig.gpu.recorder(vitriol_gpu::QueueKind::Main).unwrap();
+        let error = rig.renderer.record(&mut rec, &frame).unwrap_err();
+        assert!(matches!(error, RenderError::Extent { .. }), "{error}");
+    }
+}
