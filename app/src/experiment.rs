@@ -32,7 +32,7 @@ pub const SWITCH_START: &str = "start";
 /// [`Failure::NoDevice`]; [`Failure::Input`] for a device that is not there or
 /// a liquid that does not fit.
 pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
-    on_device(&device::open(setup.device, false)?, setup)
+    on_device(&device::open(setup.device)?, setup)
 }
 
 /// The same on a device that is open already.

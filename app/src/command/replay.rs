@@ -363,7 +363,7 @@ fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), 
         (None, None) => return Ok((scene, None)),
         (Some(solver), _) => solver,
         (None, Some(budget)) => {
-            let gpu = device::open(args.device.as_deref(), false)?;
+            let gpu = device::open(args.device.as_deref())?;
             let (solver, time) = budget::within(&gpu, &scene, budget)?;
             tracing::warn!(
                 "--budget-ms {budget}: {} × {}, of which a frame takes {time:.2} ms here",

@@ -5,6 +5,7 @@ use std::io::IsTerminal;
 use std::sync::mpsc::{Receiver, channel};
 
 use serde::Serialize;
+use vitriol_gpu::Timestamps;
 use vitriol_sim::measure::Measurement;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
@@ -96,7 +97,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     let timed = args.frames.is_some();
     let (name, outcome, stand_in) = match &args.stand_in {
         Some(wearer) => {
-            let gpu = device::open(args.device.as_deref(), timed)?;
+            let gpu = device::timed(args.device.as_deref(), Timestamps::Whole)?;
             let spec = StandInSpec {
                 extent: args.size,
                 rate_hz: args.rate,
@@ -113,7 +114,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         None => {
             let mut headset = OpenXr::open(OpenXrOptions {
                 gpu: vitriol_gpu::Options {
-                    timestamps: timed,
+                    timestamps: Timestamps::Whole,
                     ..vitriol_gpu::Options::default()
                 },
                 instance_extensions: Vec::new(),

@@ -137,6 +137,7 @@ impl Governor {
 
     /// Down from the dearest part, until what is foreseen fits.
     fn step_down(&mut self, taken: &Taken, missed: bool) -> Option<Level> {
+        let again = missed && std::mem::replace(&mut self.since_miss, 0.0) < AGAIN;
         let known = self.foreseen();
         // Before there is a window there is the frame itself.
         let mut foreseen = known.unwrap_or(taken.times);
@@ -155,7 +156,6 @@ impl Governor {
         };
         // A miss is one step at once: was it a single mishap, more would be too much.
         let mut went = missed && step(&mut foreseen);
-        let again = missed && std::mem::replace(&mut self.since_miss, 0.0) < AGAIN;
         let full = FULL * taken.period;
         while (known.is_some() || again)
             && foreseen.iter().sum::<f64>() > full

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-use vitriol_gpu::Ticket;
+use vitriol_gpu::{Ticket, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::solver::{FlaskReading, ReadingRecord};
 use vitriol_xr::track::TrackMetadata;
@@ -154,7 +154,10 @@ impl Session {
         Ok(Self {
             bench,
             panel: Panel::new(gpu, &library, PANEL)?,
-            tally: Tally::new(options.frames.is_some(), gpu.options().timestamps),
+            tally: Tally::new(
+                options.frames.is_some(),
+                gpu.options().timestamps != Timestamps::None,
+            ),
             recording: recording.transpose()?,
             options,
             decisions,
