@@ -9,6 +9,7 @@ pub mod governor;
 pub mod hands;
 pub mod haptics;
 pub mod inputs;
+pub mod ladder;
 pub mod menu;
 pub mod panel;
 pub mod picture;

@@ -3,6 +3,7 @@
 
 mod choose;
 mod frame;
+mod pace;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,6 +27,9 @@ use super::tally::{Holdings, Tally};
 use crate::failure::{Blame, Failure};
 use crate::replay::SimulatedTime;
 
+use pace::Pace;
+pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION};
+
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
 
@@ -47,6 +51,8 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
+    /// Whether a governor keeps pace with the display, by less accuracy and fewer pixels where it must.
+    pub governed: bool,
 }
 
 /// What the user wants.
@@ -80,6 +86,8 @@ pub struct Outcome {
     pub renewals: u64,
     /// Times of the frames that count.
     pub tally: Tally,
+    /// How it kept pace, in the frames that count.
+    pub kept: Kept,
     /// What the process held when counting began, and at the end.
     pub holdings: [Option<Holdings>; 2],
     /// The recording, if there was one.
@@ -120,6 +128,7 @@ pub struct Session {
     renewals: u64,
     recording: Option<Recording>,
     tally: Tally,
+    pace: Pace,
     began_with: Option<Holdings>,
     /// Submissions of steps since the last picture.
     solved: Vec<Ticket>,
@@ -151,13 +160,14 @@ impl Session {
         let recording = options.record.as_ref().map(|file| {
             Recording::create(file, &metadata(&options.plan)).map_err(crate::command::track::blame)
         });
-        Ok(Self {
+        let pace = Pace::new(gpu, &bench, options.governed);
+        let counts = options.frames.is_some();
+        let timed = gpu.options().timestamps != Timestamps::None && (counts || pace.follows());
+        let mut session = Self {
             bench,
             panel: Panel::new(gpu, &library, PANEL)?,
-            tally: Tally::new(
-                options.frames.is_some(),
-                gpu.options().timestamps != Timestamps::None,
-            ),
+            tally: Tally::new(counts, timed),
+            pace,
             recording: recording.transpose()?,
             options,
             decisions,
@@ -181,7 +191,9 @@ impl Session {
             reading: None,
             read: Vec::new(),
             speed: 1.0,
-        })
+        };
+        session.pace_bench(true, 1.0)?;
+        Ok(session)
     }
 
     /// Runs until the runtime, the user or the number of frames ends it.
@@ -230,8 +242,9 @@ impl Session {
         self.eyes = Eyes::of(headset);
         let gpu = headset.gpu();
         let state = self.bench.world.snapshot().other()?;
-        let plan = &self.bench.plan;
-        self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state)?;
+        let (plan, effort) = (&self.bench.plan, self.bench.world.effort());
+        self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
+        self.pace.forget();
         self.tally.restart();
         self.panel = Panel::new(gpu, &self.library, PANEL)?;
         self.solved.clear();
@@ -260,6 +273,7 @@ impl Session {
             skipped: self.skipped,
             renewals: self.renewals,
             tally: self.tally,
+            kept: self.pace.kept().clone(),
             holdings: [self.began_with, Holdings::now()],
             recorded,
         })

@@ -141,10 +141,14 @@ pub fn session(
             scene: scene(folder).to_str().unwrap().into(),
             preset: Preset::Balanced,
             seed: 3,
+            solver: None,
+            filter: None,
         },
         posture: Posture::Seated,
         frames: None,
         record: Some(file.clone()),
+        // What a software driver takes is no matter here.
+        governed: false,
     };
     let outcome = Session::new(headset, options, decisions)
         .unwrap()
