@@ -129,14 +129,9 @@ pub fn nobody() -> Receiver<Decision> {
     channel().1
 }
 
-/// A session to its end, and its recording.
-pub fn session(
-    headset: &mut dyn Headset,
-    folder: &Path,
-    decisions: Receiver<Decision>,
-) -> (Outcome, Track) {
-    let file = folder.join("session.mcap");
-    let options = Options {
+/// What a session is to be, recorded in `folder`.
+pub fn options(folder: &Path) -> Options {
+    Options {
         plan: Plan {
             scene: scene(folder).to_str().unwrap().into(),
             preset: Preset::Balanced,
@@ -146,10 +141,28 @@ pub fn session(
         },
         posture: Posture::Seated,
         frames: None,
-        record: Some(file.clone()),
-        // What a software driver takes is no matter here.
+        record: Some(folder.join("session.mcap")),
+        // What a software driver takes is no matter to most.
         governed: false,
-    };
+    }
+}
+
+/// A session to its end, and its recording.
+pub fn session(
+    headset: &mut dyn Headset,
+    folder: &Path,
+    decisions: Receiver<Decision>,
+) -> (Outcome, Track) {
+    session_with(headset, options(folder), decisions)
+}
+
+/// The same with other options.
+pub fn session_with(
+    headset: &mut dyn Headset,
+    options: Options,
+    decisions: Receiver<Decision>,
+) -> (Outcome, Track) {
+    let file = options.record.clone().unwrap();
     let outcome = Session::new(headset, options, decisions)
         .unwrap()
         .run(headset)

@@ -4,6 +4,7 @@
 mod common;
 mod hands;
 mod loss;
+mod pace;
 mod panel;
 mod pour;
 mod recorder;
