@@ -49,6 +49,8 @@ pub struct Taken {
     pub times: [f64; 2],
     /// The display's period, ms.
     pub period: f64,
+    /// Time since the frame taken before it, s.
+    pub since: f64,
 }
 
 /// See the module.
@@ -107,7 +109,7 @@ impl Governor {
             }
             times.push_back(time);
         }
-        self.age(1e-3 * taken.period);
+        self.age(taken.since);
         let whole: f64 = taken.times.iter().sum();
         let missed = whole > taken.period || (missed && whole > BUSY * taken.period);
         let next = self
@@ -166,7 +168,7 @@ impl Governor {
         if !went {
             return None;
         }
-        for part in 0..2 {
+        for part in [0, 1] {
             if level[part] > self.level[part] && self.risen[part].take().is_some() {
                 self.wait[part] = (2.0 * self.wait[part]).min(WAIT[1]);
             }
@@ -178,7 +180,7 @@ impl Governor {
     fn step_up(&mut self, period: f64) -> Option<Level> {
         let foreseen = self.foreseen()?;
         let whole: f64 = foreseen.iter().sum();
-        for part in 0..2 {
+        for part in [0, 1] {
             let rung = self.level[part];
             let finer = match rung.checked_sub(1) {
                 Some(finer) => whole + foreseen[part] * (self.ratio(part, finer, rung) - 1.0),
@@ -206,7 +208,7 @@ impl Governor {
 
     /// Time by part that frames will take as things go, ms; `None` before there is a window.
     fn foreseen(&self) -> Option<[f64; 2]> {
-        let [solver, picture] = self.times.each_ref().map(|times| foreseen(times));
+        let [solver, picture] = self.times.each_ref().map(foreseen);
         Some([solver?, picture?])
     }
 }

@@ -49,6 +49,7 @@ fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
         let taken = Taken {
             times: shares.map(|share| share * PERIOD),
             period: PERIOD,
+            since: 1.0 / 90.0,
         };
         if let Some(level) = governor.take(&taken, false) {
             run.changes.push((time, level));
@@ -189,6 +190,7 @@ fn only_what_the_device_misses_is_its_fault() {
         let taken = Taken {
             times: [0.9, 0.1].map(|part| part * share * PERIOD),
             period: PERIOD,
+            since: 1.0 / 90.0,
         };
         assert_eq!(governor.take(&taken, false), None);
         assert_eq!(governor.take(&taken, true), stepped);

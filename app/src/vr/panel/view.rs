@@ -1,8 +1,8 @@
 //! What stands on the panel.
 
 use egui::{
-    Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Margin, Pos2,
-    Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Layout,
+    Margin, Pos2, Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
 };
 use vitriol_render::tints;
 
@@ -144,7 +144,10 @@ fn readings(ui: &mut Ui, info: &Info) {
         ui.label(RichText::new(text).color(WARNING));
     }
     if let Some(effort) = &info.effort {
-        ui.label(RichText::new(effort.text()).color(WARNING));
+        // Of two lines; columns would justify the first.
+        ui.with_layout(Layout::top_down(Align::Min), |ui| {
+            ui.label(RichText::new(effort.text()).color(WARNING));
+        });
     }
     if let Some(seconds) = info.recording {
         let text = format!("recording, {} min {:02} s", seconds / 60, seconds % 60);

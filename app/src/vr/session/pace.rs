@@ -47,6 +47,8 @@ pub(super) struct Pace {
     pub(super) stamp: u64,
     /// Whether a display period went by without a frame since the governor was told.
     pub(super) missed: bool,
+    /// Time since it was told of a frame, s: those without a step tell it nothing.
+    since: f64,
     /// Whether the last change was for the better.
     finer: bool,
     kept: Kept,
@@ -72,6 +74,7 @@ impl Pace {
             level: [0, 0],
             stamp: 0,
             missed: false,
+            since: 0.0,
             finer: false,
             kept: Kept {
                 on,
@@ -139,12 +142,14 @@ impl Session {
             let Some(governor) = &mut self.pace.governor else {
                 break;
             };
+            self.pace.since += 1e-3 * period;
             if load.stamp != self.pace.stamp || load.steps == 0 {
                 continue;
             }
             let taken = Taken {
                 times: [steps * load.solve_ms / load.steps as f64, load.picture_ms],
                 period,
+                since: std::mem::take(&mut self.pace.since),
             };
             let missed = std::mem::take(&mut self.pace.missed);
             if let Some(level) = governor.take(&taken, missed) {
