@@ -59,7 +59,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         }
         None => None,
     };
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let mut work = Work {
         gpu: &gpu,
         begin: Instant::now(),
