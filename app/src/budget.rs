@@ -43,19 +43,32 @@ const SURE: usize = 4;
 /// # Errors
 /// [`Failure::Input`] where even the cheapest takes longer; what the device says.
 pub fn within(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<([u32; 2], f64), Failure> {
-    let cache = Cache::open();
+    let key = |scene: &Scene| key(gpu, scene);
+    let calibrate = |scene: &Scene| calibrate(gpu, scene, budget);
+    pick(&Cache::open(), scene, budget, key, calibrate)
+}
+
+/// The same, where a setting's time is what `calibrate` says, and whether that is its whole time, kept
+/// under `key`.
+fn pick(
+    cache: &Cache,
+    scene: &Scene,
+    budget: f64,
+    key: impl Fn(&Scene) -> String,
+    mut calibrate: impl FnMut(&Scene) -> Result<(f64, bool), Failure>,
+) -> Result<([u32; 2], f64), Failure> {
     let mut known = cache.read();
     let mut least = f64::INFINITY;
-    for point in points(scene) {
-        let scene = with(scene, point);
+    for point in points(balanced(scene)) {
+        let scene = scene.with_effort(point);
         if scene.problem_of_substep().is_some() {
             continue;
         }
-        let key = key(gpu, &scene);
+        let key = key(&scene);
         let time = match known.get(&key) {
             Some(&time) => time,
             None => {
-                let (time, whole) = calibrate(gpu, &scene, budget)?;
+                let (time, whole) = calibrate(&scene)?;
                 if whole {
                     known.insert(key, time);
                     cache.write(&known);
@@ -77,18 +90,71 @@ pub fn within(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<([u32; 2], f64), 
     .input()
 }
 
-/// `scene` with these substeps and iterations.
-pub fn with(scene: &Scene, [substeps, iterations]: [u32; 2]) -> Scene {
-    let mut scene = scene.clone();
-    scene.solver.substeps = substeps;
-    scene.solver.iterations = iterations;
-    scene
+/// Substeps and iterations as they were asked for, by name or by a budget (ms), for `scene` (as its preset
+/// left it; for a budget that is `balanced`); `None` where neither was.
+///
+/// # Errors
+/// [`Failure::Input`] for what the liquid does not stand up under; as for [`within`].
+pub fn chosen(
+    solver: Option<[u32; 2]>,
+    budget: Option<f64>,
+    scene: &Scene,
+    gpu: impl FnOnce() -> Result<Gpu, Failure>,
+) -> Result<Option<[u32; 2]>, Failure> {
+    let chosen = match (solver, budget) {
+        (None, None) => return Ok(None),
+        (Some(solver), _) => solver,
+        (None, Some(budget)) => {
+            let (solver, time) = within(&gpu()?, scene, budget)?;
+            tracing::warn!(
+                "--budget-ms {budget}: {} × {}, of which a frame takes {time:.2} ms here",
+                solver[0],
+                solver[1]
+            );
+            solver
+        }
+    };
+    match scene.with_effort(chosen).problem_of_solver() {
+        Some(problem) => Err(format!("--solver: {problem}")).input(),
+        None => Ok(Some(chosen)),
+    }
 }
 
-/// The front for a scene: scaled to its own `balanced`.
-fn points(scene: &Scene) -> Vec<[u32; 2]> {
+/// Substeps and iterations that `scene` has as `balanced`, if no other preset was applied to it.
+pub fn balanced(scene: &Scene) -> [u32; 2] {
     let solver = scene.with_preset(Preset::Balanced).solver;
-    let own = [solver.substeps, solver.iterations];
+    [solver.substeps, solver.iterations]
+}
+
+/// What substeps and iterations cost, in iterations. Beside these a substep has the neighbour search,
+/// what is carried on, viscosity and dilution: on an H200 as much as five to eight iterations, on a
+/// software driver as three.
+pub fn cost([substeps, iterations]: [u32; 2]) -> f64 {
+    f64::from(substeps) * (5.0 + f64::from(iterations))
+}
+
+/// From what `scene` is solved with down the front, the dearest first; `balanced` is what it has there. Only
+/// what its liquid stands up under; and where boiling's power is the paper's as
+/// printed, which follows the number of substeps, only other iterations.
+pub fn ladder(scene: &Scene, balanced: [u32; 2]) -> Vec<[u32; 2]> {
+    let own = [scene.solver.substeps, scene.solver.iterations];
+    let literal = scene
+        .paper
+        .as_ref()
+        .is_some_and(|paper| paper.literal_boiling == Some(true));
+    let mut rungs = vec![own];
+    for point in points(balanced) {
+        let below = rungs.last().is_none_or(|last| cost(point) < cost(*last));
+        let allowed = !literal || point[0] == own[0];
+        if below && allowed && scene.with_effort(point).problem_of_solver().is_none() {
+            rungs.push(point);
+        }
+    }
+    rungs
+}
+
+/// The front for a scene, scaled to what it has as `balanced`.
+fn points(own: [u32; 2]) -> Vec<[u32; 2]> {
     let mut all: Vec<[u32; 2]> = Vec::new();
     for point in FRONT {
         let scaled = [0, 1].map(|i| {
@@ -179,20 +245,106 @@ impl Cache {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
 
     #[test]
     fn the_front_is_scaled_to_what_a_scene_has() {
         let real = Scene::load("two-flasks").unwrap();
-        assert_eq!(points(&real), FRONT);
+        assert_eq!(points(balanced(&real)), FRONT);
         // The paper's 3 × 2.
         let paper = Scene::load("single-dilution").unwrap();
-        let points = points(&paper);
+        let points = points(balanced(&paper));
         assert_eq!(points[0], [5, 5]);
         // Of ten substeps three are left, of four iterations three; of eight two.
         assert!(points.contains(&[3, 3]) && points.iter().all(|p| p[0] >= 2));
         // What does not stand up is never chosen.
-        assert!(with(&paper, [1, 2]).problem_of_substep().is_some());
+        assert!(paper.with_effort([1, 2]).problem_of_substep().is_some());
+    }
+
+    /// Down the front from wherever a session begins, ever cheaper, and nothing that falls over.
+    #[test]
+    fn a_ladder_goes_down_to_what_stands_up() {
+        let real = Scene::load("two-flasks").unwrap();
+        assert_eq!(ladder(&real, [10, 3]), [[10, 3], [8, 4], [8, 2]]);
+        let fine = real.with_effort([16, 8]);
+        assert_eq!(ladder(&fine, [10, 3]), FRONT);
+        let fast = real.with_preset(Preset::Fast);
+        assert_eq!(ladder(&fast, [10, 3]), [[8, 2]]);
+        // A smaller spacing makes the substep's limit shorter: 8 are too few.
+        let mut small = fine;
+        small.scale.spacing *= 0.6;
+        let rungs = ladder(&small, [10, 3]);
+        assert!(small.with_effort([8, 2]).problem_of_substep().is_some());
+        assert_eq!(rungs.last(), Some(&[10, 4]));
+        // Where substeps are the boiling's power, they stay.
+        let mut soup = Scene::load("tomato-soup").unwrap();
+        soup.paper.as_mut().unwrap().literal_boiling = Some(true);
+        let soup = soup.with_effort([3, 5]);
+        let rungs = ladder(&soup, [3, 2]);
+        assert!(
+            rungs.len() > 1 && rungs.iter().all(|rung| rung[0] == 3),
+            "{rungs:?}"
+        );
+    }
+
+    /// A device on which an iteration takes 0.1 ms.
+    fn times(scene: &Scene) -> f64 {
+        0.1 * f64::from(scene.solver.substeps * scene.solver.iterations)
+    }
+
+    /// What `--budget-ms` finds, and how often it measured.
+    fn found(cache: &Cache, scene: &Scene, budget: f64) -> (Option<([u32; 2], f64)>, u32) {
+        let mut measured = 0;
+        let key = |scene: &Scene| format!("{:?}", scene.solver);
+        let picked = pick(cache, scene, budget, key, |scene| {
+            measured += 1;
+            let time = times(scene);
+            // Cut short where it is far over.
+            Ok((time, time < 2.0 * budget))
+        });
+        (picked.ok(), measured)
+    }
+
+    #[test]
+    fn a_budget_is_held_by_the_most_accurate_that_holds_it() {
+        let scene = Scene::load("two-flasks").unwrap();
+        let none = Cache(None);
+        for budget in [20.0, 9.7, 5.0, 4.9, 4.1, 3.3, 1.7] {
+            let best = FRONT
+                .into_iter()
+                .find(|point| times(&scene.with_effort(*point)) <= budget)
+                .unwrap();
+            let (picked, measured) = found(&none, &scene, budget);
+            let place = FRONT.iter().position(|point| *point == best).unwrap();
+            let time = times(&scene.with_effort(best));
+            assert_eq!((picked, measured), (Some((best, time)), place as u32 + 1));
+        }
+        // 1.6 ms are the least.
+        assert_eq!(found(&none, &scene, 1.5).0, None);
+    }
+
+    /// Whole times are kept and taken again, those of another program or scene are not, and a file that is no
+    /// cache is none.
+    #[test]
+    fn what_was_measured_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache(Some(folder.path().join("vitriol").join("budget.json")));
+        let scene = Scene::load("two-flasks").unwrap();
+        assert_eq!(found(&cache, &scene, 20.0).1, 1);
+        assert_eq!(found(&cache, &scene, 20.0).1, 0);
+        // From 12.8 ms down to 4 ms, of which the first is known.
+        let (picked, measured) = found(&cache, &scene, 4.5);
+        let time = times(&scene.with_effort([10, 4]));
+        assert_eq!((picked, measured), (Some(([10, 4], time)), 6));
+        // What was cut short, twice 9.6 ms, has no time to be kept.
+        assert_eq!(found(&cache, &scene, 4.5), (picked, 2));
+        let mut other = scene.clone();
+        other.solver.omega *= 0.9;
+        assert_eq!(found(&cache, &other, 20.0).1, 1);
+        let file = cache.0.clone().unwrap();
+        std::fs::write(&file, b"{ broken").unwrap();
+        assert_eq!(found(&cache, &scene, 20.0).1, 1);
+        assert_eq!(found(&cache, &scene, 20.0).1, 0);
     }
 }

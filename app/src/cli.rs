@@ -1,7 +1,7 @@
 //! The command line: the subcommands here, their arguments in `play` and `measure`.
 
 mod measure;
-mod parse;
+pub(crate) mod parse;
 mod play;
 
 use clap::{Parser, Subcommand, ValueEnum};

@@ -1,6 +1,6 @@
 //! The device that a command runs on.
 
-use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader};
+use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader, Timestamps};
 
 use crate::failure::Failure;
 use crate::report::DeviceStatement;
@@ -9,7 +9,15 @@ use crate::report::DeviceStatement;
 ///
 /// # Errors
 /// [`Failure::NoDevice`], or [`Failure::Input`] for a device that is not there.
-pub fn open(device: Option<&str>, timestamps: bool) -> Result<Gpu, Failure> {
+pub fn open(device: Option<&str>) -> Result<Gpu, Failure> {
+    timed(device, Timestamps::None)
+}
+
+/// The same, with its clock read.
+///
+/// # Errors
+/// As for [`open`].
+pub fn timed(device: Option<&str>, timestamps: Timestamps) -> Result<Gpu, Failure> {
     let options = Options {
         device: device.map(str::to_owned),
         timestamps,

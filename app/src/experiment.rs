@@ -14,7 +14,7 @@ use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Hand, PoseFrame, Switch};
 
 use crate::camera::{Camera, Shot};
-use crate::cli::ColourName;
+use crate::cli::{ColourName, parse};
 use crate::command::replay::Setup;
 use crate::device;
 use crate::failure::{Blame, Failure};
@@ -25,6 +25,8 @@ use crate::report::{Counters, HeatSample, LedgerSample, MassByPlace, Sample};
 pub const SWITCH_SCENE: &str = "scene";
 /// Key of the switch back to the start of the scene, which its value names.
 pub const SWITCH_START: &str = "start";
+/// Key of the switch to other substeps and iterations, its value such as `8x4`.
+pub const SWITCH_SOLVER: &str = "solver";
 
 /// The experiment of a scene on the device that was asked for.
 ///
@@ -32,7 +34,7 @@ pub const SWITCH_START: &str = "start";
 /// [`Failure::NoDevice`]; [`Failure::Input`] for a device that is not there or
 /// a liquid that does not fit.
 pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
-    on_device(&device::open(setup.device, false)?, setup)
+    on_device(&device::open(setup.device)?, setup)
 }
 
 /// The same on a device that is open already.
@@ -70,6 +72,8 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
         seed: setup.seed,
         shaders: setup.shaders.clone(),
         lost: 0,
+        substeps: 0,
+        solver_changes: 0,
         departures: Departures::default(),
         start: None,
         colours: setup.colours.clone(),
@@ -108,6 +112,10 @@ struct Laboratory {
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
     lost: u64,
+    /// Substeps done.
+    substeps: u64,
+    /// Times that a switch changed substeps or iterations.
+    solver_changes: u64,
     departures: Departures,
     /// The ledger at the first sample.
     start: Option<Ledger>,
@@ -146,20 +154,40 @@ impl Laboratory {
         Ok(())
     }
 
-    /// Does what the switches say; whether that brought up a scene.
+    /// Does what the switches say, in their order; whether that brought up a scene.
     fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
-        let brought_up = |switch: &&Switch| [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key);
-        let Some(switch) = switches.iter().rfind(brought_up) else {
-            return Ok(false);
-        };
-        let name = &switch.value;
+        let mut anew = false;
+        for switch in switches {
+            match switch.key.as_str() {
+                SWITCH_SCENE | SWITCH_START => {
+                    self.bring_up(&switch.value)?;
+                    anew = true;
+                }
+                SWITCH_SOLVER => self.change_solver(&switch.value)?,
+                _ => {}
+            }
+        }
+        Ok(anew)
+    }
+
+    /// Solves from the next step on as a session's governor did.
+    fn change_solver(&mut self, value: &str) -> Result<(), Failure> {
+        let effort = parse::size(value);
+        let effort = effort.map_err(|error| format!("a switch to the solver {value:?}: {error}"));
+        let effort = effort.input()?;
+        self.world.set_effort(effort).input()?;
+        self.solver_changes += 1;
+        Ok(())
+    }
+
+    fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
         let scene = Scene::load(name).input()?.with_preset(self.preset);
         let gpu = self.world.gpu().clone();
         self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
         self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
         (self.departures, self.start) = (Departures::default(), None);
-        self.switched = Some(name.clone());
-        Ok(true)
+        self.switched = Some(name.to_owned());
+        Ok(())
     }
 
     /// A new world with the old one's state: shaders change seldom, and a
@@ -190,6 +218,7 @@ impl Experiment for Laboratory {
         let scale = self.world.scene().scale;
         let hands = hands(&frame.hands, self.world.scene());
         self.world.step(&StepInput { hands }).map_err(blame_world)?;
+        self.substeps += u64::from(self.world.scene().solver.substeps);
         Ok(Taken {
             frame_time: scale.frame_time,
             anew,
@@ -230,7 +259,6 @@ impl Experiment for Laboratory {
         let measured = self.world.measure().map_err(blame_world)?;
         let counted = self.world.counters().map_err(blame_world)?;
         let state = self.world.snapshot().map_err(blame_world)?;
-        let substeps = u64::from(self.world.scene().solver.substeps);
         let limiters = [
             ("neighbour list full", counted.list_overflows),
             (
@@ -256,7 +284,8 @@ impl Experiment for Laboratory {
             state_hash: state.solver.hash(),
             device: device::statement(self.world.gpu()),
             counters: Counters {
-                substeps: self.world.steps() * substeps,
+                substeps: self.substeps,
+                solver_changes: self.solver_changes,
                 neighbour_rebuilds: counted.list_rebuilds.into(),
                 limiters: limiters
                     .map(|(name, times)| (name.to_owned(), times.into()))

@@ -7,7 +7,7 @@ mod tally;
 
 use std::time::Instant;
 
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::{Boundary, Scene};
@@ -34,8 +34,8 @@ const QUEUED: u32 = 8;
 /// [`Failure::NoDevice`], or [`Failure::Input`] for a scene or device that is
 /// not there.
 pub fn measure(args: &BenchArgs) -> Result<Bench, Failure> {
-    let timed = device::open(args.device.as_deref(), true)?;
-    let plain = device::open(args.device.as_deref(), false)?;
+    let timed = device::timed(args.device.as_deref(), Timestamps::Passes)?;
+    let plain = device::open(args.device.as_deref())?;
     let names: Vec<String> = match (&args.scene, args.paper) {
         (_, true) => TABLE_2.iter().map(|(name, _)| (*name).to_owned()).collect(),
         (Some(scene), false) => vec![scene.clone()],

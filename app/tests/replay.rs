@@ -135,6 +135,7 @@ impl Experiment for Toy {
             },
             counters: Counters {
                 substeps: self.steps * 4,
+                solver_changes: 0,
                 neighbour_rebuilds: 320,
                 limiters: BTreeMap::from([("v_max".into(), 0), ("max neighbours".into(), 3)]),
             },

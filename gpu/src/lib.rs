@@ -49,7 +49,7 @@ pub use ash::vk;
 pub use device::{
     BindingLimits, Candidate, DeviceHandles, DeviceInfo, DeviceRequest, DeviceSummary,
     EnabledFeatures, Gpu, InstanceRequest, Options, PlainLoader, Provider, QueueKind, QueueRequest,
-    Ticket, list_devices,
+    Ticket, Timestamps, list_devices,
 };
 pub use error::GpuError;
 pub use memory::{

@@ -46,6 +46,16 @@ pub enum WorldError {
     /// A liquid does not fit its flask.
     #[error(transparent)]
     Fill(#[from] FillError),
+    /// The liquid would not stand up under these substeps and iterations.
+    #[error("{substeps} × {iterations}: {problem}")]
+    Effort {
+        /// Substeps of a step.
+        substeps: u32,
+        /// Iterations of a substep.
+        iterations: u32,
+        /// Why not, and what to take instead.
+        problem: String,
+    },
 }
 
 /// Everything that the next step depends on.
@@ -69,6 +79,8 @@ pub struct World {
     loads: VecDeque<PendingLoad>,
     /// By flask: what [`World::stirring`] says.
     stirring: Vec<f32>,
+    /// What [`World::set_effort`] asked for, until the next step.
+    effort: Option<[u32; 2]>,
     step: u64,
     last: Option<Ticket>,
 }
@@ -134,6 +146,7 @@ impl World {
             scene: scene.clone(),
             loads: VecDeque::new(),
             stirring: vec![0.0; scene.flasks.len()],
+            effort: None,
             step: 0,
             last: None,
         })
@@ -153,6 +166,10 @@ impl World {
     /// # Errors
     /// As for [`World::step`].
     pub fn step_on(&mut self, queue: QueueKind, input: &StepInput) -> Result<(), WorldError> {
+        if let Some([substeps, iterations]) = self.effort.take() {
+            self.solver.set_effort(substeps, iterations)?;
+            self.scene = self.scene.with_effort([substeps, iterations]);
+        }
         let loads = self.due_loads()?;
         let before = self.bodies.poses().to_vec();
         self.bodies.step(&input.hands, &loads);
@@ -164,6 +181,32 @@ impl World {
         self.last = Some(ticket);
         self.step += 1;
         Ok(())
+    }
+
+    /// Solves from the next step on with as many substeps a step and iterations a substep. The
+    /// liquid goes on as it is: what is carried from substep to substep is −p/ρ, which
+    /// the length of neither scales. [`World::scene`] says what the last step was solved with.
+    ///
+    /// # Errors
+    /// [`WorldError::Effort`] for what the scene's liquid does not stand up under; nothing
+    /// has changed then.
+    pub fn set_effort(&mut self, effort: [u32; 2]) -> Result<(), WorldError> {
+        let [substeps, iterations] = effort;
+        if let Some(problem) = self.scene.with_effort(effort).problem_of_solver() {
+            return Err(WorldError::Effort {
+                substeps,
+                iterations,
+                problem,
+            });
+        }
+        self.effort = Some(effort);
+        Ok(())
+    }
+
+    /// Substeps a step and iterations a substep of the next step.
+    pub fn effort(&self) -> [u32; 2] {
+        let solver = &self.scene.solver;
+        self.effort.unwrap_or([solver.substeps, solver.iterations])
     }
 
     /// Whether the next step would find what it needs on the host already,

@@ -120,6 +120,9 @@ pub struct Targets {
 pub struct Shown {
     /// With which the picture was drawn, as [`Headset::locate_views`] gave them.
     pub views: [View; 2],
+    /// Width and height of each eye's picture, pixels: all of its image, or less, in the upper left
+    /// corner. The runtime scales it to the same field of view.
+    pub extent: [u32; 2],
     /// Distance of the near plane, m, where depth is 1; it is 0 at infinity.
     pub near: f32,
     /// Where the panel stands (its middle; +Z is its face's normal), and its width, m; its height follows from

@@ -1,7 +1,7 @@
 //! Values of arguments, read.
 
 /// Two whole numbers above zero, such as a picture's sides.
-pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
     match sides {
         Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),

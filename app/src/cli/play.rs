@@ -174,6 +174,17 @@ pub struct VrArgs {
     /// Trade of speed for accuracy
     #[arg(long, value_enum, default_value_t)]
     pub preset: PresetName,
+    /// In place of a preset: the most accurate setting by which a step's solution
+    /// takes at most so many milliseconds on this device (99th percentile)
+    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with_all = ["preset", "solver"])]
+    pub budget_ms: Option<f64>,
+    /// Substeps and iterations of the scene to begin with in place of the preset's, such as 10x3
+    #[arg(long, value_name = "SxI", value_parser = size)]
+    pub solver: Option<[u32; 2]>,
+    /// Keep solver and picture as they are asked for, whatever frames take;
+    /// without it both do with less where the display would miss frames
+    #[arg(long)]
+    pub fixed: bool,
     /// Seed of the particles' initial jitter
     #[arg(long, default_value_t = 0)]
     pub seed: u64,

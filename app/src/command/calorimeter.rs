@@ -75,7 +75,7 @@ pub struct Calorimeter {
 /// [`Failure::Other`].
 pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
     let feeds = feeds(args)?;
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let begin = Instant::now();
     let mixed = calorimeter::mix(&gpu, feeds, resolution(args.preset), args.seed)?;
     let wall_s = begin.elapsed().as_secs_f64();

@@ -92,7 +92,7 @@ pub fn run(args: &DamBreakArgs, format: Format) -> Result<(), Failure> {
         Some(folder) => Some(output::new_file(folder, FIGURE).map_err(output::blame)?),
         None => None,
     };
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let scene = Scene::load(SCENE).input()?.with_preset(args.preset.into());
     let resolution = resolution(args.preset);
     let columns = compare(&gpu, &scene, resolution, Column::LAST_TIME)?;

@@ -31,7 +31,7 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
         Some(folder) => Some(output::new_file(folder, NUMBERS).map_err(output::blame)?),
         None => None,
     };
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let begin = Instant::now();
     let found = judge_all(&gpu, &wanted, args.jobs as usize)?;
     let seconds = begin.elapsed().as_secs_f64();

@@ -40,7 +40,7 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
         }
         None => None,
     };
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let start = Instant::now();
     let library = Library::watching();
     let states = states::run(&gpu, &library, args.preset.into())?;

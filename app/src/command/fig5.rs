@@ -71,7 +71,7 @@ pub fn run(args: &Fig5Args, format: Format) -> Result<(), Failure> {
         }
         None => [None, None],
     };
-    let gpu = device::open(args.device.as_deref(), false)?;
+    let gpu = device::open(args.device.as_deref())?;
     let scene = Scene::load(SCENE).input()?;
     let result = compare(&gpu, &scene, pictures.each_ref().map(Option::as_deref))?;
     emit(format, &result, describe)

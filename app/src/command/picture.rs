@@ -11,7 +11,7 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::replay::{Setup, head, preset_of, scene_of};
+use crate::command::replay::{Setup, head, own_solver, preset_of, scene_of};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
@@ -45,8 +45,9 @@ pub fn run(
         return Err(format!("{} is no file name", args.output.display())).input();
     };
     let path = output::new_file(dir, file).map_err(output::blame)?;
-    let track = track::load(&args.track)?;
+    let mut track = track::load(&args.track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
+    own_solver((false, args.preset), &name, &mut track);
     let scene = Scene::load(&name)
         .input()?
         .with_preset(preset_of(args.preset, &track).into());

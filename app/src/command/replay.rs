@@ -17,6 +17,7 @@ use crate::cli::{CameraName, ColourName, FilterName, PresetName, ReplayArgs};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::device;
+use crate::experiment::SWITCH_SOLVER;
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
 use crate::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON, blame};
@@ -75,10 +76,11 @@ pub fn run(
     format: Format,
     prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
-    let track = track::load(&args.track)?;
+    let mut track = track::load(&args.track)?;
     whole(args, &track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
-    if (args.solver.is_some() || args.budget_ms.is_some()) && changes_scene(&track) {
+    let asked = args.solver.is_some() || args.budget_ms.is_some();
+    if asked && changes_scene(&track) {
         // The scenes that it changes to have presets of their own.
         return Err(
             "--solver and --budget-ms are for one scene, and the track changes it; \
@@ -86,6 +88,11 @@ pub fn run(
                 .to_owned(),
         )
         .input();
+    }
+    if own_solver((asked, args.preset), &name, &mut track) {
+        tracing::warn!(
+            "the track's own changes of substeps and iterations are left out: it is replayed as asked for"
+        );
     }
     let preset = preset_of(args.preset, &track);
     let scene = Scene::load(&name).input()?.with_preset(preset.into());
@@ -194,6 +201,28 @@ pub(super) fn preset_of(asked: Option<PresetName>, track: &Track) -> PresetName 
     let recorded = track.metadata.parameters.get("preset");
     let recorded = recorded.and_then(|name| PresetName::from_str(name, false).ok());
     asked.or(recorded).unwrap_or_default()
+}
+
+/// Leaves out what a session changed in the solver to keep pace, where something else was asked for: substeps
+/// and iterations themselves, another preset, or another scene than the recorded one. Whether there was any.
+pub(super) fn own_solver(
+    (asked, preset): (bool, Option<PresetName>),
+    scene: &str,
+    track: &mut Track,
+) -> bool {
+    let other_preset = preset.is_some_and(|preset| preset != preset_of(None, track));
+    if !asked && !other_preset && scene == track.metadata.scene {
+        return false;
+    }
+    let mut any = false;
+    for frame in &mut track.frames {
+        frame.scenario.retain(|switch| {
+            let kept = switch.key != SWITCH_SOLVER;
+            any |= !kept;
+            kept
+        });
+    }
+    any
 }
 
 /// What the films' colours stand for; the first is the film, the second, if
@@ -350,34 +379,19 @@ fn quoted(argument: &str) -> String {
     }
 }
 
-/// The scene with the substeps and iterations that were asked for, or that hold the
-/// budget; and these, where it was one of the two.
 /// Whether someone changed the scene, or began it anew, while the track was recorded.
 fn changes_scene(track: &Track) -> bool {
     let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
     switches.any(|switch| switch.key == "scene" || switch.key == "start")
 }
 
+/// The scene with the substeps and iterations that were asked for, or that hold the
+/// budget; and these, where it was one of the two.
 fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), Failure> {
-    let solver = match (args.solver, args.budget_ms) {
-        (None, None) => return Ok((scene, None)),
-        (Some(solver), _) => solver,
-        (None, Some(budget)) => {
-            let gpu = device::open(args.device.as_deref(), false)?;
-            let (solver, time) = budget::within(&gpu, &scene, budget)?;
-            tracing::warn!(
-                "--budget-ms {budget}: {} × {}, of which a frame takes {time:.2} ms here",
-                solver[0],
-                solver[1]
-            );
-            solver
-        }
-    };
-    let scene = budget::with(&scene, solver);
-    match scene.problem_of_substep() {
-        Some(problem) => Err(format!("--solver: {problem}")).input(),
-        None => Ok((scene, Some(solver))),
-    }
+    let gpu = || device::open(args.device.as_deref());
+    let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
+    let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
+    Ok((scene, chosen))
 }
 
 /// Writes the page first and the numbers last: a folder with `report.json` is

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use serde::Serialize;
+use vitriol_gpu::Timestamps;
 use vitriol_sim::scene::{Feature, Preset, Scene};
 
 use crate::cli::{PresetName, ScenesArgs};
@@ -95,7 +96,7 @@ const FEATURES: [Feature; 10] = [
 ];
 
 fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
-    let gpu = device::open(args.device.as_deref(), true)?;
+    let gpu = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let scenes = Scene::builtin_names().into_iter().map(|name| {
         let scene = Scene::load(name).other()?.with_preset(args.preset.into());
         let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;

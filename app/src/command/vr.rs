@@ -5,9 +5,12 @@ use std::io::IsTerminal;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::Serialize;
+use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_sim::measure::Measurement;
+use vitriol_sim::scene::Scene;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
+use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::track;
 use crate::console::{Format, emit};
@@ -19,7 +22,7 @@ use crate::vr::bench::Plan;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
 use crate::vr::record::Recorded;
-use crate::vr::session::{self, Decision, Options, Outcome, PANEL, Session, WARM_UP};
+use crate::vr::session::{self, Decision, Kept, Options, Outcome, PANEL, Session, WARM_UP};
 use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
 use crate::vr::tally::{Holdings, Spread};
 
@@ -43,6 +46,8 @@ struct SessionReport {
     missed_frames: u64,
     /// Times that a lost session was found again.
     renewals: u64,
+    /// What was done to keep pace with the display.
+    governor: Kept,
     #[serde(flatten)]
     times: Times,
     /// What the process held after warming up and at the end.
@@ -89,22 +94,25 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             scene: args.scene.clone(),
             preset: args.preset.into(),
             seed: args.seed,
+            solver: None,
+            filter: None,
         },
         posture: args.posture,
         frames: args.frames,
         record: args.record.clone(),
+        governed: !args.fixed,
     };
-    let timed = args.frames.is_some();
     let mirrored = !args.no_mirror;
     let (name, outcome, stand_in) = match &args.stand_in {
         Some(wearer) => {
-            let gpu = device::open(args.device.as_deref(), timed)?;
+            let gpu = device::timed(args.device.as_deref(), Timestamps::Whole)?;
             let spec = StandInSpec {
                 extent: args.size,
                 rate_hz: args.rate,
                 pace: Pace::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
+            let options = with_solver(args, options, &gpu)?;
             let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
             (
                 headset.name().to_owned(),
@@ -115,7 +123,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         None => {
             let mut headset = OpenXr::open(OpenXrOptions {
                 gpu: vitriol_gpu::Options {
-                    timestamps: timed,
+                    timestamps: Timestamps::Whole,
                     ..vitriol_gpu::Options::default()
                 },
                 instance_extensions: Vec::new(),
@@ -123,6 +131,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 panel: PANEL,
             })
             .map_err(session::blame)?;
+            let options = with_solver(args, options, headset.gpu())?;
             let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
             (headset.name().to_owned(), outcome, None)
         }
@@ -145,6 +154,17 @@ fn begin(headset: &dyn Headset, options: Options, mirrored: bool) -> Result<Sess
             Ok(session)
         }
     }
+}
+
+/// These with the substeps and iterations that are asked for, or hold the budget.
+fn with_solver(args: &VrArgs, mut options: Options, gpu: &Gpu) -> Result<Options, Failure> {
+    if args.solver.is_some() || args.budget_ms.is_some() {
+        let plan = &mut options.plan;
+        let scene = Scene::load(&plan.scene).input()?.with_preset(plan.preset);
+        let gpu = || Ok(gpu.clone());
+        plan.solver = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
+    }
+    Ok(options)
 }
 
 /// What is typed into the terminal, a line each; and the end, where the program is asked for it
@@ -201,6 +221,7 @@ fn state(
         slow_motion_s: outcome.slowed,
         missed_frames: outcome.skipped + late.count() as u64,
         renewals: outcome.renewals,
+        governor: outcome.kept.clone(),
         times: Times {
             cpu_ms: Spread::of(&tally.cpu_ms),
             gpu_solver_ms: Spread::of(&tally.solve_ms),
@@ -219,6 +240,26 @@ fn state(
     })
 }
 
+/// What the governor did, a line for each setting.
+fn kept(kept: &Kept) -> String {
+    if !kept.on {
+        let cause = kept.cause.as_deref().unwrap_or("as was asked for");
+        return format!("settings fixed: {cause}\n");
+    }
+    let mut text = format!("settings changed {} times to keep pace\n", kept.changes);
+    for (setting, frames) in &kept.frames {
+        let [substeps, iterations] = setting.solver;
+        let picture = 100.0 * setting.resolution;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {substeps} × {iterations}, picture {picture:.0} %: {} frames",
+            grouped(*frames)
+        );
+    }
+    text
+}
+
 fn describe(session: &SessionReport) -> String {
     let mut text = format!(
         "{}\n{}, {} particles; {} steps, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
@@ -235,6 +276,8 @@ fn describe(session: &SessionReport) -> String {
         session.missed_frames,
     );
     let times = &session.times;
+    // Writing to a string cannot fail.
+    let _ = write!(text, "{}", kept(&session.governor));
     let rows = [
         ("processor, a frame, ms", times.cpu_ms),
         ("device, solver, ms", times.gpu_solver_ms),

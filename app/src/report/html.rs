@@ -240,6 +240,9 @@ impl Report {
                     h2 { "Counted" }
                     table { tbody {
                         (row("Substeps", &grouped(self.counters.substeps)))
+                        @if self.counters.solver_changes > 0 {
+                            (row("Changes of substeps and iterations", &grouped(self.counters.solver_changes)))
+                        }
                         (row("Neighbour list rebuilt", &grouped(self.counters.neighbour_rebuilds)))
                         @for (name, times) in &self.counters.limiters {
                             (row(&format!("Limiter: {name}"), &grouped(*times)))

@@ -166,6 +166,9 @@ pub struct SolverStatement {
 pub struct Counters {
     /// Substeps done.
     pub substeps: u64,
+    /// Times that substeps and iterations changed, as in a session that had to keep pace.
+    #[serde(default)]
+    pub solver_changes: u64,
     /// Times that the neighbour list was rebuilt.
     pub neighbour_rebuilds: u64,
     /// How often each limiter acted, by its name.

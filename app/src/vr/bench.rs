@@ -5,10 +5,12 @@ use std::thread::JoinHandle;
 
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::world::{World, WorldError, WorldState};
 
-use super::picture::{Eyes, Picture};
+use super::ladder::Ladder;
+use super::picture::{Eyes, Picture, Subject};
+use crate::budget;
 use crate::failure::{Blame, Failure};
 
 /// What a bench is made of.
@@ -18,6 +20,10 @@ pub struct Plan {
     pub scene: String,
     /// Trade of speed for accuracy.
     pub preset: Preset,
+    /// Substeps and iterations in place of the preset's.
+    pub solver: Option<[u32; 2]>,
+    /// Filter of the liquid's surface in place of the scene's.
+    pub filter: Option<PictureFilter>,
     /// Seed of the initial jitter.
     pub seed: u64,
 }
@@ -26,6 +32,10 @@ pub struct Plan {
 pub struct Bench {
     /// What it was made of.
     pub plan: Plan,
+    /// What it may do with less, the finest first.
+    pub ladder: Ladder,
+    /// Substeps and iterations that its preset has, which a replay begins with.
+    pub of_preset: [u32; 2],
     /// The world.
     pub world: World,
     /// Its picture.
@@ -39,19 +49,39 @@ impl Bench {
     /// [`Failure::Input`] for a scene that is not there or whose liquid does not fit; what the
     /// device says.
     pub fn new(gpu: &Gpu, library: &Library, plan: &Plan, eyes: &Eyes) -> Result<Self, Failure> {
-        let scene = Scene::load(&plan.scene).input()?.with_preset(plan.preset);
+        let loaded = Scene::load(&plan.scene).input()?;
+        let mut scene = loaded.with_preset(plan.preset);
+        let of_preset = [scene.solver.substeps, scene.solver.iterations];
+        scene = scene.with_effort(plan.solver.unwrap_or(of_preset));
+        let ladder = Ladder::of(&scene, budget::balanced(&loaded));
+        scene.picture.filter = plan.filter.unwrap_or(scene.picture.filter);
         let world = World::new(gpu, library, &scene, plan.seed).map_err(|error| match error {
             WorldError::Fill(_) => Failure::Input(format!("{}: {error}", plan.scene).into()),
             _ => Failure::Other(error.into()),
         })?;
         Ok(Self {
             plan: plan.clone(),
-            picture: Picture::new(gpu, library, &scene, &world, eyes)?,
+            ladder,
+            of_preset,
+            picture: Picture::new(gpu, library, &scene, Subject::of(&world), eyes)?,
             world,
         })
     }
 
-    /// The same bench on another device, every particle where it was.
+    /// Filter of the liquid's surface in its picture.
+    pub fn filter(&self) -> PictureFilter {
+        let of_scene = self.world.scene().picture.filter;
+        self.plan.filter.unwrap_or(of_scene)
+    }
+
+    /// Draws from now on with `picture`, which has that filter.
+    pub fn repaint(&mut self, picture: Picture, filter: PictureFilter) {
+        let before = std::mem::replace(&mut self.picture, picture);
+        self.picture.follow(before);
+        self.plan.filter = Some(filter);
+    }
+
+    /// The same bench on another device, every particle where it was, solved as it was.
     ///
     /// # Errors
     /// As for [`Bench::new`].
@@ -61,8 +91,10 @@ impl Bench {
         plan: &Plan,
         eyes: &Eyes,
         state: &WorldState,
+        effort: [u32; 2],
     ) -> Result<Self, Failure> {
         let mut bench = Self::new(gpu, library, plan, eyes)?;
+        bench.world.set_effort(effort).other()?;
         bench.world.restore(state).other()?;
         Ok(bench)
     }

@@ -5,9 +5,11 @@
 
 pub mod bench;
 pub mod clock;
+pub mod governor;
 pub mod hands;
 pub mod haptics;
 pub mod inputs;
+pub mod ladder;
 pub mod menu;
 pub mod mirror;
 pub mod panel;

@@ -52,8 +52,29 @@ pub struct Picture {
     drawn: usize,
 }
 
+/// What there is to be drawn of a world.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject {
+    /// Particles of the liquid.
+    particles: u32,
+    /// Bytes of the puffs of steam, where there are any.
+    puffs: Option<u64>,
+}
+
+impl Subject {
+    /// That of a world.
+    pub fn of(world: &World) -> Self {
+        Self {
+            particles: world.solver().count(),
+            puffs: world.solver().puffs().map(Buffer::bytes),
+        }
+    }
+}
+
 /// What one picture shows.
 pub struct Sight<'a> {
+    /// Width and height as drawn, pixels: at most those that pictures are made for.
+    pub extent: [u32; 2],
     /// Both eyes in the scene's stage, real metres.
     pub views: [View; 2],
     /// The hands.
@@ -77,7 +98,7 @@ impl Picture {
         hide(&mut self.renderer, hidden)
     }
 
-    /// Pictures of a scene with that many particles.
+    /// Pictures of a scene.
     ///
     /// # Errors
     /// What the device says.
@@ -85,12 +106,12 @@ impl Picture {
         gpu: &Gpu,
         library: &Library,
         scene: &Scene,
-        world: &World,
+        subject: Subject,
         eyes: &Eyes,
     ) -> Result<Self, Failure> {
         let liquid = LiquidDesc {
             filter: filter(scene),
-            ..LiquidDesc::new(world.solver().count())
+            ..LiquidDesc::new(subject.particles)
         };
         let desc = RenderDesc {
             views: 2,
@@ -100,8 +121,8 @@ impl Picture {
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
         hide(&mut renderer, &eyes.hidden)?;
-        let bytes = world.solver().puffs().map(Buffer::bytes);
-        let puffs = bytes
+        let puffs = subject
+            .puffs
             .map(|bytes| -> Result<_, Failure> {
                 let copy = || Buffer::storage(gpu, "puffs, drawn", bytes).other();
                 Ok([copy()?, copy()?])
@@ -115,6 +136,11 @@ impl Picture {
             under_way: Vec::new(),
             drawn: 0,
         })
+    }
+
+    /// Goes on where `before` ends, whose pictures may be under way still.
+    pub fn follow(&mut self, before: Self) {
+        self.under_way = before.under_way;
     }
 
     /// Submits the part of a picture that reads the particles as they are after the last step,
@@ -236,7 +262,7 @@ impl Picture {
             fov: Fov::symmetric(1.0, 1.0),
         };
         let frame = FrameDesc {
-            extent: None,
+            extent: sight.map(|sight| sight.extent),
             views: &sight.map_or([nowhere; 2], |sight| sight.views),
             vessels: &vessels,
             particles: hands.filter(|hands| hands.count > 0),

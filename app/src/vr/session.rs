@@ -3,13 +3,14 @@
 
 mod choose;
 mod frame;
+mod pace;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
-use vitriol_gpu::Ticket;
+use vitriol_gpu::{Ticket, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::solver::{FlaskReading, ReadingRecord};
 use vitriol_xr::track::TrackMetadata;
@@ -26,6 +27,9 @@ use super::record::{Recorded, Recording};
 use super::tally::{Holdings, Tally};
 use crate::failure::{Blame, Failure};
 use crate::replay::SimulatedTime;
+
+use pace::Pace;
+pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION};
 
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
@@ -48,6 +52,8 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
+    /// Whether a governor keeps pace with the display, by less accuracy and fewer pixels where it must.
+    pub governed: bool,
 }
 
 /// What the user wants.
@@ -81,6 +87,8 @@ pub struct Outcome {
     pub renewals: u64,
     /// Times of the frames that count.
     pub tally: Tally,
+    /// How it kept pace, in the frames that count.
+    pub kept: Kept,
     /// What the process held when counting began, and at the end.
     pub holdings: [Option<Holdings>; 2],
     /// The recording, if there was one.
@@ -121,6 +129,7 @@ pub struct Session {
     renewals: u64,
     recording: Option<Recording>,
     tally: Tally,
+    pace: Pace,
     began_with: Option<Holdings>,
     /// Submissions of steps since the last picture.
     solved: Vec<Ticket>,
@@ -153,10 +162,14 @@ impl Session {
         let recording = options.record.as_ref().map(|file| {
             Recording::create(file, &metadata(&options.plan)).map_err(crate::command::track::blame)
         });
-        Ok(Self {
+        let pace = Pace::new(gpu, &bench, options.governed);
+        let counts = options.frames.is_some();
+        let timed = gpu.options().timestamps != Timestamps::None && (counts || pace.follows());
+        let mut session = Self {
             bench,
             panel: Panel::new(gpu, &library, PANEL)?,
-            tally: Tally::new(options.frames.is_some(), gpu.options().timestamps),
+            tally: Tally::new(counts, timed),
+            pace,
             recording: recording.transpose()?,
             options,
             decisions,
@@ -181,7 +194,9 @@ impl Session {
             reading: None,
             read: Vec::new(),
             speed: 1.0,
-        })
+        };
+        session.pace_bench(true, 1.0)?;
+        Ok(session)
     }
 
     /// The same, with what the left eye sees in `window`.
@@ -244,8 +259,9 @@ impl Session {
         self.eyes = Eyes::of(headset);
         let gpu = headset.gpu();
         let state = self.bench.world.snapshot().other()?;
-        let plan = &self.bench.plan;
-        self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state)?;
+        let (plan, effort) = (&self.bench.plan, self.bench.world.effort());
+        self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
+        self.pace.forget();
         self.tally.restart();
         self.panel = Panel::new(gpu, &self.library, PANEL)?;
         if let Some(mirror) = &mut self.mirror {
@@ -277,6 +293,7 @@ impl Session {
             skipped: self.skipped,
             renewals: self.renewals,
             tally: self.tally,
+            kept: self.pace.kept().clone(),
             holdings: [self.began_with, Holdings::now()],
             recorded,
         })

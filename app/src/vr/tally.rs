@@ -44,26 +44,47 @@ pub struct Tally {
     /// From the hands' poses that the flasks in the picture follow to the picture's display time,
     /// simulation steps.
     pub delay_steps: Vec<f64>,
-    /// The solver's work of a frame on the device, ms.
+    /// A frame's work on the device on the solver's queue, ms: its steps and the picture's part that
+    /// reads them.
     pub solve_ms: Vec<f64>,
     /// The picture's, ms.
     pub picture_ms: Vec<f64>,
     /// Whether anything is kept: a session that nobody measures would only grow by it.
     counts: bool,
-    /// Whether submissions are timed.
+    /// Whether submissions are timed for what is kept, or for who follows.
     timed: bool,
-    pending: VecDeque<Pending>,
+    pending: VecDeque<Submitted>,
+    loads: Vec<Load>,
 }
 
 /// A frame's submissions.
-struct Pending {
-    solved: Vec<Ticket>,
-    picture: Ticket,
+pub struct Submitted {
+    /// Its steps'.
+    pub steps: Vec<Ticket>,
+    /// That of the picture's part behind them.
+    pub shapes: Ticket,
+    /// That of its other part.
+    pub picture: Ticket,
+    /// As the frame loop counts its settings.
+    pub stamp: u64,
+}
+
+/// What a frame took on the device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Its steps.
+    pub steps: usize,
+    /// Their time, ms.
+    pub solve_ms: f64,
+    /// The picture's, ms.
+    pub picture_ms: f64,
+    /// As the frame loop counts its settings.
+    pub stamp: u64,
 }
 
 impl Tally {
-    /// One that keeps times if it `counts`, and asks the device for its own, where that was opened
-    /// for it.
+    /// One that keeps times if it `counts`, and asks the device for its own if they are to be `timed`, which
+    /// takes one that was opened for it. Their [`Load`]s are there until they are taken.
     pub fn new(counts: bool, timed: bool) -> Self {
         Self {
             counts,
@@ -88,10 +109,15 @@ impl Tally {
     }
 
     /// Takes a frame's submissions.
-    pub fn submitted(&mut self, solved: Vec<Ticket>, picture: Ticket) {
-        if self.counts && self.timed {
-            self.pending.push_back(Pending { solved, picture });
+    pub fn submitted(&mut self, submitted: Submitted) {
+        if self.timed {
+            self.pending.push_back(submitted);
         }
+    }
+
+    /// What the frames took whose times were taken since the last call.
+    pub fn loads(&mut self) -> Vec<Load> {
+        std::mem::take(&mut self.loads)
     }
 
     /// Takes the times of frames that are done; does not wait.
@@ -103,12 +129,21 @@ impl Tally {
             if !frame.picture.is_done().other()? {
                 break;
             }
-            let mut solve = 0.0;
-            for ticket in &frame.solved {
-                solve += total(ticket)?;
+            let mut solve_ms = 0.0;
+            for ticket in &frame.steps {
+                solve_ms += total(ticket)?;
             }
-            self.solve_ms.push(solve);
-            self.picture_ms.push(total(&frame.picture)?);
+            let (shapes, picture) = (total(&frame.shapes)?, total(&frame.picture)?);
+            if self.counts {
+                self.solve_ms.push(solve_ms + shapes);
+                self.picture_ms.push(picture);
+            }
+            self.loads.push(Load {
+                steps: frame.steps.len(),
+                solve_ms,
+                picture_ms: shapes + picture,
+                stamp: frame.stamp,
+            });
             self.pending.pop_front();
         }
         Ok(())

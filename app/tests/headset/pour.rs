@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use vitriol::experiment;
+use vitriol::experiment::{self, SWITCH_SOLVER};
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -139,6 +139,12 @@ pub fn replay(track: &Track) -> Replayed {
     for (frame, flasks) in track.frames.iter().zip(&track.stage_from_flasks) {
         if flasks.is_empty() {
             break;
+        }
+        // What the session did to keep pace with the runtime's display.
+        let solver = frame.scenario.iter().filter(|it| it.key == SWITCH_SOLVER);
+        for (substeps, iterations) in solver.filter_map(|it| it.value.split_once('x')) {
+            let effort = [substeps, iterations].map(|number| number.parse().unwrap());
+            world.set_effort(effort).unwrap();
         }
         let hands = experiment::hands(&frame.hands, &scene);
         world.step(&StepInput { hands }).unwrap();

@@ -129,23 +129,40 @@ pub fn nobody() -> Receiver<Decision> {
     channel().1
 }
 
+/// What a session is to be, recorded in `folder`.
+pub fn options(folder: &Path) -> Options {
+    Options {
+        plan: Plan {
+            scene: scene(folder).to_str().unwrap().into(),
+            preset: Preset::Balanced,
+            seed: 3,
+            solver: None,
+            filter: None,
+        },
+        posture: Posture::Seated,
+        frames: None,
+        record: Some(folder.join("session.mcap")),
+        // What a software driver takes is no matter to most.
+        governed: false,
+    }
+}
+
 /// A session to its end, and its recording.
 pub fn session(
     headset: &mut dyn Headset,
     folder: &Path,
     decisions: Receiver<Decision>,
 ) -> (Outcome, Track) {
-    let file = folder.join("session.mcap");
-    let options = Options {
-        plan: Plan {
-            scene: scene(folder).to_str().unwrap().into(),
-            preset: Preset::Balanced,
-            seed: 3,
-        },
-        posture: Posture::Seated,
-        frames: None,
-        record: Some(file.clone()),
-    };
+    session_with(headset, options(folder), decisions)
+}
+
+/// The same with other options.
+pub fn session_with(
+    headset: &mut dyn Headset,
+    options: Options,
+    decisions: Receiver<Decision>,
+) -> (Outcome, Track) {
+    let file = options.record.clone().unwrap();
     let outcome = Session::new(headset, options, decisions)
         .unwrap()
         .run(headset)

@@ -6,6 +6,7 @@ mod hands;
 mod loss;
 #[cfg(target_os = "linux")]
 mod mirror;
+mod pace;
 mod panel;
 mod pour;
 mod recorder;

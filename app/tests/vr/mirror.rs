@@ -193,10 +193,13 @@ fn the_window_shows_what_the_left_eye_sees() {
             scene: scene(folder.path()).to_str().unwrap().into(),
             preset: Preset::Balanced,
             seed: 3,
+            solver: None,
+            filter: None,
         },
         posture: Posture::Seated,
         frames: None,
         record: None,
+        governed: false,
     };
     let window = mirror::Window::open(headset.extent(), channel().0).unwrap();
     let session = Session::new(&headset, options, nobody()).unwrap();

@@ -6,7 +6,7 @@ use crate::common::{Trouble, Worn, pour, session};
 use glam::{Quat, Vec3};
 use vitriol::experiment::SWITCH_START;
 use vitriol::vr::menu::CHOICES;
-use vitriol::vr::panel::{FlaskLine, Info, Panel, WIDTH, scene_from_panel};
+use vitriol::vr::panel::{Effort, FlaskLine, Info, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::session::{Decision, PANEL};
 use vitriol::vr::stand_in::StandIn;
 use vitriol_gpu::{Gpu, QueueKind};
@@ -31,6 +31,13 @@ fn info() -> Info {
         recording: Some(75),
         unwritten: 3,
         missed: 12,
+        effort: Some(Effort {
+            finer: false,
+            solver: [8, 4],
+            asked: [10, 3],
+            picture: 85,
+            other_filter: false,
+        }),
         coming: Some("acid-into-water".into()),
     }
 }

@@ -12,7 +12,7 @@ mod validation;
 
 pub(crate) use self::core::{Core, lock};
 pub use info::{BindingLimits, DeviceInfo, EnabledFeatures};
-pub use open::{DeviceHandles, Gpu, Options};
+pub use open::{DeviceHandles, Gpu, Options, Timestamps};
 pub use provider::{DeviceRequest, InstanceRequest, PlainLoader, Provider, QueueRequest};
 pub use queue::QueueKind;
 pub use select::{Candidate, DeviceSummary, list_devices};

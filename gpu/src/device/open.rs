@@ -18,6 +18,18 @@ use super::select::{self, Candidate};
 use super::validation::Messages;
 use crate::GpuError;
 
+/// What the device's clock is read for; see [`Ticket::timings`](crate::Ticket::timings).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Timestamps {
+    /// Nothing.
+    #[default]
+    None,
+    /// Each submission as a whole: two stamps.
+    Whole,
+    /// Every pass; costs 2 to 5 ms a frame on the software driver.
+    Passes,
+}
+
 /// How to open the device.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -27,8 +39,8 @@ pub struct Options {
     /// Loads the Khronos validation layer with synchronisation validation;
     /// see [`Gpu::validation_messages`].
     pub validation: bool,
-    /// Measures every pass; costs 2 to 5 ms a frame on the software driver.
-    pub timestamps: bool,
+    /// What is measured by the device's clock.
+    pub timestamps: Timestamps,
     /// Marks each pass as the device reaches it, so that
     /// [`GpuError::DeviceLost`] can name the last one.
     pub markers: bool,

@@ -60,7 +60,7 @@ impl Ticket {
         self.submission.is_done(&self.gpu)
     }
 
-    /// Time of each pass in order, and last the whole submission under the
+    /// Time of each pass in order, where they are timed, and last the whole submission under the
     /// label "total". Empty without `Options::timestamps`, or where the device
     /// has none.
     ///

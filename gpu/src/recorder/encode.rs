@@ -145,7 +145,7 @@ impl Storage {
         }
         let barrier = self.planner.pass(&self.uses);
         self.emit(barrier);
-        if self.queries.is_some() || self.markers.is_some() {
+        if self.times_passes() || self.markers.is_some() {
             let text = String::from_utf8_lossy(label);
             self.names.push(&text, self.pass_bytes);
         }
@@ -187,11 +187,15 @@ impl Storage {
     /// What stands after every pass.
     pub(crate) fn close_pass(&mut self) -> Result<(), GpuError> {
         self.close_label();
-        if let Some(queries) = &mut self.queries {
+        if let Some(queries) = self.queries.as_mut().filter(|it| it.of_passes) {
             queries.write(&self.core, self.cmd)?;
         }
         self.clear_pass();
         Ok(())
+    }
+
+    fn times_passes(&self) -> bool {
+        self.queries.as_ref().is_some_and(|it| it.of_passes)
     }
 
     pub(crate) fn open_label(&mut self, label: &[u8]) {

@@ -15,7 +15,7 @@ use crate::barrier::{Planner, Scope, Use};
 use crate::device::{Core, Options, Submission};
 use crate::memory::{BufferInner, ImageInner};
 use crate::pipeline::DescriptorData;
-use crate::{Buffer, Image};
+use crate::{Buffer, Image, Timestamps};
 
 /// An image and the layout that it has at this point of the recording.
 pub(crate) struct ImageState {
@@ -113,8 +113,9 @@ impl Storage {
         let buffers = unsafe { core.device.allocate_command_buffers(&allocate) }
             .map_err(GpuError::vulkan("vkAllocateCommandBuffers"))?;
         storage.cmd = buffers.first().copied().unwrap_or_default();
-        if options.timestamps && core.info.timestamp_period > 0.0 {
-            storage.queries = Some(Queries::default());
+        if options.timestamps != Timestamps::None && core.info.timestamp_period > 0.0 {
+            let of_passes = options.timestamps == Timestamps::Passes;
+            storage.queries = Some(Queries::new(of_passes));
         }
         if options.markers {
             storage.markers = Some(Markers::new(core)?);

@@ -53,14 +53,22 @@ impl Names {
 /// Timestamps of one pool.
 const POOL_SIZE: u32 = 512;
 
-/// Timestamps: one at the start, one at the end of each pass, one at the end.
-#[derive(Default)]
+/// Timestamps: one at the start, where it is asked for one at the end of each pass, one at the end.
 pub(crate) struct Queries {
+    pub(crate) of_passes: bool,
     pools: Vec<vk::QueryPool>,
     written: u32,
 }
 
 impl Queries {
+    pub(crate) fn new(of_passes: bool) -> Self {
+        Self {
+            of_passes,
+            pools: Vec::new(),
+            written: 0,
+        }
+    }
+
     pub(crate) fn begin(&mut self) {
         self.written = 0;
     }
@@ -68,11 +76,12 @@ impl Queries {
     /// Writes a timestamp when all work before it is done. `ALL_COMMANDS`: a
     /// stamp at the top of the pipe would not wait for the barrier before it.
     pub(crate) fn write(&mut self, core: &Core, cmd: vk::CommandBuffer) -> Result<(), GpuError> {
-        let (pool, query) = (self.written / POOL_SIZE, self.written % POOL_SIZE);
+        let size = if self.of_passes { POOL_SIZE } else { 2 };
+        let (pool, query) = (self.written / size, self.written % size);
         if pool as usize == self.pools.len() {
             let create = vk::QueryPoolCreateInfo::default()
                 .query_type(vk::QueryType::TIMESTAMP)
-                .query_count(POOL_SIZE);
+                .query_count(size);
             // SAFETY: the device is alive.
             let made = unsafe { core.device.create_query_pool(&create, None) }
                 .map_err(GpuError::vulkan("vkCreateQueryPool"))?;
@@ -83,7 +92,7 @@ impl Queries {
         // the pool and was reset after its last use.
         unsafe {
             if query == 0 {
-                core.device.cmd_reset_query_pool(cmd, handle, 0, POOL_SIZE);
+                core.device.cmd_reset_query_pool(cmd, handle, 0, size);
             }
             core.device.cmd_write_timestamp2(
                 cmd,
@@ -111,6 +120,8 @@ impl Queries {
             }
             .map_err(GpuError::vulkan("vkGetQueryPoolResults"))?;
         }
+        let none = Names::default();
+        let names = if self.of_passes { names } else { &none };
         Ok(timings(&stamps, names, mask, core.info.timestamp_period))
     }
 

@@ -1,12 +1,12 @@
 //! Timestamps, and the CPU's share of a frame.
 
-use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
+use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, Timestamps};
 
 use crate::common::{DOUBLE, assert_silent, compile, open, open_with};
 
 #[test]
 fn every_pass_is_timed_under_its_label() {
-    let gpu = open_with(|options| options.timestamps = true);
+    let gpu = open_with(|options| options.timestamps = Timestamps::Passes);
     let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
     let count = 4_000_000_u32;
     let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 4 * u64::from(count)).unwrap());
@@ -56,6 +56,40 @@ fn every_pass_is_timed_under_its_label() {
     assert!(large > 4.0 * small, "{large} ns against {small} ns");
     // The stamps abut; only what closes the submission is nobody's.
     assert!(closing < 0.1, "{closing} of the total");
+    assert_silent(&gpu);
+}
+
+/// The whole alone: as long as what its passes come to when they are timed.
+#[test]
+fn a_submission_is_timed_as_a_whole() {
+    let gpu = open_with(|options| {
+        (options.timestamps, options.markers) = (Timestamps::Whole, true);
+    });
+    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
+    let count = 4_000_000_u32;
+    let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 4 * u64::from(count)).unwrap());
+    let time = |passes: u32| {
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        for _ in 0..passes {
+            rec.pass(&double)
+                .read("source", &a)
+                .write("target_", &b)
+                .invocations(count)
+                .unwrap();
+        }
+        let ticket = gpu.submit(rec).unwrap();
+        ticket.wait().unwrap();
+        let timings = ticket.timings().unwrap();
+        let [whole] = &timings[..] else {
+            panic!("{timings:?}");
+        };
+        assert_eq!(whole.label, "total");
+        whole.nanoseconds
+    };
+    // The best of several, since other tests share the processor; recorders are recycled.
+    let best = |passes| (0..8).map(|_| time(passes)).fold(f64::INFINITY, f64::min);
+    let (one, six) = (best(1), best(6));
+    assert!(one > 0.0 && six > 3.0 * one, "{one} ns and {six} ns");
     assert_silent(&gpu);
 }
 

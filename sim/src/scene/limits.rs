@@ -40,6 +40,21 @@ impl Scene {
         Ok(())
     }
 
+    /// This with as many substeps a frame and iterations a substep, for better or worse:
+    /// ask [`Scene::problem_of_solver`].
+    pub fn with_effort(&self, [substeps, iterations]: [u32; 2]) -> Self {
+        let mut scene = self.clone();
+        scene.solver.substeps = substeps;
+        scene.solver.iterations = iterations;
+        scene
+    }
+
+    /// Why the solver's settings are none, or [`Scene::problem_of_substep`].
+    pub fn problem_of_solver(&self) -> Option<String> {
+        let checked = self.solver.check().and_then(|()| self.check_substep());
+        checked.err().map(|problem| problem.problem)
+    }
+
     /// Why the liquid of some flask would not stand up under the scene's substep;
     /// `None` where all do. For who changes substeps or frame time after loading.
     pub fn problem_of_substep(&self) -> Option<String> {

@@ -11,6 +11,11 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 /// Threads of the load pass's workgroups.
 pub(super) const LOAD_GROUP: u32 = 256;
 
+/// Of the flasks' poses at a frame's start and at each substep's end.
+pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
+    4 * 8 * (u64::from(substeps) + 1) * flasks
+}
+
 /// Device memory, named as in the shaders.
 pub(super) struct Buffers {
     // State: what a snapshot holds.
@@ -120,9 +125,10 @@ impl Buffers {
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
             solution: upload(gpu, "solution", &table)?,
-            poses: words(
+            poses: Buffer::storage(
+                gpu,
                 "poses",
-                8 * (u64::from(spec.parameters.substeps) + 1) * flasks,
+                bytes_of_poses(spec.parameters.substeps, flasks),
             )?,
             wall_push: words("wall_push", 4 * pushed)?,
             loads: words("loads", where_asked(spec.loads, 12 * groups * flasks))?,

@@ -146,6 +146,19 @@ impl Solver {
         Ok(solver)
     }
 
+    /// Solves from the next frame on with as many substeps and iterations, which nothing but
+    /// the poses' place on the device and the iterations' coefficients depend on.
+    pub(crate) fn set_effort(&mut self, substeps: u32, iterations: u32) -> Result<(), SolverError> {
+        let bytes = buffers::bytes_of_poses(substeps, self.flasks as u64);
+        if self.buffers.poses.bytes() < bytes {
+            self.buffers.poses = Buffer::storage(&self.gpu, "poses", bytes)?;
+        }
+        let parameters = &mut self.parameters;
+        (parameters.substeps, parameters.iterations) = (substeps, iterations);
+        self.coefficients = parameters.relaxation.coefficients(iterations);
+        Ok(())
+    }
+
     /// Number of particles, those taken out included.
     pub fn count(&self) -> u32 {
         self.count

@@ -7,6 +7,7 @@ mod against_reference;
 mod chaos;
 mod chemistry;
 mod common;
+mod effort;
 mod forces;
 mod leaning_glass;
 mod limits;

@@ -1,7 +1,7 @@
 //! A scene pays for what it names, and for nothing else.
 
 use crate::common::*;
-use vitriol_gpu::QueueKind;
+use vitriol_gpu::{QueueKind, Timestamps};
 use vitriol_shaders::{Library, ShaderId, sim};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -97,7 +97,7 @@ fn shaders_bind_what_the_scene_has() {
 
 /// Labels of the passes of one frame, in their order.
 pub fn passes(setup: &Setup, poses: &[Pose]) -> Vec<String> {
-    let device = gpu::another_device(|options| options.timestamps = true);
+    let device = gpu::another_device(|options| options.timestamps = Timestamps::Passes);
     let solver = setup.solver(&device);
     let mut rec = device.recorder(QueueKind::Main).unwrap();
     solver.record(&mut rec, poses, poses).unwrap();

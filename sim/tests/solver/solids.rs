@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::leaning_glass::{PLACE, PLANE, both, glass_pose, reference, scene, worst};
 use glam::{Quat, Vec3};
-use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::flask::particles::{BoundaryParticle, sample};
@@ -136,7 +136,7 @@ fn at_rest(gpu: &Gpu, setup: &Setup) -> AtRest {
 /// sheet of them costs a second neighbourhood.
 #[test]
 fn maps_keep_the_volume_that_solids_do_not() {
-    let device = gpu::another_device(|options| options.timestamps = true);
+    let device = gpu::another_device(|options| options.timestamps = Timestamps::Passes);
     let p = Parameters {
         substeps: 10,
         iterations: 3,

@@ -127,7 +127,18 @@ impl Chain {
 
     /// One layer of it, as composition layers name it.
     pub(super) fn part(&self, layer: u32) -> xr::SwapchainSubImage<'_, xr::Vulkan> {
-        let [width, height] = self.extent();
+        self.corner(layer, self.extent())
+    }
+
+    /// The upper left corner of one layer, so many pixels wide and high; what would reach beyond the
+    /// image is cut off.
+    pub(super) fn corner(
+        &self,
+        layer: u32,
+        extent: [u32; 2],
+    ) -> xr::SwapchainSubImage<'_, xr::Vulkan> {
+        let held = self.extent();
+        let [width, height] = [0, 1].map(|side| extent[side].min(held[side]));
         xr::SwapchainSubImage::new()
             .swapchain(&self.chain)
             .image_array_index(layer)

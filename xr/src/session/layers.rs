@@ -13,7 +13,7 @@ impl Live {
     /// Gives the images back and shows them.
     pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), Failure> {
         self.release()?;
-        let depths = self.depth.as_ref().map(|depth| depths(depth, shown.near));
+        let depths = self.depth.as_ref().map(|depth| depths(depth, shown));
         let views = [0, 1].map(|eye| {
             let view = view(&self.colour, eye, shown);
             let Some(depths) = &depths else {
@@ -76,19 +76,19 @@ fn view<'a>(
     xr::CompositionLayerProjectionView::new()
         .pose(posef(stage_from_eye))
         .fov(fovf(fov))
-        .sub_image(colour.part(eye))
+        .sub_image(colour.corner(eye, shown.extent))
 }
 
 /// Depth 1 at the near plane and 0 at infinity: the extension has the plane of the smaller depth
 /// in `near_z` and lets it be the far one, and infinite (XR_KHR_composition_layer_depth).
-fn depths(depth: &Chain, near: f32) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
+fn depths(depth: &Chain, shown: &Shown) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
     [0, 1].map(|eye| xr::sys::CompositionLayerDepthInfoKHR {
         ty: xr::sys::CompositionLayerDepthInfoKHR::TYPE,
         next: std::ptr::null(),
-        sub_image: *depth.part(eye).as_raw(),
+        sub_image: *depth.corner(eye, shown.extent).as_raw(),
         min_depth: 0.0,
         max_depth: 1.0,
         near_z: f32::INFINITY,
-        far_z: near,
+        far_z: shown.near,
     })
 }

@@ -87,6 +87,8 @@ impl Client {
         let panel = Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY);
         let shown = Shown {
             views,
+            // A corner of the image, as a program that must hurry draws.
+            extent: self.xr.extent().map(|side| side * 7 / 10),
             near: 0.05,
             panel: Some((panel, 0.3)),
         };

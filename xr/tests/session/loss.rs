@@ -34,6 +34,7 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
     kill(rig, At::End);
     let shown = Shown {
         views,
+        extent: client.xr.extent(),
         near: 0.05,
         panel: None,
     };

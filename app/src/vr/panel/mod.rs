@@ -12,7 +12,7 @@ use vitriol_xr::{Hand, Pose};
 use super::session::Decision;
 use crate::failure::Failure;
 use draw::Painter;
-pub use view::{FlaskLine, Info};
+pub use view::{Effort, FlaskLine, Info};
 
 /// Width of the panel, m.
 pub const WIDTH: f32 = 0.60;

@@ -1,8 +1,8 @@
 //! What stands on the panel.
 
 use egui::{
-    Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Margin, Pos2,
-    Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Layout,
+    Margin, Pos2, Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
 };
 use vitriol_render::tints;
 
@@ -35,6 +35,42 @@ pub struct FlaskLine {
     pub acid: Option<i32>,
 }
 
+/// How much is solved and drawn to keep pace with the display.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effort {
+    /// Whether the last change was for the better.
+    pub finer: bool,
+    /// Substeps a step and iterations a substep.
+    pub solver: [u32; 2],
+    /// What was asked for.
+    pub asked: [u32; 2],
+    /// Each side of the picture, per cent of the display's.
+    pub picture: u32,
+    /// Whether the liquid's surface is drawn by another filter.
+    pub other_filter: bool,
+}
+
+impl Effort {
+    /// In a sentence; only what is less.
+    fn text(&self) -> String {
+        let mut parts = Vec::new();
+        if self.solver != self.asked {
+            let ([substeps, iterations], [of, by]) = (self.solver, self.asked);
+            parts.push(format!(
+                "{substeps} × {iterations} substeps × iterations of {of} × {by}"
+            ));
+        }
+        if self.other_filter {
+            parts.push("a plainer surface".into());
+        }
+        if self.picture < 100 {
+            parts.push(format!("picture {} %", self.picture));
+        }
+        let how = if self.finer { "finer again" } else { "coarser" };
+        format!("{how}: {}", parts.join(", "))
+    }
+}
+
 /// What the panel says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
@@ -52,6 +88,8 @@ pub struct Info {
     pub unwritten: u64,
     /// Display periods without a frame.
     pub missed: u64,
+    /// What is solved and drawn with, where that is less than was asked for.
+    pub effort: Option<Effort>,
     /// The scene that is being set up.
     pub coming: Option<String>,
 }
@@ -104,6 +142,12 @@ fn readings(ui: &mut Ui, info: &Info) {
     if let Some(per_cent) = info.slow {
         let text = format!("slow motion: {per_cent} % of real time");
         ui.label(RichText::new(text).color(WARNING));
+    }
+    if let Some(effort) = &info.effort {
+        // Of two lines; columns would justify the first.
+        ui.with_layout(Layout::top_down(Align::Min), |ui| {
+            ui.label(RichText::new(effort.text()).color(WARNING));
+        });
     }
     if let Some(seconds) = info.recording {
         let text = format!("recording, {} min {:02} s", seconds / 60, seconds % 60);

@@ -66,10 +66,14 @@ impl Session {
             key: if same { SWITCH_START } else { SWITCH_SCENE }.into(),
             value: scene.clone(),
         };
-        let plan = Plan {
+        let mut plan = Plan {
             scene,
             ..self.bench.plan.clone()
         };
+        if !same {
+            // What was asked for was asked for of the first scene.
+            (plan.solver, plan.filter) = (None, None);
+        }
         let (gpu, eyes) = (headset.gpu(), self.eyes.clone());
         let builder = Builder::start(gpu, &self.library, plan, eyes);
         self.coming = Some(Coming { builder, switch });
@@ -82,8 +86,11 @@ impl Session {
         };
         match coming.builder.finish() {
             Ok(bench) => {
+                let resolution = self.setting().resolution;
                 self.bench = bench;
+                let same = coming.switch.key == SWITCH_START;
                 self.switches.push(coming.switch);
+                self.pace_bench(same, resolution)?;
                 // Of the bench that was.
                 self.reading = None;
                 self.read.clear();
@@ -93,7 +100,7 @@ impl Session {
         Ok(())
     }
 
-    fn switch(&mut self, key: &str, value: String) {
+    pub(super) fn switch(&mut self, key: &str, value: String) {
         self.switches.push(Switch {
             key: key.into(),
             value,
@@ -148,6 +155,7 @@ impl Session {
             recording: recorded.as_ref().map(|_| self.time.seconds() as u64),
             unwritten: recorded.map_or(0, |recorded| recorded.unwritten),
             missed: self.skipped,
+            effort: self.effort(),
             coming: self
                 .coming
                 .as_ref()

@@ -16,7 +16,7 @@ use crate::vr::inputs::sound;
 use crate::vr::panel;
 use crate::vr::picture::{Eyes, Picture, Sight, eye};
 use crate::vr::placement;
-use crate::vr::tally::Holdings;
+use crate::vr::tally::{Holdings, Submitted};
 
 /// Frames between two readings of the flasks' temperatures: ten a second at 90 Hz.
 const READING_EVERY: u64 = 9;
@@ -34,6 +34,7 @@ impl Session {
         let pressed = self.buttons.advance(&now.hands);
         self.decide(headset, pressed, frame.recentred, &now)?;
         self.take_up_bench()?;
+        self.take_up_picture()?;
         self.plan_steps(now);
         // What would wait for the device waits until the frame has ended.
         while !self.due.is_empty() && self.bench.world.is_ready().other()? {
@@ -49,6 +50,8 @@ impl Session {
         }
         self.tally.frame(milliseconds(begun.elapsed()));
         self.after()?;
+        let loads = self.tally.loads();
+        self.keep_pace(&loads, 1e-6 * frame.poses.info.period_ns as f64)?;
         self.take_up_mask(headset)
     }
 
@@ -80,6 +83,7 @@ impl Session {
         self.frames += 1;
         if self.frames == WARM_UP + 1 {
             self.tally.restart();
+            self.pace.restart();
             self.skipped = 0;
             self.began_with = Holdings::now();
         }
@@ -88,7 +92,9 @@ impl Session {
         if let (Some(last), true) = (last, info.period_ns > 0) {
             let passed = info.xr_time.saturating_sub(last) as f64;
             let periods = (passed / info.period_ns as f64).round();
-            self.skipped += (periods - 1.0).max(0.0) as u64;
+            let skipped = (periods - 1.0).max(0.0) as u64;
+            self.skipped += skipped;
+            self.pace.missed |= skipped > 0;
         }
     }
 
@@ -158,7 +164,11 @@ impl Session {
         self.show_panel(seen.as_ref());
         let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
 
-        let extent = self.eyes.extent;
+        let setting = self.setting();
+        let extent = self.eyes.extent.map(|side| {
+            let side = (setting.resolution * f64::from(side)).round();
+            (side as u32).max(1)
+        });
         let targets = headset.acquire().map_err(blame)?;
         let Bench { world, picture, .. } = &mut self.bench;
         let gpu = world.gpu().clone();
@@ -176,6 +186,7 @@ impl Session {
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {
+            extent,
             views: views.each_ref().map(|view| eye(view, &placed)),
             beads: &beads,
         };
@@ -187,11 +198,16 @@ impl Session {
         let age = milliseconds(located.elapsed());
         let behind = self.clock.behind() / world.scene().scale.frame_time;
         self.tally.picture(age, behind + self.due.len() as f64);
-        let mut solved = std::mem::take(&mut self.solved);
-        solved.push(drawn.shapes);
-        self.tally.submitted(solved, drawn.picture);
+        self.tally.submitted(Submitted {
+            steps: std::mem::take(&mut self.solved),
+            shapes: drawn.shapes,
+            picture: drawn.picture,
+            stamp: self.pace.stamp,
+        });
+        self.pace.shown(setting);
         let shown = Shown {
             views,
+            extent,
             near: Picture::near(),
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         };

@@ -1,0 +1,106 @@
+//! What the rungs of a governor are: for the solver substeps and iterations down the front of speed and
+//! accuracy, for the picture the surface's filter and then the pixels. Never the number of particles.
+
+use serde::Serialize;
+use vitriol_sim::scene::{PictureFilter, Scene};
+
+use super::governor::Level;
+use crate::budget;
+
+/// Sides of a picture, over the display's.
+const RESOLUTIONS: [f64; 4] = [1.0, 0.85, 0.7, 0.6];
+
+/// Share of a picture's time that does not go with its pixels: ellipsoids, tiles, dispatches and barriers
+/// (docs/rendering.md, half the pixels).
+const FIXED: f64 = 0.3;
+
+/// What forty passes of curvature flow take beside the rest of a picture (docs/rendering.md).
+const CURVATURE_FLOW: f64 = 0.3;
+
+/// What a level comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Setting {
+    /// Substeps a step and iterations a substep.
+    pub solver: [u32; 2],
+    /// Filter of the liquid's surface.
+    pub filter: PictureFilter,
+    /// Each side of the picture over the display's.
+    pub resolution: f64,
+}
+
+/// A scene's rungs, the finest first: what the session was asked for.
+#[derive(Clone, Debug)]
+pub struct Ladder {
+    solver: Vec<[u32; 2]>,
+    picture: Vec<(PictureFilter, f64)>,
+}
+
+impl Ladder {
+    /// Of `scene`, which has `balanced` substeps and iterations under that preset.
+    pub fn of(scene: &Scene, balanced: [u32; 2]) -> Self {
+        let own = scene.picture.filter;
+        // The other filter is a tenth of it, and looks better than fewer pixels do.
+        let first = (own == PictureFilter::CurvatureFlow).then_some((own, 1.0));
+        let rest = RESOLUTIONS.map(|resolution| (PictureFilter::NarrowRange, resolution));
+        Self {
+            solver: budget::ladder(scene, balanced),
+            picture: first.into_iter().chain(rest).collect(),
+        }
+    }
+
+    /// What the rungs of solver and picture cost, in units of their own.
+    pub fn costs(&self) -> [Vec<f64>; 2] {
+        let picture = |&(filter, resolution): &(PictureFilter, f64)| {
+            let filtered = match filter {
+                PictureFilter::NarrowRange => 0.0,
+                PictureFilter::CurvatureFlow => CURVATURE_FLOW,
+            };
+            FIXED + (1.0 - FIXED + filtered) * resolution * resolution
+        };
+        [
+            self.solver.iter().map(|&rung| budget::cost(rung)).collect(),
+            self.picture.iter().map(picture).collect(),
+        ]
+    }
+
+    /// The setting at a level; beyond a ladder's end that of its end.
+    pub fn setting(&self, [solver, picture]: Level) -> Setting {
+        let (filter, resolution) = self.picture[picture.min(self.picture.len() - 1)];
+        Setting {
+            solver: self.solver[solver.min(self.solver.len() - 1)],
+            filter,
+            resolution,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rungs_fall_and_end_where_they_end() {
+        let mut scene = Scene::load("two-flasks").unwrap();
+        for filter in [PictureFilter::NarrowRange, PictureFilter::CurvatureFlow] {
+            scene.picture.filter = filter;
+            let ladder = Ladder::of(&scene, [10, 3]);
+            for costs in ladder.costs() {
+                assert!(
+                    costs.is_sorted_by(|finer, coarser| finer > coarser),
+                    "{costs:?}"
+                );
+            }
+            let top = ladder.setting([0, 0]);
+            assert_eq!((top.solver, top.resolution), ([10, 3], 1.0));
+            assert_eq!(top.filter, filter);
+            let end = ladder.setting([99, 99]);
+            assert_eq!((end.solver, end.resolution), ([8, 2], 0.6));
+            assert_eq!(end.filter, PictureFilter::NarrowRange);
+        }
+        // The filter goes before any pixel.
+        let second = Ladder::of(&scene, [10, 3]).setting([0, 1]);
+        assert_eq!(second.resolution, 1.0);
+        assert_eq!(second.filter, PictureFilter::NarrowRange);
+    }
+}

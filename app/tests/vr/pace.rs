@@ -1,0 +1,185 @@
+//! A session that keeps pace with a display that the machine cannot hold, and its replay.
+
+use std::sync::mpsc::channel;
+
+use crate::common::{Trouble, Worn, hash, nobody, options, pour, scene, session_with};
+use crate::loss::replayed;
+use vitriol::experiment::{SWITCH_SOLVER, SWITCH_START};
+use vitriol::vr::session::{Decision, SWITCH_FILTER, SWITCH_PLACEMENT, SWITCH_RESOLUTION, WARM_UP};
+use vitriol::vr::stand_in::StandIn;
+use vitriol_gpu::{Gpu, Timestamps};
+use vitriol_sim::scene::PictureFilter;
+use vitriol_tests::gpu;
+use vitriol_xr::track::Track;
+use vitriol_xr::{HeadsetFrame, Turn};
+
+/// Frames of a display of 2,000 Hz, which no driver holds, and then of one of 1 Hz, which every does; with a loss
+/// or a new start between the two.
+struct Rates<T> {
+    frames: u64,
+    until: u64,
+    between: T,
+}
+
+impl<T: FnMut(&mut StandIn, u64) -> Option<Turn>> Trouble for Rates<T> {
+    fn turn(&mut self, headset: &mut StandIn) -> Option<Turn> {
+        (self.between)(headset, self.frames)
+    }
+
+    fn frame(&mut self, frame: &mut HeadsetFrame) {
+        let rate = if self.frames < self.until { 2000 } else { 1 };
+        frame.poses.info.period_ns = 1_000_000_000 / rate;
+        self.frames += 1;
+    }
+}
+
+fn timed() -> impl std::ops::Deref<Target = Gpu> {
+    gpu::another_device(|options| options.timestamps = Timestamps::Whole)
+}
+
+/// Switches of a track but where its bench stands, with the steps that they precede.
+fn switches(track: &Track) -> Vec<(u64, String, String)> {
+    let of = |frame: &vitriol_xr::PoseFrame| {
+        let step = frame.step;
+        let said = frame.scenario.clone().into_iter();
+        said.map(move |switch| (step, switch.key, switch.value))
+    };
+    let all = track.frames.iter().flat_map(of);
+    all.filter(|(_, key, _)| key != SWITCH_PLACEMENT).collect()
+}
+
+fn values<'a>(all: &'a [(u64, String, String)], key: &str) -> Vec<&'a str> {
+    let of = all.iter().filter(|(_, of, _)| of == key);
+    of.map(|(_, _, value)| value.as_str()).collect()
+}
+
+/// Down to the end of both ladders, up again, and each step of a replay is solved as it was.
+#[test]
+fn a_session_gives_way_and_its_replay_repeats_it() {
+    let gpu = timed();
+    let folder = tempfile::tempdir().unwrap();
+    let trouble = Rates {
+        frames: 0,
+        until: 60,
+        between: |_: &mut StandIn, _| None,
+    };
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 180, trouble);
+    let mut options = options(folder.path());
+    options.governed = true;
+    options.plan.solver = Some([7, 6]);
+    let (outcome, track) = session_with(&mut headset, options, nobody());
+    let said = switches(&track);
+    let solver = values(&said, SWITCH_SOLVER);
+    // What was asked for is not the preset's; then down, and up to it again.
+    assert_eq!((said[0].0, said[0].1.as_str()), (0, SWITCH_SOLVER));
+    assert_eq!((solver[0], *solver.last().unwrap()), ("7x6", "7x6"));
+    assert!(solver.len() > 3, "{solver:?}");
+    let least = solver.iter().map(|value| {
+        let (substeps, iterations) = value.split_once('x').unwrap();
+        substeps.parse::<u32>().unwrap() * iterations.parse::<u32>().unwrap()
+    });
+    assert!(least.min().unwrap() < 21, "{solver:?}");
+    let resolution = values(&said, SWITCH_RESOLUTION);
+    assert!(resolution.contains(&"0.6"), "{resolution:?}");
+    assert_eq!(resolution.last(), Some(&"1"));
+    // What is shown is as large as was said.
+    let sides: Vec<u32> = headset.shown.iter().map(|shown| shown.extent[0]).collect();
+    assert_eq!((sides[0], sides.iter().min()), (96, Some(&58)));
+    assert_eq!(sides.last(), Some(&96));
+    let counted: u64 = outcome.kept.frames.iter().map(|(_, frames)| frames).sum();
+    assert_eq!((outcome.kept.on, counted), (true, 180 - WARM_UP));
+    assert_eq!(replayed(&gpu, track.clone()), hash(&outcome));
+    // It is the changes that make it so.
+    let mut other = track;
+    for frame in &mut other.frames {
+        frame.scenario.retain(|switch| switch.key != SWITCH_SOLVER);
+    }
+    assert_ne!(replayed(&gpu, other), hash(&outcome));
+}
+
+/// A lost device and a new start leave the level where it was; a replay knows.
+#[test]
+fn a_loss_and_a_start_keep_the_level() {
+    let (gpu, second) = (timed(), timed());
+    let folder = tempfile::tempdir().unwrap();
+    let (sender, decisions) = channel();
+    let next = Gpu::clone(&second);
+    let mut turns = 0;
+    let trouble = Rates {
+        frames: 0,
+        until: u64::MAX,
+        between: move |headset: &mut StandIn, frames| match (frames, turns) {
+            (40, 0) => {
+                turns = 1;
+                headset.move_to(&next).unwrap();
+                Some(Turn::Renewed)
+            }
+            (60, 1) => {
+                turns = 2;
+                sender.send(Decision::Start).unwrap();
+                None
+            }
+            // Time to build a bench, whatever else the machine does.
+            (62, 2) => {
+                turns = 3;
+                std::thread::sleep(std::time::Duration::from_secs(8));
+                None
+            }
+            _ => None,
+        },
+    };
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 80, trouble);
+    let mut options = options(folder.path());
+    options.governed = true;
+    let (outcome, track) = session_with(&mut headset, options, decisions);
+    assert_eq!(outcome.renewals, 1);
+    let said = switches(&track);
+    let at = |key: &str| said.iter().position(|(_, of, _)| of == key).unwrap();
+    let start = at(SWITCH_START);
+    // Said before it, and again with it: a replay brings up the preset's.
+    let (last, after) = (&said[start - 1], &said[start + 1]);
+    assert_eq!(after.1, SWITCH_SOLVER);
+    assert_eq!(after.0, said[start].0);
+    let solver = values(&said[..start], SWITCH_SOLVER);
+    assert_eq!(solver.last(), Some(&after.2.as_str()), "{last:?}");
+    assert_eq!(said.len(), start + 2, "{said:?}");
+    assert_eq!(replayed(&gpu, track), hash(&outcome));
+}
+
+/// The plainer filter takes over while the session goes on.
+#[test]
+fn the_filter_gives_way() {
+    let gpu = timed();
+    let folder = tempfile::tempdir().unwrap();
+    let file = scene(folder.path());
+    let text = std::fs::read_to_string(&file).unwrap();
+    let curved = format!("{text}\n[picture]\nfilter = \"curvature-flow\"\n");
+    let file = folder.path().join("curved.toml");
+    std::fs::write(&file, curved).unwrap();
+    let trouble = Rates {
+        frames: 0,
+        until: u64::MAX,
+        between: |_: &mut StandIn, frames| {
+            // Time for a picture to be made.
+            if frames == 30 {
+                std::thread::sleep(std::time::Duration::from_secs(8));
+            }
+            None
+        },
+    };
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 60, trouble);
+    let mut options = options(folder.path());
+    options.governed = true;
+    options.plan.scene = file.to_str().unwrap().into();
+    let (outcome, track) = session_with(&mut headset, options, nobody());
+    assert_eq!(outcome.bench.filter(), PictureFilter::NarrowRange);
+    assert_eq!(values(&switches(&track), SWITCH_FILTER), ["narrow-range"]);
+    let filters: Vec<_> = outcome
+        .kept
+        .frames
+        .iter()
+        .map(|(of, _)| of.filter)
+        .collect();
+    assert_eq!(filters[0], PictureFilter::CurvatureFlow);
+    assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));
+}

@@ -1,0 +1,136 @@
+//! Substeps and iterations that change while it runs.
+
+use glam::Vec3;
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+use vitriol_sim::bodies::Hand;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::{StepInput, World, WorldError};
+use vitriol_tests::gpu;
+
+const AWAY: StepInput = StepInput {
+    hands: [Hand::ABSENT; 2],
+};
+
+/// `beaker` with twice its spacing and half its substeps, at which the substep is as near to its
+/// limit, and half its water: 880 particles.
+fn scene() -> Scene {
+    let mut scene = Scene::load("beaker").unwrap();
+    scene.scale.spacing *= 2.0;
+    scene.solver.substeps = 5;
+    for liquid in &mut scene.liquids {
+        liquid.volume = 110e-6;
+    }
+    scene
+}
+
+fn world(gpu: &Gpu, effort: [u32; 2]) -> World {
+    let scene = scene().with_effort(effort);
+    World::new(gpu, &Library::embedded(), &scene, 1).unwrap()
+}
+
+/// Greatest kinetic energy (J) of the states after every third of so many steps, and the mean
+/// density error of the last of them.
+fn rest(world: &mut World, steps: u32) -> (f64, f64) {
+    let (mut energy, mut error) = (0.0_f64, 0.0);
+    for step in 0..steps {
+        world.step(&AWAY).unwrap();
+        if step % 3 == 2 {
+            let measured = world.measure().unwrap();
+            assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
+            energy = energy.max(measured.kinetic_energy);
+            error = measured.density_error_mean;
+        }
+    }
+    (energy, error)
+}
+
+/// A column at rest does not jump. What is carried on is a pressure: if it were the multiplier of
+/// a substep, it would be 2.6 times too large after the change from 5 to 8 substeps.
+#[test]
+fn a_column_at_rest_takes_no_notice() {
+    let gpu = gpu::device();
+    // The dearest, the first, the cheapest.
+    let efforts = [[8, 6], [5, 3], [4, 2]];
+    let alone = efforts.map(|effort| {
+        let mut world = world(&gpu, effort);
+        rest(&mut world, 60);
+        rest(&mut world, 60)
+    });
+    // Each effort has a compression of its own to go to, on whose way the column gives off no more
+    // than it did while it settled: 4 µJ, an rms speed of 9 mm/s.
+    let most = alone
+        .map(|(energy, _)| energy)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let mut world = world(&gpu, efforts[1]);
+    rest(&mut world, 60);
+    for n in [2, 0, 1, 0, 2, 1] {
+        world.set_effort(efforts[n]).unwrap();
+        let (energy, error) = rest(&mut world, 45);
+        assert!(
+            energy < 2.0 * most,
+            "{:?}: {energy} J of {alone:?}",
+            efforts[n]
+        );
+        // Half a second later the density error is that effort's own, within 0.01 %.
+        assert!(
+            error < alone[n].1 + 1e-4,
+            "{:?}: {error} of {alone:?}",
+            efforts[n]
+        );
+    }
+}
+
+/// A change is nothing but a change: a world made with the other substeps and iterations that
+/// takes up the state goes on with the same bits, its beaker in hand.
+#[test]
+fn it_is_as_if_it_had_been_made_so() {
+    let gpu = gpu::device();
+    let mut changed = world(&gpu, [5, 3]);
+    let stood = changed.poses()[0].position;
+    let hand = |step: u32| {
+        let lifted = Vec3::Y * (0.004 * step as f32);
+        let held = Hand {
+            stage_from_grip: Pose::from_position(stood + Vec3::new(0.05, 0.05, 0.0) + lifted),
+            squeeze: if step > 0 { 1.0 } else { 0.0 },
+            present: true,
+        };
+        StepInput {
+            hands: [held, Hand::ABSENT],
+        }
+    };
+    for step in 0..12 {
+        changed.step(&hand(step)).unwrap();
+    }
+    for effort in [[8, 6], [4, 2]] {
+        let state = changed.snapshot().unwrap();
+        let mut made = world(&gpu, effort);
+        made.restore(&state).unwrap();
+        changed.set_effort(effort).unwrap();
+        assert_eq!(changed.effort(), effort);
+        for step in 12..18 {
+            changed.step(&hand(step)).unwrap();
+            made.step(&hand(step)).unwrap();
+        }
+        let [changed, made] = [&changed, &made].map(|world| world.snapshot().unwrap());
+        assert!(changed == made, "{effort:?}");
+    }
+    assert!(changed.poses()[0].position.y > stood.y + 0.02);
+    assert_eq!(changed.scene().solver.substeps, 4);
+}
+
+#[test]
+fn what_no_liquid_stands_up_under_is_refused() {
+    let gpu = gpu::device();
+    let mut world = world(&gpu, [5, 3]);
+    for effort in [[1, 3], [5, 0], [2000, 3]] {
+        let refused = world.set_effort(effort);
+        assert!(
+            matches!(refused, Err(WorldError::Effort { .. })),
+            "{effort:?}: {refused:?}"
+        );
+        assert_eq!(world.effort(), [5, 3]);
+    }
+}
