@@ -95,18 +95,18 @@ fn what_a_wall_pushes_stirs() {
     let fall = DVec3::Y * (-9.81 * time);
     let mut random = Random(5);
     let (mut given, mut pushed) = (Vec::new(), Vec::new());
-    for k in 0..2 {
+    for (k, pose) in before.iter().enumerate() {
         for (layer, corner) in
             (0..6).flat_map(|l| (0..4).map(move |c| (f64::from(l), f64::from(c))))
         {
             let angle = corner * std::f64::consts::FRAC_PI_2;
             let out = DVec3::new(angle.cos(), 0.0, angle.sin());
             let start = out * 0.009 + DVec3::Y * (0.008 + 0.008 * layer);
-            let position = before[k].transform_point(start.as_vec3()).as_dvec3();
+            let position = pose.transform_point(start.as_vec3()).as_dvec3();
             // Outwards, and not so that rounding decides whether it gets past.
             let velocity = loop {
                 let along = out * (7.0 * random.number()) + random.point(2.0);
-                let velocity = before[k].orientation.as_dquat() * along;
+                let velocity = pose.orientation.as_dquat() * along;
                 if past(k, position + (velocity + fall) * time).abs() > 1e-4 {
                     break velocity;
                 }

@@ -35,6 +35,9 @@ fn a_frame_ends_with_its_own_time_and_views() {
     assert!(drawn.unwrap().success());
 }
 
+/// What is drawn of each picture, pixels.
+const DRAWN: [u32; 2] = [200, 150];
+
 /// Draws frames of a head that moves in each of them, and compares them with their dump.
 fn draw(dump: &Path) {
     let mut remote: Remote = Rig::remote_here();
@@ -58,6 +61,7 @@ fn draw(dump: &Path) {
         moved += u32::from(between.distance(early) > 0.01);
         let shown = Shown {
             views,
+            extent: DRAWN,
             near: 0.05,
             panel: None,
         };
@@ -80,6 +84,11 @@ fn draw(dump: &Path) {
         assert_eq!(value(ended, "frameEndInfo->displayTime"), *time as f64);
         for (eye, view) in views.iter().enumerate() {
             assert_eq!(view_of(ended, eye), numbers(view), "at {time}, eye {eye}");
+            let shown = ["width", "height"].map(|side| {
+                let rect = format!("views[{eye}].subImage.imageRect.extent.{side}");
+                value(ended, &format!("frameEndInfo->layers[0]->{rect}"))
+            });
+            assert_eq!(shown, DRAWN.map(f64::from));
         }
         let last = |name: &str| calls[..end].iter().rposition(|call| call.starts_with(name));
         let begun = last("xrBeginFrame").unwrap();
