@@ -73,7 +73,7 @@ fn nothing_grows_in_a_long_session() {
         None => Duration::from_secs(120),
     };
     let driver = Driver::start(&rig, drive::track(), SPEED);
-    let program = Program::start(&scene, &recording);
+    let program = Program::start_unwatched(&scene, &recording);
     program.says("Focused");
     let begun = Instant::now();
     while begun.elapsed() < length {

@@ -27,29 +27,45 @@ const SAID: [&str; 3] = [GREETING, "Validation Error", "Validation Warning"];
 /// An objection to what is not ours, see `docs/headset.md`.
 const NOT_OURS: &str = "VUID-VkDeviceCreateInfo-pNext-02830";
 
-/// `vitriol vr` at work, with Vulkan's validation layer.
+fn vr(scene: &Path, recording: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
+    command.args(["-v", "vr", "--json", "--scene"]).arg(scene);
+    command.arg("--record").arg(recording);
+    command
+}
+
+/// `vitriol vr` at work.
 pub struct Program {
     child: Child,
     /// Its log's lines.
     log: Receiver<String>,
-    /// What Vulkan's layer says among them, at their end.
+    /// Whether Vulkan's validation layer watches it.
+    watched: bool,
+    /// What that layer says among the lines, at their end.
     layer: Option<JoinHandle<Vec<String>>>,
 }
 
 impl Program {
-    /// In that scene, keeping a recording.
+    /// In that scene, keeping a recording, with Vulkan's validation layer.
     pub fn start(scene: &Path, recording: &Path) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-            .args(["-v", "vr", "--json", "--scene"])
-            .arg(scene)
-            .arg("--record")
-            .arg(recording)
-            // By the loader's own means: the program has no flag for it. The layer would open a file
-            // anew, and empty, with each instance; what goes to the log stays.
+        let mut command = vr(scene, recording);
+        // By the loader's own means: the program has no flag for it. The layer would open a file
+        // anew, and empty, with each instance; what goes to the log stays.
+        command
             .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
             .env("VK_LAYER_DEBUG_ACTION", "VK_DBG_LAYER_ACTION_LOG_MSG")
             .env("VK_LAYER_REPORT_FLAGS", "error,warn,info")
-            .env("VK_LAYER_LOG_FILENAME", "/dev/stderr")
+            .env("VK_LAYER_LOG_FILENAME", "/dev/stderr");
+        Self::spawn(&mut command, true)
+    }
+
+    /// The same without the layer, whose own memory grows by some 7 kB a second.
+    pub fn start_unwatched(scene: &Path, recording: &Path) -> Self {
+        Self::spawn(&mut vr(scene, recording), false)
+    }
+
+    fn spawn(command: &mut Command, watched: bool) -> Self {
+        let mut child = command
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -72,6 +88,7 @@ impl Program {
         Self {
             child,
             log,
+            watched,
             layer: Some(layer),
         }
     }
@@ -116,7 +133,7 @@ impl Program {
         let json = &text[text.find("\n{").map_or(0, |at| at + 1)..];
         let mut json = serde_json::Deserializer::from_str(json).into_iter();
         let report: serde_json::Value = json.next().unwrap().unwrap();
-        let instances = 1 + report["renewals"].as_u64().unwrap();
+        let instances = u64::from(self.watched) * (1 + report["renewals"].as_u64().unwrap());
         assert_eq!(greetings.len() as u64, instances, "{greetings:#?}");
         report
     }
