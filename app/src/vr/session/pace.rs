@@ -171,6 +171,8 @@ impl Session {
             self.bench.world.set_effort(after.solver).other()?;
             self.say_effort();
         }
+        let ([substeps, iterations], percent) = (after.solver, 100.0 * after.resolution);
+        tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %");
         if after.resolution != before.resolution {
             self.switch(SWITCH_RESOLUTION, after.resolution.to_string());
         }
