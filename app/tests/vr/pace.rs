@@ -97,9 +97,9 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     assert_ne!(replayed(&gpu, other), hash(&outcome));
 }
 
-/// A lost device and a new start leave the level where it was; a replay knows.
+/// A new start and a lost device leave the level where it was; a replay knows.
 #[test]
-fn a_loss_and_a_start_keep_the_level() {
+fn a_start_and_a_loss_keep_the_level() {
     let (gpu, second) = (timed(), timed());
     let folder = tempfile::tempdir().unwrap();
     let (sender, decisions) = channel();
@@ -111,19 +111,19 @@ fn a_loss_and_a_start_keep_the_level() {
         between: move |headset: &mut StandIn, frames| match (frames, turns) {
             (40, 0) => {
                 turns = 1;
-                headset.move_to(&next).unwrap();
-                Some(Turn::Renewed)
-            }
-            (60, 1) => {
-                turns = 2;
                 sender.send(Decision::Start).unwrap();
                 None
             }
             // Time to build a bench, whatever else the machine does.
-            (62, 2) => {
-                turns = 3;
+            (42, 1) => {
+                turns = 2;
                 std::thread::sleep(std::time::Duration::from_secs(8));
                 None
+            }
+            (60, 2) => {
+                turns = 3;
+                headset.move_to(&next).unwrap();
+                Some(Turn::Renewed)
             }
             _ => None,
         },
