@@ -88,6 +88,7 @@ fn shader_names(sources: &BTreeMap<String, String>, root: &Path) -> Result<Strin
         ("fluid", "render/fluid", "renderer's liquid surface"),
         ("spheres", "render/spheres", "renderer's coloured spheres"),
         ("panel", "panel", "headset's panel"),
+        ("mirror", "mirror", "mirror window"),
     ];
     for (module, folder, whose) in modules {
         writeln!(code, "/// Shaders of the {whose}.\npub mod {module} {{")?;

@@ -4,14 +4,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The folders under `wgsl`: what is only included, the solver's shaders, the renderer's, those of
-/// its liquid surface and of its coloured spheres, and the panel's.
-pub const FOLDERS: [&str; 6] = [
+/// its liquid surface and of its coloured spheres, the panel's and the mirror window's.
+pub const FOLDERS: [&str; 7] = [
     "common",
     "sim",
     "render",
     "render/fluid",
     "render/spheres",
     "panel",
+    "mirror",
 ];
 
 /// The WGSL files under `root`: path relative to it (with forward slashes) and full path, sorted.

@@ -7,3 +7,5 @@ pub mod gpu;
 #[cfg(target_os = "linux")]
 pub mod monado;
 pub mod random;
+#[cfg(target_os = "linux")]
+pub mod screen;

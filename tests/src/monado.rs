@@ -68,12 +68,6 @@ pub fn enter(name: &str) -> Option<Rig> {
     None
 }
 
-/// Whether this process runs in the rig.
-#[must_use]
-pub fn is_inside() -> bool {
-    std::env::var_os(FOLDER).is_some()
-}
-
 /// The unpacked system, or `None` where Monado is installed.
 fn root() -> Result<Option<PathBuf>, String> {
     if Path::new(MANIFEST).exists() && Path::new("/usr/bin/monado-service").exists() {
@@ -158,7 +152,7 @@ fn run_inside(name: &str, root: Option<&Path>) {
         .args(["sh", "-c", ENTER, "sh"])
         .arg(root.unwrap_or(Path::new("")))
         .arg(std::env::current_exe().expect("this test's program"))
-        .args(["--exact", name, "--nocapture", "--include-ignored"])
+        .args(["--exact", name, "--nocapture"])
         .env(FOLDER, folder.path())
         .env("XDG_RUNTIME_DIR", at("run"))
         .env("XDG_CONFIG_HOME", at("config"))

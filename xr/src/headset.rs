@@ -91,8 +91,6 @@ pub struct HeadsetFrame {
     pub poses: PoseFrame,
     /// Whether a picture would be shown.
     pub should_render: bool,
-    /// Whether the session has the input focus.
-    pub focused: bool,
     /// The runtime moved the stage (the student recentred).
     pub recentred: bool,
 }

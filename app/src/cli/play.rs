@@ -194,6 +194,9 @@ pub struct VrArgs {
     /// Keep the session as a pose track in this new file, for `vitriol replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// No window on the computer that shows what the left eye sees
+    #[arg(long)]
+    pub no_mirror: bool,
     /// Measure that many frames, after some to warm up, and end
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub frames: Option<u64>,

@@ -316,10 +316,10 @@ impl Work<'_> {
 const DEPTH: f64 = 0.063;
 
 /// The finest run of the scene that boils: half as many particles again as
-/// `reference`, twice its substeps over `fast`.
+/// `reference`, and more substeps.
 fn finest_boiling(scene: &Scene) -> Scene {
     let mut fine = scene.with_preset(Preset::Reference);
-    fine.scale.spacing *= 0.8;
+    fine.scale.spacing *= 0.87;
     fine.solver.substeps = 20;
     fine
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::Serialize;
 use vitriol_gpu::{Gpu, Timestamps};
@@ -20,6 +20,7 @@ use crate::report::DeviceStatement;
 use crate::report::units::{grouped, three_digits};
 use crate::vr::bench::Plan;
 use crate::vr::menu;
+use crate::vr::mirror::Window;
 use crate::vr::record::Recorded;
 use crate::vr::session::{self, Decision, Kept, Options, Outcome, PANEL, Session, WARM_UP};
 use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
@@ -101,6 +102,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         record: args.record.clone(),
         governed: !args.fixed,
     };
+    let mirrored = !args.no_mirror;
     let (name, outcome, stand_in) = match &args.stand_in {
         Some(wearer) => {
             let gpu = device::timed(args.device.as_deref(), Timestamps::Whole)?;
@@ -111,7 +113,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
             let options = with_solver(args, options, &gpu)?;
-            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
+            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
             (
                 headset.name().to_owned(),
                 outcome,
@@ -130,11 +132,28 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             })
             .map_err(session::blame)?;
             let options = with_solver(args, options, headset.gpu())?;
-            let outcome = Session::new(&headset, options, keys()?)?.run(&mut headset)?;
+            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
             (headset.name().to_owned(), outcome, None)
         }
     };
     emit(format, &state(name, &outcome, stand_in)?, describe)
+}
+
+/// A session that hears the computer's keys, and has a window there if it is to be `mirrored` and
+/// there is a screen.
+fn begin(headset: &dyn Headset, options: Options, mirrored: bool) -> Result<Session, Failure> {
+    let (decisions, taken) = keys()?;
+    let session = Session::new(headset, options, taken)?;
+    if !mirrored {
+        return Ok(session);
+    }
+    match Window::open(headset.extent(), decisions) {
+        Ok(window) => session.mirrored(window),
+        Err(cause) => {
+            tracing::warn!("no mirror window: {cause}");
+            Ok(session)
+        }
+    }
 }
 
 /// These with the substeps and iterations that are asked for, or hold the budget.
@@ -150,8 +169,9 @@ fn with_solver(args: &VrArgs, mut options: Options, gpu: &Gpu) -> Result<Options
 
 /// What is typed into the terminal, a line each; and the end, where the program is asked for it
 /// (Ctrl-C, SIGTERM): the runtime is told, and the recording is whole.
-fn keys() -> Result<Receiver<Decision>, Failure> {
+fn keys() -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
     let (decisions, taken) = channel();
+    let of_window = decisions.clone();
     let asked = decisions.clone();
     ctrlc::set_handler(move || {
         // A session that has ended hears nothing.
@@ -169,7 +189,7 @@ fn keys() -> Result<Receiver<Decision>, Failure> {
             }
         });
     }
-    Ok(taken)
+    Ok((of_window, taken))
 }
 
 fn state(

@@ -11,6 +11,7 @@ pub mod haptics;
 pub mod inputs;
 pub mod ladder;
 pub mod menu;
+pub mod mirror;
 pub mod panel;
 pub mod picture;
 pub mod placement;

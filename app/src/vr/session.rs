@@ -19,6 +19,7 @@ use vitriol_xr::{Headset, HeadsetError, Pose, PoseFrame, Switch, Turn};
 use super::bench::{Bench, Builder, Plan};
 use super::clock::StepClock;
 use super::inputs::Buttons;
+use super::mirror::{Mirror, Window};
 use super::panel::Panel;
 use super::picture::Eyes;
 use super::placement::Posture;
@@ -133,6 +134,7 @@ pub struct Session {
     /// Submissions of steps since the last picture.
     solved: Vec<Ticket>,
     panel: Panel,
+    mirror: Option<Mirror>,
     /// What was decided and not done yet.
     wanted: Vec<Decision>,
     /// A reading under way, and the last one that came.
@@ -188,12 +190,23 @@ impl Session {
             began_with: None,
             solved: Vec::new(),
             wanted: Vec::new(),
+            mirror: None,
             reading: None,
             read: Vec::new(),
             speed: 1.0,
         };
         session.pace_bench(true, 1.0)?;
         Ok(session)
+    }
+
+    /// The same, with what the left eye sees in `window`.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
+        let gpu = self.bench.world.gpu();
+        self.mirror = Some(Mirror::new(gpu, &self.library, self.eyes.extent, window)?);
+        Ok(self)
     }
 
     /// Runs until the runtime, the user or the number of frames ends it.
@@ -212,12 +225,12 @@ impl Session {
                         headset.request_exit().map_err(blame)?;
                     }
                 }
-                Turn::Paused => self.pause()?,
+                Turn::Paused => self.pause("the headset is off")?,
                 Turn::Lost { cause } => {
                     if !std::mem::replace(&mut lost, true) {
                         tracing::warn!("{cause}; the experiment waits where it is");
                     }
-                    self.pause()?;
+                    self.pause("the headset is lost")?;
                 }
                 Turn::Renewed => {
                     lost = false;
@@ -228,8 +241,12 @@ impl Session {
         }
     }
 
-    /// The headset shows nothing: time stands still.
-    fn pause(&mut self) -> Result<(), Failure> {
+    /// The headset shows nothing, for this reason: time stands still.
+    fn pause(&mut self, why: &str) -> Result<(), Failure> {
+        let info = self.info();
+        if let Some(mirror) = &mut self.mirror {
+            mirror.entitle(&info, Some(why));
+        }
         self.clock.pause();
         self.counted = None;
         self.after()
@@ -237,7 +254,7 @@ impl Session {
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
-        self.pause()?;
+        self.pause("the headset was lost")?;
         self.renewals += 1;
         self.eyes = Eyes::of(headset);
         let gpu = headset.gpu();
@@ -247,6 +264,9 @@ impl Session {
         self.pace.forget();
         self.tally.restart();
         self.panel = Panel::new(gpu, &self.library, PANEL)?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.move_to(gpu, &self.library, self.eyes.extent)?;
+        }
         self.solved.clear();
         self.reading = None;
         self.last = None;

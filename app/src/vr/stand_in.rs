@@ -247,7 +247,6 @@ impl Headset for StandIn {
             index: self.index,
             poses: self.poses()?,
             should_render: true,
-            focused: true,
             recentred: false,
         };
         self.index += 1;

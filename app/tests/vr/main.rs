@@ -4,8 +4,11 @@
 mod common;
 mod hands;
 mod loss;
+#[cfg(target_os = "linux")]
+mod mirror;
 mod pace;
 mod panel;
 mod pour;
 mod recorder;
+mod rules;
 mod switches;

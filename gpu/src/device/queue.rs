@@ -307,6 +307,8 @@ impl Inner {
         let wait = vk::SemaphoreWaitInfo::default()
             .semaphores(&semaphores)
             .values(&values);
+        // For who asks what holds a thread up; a test asks whether a frame loop is.
+        tracing::trace!(target: "vitriol_gpu::wait", queue = index, value, "waits for the device");
         // SAFETY: the semaphore lives as long as the queues. Without a limit:
         // a driver reports a device that hangs as lost.
         unsafe { self.core.device.wait_semaphores(&wait, u64::MAX) }

@@ -11,8 +11,9 @@ pub(super) struct Chain {
     /// Before the swapchain, whose images they view.
     images: Vec<Image>,
     chain: xr::Swapchain<xr::Vulkan>,
-    /// Of the image that is ours now.
-    held: Option<usize>,
+    /// Of the image that was acquired, and whether the compositor has let go of it: until then it
+    /// can be neither written nor given back.
+    held: Option<(usize, bool)>,
 }
 
 impl Chain {
@@ -85,23 +86,29 @@ impl Chain {
 
     /// The image for this frame, when the compositor has let go of it.
     pub(super) fn acquire(&mut self, gpu: &Gpu) -> Result<Image, Failure> {
-        if let Some(held) = self.held {
-            return Ok(self.images[held].clone());
+        let (held, ours) = match self.held {
+            Some(held) => held,
+            None => {
+                let index = gpu
+                    .with_queue(QueueKind::Main, |_| self.chain.acquire_image())
+                    .map_err(failed("xrAcquireSwapchainImage"))?;
+                (index as usize % self.images.len(), false)
+            }
+        };
+        // Before the wait, which may fail: the image stays acquired, and is waited for again.
+        self.held = Some((held, ours));
+        if !ours {
+            self.chain
+                .wait_image(xr::Duration::INFINITE)
+                .map_err(failed("xrWaitSwapchainImage"))?;
+            self.held = Some((held, true));
         }
-        let index = gpu
-            .with_queue(QueueKind::Main, |_| self.chain.acquire_image())
-            .map_err(failed("xrAcquireSwapchainImage"))?;
-        self.chain
-            .wait_image(xr::Duration::INFINITE)
-            .map_err(failed("xrWaitSwapchainImage"))?;
-        let held = index as usize % self.images.len();
-        self.held = Some(held);
         Ok(self.images[held].clone())
     }
 
     /// Gives the image back with what was submitted for it.
     pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), Failure> {
-        if self.held.take().is_none() {
+        if self.held.take_if(|(_, ours)| *ours).is_none() {
             return Ok(());
         }
         gpu.with_queue(QueueKind::Main, |_| self.chain.release_image())
@@ -110,7 +117,7 @@ impl Chain {
 
     /// Any of the images, for a frame that is lost anyhow.
     pub(super) fn stale(&self) -> Image {
-        self.images[self.held.unwrap_or(0)].clone()
+        self.images[self.held.map_or(0, |(held, _)| held)].clone()
     }
 
     /// Width and height, pixels.

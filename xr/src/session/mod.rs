@@ -148,8 +148,7 @@ impl OpenXr {
             return Ok(Turn::Paused);
         }
         let begun = live.begin()?;
-        let focused = live.state == SessionState::Focused;
-        let visible = focused || live.state == SessionState::Visible;
+        let visible = matches!(live.state, SessionState::Focused | SessionState::Visible);
         // Frames go on at the runtime's pace, so that it can show the session again at any time.
         if !visible || !live.present {
             live.end_empty()?;
@@ -189,7 +188,6 @@ impl OpenXr {
                 },
             },
             should_render: begun.should_render,
-            focused,
             recentred,
         };
         self.index += 1;

@@ -14,6 +14,7 @@ mod ease;
 mod encode;
 mod error;
 mod keyframes;
+mod lengths;
 mod message;
 mod read;
 mod replay;

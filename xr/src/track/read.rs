@@ -16,7 +16,7 @@ use mcap::{MAGIC, McapError};
 use super::check::{self, Flaw};
 use super::decode::Partial;
 use super::write::at;
-use super::{Track, TrackError, TrackMetadata, descriptor, names, seconds};
+use super::{Track, TrackError, TrackMetadata, descriptor, lengths, names, seconds};
 
 /// Longest record and longest chunk accepted, B. Half a second of track is some 50 kB; a
 /// length with a flipped bit must not become an allocation of exabytes.
@@ -111,7 +111,7 @@ impl<'a> Reading<'a> {
                     }
                 }
                 Err(McapError::UnexpectedEof) if !finished => return Ok(()),
-                Err(error) => return Err(self.damaged(&error)),
+                Err(error) => return Err(self.damaged(error)),
             }
         }
         Ok(())
@@ -123,7 +123,10 @@ impl<'a> Reading<'a> {
         if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA].contains(&opcode) {
             return Ok(());
         }
-        match mcap::parse_record(opcode, data).map_err(|error| self.damaged(&error))? {
+        if !lengths::fit(opcode, data) {
+            return Err(self.damaged("a text in it is longer than its record"));
+        }
+        match mcap::parse_record(opcode, data).map_err(|error| self.damaged(error))? {
             Record::Schema { header, .. } => {
                 self.schemas.push((header.id, header.name, header.encoding));
                 Ok(())
@@ -271,7 +274,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn damaged(&self, error: &McapError) -> TrackError {
+    fn damaged(&self, error: impl std::fmt::Display) -> TrackError {
         TrackError::Container {
             file: self.file.into(),
             problem: error.to_string(),

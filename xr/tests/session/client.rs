@@ -6,12 +6,19 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::{
     ColourTarget, DepthTarget, Image, ImageDesc, Load, Options, QueueKind, RasterTarget, vk,
 };
-use vitriol_xr::{Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, Shown, Targets, Turn};
+use vitriol_xr::{
+    Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn,
+};
 
 /// Longest wait for a frame: the runtime's slowest answer on two busy cores.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 const PANEL: [u32; 2] = [64, 32];
+
+/// Whether the session had the input focus.
+pub fn focused(frame: &HeadsetFrame) -> bool {
+    frame.poses.info.session_state == SessionState::Focused
+}
 
 /// A headset and pictures of its size.
 pub struct Client {
@@ -65,7 +72,7 @@ impl Client {
         while begun.elapsed() < PATIENCE {
             let (frame, _) = self.frame();
             self.draw();
-            if frame.focused {
+            if focused(&frame) {
                 return frame;
             }
         }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use vitriol_tests::monado::{self, Controller};
 use vitriol_xr::{Headset, Side, Turn};
 
-use crate::client::Client;
+use crate::client::{Client, focused};
 
 #[test]
 fn an_exit_that_is_asked_for_comes() {
@@ -60,13 +60,11 @@ fn every_frame_that_has_begun_is_ended() {
     client.assert_silent();
 }
 
-/// Not a test of its own: another program in the headset, until it is killed.
-#[test]
-#[ignore = "the test of the focus starts it"]
-fn another_program() {
-    if !monado::is_inside() {
-        return;
-    }
+/// Tells the test of the focus that it is the other program.
+const OTHER: &str = "VITRIOL_OTHER_PROGRAM";
+
+/// Another program in the headset, until it is killed.
+fn another_program() -> ! {
     let mut other = Client::open();
     loop {
         other.frame();
@@ -112,6 +110,9 @@ fn until(client: &mut Client, wanted: impl Fn(&Turn) -> bool) {
 #[test]
 fn the_focus_goes_to_another_program_and_comes_back() {
     let name = "life::the_focus_goes_to_another_program_and_comes_back";
+    if std::env::var_os(OTHER).is_some() {
+        another_program();
+    }
     let Some(rig) = monado::enter(name) else {
         return;
     };
@@ -121,11 +122,12 @@ fn the_focus_goes_to_another_program_and_comes_back() {
     remote.send().unwrap();
     let has_hand = |turn: &Turn| {
         matches!(turn, Turn::Frame(frame)
-            if frame.focused && frame.poses.hand(Side::Right).active)
+            if focused(frame) && frame.poses.hand(Side::Right).active)
     };
     until(&mut client, has_hand);
     let other = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "life::another_program", "--ignored"])
+        .args(["--exact", name])
+        .env(OTHER, "")
         .spawn()
         .unwrap();
     let _other = Other(other);

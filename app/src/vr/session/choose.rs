@@ -121,9 +121,12 @@ impl Session {
         let hands = Side::BOTH.map(pointing);
         let info = self.info();
         self.wanted.extend(self.panel.update(hands, &info));
+        if let Some(mirror) = &mut self.mirror {
+            mirror.entitle(&info, None);
+        }
     }
 
-    fn info(&self) -> Info {
+    pub(super) fn info(&self) -> Info {
         let scene = self.bench.world.scene();
         let acid = scene
             .liquids

@@ -72,6 +72,9 @@ impl Session {
             self.take_step()?;
         }
         self.bench.picture.keep_up()?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.hand_over()?;
+        }
         self.take_reading()?;
         self.tally.collect()
     }
@@ -208,7 +211,12 @@ impl Session {
             near: Picture::near(),
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         };
-        headset.end(Some(&shown)).map_err(blame)
+        headset.end(Some(&shown)).map_err(blame)?;
+        // Behind the picture, and nothing that the headset waits for.
+        if let (Some(mirror), Some(time)) = (&mut self.mirror, self.counted) {
+            mirror.take(self.bench.picture.image(), extent, time)?;
+        }
+        Ok(())
     }
 
     /// Takes a reading that has come.

@@ -1,0 +1,227 @@
+//! The rules of OpenXR's best-practice layer that the frame loop answers for: between a frame's begin
+//! and its end nothing waits for the device, and a picture is submitted with the pose that it was
+//! drawn with. (That it is submitted for the time that the runtime named is the session's, in `xr`.)
+
+use std::cell::Cell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use crate::common::{Calm, Worn, nobody, pour, session};
+use glam::{Quat, Vec3};
+use tracing::span::{Attributes, Id, Record};
+use tracing::{Event, Metadata, Subscriber};
+use vitriol::experiment::SWITCH_START;
+use vitriol::vr::panel::scene_from_panel;
+use vitriol::vr::session::Decision;
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_render::SceneDesc;
+use vitriol_sim::scene::Scene;
+use vitriol_tests::gpu;
+use vitriol_xr::{Headset, HeadsetError, Pose, Shown, Side, Targets, Turn, View};
+
+/// Whether a frame is open, and what waited for the device meanwhile and else.
+#[derive(Default)]
+struct Book {
+    open: AtomicBool,
+    within: AtomicU64,
+    without: AtomicU64,
+}
+
+/// Hears of waits on the thread on which it is the subscriber.
+struct Ear(Arc<Book>);
+
+impl Subscriber for Ear {
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        metadata.target() == "vitriol_gpu::wait"
+    }
+    fn event(&self, _: &Event<'_>) {
+        let count = match self.0.open.load(Ordering::Relaxed) {
+            true => &self.0.within,
+            false => &self.0.without,
+        };
+        count.fetch_add(1, Ordering::Relaxed);
+    }
+    fn new_span(&self, _: &Attributes<'_>) -> Id {
+        Id::from_u64(1)
+    }
+    fn record(&self, _: &Id, _: &Record<'_>) {}
+    fn record_follows_from(&self, _: &Id, _: &Id) {}
+    fn enter(&self, _: &Id) {}
+    fn exit(&self, _: &Id) {}
+}
+
+/// Another pose in each frame than the one that the frame began with, turned so far that a wall at
+/// the side is seen, by which a shift to that side shows.
+fn disturbed(frame: u64) -> Pose {
+    let n = frame as f32;
+    let turn = Quat::from_rotation_y(0.60 + 0.002 * n) * Quat::from_rotation_x(0.06);
+    Pose::new(
+        Vec3::new(0.05, 0.03 + 0.001 * n, 0.04),
+        turn * Quat::from_rotation_z(-0.08),
+    )
+}
+
+/// A stand-in that keeps a book of its frames.
+struct Strict {
+    inner: Worn<Calm>,
+    book: Arc<Book>,
+    frames: u64,
+    located: Option<[View; 2]>,
+    before: Box<dyn Fn(u64)>,
+}
+
+impl Strict {
+    fn new(gpu: &Gpu, frames: u64, before: impl Fn(u64) + 'static) -> Self {
+        Self {
+            inner: Worn::new(gpu, pour().sample_track(), 90.0, frames, Calm),
+            book: Arc::default(),
+            frames: 0,
+            located: None,
+            before: Box::new(before),
+        }
+    }
+}
+
+impl Headset for Strict {
+    fn gpu(&self) -> &Gpu {
+        self.inner.gpu()
+    }
+    fn extent(&self) -> [u32; 2] {
+        self.inner.extent()
+    }
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
+        [Vec::new(), Vec::new()]
+    }
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+    fn next(&mut self) -> Result<Turn, HeadsetError> {
+        (self.before)(self.frames);
+        let turn = self.inner.next()?;
+        self.frames += 1;
+        let begins = matches!(turn, Turn::Frame(_));
+        self.book.open.store(begins, Ordering::Relaxed);
+        Ok(turn)
+    }
+    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
+        self.inner.acquire()
+    }
+    fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
+        let away = disturbed(self.frames);
+        let mut views = self.inner.locate_views()?;
+        for view in &mut views {
+            view.stage_from_eye = view.stage_from_eye.compose(&away);
+        }
+        self.located = Some(views);
+        Ok(views)
+    }
+    fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
+        self.book.open.store(false, Ordering::Relaxed);
+        // What is submitted is what was located, this frame.
+        let located = self.located.take();
+        assert_eq!(shown.map(|shown| shown.views), located);
+        self.inner.end(shown)
+    }
+    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
+        self.inner.vibrate(side, amplitude)
+    }
+    fn request_exit(&mut self) -> Result<(), HeadsetError> {
+        self.inner.request_exit()
+    }
+}
+
+#[test]
+fn nothing_waits_for_the_device_within_a_frame() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let (sender, decisions) = channel();
+    let asked = Rc::new(Cell::new(false));
+    // A bench is built and taken up on the way.
+    let before = move |frame: u64| {
+        if frame == 10 && !asked.replace(true) {
+            sender.send(Decision::Start).unwrap();
+        }
+        if frame == 12 {
+            std::thread::sleep(Duration::from_secs(8));
+        }
+    };
+    let mut headset = Strict::new(&gpu, 60, before);
+    let book = Arc::clone(&headset.book);
+    let (_, track) = tracing::subscriber::with_default(Ear(Arc::clone(&book)), || {
+        session(&mut headset, folder.path(), decisions)
+    });
+    let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    assert!(switches.any(|switch| switch.key == SWITCH_START));
+    // Between frames it waits for the picture before the last, in all frames but the first ones.
+    let waited = book.without.load(Ordering::Relaxed);
+    assert!(waited > 50, "{waited} waits were heard of");
+    assert_eq!(book.within.load(Ordering::Relaxed), 0);
+}
+
+#[test]
+fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let mut headset = Strict::new(&gpu, 5, |_| {});
+    session(&mut headset, folder.path(), nobody());
+    let shown = *headset.inner.shown.last().unwrap();
+    let depth = headset.inner.inner.targets().depth.clone().unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let depth = rec.read_back_image(&depth).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    let depth = depth.get::<f32>().unwrap();
+
+    // Each depth is of a point in the room. Seen from where the picture is said to be taken it lies
+    // on a face of the room or of the table, but for liquid and hands, which are small.
+    let (panel, _) = shown.panel.unwrap();
+    let stage_from_scene = panel.compose(&scene_from_panel().inverse());
+    let table = Scene::load("two-flasks").unwrap().table.unwrap();
+    let room = SceneDesc::laboratory(Vec::new(), table.top as f32, 1.0);
+    let room = room.room.unwrap();
+    let [across, deep] = table.size.map(|side| 0.5 * side as f32);
+    let middle = Vec3::new(table.centre[0] as f32, 0.0, table.centre[1] as f32);
+    // Across which axis the face lies, if it is on one.
+    let face = |p: Vec3| {
+        const NEAR: f32 = 2e-3;
+        let from = (p - middle).abs();
+        let above = from.x < across + NEAR && from.z < deep + NEAR;
+        if above && (p.y - table.top as f32).abs() < NEAR {
+            return Some(1);
+        }
+        (0..3).find(|&axis| {
+            (p[axis] - room.min[axis]).abs() < NEAR || (p[axis] - room.max[axis]).abs() < NEAR
+        })
+    };
+    let [width, height] = headset.extent().map(|side| side as usize);
+    for (eye, view) in shown.views.iter().enumerate() {
+        let scene_from_eye = stage_from_scene.inverse().compose(&view.stage_from_eye);
+        let mut on = [0; 3];
+        for (index, reversed) in depth
+            .chunks(width * height)
+            .nth(eye)
+            .unwrap()
+            .iter()
+            .enumerate()
+        {
+            let part = |at: usize, of: usize, low: f32, high: f32| {
+                let s = (at as f32 + 0.5) / of as f32;
+                low.tan() + s * (high.tan() - low.tan())
+            };
+            let x = part(index % width, width, view.fov.left, view.fov.right);
+            let y = part(index / width, height, view.fov.up, view.fov.down);
+            let way = shown.near / reversed;
+            let point = scene_from_eye.transform_point(way * Vec3::new(x, y, -1.0));
+            if let Some(axis) = face(point) {
+                on[axis] += 1;
+            }
+        }
+        // The table's edges, and what stands on it, are the rest. Of each direction there is enough
+        // to be seen that a shift along it is.
+        let all = width * height;
+        assert!(on.iter().sum::<usize>() > all * 9 / 10, "eye {eye}: {on:?}");
+        assert!(on.iter().all(|on| *on > all / 20), "eye {eye}: {on:?}");
+    }
+}

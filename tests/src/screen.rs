@@ -1,0 +1,240 @@
+//! A screen without a monitor: Xvfb, an X server that draws into memory, and a hold on the windows
+//! that a program opens there.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat,
+    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+
+/// Tells the test that it runs on the screen.
+const INSIDE: &str = "VITRIOL_SCREEN";
+/// Longest wait for a window: a program in the making on two busy cores.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The screen from within.
+pub struct Screen {
+    connection: RustConnection,
+    root: u32,
+}
+
+/// A window on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window(u32);
+
+/// Runs the test `name` (module path and function, as the test's own runner knows it) on a screen
+/// of its own: gives the screen to the instance that runs there, and `None` to the one outside,
+/// where the test is over then.
+///
+/// Where there is no Xvfb, a loud word goes to standard error and the test is over too.
+///
+/// # Panics
+/// Where the test fails on the screen; where there can be none and `CI=true`.
+#[must_use]
+pub fn enter(name: &str) -> Option<Screen> {
+    if std::env::var_os(INSIDE).is_some() {
+        let (connection, number) = x11rb::connect(None).expect("the screen answers");
+        let root = connection.setup().roots[number].root;
+        eprintln!("on the screen");
+        return Some(Screen { connection, root });
+    }
+    match Server::start() {
+        Ok(server) => {
+            let done = Command::new(std::env::current_exe().expect("this test's program"))
+                .args(["--exact", name, "--nocapture"])
+                .env(INSIDE, "")
+                .env("DISPLAY", &server.display)
+                .stdin(Stdio::null())
+                .stdout(Stdio::piped())
+                .output()
+                .expect("this test starts");
+            let said = String::from_utf8_lossy(&done.stderr);
+            assert!(
+                done.status.success(),
+                "{name} failed on the screen ({}):\n{said}",
+                done.status
+            );
+            assert!(said.contains("on the screen"), "there is no test {name}");
+        }
+        Err(cause) => {
+            assert!(
+                std::env::var("CI").as_deref() != Ok("true"),
+                "no screen for this test: {cause}"
+            );
+            eprintln!("NOT TESTED: no screen for {name}: {cause}");
+        }
+    }
+    None
+}
+
+struct Server {
+    child: Child,
+    display: String,
+}
+
+impl Server {
+    /// On the first display that is free.
+    fn start() -> Result<Self, String> {
+        let mut child = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x1024x24"])
+            .args(["-nolisten", "tcp"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .map_err(|error| format!("Xvfb (package xvfb) cannot be run: {error}"))?;
+        let stdout = child.stdout.take().expect("Xvfb's standard output");
+        let mut number = String::new();
+        // It says its number once it listens.
+        let _ = BufReader::new(stdout).read_line(&mut number);
+        let server = Self {
+            child,
+            display: format!(":{}", number.trim()),
+        };
+        match number.trim().is_empty() {
+            true => Err("Xvfb does not start".to_owned()),
+            false => Ok(server),
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Screen {
+    /// The window whose title has `part`, if there is one.
+    ///
+    /// # Panics
+    /// Where the screen does not answer; so do all others.
+    pub fn find(&self, part: &str) -> Option<Window> {
+        let tree = self.connection.query_tree(self.root).expect("a question");
+        let windows = tree.reply().expect("the windows").children;
+        let windows = windows.into_iter().map(Window);
+        windows.into_iter().find(|window| {
+            self.title(*window)
+                .is_some_and(|title| title.contains(part))
+        })
+    }
+
+    /// Waits for a window whose title has `part`.
+    ///
+    /// # Panics
+    /// Where none comes within a minute.
+    pub fn wait_for(&self, part: &str) -> Window {
+        let begun = Instant::now();
+        loop {
+            if let Some(window) = self.find(part) {
+                return window;
+            }
+            assert!(begun.elapsed() < PATIENCE, "no window of {part}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// A window's title; `None` of one without, or that is gone.
+    pub fn title(&self, window: Window) -> Option<String> {
+        let (name, utf8) = (self.atom("_NET_WM_NAME"), self.atom("UTF8_STRING"));
+        let asked = self
+            .connection
+            .get_property(false, window.0, name, utf8, 0, 1024)
+            .expect("a question");
+        let title = asked.reply().ok()?.value;
+        (!title.is_empty()).then(|| String::from_utf8_lossy(&title).into_owned())
+    }
+
+    /// What a window shows: width, height, and pixels of red, green and blue, row by row.
+    pub fn picture(&self, window: Window) -> ([u32; 2], Vec<[u8; 3]>) {
+        let size = self.connection.get_geometry(window.0).expect("a question");
+        let size = size.reply().expect("the window is there");
+        let image = self
+            .connection
+            .get_image(
+                ImageFormat::Z_PIXMAP,
+                window.0,
+                0,
+                0,
+                size.width,
+                size.height,
+                u32::MAX,
+            )
+            .expect("a question")
+            .reply()
+            .expect("the window's picture");
+        // Xvfb's 24 bits lie in 32, blue first.
+        let pixels = image.data.chunks_exact(4).map(|p| [p[2], p[1], p[0]]);
+        (
+            [size.width.into(), size.height.into()],
+            pixels.collect::<Vec<_>>(),
+        )
+    }
+
+    /// Gives a window another size, pixels.
+    pub fn resize(&self, window: Window, [width, height]: [u32; 2]) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.checked(self.connection.configure_window(window.0, &size));
+    }
+
+    /// Presses and releases the key of a letter or a digit, as a keyboard would, with the focus on
+    /// the window.
+    pub fn press(&self, window: Window, key: char) {
+        let setup = self.connection.setup();
+        let (least, most) = (setup.min_keycode, setup.max_keycode);
+        let map = self
+            .connection
+            .get_keyboard_mapping(least, most - least + 1)
+            .expect("a question")
+            .reply()
+            .expect("the keyboard");
+        let per_key = usize::from(map.keysyms_per_keycode);
+        // Letters and digits are their own symbols.
+        let place = map
+            .keysyms
+            .chunks(per_key)
+            .position(|symbols| symbols[0] == u32::from(key));
+        let code = least + place.expect("a key of that letter") as u8;
+        let focus =
+            self.connection
+                .set_input_focus(InputFocus::PARENT, window.0, x11rb::CURRENT_TIME);
+        self.checked(focus);
+        for kind in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
+            let faked = self
+                .connection
+                .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
+            self.checked(faked);
+        }
+    }
+
+    /// Asks a window to close, as its frame's button does.
+    pub fn close(&self, window: Window) {
+        let data = [self.atom("WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
+        let asked = ClientMessageEvent::new(32, window.0, self.atom("WM_PROTOCOLS"), data);
+        let sent = self
+            .connection
+            .send_event(false, window.0, EventMask::NO_EVENT, asked);
+        self.checked(sent);
+    }
+
+    fn atom(&self, name: &str) -> u32 {
+        let asked = self.connection.intern_atom(false, name.as_bytes());
+        let atom = asked.expect("a question").reply().expect("a name").atom;
+        assert_ne!(atom, u32::from(AtomEnum::NONE));
+        atom
+    }
+
+    fn checked(
+        &self,
+        sent: Result<x11rb::cookie::VoidCookie<'_, RustConnection>, x11rb::errors::ConnectionError>,
+    ) {
+        sent.expect("a request").check().expect("the screen obeys");
+    }
+}
