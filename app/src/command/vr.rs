@@ -22,7 +22,7 @@ use crate::vr::bench::Plan;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
 use crate::vr::record::Recorded;
-use crate::vr::session::{self, Decision, Kept, Options, Outcome, PANEL, Session, WARM_UP};
+use crate::vr::session::{self, Decision, Kept, Options, Outcome, PANEL, Session, WARM_UP, With};
 use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
 use crate::vr::tally::{Holdings, Spread};
 
@@ -247,7 +247,7 @@ fn kept(kept: &Kept) -> String {
         return format!("settings fixed: {cause}\n");
     }
     let mut text = format!("settings changed {} times to keep pace\n", kept.changes);
-    for (setting, frames) in &kept.frames {
+    for With { setting, frames } in &kept.settings {
         let [substeps, iterations] = setting.solver;
         let picture = 100.0 * setting.resolution;
         // Writing to a string cannot fail.

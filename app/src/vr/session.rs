@@ -29,7 +29,7 @@ use crate::failure::{Blame, Failure};
 use crate::replay::SimulatedTime;
 
 use pace::Pace;
-pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION};
+pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION, With};
 
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";

@@ -86,7 +86,7 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     let sides: Vec<u32> = headset.shown.iter().map(|shown| shown.extent[0]).collect();
     assert_eq!((sides[0], sides.iter().min()), (96, Some(&58)));
     assert_eq!(sides.last(), Some(&96));
-    let counted: u64 = outcome.kept.frames.iter().map(|(_, frames)| frames).sum();
+    let counted: u64 = outcome.kept.settings.iter().map(|with| with.frames).sum();
     assert_eq!((outcome.kept.on, counted), (true, 180 - WARM_UP));
     assert_eq!(replayed(&gpu, track.clone()), hash(&outcome));
     // It is the changes that make it so.
@@ -187,9 +187,9 @@ fn the_filter_gives_way() {
     assert_eq!(values(&switches(&track), SWITCH_FILTER), ["narrow-range"]);
     let filters: Vec<_> = outcome
         .kept
-        .frames
+        .settings
         .iter()
-        .map(|(of, _)| of.filter)
+        .map(|with| with.setting.filter)
         .collect();
     assert_eq!(filters[0], PictureFilter::CurvatureFlow);
     assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));

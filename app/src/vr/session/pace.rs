@@ -33,8 +33,18 @@ pub struct Kept {
     pub cause: Option<String>,
     /// Times that it changed something.
     pub changes: u64,
-    /// Settings, in the order in which they came, and how many frames were shown with each.
-    pub frames: Vec<(Setting, u64)>,
+    /// Settings, in the order in which they came.
+    pub settings: Vec<With>,
+}
+
+/// Frames that were shown with a setting.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct With {
+    /// What they were solved and drawn with.
+    #[serde(flatten)]
+    pub setting: Setting,
+    /// How many.
+    pub frames: u64,
 }
 
 /// See the module.
@@ -101,19 +111,19 @@ impl Pace {
         }
     }
 
-    /// Counts a frame that is shown with `setting`, unless those before it are not to count.
+    /// Counts a frame that is shown with `setting`.
     pub(super) fn shown(&mut self, setting: Setting) {
-        let counted = self.kept.frames.iter_mut().find(|(of, _)| *of == setting);
-        match counted {
-            Some((_, frames)) => *frames += 1,
-            None => self.kept.frames.push((setting, 1)),
+        let mut counted = self.kept.settings.iter_mut();
+        match counted.find(|with| with.setting == setting) {
+            Some(with) => with.frames += 1,
+            None => self.kept.settings.push(With { setting, frames: 1 }),
         }
     }
 
     /// What came before was warming up.
     pub(super) fn restart(&mut self) {
         self.kept.changes = 0;
-        self.kept.frames.clear();
+        self.kept.settings.clear();
     }
 
     pub(super) fn kept(&self) -> &Kept {
