@@ -3,6 +3,7 @@
 
 mod ellipsoids;
 mod extent;
+mod glass;
 mod golden;
 mod liquid;
 mod rig;

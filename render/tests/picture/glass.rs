@@ -1,0 +1,119 @@
+//! Traced glass against a cylinder in f64.
+
+use crate::rig::{Rig, ray, without_particles};
+use glam::{Affine3A, DVec3, Quat, Vec3};
+use vitriol_render::{Fov, FrameDesc, SceneDesc, VesselDesc, View};
+
+const EXTENT: [u32; 2] = [320, 240];
+const RADIUS: f64 = 0.022;
+const HEIGHT: f64 = 0.05;
+/// Pixels from an outline within which smoothing moves it: half the way that it looks along one.
+const SMOOTHED: i32 = 4;
+
+fn beaker() -> VesselDesc {
+    let (radius, floor) = (RADIUS - 0.002, 0.002);
+    VesselDesc {
+        inner: vec![[0.0, floor], [radius, floor], [radius, HEIGHT]],
+        outer: vec![[0.0, 0.0], [RADIUS, 0.0], [RADIUS, HEIGHT]],
+        marks: Vec::new(),
+    }
+}
+
+/// Whether a ray meets the cylinder that the beaker fits in, eye outside: through its mouth it meets a wall or the
+/// floor from within, so it meets glass if and only if it meets that.
+fn meets(origin: DVec3, along: DVec3) -> bool {
+    let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
+    // Between the planes of foot and rim.
+    let (a, b) = (-origin.y / along.y, (HEIGHT - origin.y) / along.y);
+    (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
+    let squared = along.x * along.x + along.z * along.z;
+    let half = origin.x * along.x + origin.z * along.z;
+    let beyond = origin.x * origin.x + origin.z * origin.z - RADIUS * RADIUS;
+    let root = half * half - squared * beyond;
+    if root < 0.0 {
+        return false;
+    }
+    (enters, leaves) = (
+        enters.max((-half - root.sqrt()) / squared),
+        leaves.min((-half + root.sqrt()) / squared),
+    );
+    enters < leaves
+}
+
+/// There is glass wherever a ray meets the beaker, upright, tipped over and upside down, from aside, from above and
+/// through an asymmetric frustum; and nowhere else.
+#[test]
+fn glass_is_where_its_cylinder_is() {
+    let mut rig = Rig::new(EXTENT, 1);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![beaker()],
+        ..SceneDesc::default()
+    });
+    let foot = Vec3::new(0.1, 0.75, -0.4);
+    let middle = foot + Vec3::Y * 0.02;
+    let fov = Fov::symmetric(0.5, 4.0 / 3.0);
+    let beside = Fov {
+        left: -0.2,
+        right: 0.5,
+        up: 0.3,
+        down: -0.15,
+    };
+    let turns = [
+        Quat::IDENTITY,
+        Quat::from_rotation_z(1.9),
+        Quat::from_rotation_x(3.1),
+    ];
+    for (from, fov) in [
+        (Vec3::new(0.05, 0.03, 0.2), fov),
+        (Vec3::new(0.02, 0.22, 0.05), fov),
+        (Vec3::new(-0.12, 0.09, 0.1), beside),
+    ] {
+        let view = View::look_at(middle + from, middle, fov);
+        // A scene of no vessels would be another: this one's stands behind the eye.
+        let away = [Affine3A::from_translation(middle + 10.0 * from)];
+        let nothing = rig.draw(&FrameDesc {
+            vessels: &away,
+            ..without_particles(&[view])
+        });
+        for turn in turns {
+            let stage_from_vessel = Affine3A::from_rotation_translation(turn, foot);
+            let picture = rig.draw(&FrameDesc {
+                vessels: &[stage_from_vessel],
+                ..without_particles(&[view])
+            });
+            let vessel_from_stage = stage_from_vessel.inverse();
+            let eye = vessel_from_stage.transform_point3a(view.stage_from_eye.translation);
+            let turned = vessel_from_stage.matrix3.as_dmat3();
+            let inside = |x: i32, y: i32| {
+                let along = turned * ray(&view, EXTENT, x as u32, y as u32);
+                meets(eye.as_dvec3(), along)
+            };
+            let (mut glass, mut open) = (0, 0);
+            for y in SMOOTHED..EXTENT[1] as i32 - SMOOTHED {
+                for x in SMOOTHED..EXTENT[0] as i32 - SMOOTHED {
+                    let expected = inside(x, y);
+                    let ends = [-SMOOTHED, 0, SMOOTHED];
+                    let around = ends.iter().flat_map(|dy| ends.map(|dx| (dx, *dy)));
+                    if around
+                        .clone()
+                        .any(|(dx, dy)| inside(x + dx, y + dy) != expected)
+                    {
+                        continue;
+                    }
+                    let index = 4 * (y * EXTENT[0] as i32 + x) as usize;
+                    let differs =
+                        picture.colour[0][index..index + 4] != nothing.colour[0][index..index + 4];
+                    assert_eq!(
+                        differs, expected,
+                        "({x}, {y}) from {from}, turned by {turn}"
+                    );
+                    (glass, open) = (glass + u32::from(expected), open + u32::from(!expected));
+                }
+            }
+            assert!(
+                glass > 1500 && open > 1500,
+                "{glass} of glass, {open} beside it"
+            );
+        }
+    }
+}
