@@ -8,6 +8,7 @@ pub mod extremes;
 pub mod fidelity;
 pub mod fig5;
 pub mod picture;
+mod recorded;
 pub mod replay;
 pub mod scenes;
 pub mod track;

@@ -11,7 +11,8 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::replay::{Setup, head, own_solver, preset_of, scene_of};
+use crate::command::recorded::{head, own_solver, preset_of, scene_of};
+use crate::command::replay::Setup;
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};

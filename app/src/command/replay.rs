@@ -8,16 +8,14 @@ use serde::Serialize;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
 use vitriol_xr::Pose;
-use vitriol_xr::track::{Track, TrackSource};
-
-use clap::ValueEnum;
+use vitriol_xr::track::TrackSource;
 
 use crate::budget;
 use crate::cli::{CameraName, ColourName, FilterName, PresetName, ReplayArgs};
+use crate::command::recorded::{changes_scene, head, own_solver, preset_of, scene_of, whole};
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::device;
-use crate::experiment::SWITCH_SOLVER;
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
 use crate::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON, blame};
@@ -77,7 +75,7 @@ pub fn run(
     prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let mut track = track::load(&args.track)?;
-    whole(args, &track)?;
+    whole(&args.track, &track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     let asked = args.solver.is_some() || args.budget_ms.is_some();
     if asked && changes_scene(&track) {
@@ -167,64 +165,6 @@ pub fn run(
     emit(format, &replayed, |done| describe(done, &folder))
 }
 
-/// Refuses a track that breaks off: what its film shows would not be what was
-/// recorded, and nothing would say so.
-fn whole(args: &ReplayArgs, track: &Track) -> Result<(), Failure> {
-    if !track.recovered {
-        return Ok(());
-    }
-    let name = &args.track;
-    let end = three_digits(track.duration());
-    Err(format!(
-        "{name}: breaks off after {end} s, since the file was cut or its recorder stopped hard; \
-         a track has an end: copy it again, or save what is there with `vitriol track {name} -o \
-         NEW.mcap`"
-    ))
-    .input()
-}
-
-/// The scene that was asked for, or else the one that the track names.
-pub(super) fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result<String, Failure> {
-    match scene {
-        Some(scene) => Ok(scene.to_owned()),
-        None if track.metadata.scene.is_empty() => Err(format!(
-            "{name}: the track names no scene; give one with --scene (see `vitriol scenes`)"
-        ))
-        .input(),
-        None => Ok(track.metadata.scene.clone()),
-    }
-}
-
-/// The preset that was asked for, or else the one that the track was recorded
-/// with, or else the default.
-pub(super) fn preset_of(asked: Option<PresetName>, track: &Track) -> PresetName {
-    let recorded = track.metadata.parameters.get("preset");
-    let recorded = recorded.and_then(|name| PresetName::from_str(name, false).ok());
-    asked.or(recorded).unwrap_or_default()
-}
-
-/// Leaves out what a session changed in the solver to keep pace, where something else was asked for: substeps
-/// and iterations themselves, another preset, or another scene than the recorded one. Whether there was any.
-pub(super) fn own_solver(
-    (asked, preset): (bool, Option<PresetName>),
-    scene: &str,
-    track: &mut Track,
-) -> bool {
-    let other_preset = preset.is_some_and(|preset| preset != preset_of(None, track));
-    if !asked && !other_preset && scene == track.metadata.scene {
-        return false;
-    }
-    let mut any = false;
-    for frame in &mut track.frames {
-        frame.scenario.retain(|switch| {
-            let kept = switch.key != SWITCH_SOLVER;
-            any |= !kept;
-            kept
-        });
-    }
-    any
-}
-
 /// What the films' colours stand for; the first is the film, the second, if
 /// there is one, that of temperature.
 fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<ColourName>, Failure> {
@@ -245,18 +185,6 @@ fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<ColourNam
 /// A film's name in the output folder.
 fn film_name(index: usize) -> &'static str {
     if index == 0 { FILM } else { FILM_TEMPERATURE }
-}
-
-/// Where the head is at the start, if the film is to show what it sees.
-pub(super) fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose>, Failure> {
-    match (camera, track.frames.first()) {
-        (CameraName::Fixed, _) => Ok(None),
-        (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),
-        (CameraName::Head, None) => Err(format!(
-            "--camera head: {name} holds no pose of a head; take --camera fixed"
-        ))
-        .input(),
-    }
 }
 
 /// The track's name without folder and ending, for the output folder's name.
@@ -377,12 +305,6 @@ fn quoted(argument: &str) -> String {
     } else {
         format!("'{}'", argument.replace('\'', r"'\''"))
     }
-}
-
-/// Whether someone changed the scene, or began it anew, while the track was recorded.
-fn changes_scene(track: &Track) -> bool {
-    let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    switches.any(|switch| switch.key == "scene" || switch.key == "start")
 }
 
 /// The scene with the substeps and iterations that were asked for, or that hold the

@@ -7,7 +7,7 @@ use crate::loss::replayed;
 use vitriol::experiment::{SWITCH_SOLVER, SWITCH_START};
 use vitriol::vr::session::{Decision, SWITCH_FILTER, SWITCH_PLACEMENT, SWITCH_RESOLUTION, WARM_UP};
 use vitriol::vr::stand_in::StandIn;
-use vitriol_gpu::{Gpu, Timestamps};
+use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Track;
@@ -97,9 +97,9 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     assert_ne!(replayed(&gpu, other), hash(&outcome));
 }
 
-/// A lost device and a new start leave the level where it was; a replay knows.
+/// A new start and a lost device leave the level where it was; a replay knows.
 #[test]
-fn a_loss_and_a_start_keep_the_level() {
+fn a_start_and_a_loss_keep_the_level() {
     let (gpu, second) = (timed(), timed());
     let folder = tempfile::tempdir().unwrap();
     let (sender, decisions) = channel();
@@ -111,19 +111,19 @@ fn a_loss_and_a_start_keep_the_level() {
         between: move |headset: &mut StandIn, frames| match (frames, turns) {
             (40, 0) => {
                 turns = 1;
-                headset.move_to(&next).unwrap();
-                Some(Turn::Renewed)
-            }
-            (60, 1) => {
-                turns = 2;
                 sender.send(Decision::Start).unwrap();
                 None
             }
             // Time to build a bench, whatever else the machine does.
-            (62, 2) => {
-                turns = 3;
+            (42, 1) => {
+                turns = 2;
                 std::thread::sleep(std::time::Duration::from_secs(8));
                 None
+            }
+            (60, 2) => {
+                turns = 3;
+                headset.move_to(&next).unwrap();
+                Some(Turn::Renewed)
             }
             _ => None,
         },
@@ -144,6 +144,17 @@ fn a_loss_and_a_start_keep_the_level() {
     assert_eq!(solver.last(), Some(&after.2.as_str()), "{last:?}");
     assert_eq!(said.len(), start + 2, "{said:?}");
     assert_eq!(replayed(&gpu, track), hash(&outcome));
+
+    // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
+    // goes 5 pixels far and not 9.
+    assert_eq!(headset.shown[79].extent, [58, 38]);
+    let depth = headset.inner.targets().depth.clone().unwrap();
+    let mut rec = second.recorder(QueueKind::Main).unwrap();
+    let depth = rec.read_back_image(&depth).unwrap();
+    second.submit(rec).unwrap().wait().unwrap();
+    let depth = depth.get::<f32>().unwrap();
+    assert_eq!((depth[0], depth[4]), (1.0, 1.0));
+    assert!(depth[7] < 1.0);
 }
 
 /// The plainer filter takes over while the session goes on.

@@ -27,7 +27,7 @@ fn scene() -> Scene {
 
 fn world(gpu: &Gpu, effort: [u32; 2]) -> World {
     let scene = scene().with_effort(effort);
-    World::new(gpu, &Library::embedded(), &scene, 1).unwrap()
+    World::new(gpu, &Library::watching(), &scene, 1).unwrap()
 }
 
 /// Greatest kinetic energy (J) of the states after every third of so many steps, and the mean

@@ -94,18 +94,20 @@ fn a_load_that_comes_and_goes() {
     assert!(run.changes.iter().all(|(at, _)| *at > 5.0 && *at < 22.0));
 }
 
-/// A load that grows by a fifth of the period a second, as a boiling flask's may: it is stepped down
-/// before any frame is missed.
+/// A load that grows by a fifth of the period a second, as a boiling flask's may, and one that grows by
+/// almost three: it is stepped down before any frame is missed.
 #[test]
 fn a_ramp_is_foreseen() {
-    let run = run(20.0, |time, level| {
-        let full = 0.5 + 0.2 * time.min(5.0);
-        at(level, [0.7 * full, 0.3 * full])
-    });
-    assert_eq!(run.missed, 0, "{run:?}");
-    assert!(run.level[0] > 0);
-    // Some rungs and no more.
-    assert!(run.changes.len() <= 5, "{run:?}");
+    for (rate, length) in [(0.2, 5.0), (2.8, 0.3)] {
+        let run = run(20.0, |time, level| {
+            let full = 0.5 + rate * (time - 2.0).clamp(0.0, length);
+            at(level, [0.7 * full, 0.3 * full])
+        });
+        assert_eq!(run.missed, 0, "{run:?}");
+        assert!(run.level[0] > 0);
+        // Some rungs and no more.
+        assert!(run.changes.len() <= 5, "{run:?}");
+    }
 }
 
 /// Frames whose times scatter by a tenth stay where they are.

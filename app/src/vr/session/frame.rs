@@ -34,7 +34,6 @@ impl Session {
         let pressed = self.buttons.advance(&now.hands);
         self.decide(headset, pressed, frame.recentred, &now)?;
         self.take_up_bench()?;
-        self.take_up_picture()?;
         self.plan_steps(now);
         // What would wait for the device waits until the frame has ended.
         while !self.due.is_empty() && self.bench.world.is_ready().other()? {

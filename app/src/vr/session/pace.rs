@@ -131,7 +131,7 @@ impl Session {
         }
     }
 
-    /// Does what the governor makes of the frames that are done. No step is due now.
+    /// Does what the governor makes of the frames that are done. No frame is open now, and no step is due.
     pub(super) fn keep_pace(&mut self, loads: &[Load], period: f64) -> Result<(), Failure> {
         let frame_time = 1e3 * self.bench.world.scene().scale.frame_time;
         // As many steps as a frame may have; not those of one that made up for a missed one.
@@ -158,7 +158,9 @@ impl Session {
                 self.go_to(level)?;
             }
         }
-        self.repaint()
+        self.take_up_picture()?;
+        self.repaint();
+        Ok(())
     }
 
     /// Goes on at `level`, and has it recorded.
@@ -171,6 +173,8 @@ impl Session {
             self.bench.world.set_effort(after.solver).other()?;
             self.say_effort();
         }
+        let ([substeps, iterations], percent) = (after.solver, 100.0 * after.resolution);
+        tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %");
         if after.resolution != before.resolution {
             self.switch(SWITCH_RESOLUTION, after.resolution.to_string());
         }
@@ -206,7 +210,7 @@ impl Session {
     }
 
     /// Lets a picture be made whose filter is the level's.
-    fn repaint(&mut self) -> Result<(), Failure> {
+    fn repaint(&mut self) {
         let filter = self.bench.ladder.setting(self.pace.level).filter;
         let wanted = !self.pace.stuck && filter != self.bench.filter();
         if !wanted {
@@ -226,11 +230,11 @@ impl Session {
                 }),
             });
         }
-        Ok(())
     }
 
-    /// Takes up the picture that was made meanwhile; between two frames.
-    pub(super) fn take_up_picture(&mut self) -> Result<(), Failure> {
+    /// Takes up the picture that was made meanwhile. What the lenses hide may have to be uploaded anew, so no frame is
+    /// open.
+    fn take_up_picture(&mut self) -> Result<(), Failure> {
         let finished = |repaint: &mut Repaint| repaint.thread.is_finished();
         let Some(repaint) = self.pace.repaint.take_if(finished) else {
             return Ok(());
