@@ -5,7 +5,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use crate::common::{Trouble, Worn, nobody, pour, scene};
+use crate::common::{Trouble, Worn, hash, nobody, pour, scene};
+use crate::loss::replayed;
 use vitriol::experiment::SWITCH_START;
 use vitriol::vr::bench::Plan;
 use vitriol::vr::mirror;
@@ -16,7 +17,7 @@ use vitriol_gpu::QueueKind;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
-use vitriol_xr::track::load;
+use vitriol_xr::track::{Track, load};
 use vitriol_xr::{Headset, HeadsetFrame, Turn};
 
 /// Size of an eye's picture, see `common`.
@@ -186,6 +187,7 @@ fn the_window_shows_what_the_left_eye_sees() {
         frames: 0,
         looked: [false; 3],
     };
+    let recording = folder.path().join("mirrored.mcap");
     // 30 frames a second: each is shown.
     let mut headset = Worn::new(&gpu, pour().sample_track(), 30.0, 31, onlooker);
     let options = Options {
@@ -198,7 +200,7 @@ fn the_window_shows_what_the_left_eye_sees() {
         },
         posture: Posture::Seated,
         frames: None,
-        record: None,
+        record: Some(recording.clone()),
         governed: false,
     };
     let window = mirror::Window::open(headset.extent(), channel().0).unwrap();
@@ -211,6 +213,9 @@ fn the_window_shows_what_the_left_eye_sees() {
         None,
         "it is gone with the session"
     );
+    // Nothing of it is in what was simulated.
+    let track = Track::open(&recording).unwrap();
+    assert_eq!(replayed(&gpu, track), hash(&outcome));
 }
 
 /// `vitriol vr` on a stand-in, ended with the test.
