@@ -14,18 +14,17 @@ use crate::failure::{Blame, Failure};
 use crate::rank::Ranks;
 
 /// Substeps and iterations on the front that `vitriol trade` found at real size,
-/// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md), the most accurate first: 99th
-/// percentile of the density error while pouring 0.024, 0.035, 0.049, 0.081, 0.12, 0.15, 0.24, 0.36
-/// and 3.2 %.
-const FRONT: [[u32; 2]; 9] = [
-    [16, 8],
+/// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md, 2026-11-22), the most accurate first: 99th
+/// percentile of the density error 0.037, 0.049, 0.081, 0.12, 0.24, 0.45, 1.8 and, as the end for devices that
+/// can do no more, 3.2 %.
+const FRONT: [[u32; 2]; 8] = [
     [16, 6],
     [12, 8],
     [10, 8],
     [10, 6],
-    [12, 4],
     [10, 4],
-    [8, 4],
+    [10, 3],
+    [10, 2],
     [8, 2],
 ];
 /// What `balanced` has there: other scenes have as many times what theirs has.
@@ -60,6 +59,9 @@ fn pick(
     let mut known = cache.read();
     let mut least = f64::INFINITY;
     for point in points(balanced(scene)) {
+        if !allows(scene, point) {
+            continue;
+        }
         let scene = scene.with_effort(point);
         if scene.problem_of_substep().is_some() {
             continue;
@@ -138,19 +140,22 @@ pub fn cost([substeps, iterations]: [u32; 2]) -> f64 {
 /// printed, which follows the number of substeps, only other iterations.
 pub fn ladder(scene: &Scene, balanced: [u32; 2]) -> Vec<[u32; 2]> {
     let own = [scene.solver.substeps, scene.solver.iterations];
-    let literal = scene
-        .paper
-        .as_ref()
-        .is_some_and(|paper| paper.literal_boiling == Some(true));
     let mut rungs = vec![own];
     for point in points(balanced) {
         let below = rungs.last().is_none_or(|last| cost(point) < cost(*last));
-        let allowed = !literal || point[0] == own[0];
-        if below && allowed && scene.with_effort(point).problem_of_solver().is_none() {
+        if below && allows(scene, point) && scene.with_effort(point).problem_of_solver().is_none() {
             rungs.push(point);
         }
     }
     rungs
+}
+
+/// Whether a scene boils by these as it does by its own: the paper's power as printed follows the number of
+/// substeps.
+fn allows(scene: &Scene, [substeps, _]: [u32; 2]) -> bool {
+    let paper = scene.paper.as_ref();
+    let literal = paper.is_some_and(|paper| paper.literal_boiling == Some(true));
+    !literal || substeps == scene.solver.substeps
 }
 
 /// The front for a scene, scaled to what it has as `balanced`.
@@ -255,7 +260,7 @@ mod tests {
         // The paper's 3 × 2.
         let paper = Scene::load("single-dilution").unwrap();
         let points = points(balanced(&paper));
-        assert_eq!(points[0], [5, 5]);
+        assert_eq!(points[0], [5, 4]);
         // Of ten substeps three are left, of four iterations three; of eight two.
         assert!(points.contains(&[3, 3]) && points.iter().all(|p| p[0] >= 2));
         // What does not stand up is never chosen.
@@ -266,8 +271,8 @@ mod tests {
     #[test]
     fn a_ladder_goes_down_to_what_stands_up() {
         let real = Scene::load("two-flasks").unwrap();
-        assert_eq!(ladder(&real, [10, 3]), [[10, 3], [8, 4], [8, 2]]);
-        let fine = real.with_effort([16, 8]);
+        assert_eq!(ladder(&real, [10, 3]), [[10, 3], [10, 2], [8, 2]]);
+        let fine = real.with_effort([16, 6]);
         assert_eq!(ladder(&fine, [10, 3]), FRONT);
         let fast = real.with_preset(Preset::Fast);
         assert_eq!(ladder(&fast, [10, 3]), [[8, 2]]);
@@ -276,7 +281,7 @@ mod tests {
         small.scale.spacing *= 0.6;
         let rungs = ladder(&small, [10, 3]);
         assert!(small.with_effort([8, 2]).problem_of_substep().is_some());
-        assert_eq!(rungs.last(), Some(&[10, 4]));
+        assert_eq!(rungs.last(), Some(&[10, 2]));
         // Where substeps are the boiling's power, they stay.
         let mut soup = Scene::load("tomato-soup").unwrap();
         soup.paper.as_mut().unwrap().literal_boiling = Some(true);

@@ -175,8 +175,8 @@ impl Laboratory {
         let effort = parse::size(value);
         let effort = effort.map_err(|error| format!("a switch to the solver {value:?}: {error}"));
         let effort = effort.input()?;
+        self.solver_changes += u64::from(effort != self.world.effort());
         self.world.set_effort(effort).input()?;
-        self.solver_changes += 1;
         Ok(())
     }
 
@@ -278,6 +278,7 @@ impl Experiment for Laboratory {
         ];
         Ok(Outcome {
             scene: self.switched.clone(),
+            effort: self.world.effort(),
             fluid_particles: self.world.solver().count().into(),
             lost_particles: self.lost.max(measured.lost_particles),
             nan_particles: measured.nan_particles,

@@ -53,6 +53,8 @@ pub struct Taken {
 pub struct Outcome {
     /// The scene at the end, where a switch brought it up.
     pub scene: Option<String>,
+    /// Substeps and iterations at the end.
+    pub effort: [u32; 2],
     /// Fluid particles at the start.
     pub fluid_particles: u64,
     /// Most particles that were on the wrong side of a wall in any measurement

@@ -124,6 +124,7 @@ impl Experiment for Toy {
         }
         Ok(Outcome {
             scene: None,
+            effort: [8, 4],
             fluid_particles: 13_894,
             lost_particles: 0,
             nan_particles: 0,

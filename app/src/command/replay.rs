@@ -140,6 +140,7 @@ pub fn run(
         ),
         None => (name, scene),
     };
+    let scene = scene.with_effort(outcome.effort);
     let statements = (
         statement::of_scene(&name, &scene),
         statement::of_solver(&scene),

@@ -103,9 +103,15 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         governed: !args.fixed,
     };
     let mirrored = !args.no_mirror;
+    // Nobody reads what nobody governs or measures.
+    let timestamps = if options.governed || options.frames.is_some() {
+        Timestamps::Whole
+    } else {
+        Timestamps::None
+    };
     let (name, outcome, stand_in) = match &args.stand_in {
         Some(wearer) => {
-            let gpu = device::timed(args.device.as_deref(), Timestamps::Whole)?;
+            let gpu = device::timed(args.device.as_deref(), timestamps)?;
             let spec = StandInSpec {
                 extent: args.size,
                 rate_hz: args.rate,
@@ -123,7 +129,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         None => {
             let mut headset = OpenXr::open(OpenXrOptions {
                 gpu: vitriol_gpu::Options {
-                    timestamps: Timestamps::Whole,
+                    timestamps,
                     ..vitriol_gpu::Options::default()
                 },
                 instance_extensions: Vec::new(),
@@ -253,7 +259,8 @@ fn kept(kept: &Kept) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {substeps} × {iterations}, picture {picture:.0} %: {} frames",
+            "  {substeps} × {iterations}, picture {picture:.0} %, {:?}: {} frames",
+            setting.filter,
             grouped(*frames)
         );
     }

@@ -22,7 +22,7 @@ pub struct Plan {
     pub preset: Preset,
     /// Substeps and iterations in place of the preset's.
     pub solver: Option<[u32; 2]>,
-    /// Filter of the liquid's surface in place of the scene's.
+    /// Filter of the liquid's surface in place of the scene's, where a governor found that one too dear.
     pub filter: Option<PictureFilter>,
     /// Seed of the initial jitter.
     pub seed: u64,

@@ -94,7 +94,7 @@ impl Governor {
         self.level
     }
 
-    /// Forgets what frames took: there is another device, or there was a pause.
+    /// Forgets what frames took: there is another device or another picture.
     pub fn forget(&mut self) {
         self.times.iter_mut().for_each(VecDeque::clear);
         self.room = [0.0; 2];

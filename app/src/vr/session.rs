@@ -1,5 +1,5 @@
 //! The session: the frame loop's turns, and what it is made of. A frame is in `frame`, what the user
-//! chooses in `choose`.
+//! chooses in `choose`, what keeps pace with the display in `pace`.
 
 mod choose;
 mod frame;

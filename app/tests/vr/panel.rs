@@ -33,7 +33,7 @@ fn info() -> Info {
         missed: 12,
         effort: Some(Effort {
             finer: false,
-            solver: [8, 4],
+            solver: [10, 2],
             asked: [10, 3],
             picture: 85,
             other_filter: false,

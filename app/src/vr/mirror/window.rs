@@ -65,6 +65,18 @@ impl Extent {
     }
 }
 
+/// Leaves with the thread, however it ends: nothing is drawn for a window that is gone.
+struct Leaving {
+    extent: Arc<Extent>,
+    _end: Sender<()>,
+}
+
+impl Drop for Leaving {
+    fn drop(&mut self) {
+        self.extent.set([0, 0]);
+    }
+}
+
 impl Window {
     /// A window for pictures of the aspect of `eye`, whose keys decide as the terminal's do.
     ///
@@ -81,11 +93,14 @@ impl Window {
         extent.set(fit(eye, [OPENS_AT; 2]));
         let (shared, (opened, opening)) = (Arc::clone(&extent), channel());
         let (end, ended) = channel();
+        let leaving = Leaving {
+            extent: Arc::clone(&extent),
+            _end: end,
+        };
         let thread = std::thread::Builder::new()
             .name("mirror".into())
             .spawn(move || {
-                // Dropped with the thread.
-                let _end = end;
+                let _leaving = leaving;
                 let events = match event_loop() {
                     Ok(events) => events,
                     Err(error) => {
@@ -93,10 +108,12 @@ impl Window {
                         return;
                     }
                 };
-                // Who opens waits for it.
-                let _ = opened.send(Ok(events.create_proxy()));
+                if opened.send(Ok(events.create_proxy())).is_err() {
+                    // Who opens has waited long enough: no window of nobody.
+                    return;
+                }
                 let mut face = Face {
-                    extent: Arc::clone(&shared),
+                    extent: shared,
                     decisions,
                     frame: None,
                     shown: None,
@@ -104,7 +121,6 @@ impl Window {
                 if let Err(error) = events.run_app(&mut face) {
                     tracing::warn!("the mirror window is gone: {error}");
                 }
-                shared.set([0, 0]);
             });
         let thread = thread.map_err(|error| Failure::Other(error.into()))?;
         let proxy = match opening.recv_timeout(PATIENCE) {

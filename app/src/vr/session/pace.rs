@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use serde::Serialize;
-use vitriol_gpu::Gpu;
+use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 
 use super::Session;
@@ -76,7 +76,8 @@ struct Repaint {
 
 impl Pace {
     pub(super) fn new(gpu: &Gpu, bench: &Bench, asked: bool) -> Self {
-        let measures = gpu.info().timestamp_period > 0.0;
+        let asked_of_device = gpu.options().timestamps != Timestamps::None;
+        let measures = asked_of_device && gpu.info().timestamp_period > 0.0;
         let on = asked && measures;
         let cause = asked && !measures;
         Self {
@@ -101,11 +102,17 @@ impl Pace {
         self.governor.is_some()
     }
 
-    /// What frames took is of another device or another time.
+    /// What frames took is of another device, another time or another scene.
     pub(super) fn forget(&mut self) {
+        self.repaint = None;
+        self.stuck = false;
+        self.settle();
+    }
+
+    /// The next frames differ from those under way, which count no more.
+    fn settle(&mut self) {
         self.stamp += 1;
         self.missed = false;
-        self.repaint = None;
         if let Some(governor) = &mut self.governor {
             governor.forget();
         }
@@ -143,6 +150,13 @@ impl Session {
 
     /// Does what the governor makes of the frames that are done. No frame is open now, and no step is due.
     pub(super) fn keep_pace(&mut self, loads: &[Load], period: f64) -> Result<(), Failure> {
+        // A runtime may not say how long a frame is shown, and while another filter is compiled what frames take
+        // is about to change.
+        let loads = if period > 0.0 && self.pace.repaint.is_none() {
+            loads
+        } else {
+            &[]
+        };
         let frame_time = 1e3 * self.bench.world.scene().scale.frame_time;
         // As many steps as a frame may have; not those of one that made up for a missed one.
         let steps = (period / frame_time - 1e-6)
@@ -153,7 +167,12 @@ impl Session {
                 break;
             };
             self.pace.since += 1e-3 * period;
-            if load.stamp != self.pace.stamp || load.steps == 0 {
+            if load.stamp != self.pace.stamp {
+                // What was missed meanwhile was one of these, begun before the last change.
+                self.pace.missed = false;
+                continue;
+            }
+            if load.steps == 0 {
                 continue;
             }
             let taken = Taken {
@@ -178,7 +197,7 @@ impl Session {
         let before = self.bench.ladder.setting(self.pace.level);
         let after = self.bench.ladder.setting(level);
         self.pace.level = level;
-        self.pace.stamp += 1;
+        self.pace.settle();
         if after.solver != self.bench.world.effort() {
             self.bench.world.set_effort(after.solver).other()?;
             self.say_effort();
@@ -256,7 +275,7 @@ impl Session {
                     picture.hide(&self.eyes.hidden)?;
                 }
                 self.bench.repaint(picture, repaint.filter);
-                self.pace.stamp += 1;
+                self.pace.settle();
                 let name = match repaint.filter {
                     PictureFilter::NarrowRange => "narrow-range",
                     PictureFilter::CurvatureFlow => "curvature-flow",
