@@ -103,20 +103,27 @@ impl Bench {
 /// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
 pub struct Builder {
     plan: Plan,
+    eyes: Eyes,
     thread: JoinHandle<Result<Bench, Failure>>,
 }
 
 impl Builder {
     /// Begins.
     pub fn start(gpu: &Gpu, library: &Arc<Library>, plan: Plan, eyes: Eyes) -> Self {
-        let (gpu, library, made) = (gpu.clone(), Arc::clone(library), plan.clone());
-        let thread = std::thread::spawn(move || Bench::new(&gpu, &library, &made, &eyes));
-        Self { plan, thread }
+        let (gpu, library) = (gpu.clone(), Arc::clone(library));
+        let (made, of) = (plan.clone(), eyes.clone());
+        let thread = std::thread::spawn(move || Bench::new(&gpu, &library, &made, &of));
+        Self { plan, eyes, thread }
     }
 
     /// What is being made.
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// What its picture is made for.
+    pub fn eyes(&self) -> &Eyes {
+        &self.eyes
     }
 
     /// Whether it is there, so that [`Builder::finish`] does not wait.

@@ -5,16 +5,13 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use crate::common::{Trouble, Worn, hash, nobody, pour, scene};
+use crate::common::{Trouble, Worn, hash, nobody, options, pour, scene};
 use crate::loss::replayed;
 use vitriol::experiment::SWITCH_START;
-use vitriol::vr::bench::Plan;
 use vitriol::vr::mirror;
-use vitriol::vr::placement::Posture;
-use vitriol::vr::session::{Options, Session};
+use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
 use vitriol_gpu::QueueKind;
-use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
 use vitriol_xr::track::{Track, load};
@@ -187,22 +184,10 @@ fn the_window_shows_what_the_left_eye_sees() {
         frames: 0,
         looked: [false; 3],
     };
-    let recording = folder.path().join("mirrored.mcap");
     // 30 frames a second: each is shown.
     let mut headset = Worn::new(&gpu, pour().sample_track(), 30.0, 31, onlooker);
-    let options = Options {
-        plan: Plan {
-            scene: scene(folder.path()).to_str().unwrap().into(),
-            preset: Preset::Balanced,
-            seed: 3,
-            solver: None,
-            filter: None,
-        },
-        posture: Posture::Seated,
-        frames: None,
-        record: Some(recording.clone()),
-        governed: false,
-    };
+    let options = options(folder.path());
+    let recording = options.record.clone().unwrap();
     let window = mirror::Window::open(headset.extent(), channel().0).unwrap();
     let session = Session::new(&headset, options, nobody()).unwrap();
     let outcome = session.mirrored(window).unwrap().run(&mut headset).unwrap();

@@ -1,7 +1,7 @@
 //! A picture smaller than the renderer's images, as the headset draws it when time is short.
 
 use crate::liquid::{Liquid, SPACING, frame, lattice, rig};
-use crate::rig::{Picture, Rig, without_particles};
+use crate::rig::{LEFT_QUARTER, Picture, Rig, without_particles};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::Buffer;
 use vitriol_render::{
@@ -18,14 +18,7 @@ const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
 
 /// The left quarter of one eye, a corner of the other.
 const HIDDEN: [&[[f32; 2]]; 2] = [
-    &[
-        [0.0, 0.0],
-        [0.25, 0.0],
-        [0.25, 1.0],
-        [0.0, 0.0],
-        [0.25, 1.0],
-        [0.0, 1.0],
-    ],
+    &LEFT_QUARTER,
     &[
         [0.5, 0.5],
         [1.0, 0.5],

@@ -118,6 +118,16 @@ impl Rig {
     }
 }
 
+/// The left quarter of a picture, as a mesh of what a lens hides.
+pub const LEFT_QUARTER: [[f32; 2]; 6] = [
+    [0.0, 0.0],
+    [0.25, 0.0],
+    [0.25, 1.0],
+    [0.0, 0.0],
+    [0.25, 1.0],
+    [0.0, 1.0],
+];
+
 /// A frame of an empty scene at real size.
 pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
     FrameDesc {

@@ -1,6 +1,6 @@
 //! Steam and the visibility mask.
 
-use crate::rig::{Rig, without_particles};
+use crate::rig::{LEFT_QUARTER, Rig, without_particles};
 use glam::Vec3;
 use vitriol_gpu::Buffer;
 use vitriol_render::{FrameDesc, SceneDesc, SteamSource, View};
@@ -78,16 +78,7 @@ fn hidden_area_is_black_and_costs_no_light() {
     let mut rig = rig();
     let views = [View::bench(16.0 / 9.0)];
     let plain = rig.draw(&without_particles(&views));
-    // The left quarter.
-    let corners = [
-        [0.0, 0.0],
-        [0.25, 0.0],
-        [0.25, 1.0],
-        [0.0, 0.0],
-        [0.25, 1.0],
-        [0.0, 1.0],
-    ];
-    rig.renderer.set_visibility_mask(&[&corners]).unwrap();
+    rig.renderer.set_visibility_mask(&[&LEFT_QUARTER]).unwrap();
     let masked = rig.draw(&without_particles(&views));
     for y in 0..EXTENT[1] {
         for x in 0..EXTENT[0] {

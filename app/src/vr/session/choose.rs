@@ -84,10 +84,13 @@ impl Session {
         let Some(coming) = self.coming.take_if(|coming| coming.builder.is_finished()) else {
             return Ok(());
         };
+        let eyes = coming.builder.eyes().clone();
         match coming.builder.finish() {
             Ok(bench) => {
                 let resolution = self.setting().resolution;
                 self.bench = bench;
+                // What the lenses hide may have changed since; it is taken up after the frame.
+                self.eyes = eyes;
                 let same = coming.switch.key == SWITCH_START;
                 self.switches.push(coming.switch);
                 self.pace_bench(same, resolution)?;
