@@ -25,7 +25,7 @@ impl Folder {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
         let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/wgsl");
-        for sub in ["common", "sim", "render", "render/fluid"] {
+        for sub in ["common", "sim", "render", "render/fluid", "render/spheres"] {
             fs::create_dir(root.path().join(sub)).unwrap();
             for file in fs::read_dir(original.join(sub)).unwrap() {
                 let file = file.unwrap();
