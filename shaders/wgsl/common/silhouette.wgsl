@@ -113,3 +113,12 @@ fn ray_at(s: Silhouette, place: vec2<f32>) -> SphereRay {
     let miss = cross(s.o, w);
     return SphereRay(dot(w, w), dot(miss, miss), -dot(s.o, w));
 }
+
+/// Reversed depth where a ray enters the ellipsoid; 0 where it passes by, or enters behind the eye or before the
+/// near plane.
+fn entered_at(s: Silhouette, place: vec2<f32>, near: f32) -> f32 {
+    let ray = ray_at(s, place);
+    let inside = ray.squared - ray.miss;
+    let reversed = near * (sqrt(max(inside, 0.0)) + ray.towards) / s.beyond;
+    return select(0.0, reversed, inside > 0.0 && ray.towards > 0.0 && reversed < 1.0);
+}

@@ -19,11 +19,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let lane = vec2<i32>(i32(index % 8u), i32(index % LANES / 8u));
     for (var y = s.low.y + lane.y; y < s.high.y; y += i32(LANES / 8u)) {
         for (var x = s.low.x + lane.x; x < s.high.x; x += 8) {
-            let ray = ray_at(s, vec2<f32>(f32(x), f32(y)) + 0.5);
-            let inside = ray.squared - ray.miss;
-            let reversed = near * (sqrt(max(inside, 0.0)) + ray.towards) / s.beyond;
-            // Behind the near plane, or the eye, there is nothing.
-            if (inside > 0.0 && ray.towards > 0.0 && reversed < 1.0) {
+            let reversed = entered_at(s, vec2<f32>(f32(x), f32(y)) + 0.5, near);
+            if (reversed > 0.0) {
                 atomicMax(&depth[pixel_index(vec2<i32>(x, y), eye)], bitcast<u32>(reversed));
             }
         }

@@ -55,10 +55,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let near = frame.views[eye].near;
     for (var y = s.low.y + i32(lane / 8u); y < s.high.y; y += i32(run.lanes / 8u)) {
         for (var x = s.low.x + i32(lane % 8u); x < s.high.x; x += 8) {
-            let ray = ray_at(s, vec2<f32>(f32(x), f32(y)) + 0.5);
-            let inside = ray.squared - ray.miss;
-            let reversed = near * (sqrt(max(inside, 0.0)) + ray.towards) / s.beyond;
-            if (inside > 0.0 && ray.towards > 0.0 && reversed < 1.0) {
+            let reversed = entered_at(s, vec2<f32>(f32(x), f32(y)) + 0.5, near);
+            if (reversed > 0.0) {
                 let bits = bitcast<u32>(reversed);
                 let at = pixel_index(vec2<i32>(x, y), eye);
                 if (run.numbers == 0u) {
