@@ -7,7 +7,7 @@ use vitriol_xr::Side;
 use vitriol_xr::track::load;
 
 use crate::drive::{self, Driver};
-use crate::pour::SPEED;
+use crate::pour::{SPEED, begin};
 use crate::program::{self, Program};
 
 #[test]
@@ -16,13 +16,7 @@ fn a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask() {
     let Some(rig) = monado::enter(name) else {
         return;
     };
-    let scene = program::scene(rig.folder());
-    let recording = rig.folder().join("sleep.mcap");
-    let driver = Driver::start(&rig, drive::track(), SPEED);
-    let program = Program::start(&scene, &recording);
-    program.says("Focused");
-    std::thread::sleep(Duration::from_secs(1));
-    driver.go();
+    let (driver, program, recording) = begin(&rig);
     // The flask is in the air, upright.
     driver.reach(2.0);
     driver.halt();

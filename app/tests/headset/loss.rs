@@ -6,22 +6,15 @@ use vitriol_tests::monado;
 use vitriol_xr::Side;
 use vitriol_xr::track::load;
 
-use crate::drive::{self, Driver};
-use crate::pour::{SPEED, follows, replay, whole};
-use crate::program::{self, Program};
+use crate::drive;
+use crate::pour::{begin, follows, replay, whole};
 
 #[test]
 fn a_pour_goes_on_when_the_runtime_is_killed() {
     let Some(mut rig) = monado::enter("loss::a_pour_goes_on_when_the_runtime_is_killed") else {
         return;
     };
-    let scene = program::scene(rig.folder());
-    let recording = rig.folder().join("loss.mcap");
-    let driver = Driver::start(&rig, drive::track(), SPEED);
-    let program = Program::start(&scene, &recording);
-    program.says("Focused");
-    std::thread::sleep(Duration::from_secs(1));
-    driver.go();
+    let (driver, program, recording) = begin(&rig);
     // The flask is tilted, and pours.
     driver.reach(4.8);
     driver.halt();

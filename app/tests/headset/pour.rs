@@ -1,5 +1,6 @@
 //! A pour, seen through OpenXR, recorded and replayed.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -8,7 +9,7 @@ use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};
-use vitriol_tests::monado;
+use vitriol_tests::monado::{self, Rig};
 use vitriol_xr::track::{Keyframes, Track, load};
 use vitriol_xr::{PoseFrame, Side};
 
@@ -18,18 +19,24 @@ use crate::program::{self, Program};
 /// Share of its speed at which the track is driven: so much slower is the software driver.
 pub const SPEED: f64 = 0.5;
 
+/// The program, seen to have the runtime's focus, and the track that is driven from now on; and where it is recorded.
+pub fn begin(rig: &Rig) -> (Driver, Program, PathBuf) {
+    let scene = program::scene(rig.folder());
+    let recording = rig.folder().join("session.mcap");
+    let driver = Driver::start(rig, drive::track(), SPEED);
+    let program = Program::start(&scene, &recording);
+    program.says("Focused");
+    std::thread::sleep(Duration::from_secs(1));
+    driver.go();
+    (driver, program, recording)
+}
+
 #[test]
 fn a_driven_pour_is_seen_recorded_and_replayed() {
     let Some(rig) = monado::enter("pour::a_driven_pour_is_seen_recorded_and_replayed") else {
         return;
     };
-    let scene = program::scene(rig.folder());
-    let recording = rig.folder().join("pour.mcap");
-    let driver = Driver::start(&rig, drive::track(), SPEED);
-    let program = Program::start(&scene, &recording);
-    program.says("Focused");
-    std::thread::sleep(Duration::from_secs(1));
-    driver.go();
+    let (driver, program, recording) = begin(&rig);
     driver.wait();
     std::thread::sleep(Duration::from_secs(2));
     let report = program.end();
