@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use vitriol_experiment::{Blame, Failure, Ranks};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};
-
-use crate::failure::{Blame, Failure};
-use crate::rank::Ranks;
 
 /// Substeps and iterations on the front that `vitriol trade` found at real size,
 /// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md, 2026-11-22), the most accurate first: 99th

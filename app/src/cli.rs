@@ -1,17 +1,12 @@
-//! The command line: the subcommands here, their arguments in `play` and `measure`.
+//! The command line: the subcommands here, their arguments in `arguments`, those
+//! of what measures in the crate `vitriol_study`.
 
-mod measure;
-pub(crate) mod parse;
-mod play;
+mod arguments;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
+use vitriol_experiment::Format;
 
-use crate::console::Format;
-pub use measure::{
-    BenchArgs, CalorimeterArgs, DamBreakArgs, ExtremesArgs, FidelityArgs, Fig5Args, OrderName,
-    RealChemistry, ScenesArgs, TradeArgs, TradePart,
-};
-pub use play::{CameraName, ColourName, FilterName, PictureArgs, ReplayArgs, TrackArgs, VrArgs};
+pub use arguments::{CameraName, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs};
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
 /// recorded or live hands.
@@ -57,50 +52,11 @@ pub enum Command {
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models
     Scenes(ScenesArgs),
-    /// Measure the time of each pass, with the density error beside it
-    Bench(BenchArgs),
-    /// Fig. 5 of the paper: a flask moved violently, without and with the flask
-    /// constraint
-    Fig5(Fig5Args),
-    /// The collapse of a column of water against Martin and Moyce's
-    /// measurements of 1952
-    DamBreak(DamBreakArgs),
-    /// What the renderer draws against the surface that it stands for, marched
-    /// on the CPU
-    Fidelity(FidelityArgs),
-    /// Mix water and acid in a closed, insulated vessel until it is even
-    Calorimeter(CalorimeterArgs),
-    /// The trade of speed for accuracy: knobs, what each costs, and what it is off by
-    Trade(TradeArgs),
-    /// Cases at the extremes of scene, parameter and motion: whether each keeps what
-    /// it has to, or is refused at load
-    Extremes(ExtremesArgs),
+    /// What measures.
+    #[command(flatten)]
+    Study(vitriol_study::cli::Command),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
-}
-
-/// Points on the trade of speed for accuracy: substeps, iterations and number
-/// of particles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum PresetName {
-    /// Fewest particles and iterations
-    Fast,
-    /// The default
-    #[default]
-    Balanced,
-    /// Smallest error, however long it takes
-    Reference,
-}
-
-impl PresetName {
-    /// The name as it is given and reported.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fast => "fast",
-            Self::Balanced => "balanced",
-            Self::Reference => "reference",
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,18 +1,17 @@
 //! From a track to film and report, with an experiment whose answers are known:
-//! what the loop, the recorder and the report make of them.
+//! what the loop, the observer and the report make of them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use vitriol::cli::{Cli, ColourName, Command};
+use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
-use vitriol::console::Format;
-use vitriol::failure::{Blame, Failure};
-use vitriol::replay::{Experiment, Outcome, Taken};
-use vitriol::report::{
-    Counters, DeviceStatement, HeatSample, LedgerSample, MassByPlace, Report, Sample,
+use vitriol::report::Report;
+use vitriol_experiment::{
+    Blame, Colour, Counters, DeviceStatement, Experiment, Failure, Format, HeatSample,
+    LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
 };
 use vitriol_tests::browser::{self, Look};
 use vitriol_xr::PoseFrame;
@@ -219,8 +218,8 @@ fn a_run_longer_than_its_track_holds_the_last_pose() {
 fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let hot = |setup: &vitriol::command::replay::Setup<'_>| {
-        assert_eq!(setup.colours, [ColourName::Liquid, ColourName::Temperature]);
+    let hot = |setup: &Setup<'_>| {
+        assert_eq!(setup.colours, [Colour::Liquid, Colour::Temperature]);
         let toy = Toy {
             hot: true,
             ..Toy::new(u64::MAX)

@@ -4,10 +4,8 @@
 use std::fmt::Write;
 
 use serde::Serialize;
+use vitriol_experiment::{Failure, Format, emit};
 use vitriol_xr::probe::{self, Probe};
-
-use crate::console::{Format, emit};
-use crate::failure::Failure;
 
 #[derive(Debug, Serialize)]
 struct Findings {

@@ -3,22 +3,17 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
+use image::ExtendedColorType;
 use serde::Serialize;
+use vitriol_experiment::{
+    Blame, Experiment, Failure, Format, Observer, Setup, Span, emit, output, track,
+};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
 use crate::command::recorded::{head, own_solver, preset_of, scene_of};
-use crate::command::replay::Setup;
-use crate::command::track;
-use crate::console::{Format, emit};
-use crate::failure::{Blame, Failure};
-use crate::output;
-use crate::recorder::Recorder;
-use crate::replay::{self, Experiment, Span};
 
 /// What `vitriol picture` prints.
 #[derive(Debug, Serialize)]
@@ -45,13 +40,13 @@ pub fn run(
     let (Some(dir), Some(file)) = (dir, file.and_then(|file| file.to_str())) else {
         return Err(format!("{} is no file name", args.output.display())).input();
     };
-    let path = output::new_file(dir, file).map_err(output::blame)?;
+    let path = output::new_file(dir, file)?;
     let mut track = track::load(&args.track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     own_solver((false, args.preset), &name, &mut track);
     let scene = Scene::load(&name)
         .input()?
-        .with_preset(preset_of(args.preset, &track).into());
+        .with_preset(preset_of(args.preset, &track));
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(
@@ -64,7 +59,7 @@ pub fn run(
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
-        preset: preset_of(args.preset, &track).into(),
+        preset: preset_of(args.preset, &track),
         seed: track.metadata.seed,
         device: args.device.as_deref(),
         picture: Some((width, height)),
@@ -75,21 +70,17 @@ pub fn run(
         shaders: Arc::new(Library::watching()),
     })?;
     let span = Span::covering(args.at, scene.scale.frame_time);
-    let mut recorder = Recorder::new(span, Vec::new());
-    replay::run(
+    let mut observer = Observer::new(span, Vec::new());
+    vitriol_experiment::run(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,
-        &mut recorder,
+        &mut observer,
     )?;
-    recorder.finish()?;
+    observer.finish()?;
     let picture = experiment.picture(0)?;
     let size = [eyes * width, height];
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(picture, size[0], size[1], ExtendedColorType::Rgba8)
-        .other()?;
-    output::write_new(&path, &png).map_err(output::blame)?;
+    output::write_png(&path, picture, size, ExtendedColorType::Rgba8)?;
     let pictured = Pictured {
         picture: path,
         size,

@@ -1,17 +1,17 @@
 //! What a recording says of how it is to be replayed, and what is asked for instead.
 
-use clap::ValueEnum;
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
+use vitriol_experiment::units::three_digits;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
 use vitriol_xr::track::Track;
 
-use crate::cli::{CameraName, PresetName};
-use crate::experiment::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
-use crate::failure::{Blame, Failure};
-use crate::report::units::three_digits;
+use crate::cli::CameraName;
 
 /// Refuses a track that breaks off: what its film shows would not be what was
 /// recorded, and nothing would say so.
-pub(super) fn whole(name: &str, track: &Track) -> Result<(), Failure> {
+pub fn whole(name: &str, track: &Track) -> Result<(), Failure> {
     if !track.recovered {
         return Ok(());
     }
@@ -25,7 +25,7 @@ pub(super) fn whole(name: &str, track: &Track) -> Result<(), Failure> {
 }
 
 /// The scene that was asked for, or else the one that the track names.
-pub(super) fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result<String, Failure> {
+pub fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result<String, Failure> {
     match scene {
         Some(scene) => Ok(scene.to_owned()),
         None if track.metadata.scene.is_empty() => Err(format!(
@@ -38,19 +38,16 @@ pub(super) fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result
 
 /// The preset that was asked for, or else the one that the track was recorded
 /// with, or else the default.
-pub(super) fn preset_of(asked: Option<PresetName>, track: &Track) -> PresetName {
+pub fn preset_of(asked: Option<Preset>, track: &Track) -> Preset {
     let recorded = track.metadata.parameters.get("preset");
-    let recorded = recorded.and_then(|name| PresetName::from_str(name, false).ok());
-    asked.or(recorded).unwrap_or_default()
+    let recorded =
+        recorded.and_then(|name| Preset::ALL.into_iter().find(|preset| preset.name() == name));
+    asked.or(recorded).unwrap_or(Preset::Balanced)
 }
 
 /// Leaves out what a session changed in the solver to keep pace, where something else was asked for: substeps
 /// and iterations themselves, another preset, or another scene than the recorded one. Whether there was any.
-pub(super) fn own_solver(
-    (asked, preset): (bool, Option<PresetName>),
-    scene: &str,
-    track: &mut Track,
-) -> bool {
+pub fn own_solver((asked, preset): (bool, Option<Preset>), scene: &str, track: &mut Track) -> bool {
     let other_preset = preset.is_some_and(|preset| preset != preset_of(None, track));
     if !asked && !other_preset && scene == track.metadata.scene {
         return false;
@@ -67,13 +64,13 @@ pub(super) fn own_solver(
 }
 
 /// Whether someone changed the scene, or began it anew, while the track was recorded.
-pub(super) fn changes_scene(track: &Track) -> bool {
+pub fn changes_scene(track: &Track) -> bool {
     let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
     switches.any(|switch| [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key))
 }
 
 /// Where the head is at the start, if the film is to show what it sees.
-pub(super) fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose>, Failure> {
+pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose>, Failure> {
     match (camera, track.frames.first()) {
         (CameraName::Fixed, _) => Ok(None),
         (CameraName::Head, Some(frame)) => Ok(Some(frame.stage_from_view)),
@@ -88,7 +85,7 @@ pub(super) fn head(camera: CameraName, name: &str, track: &Track) -> Result<Opti
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::command::track;
+    use vitriol_experiment::track;
     use vitriol_xr::Switch;
 
     /// A recording's own changes of the solver are repeated, unless something else is asked for.
@@ -113,9 +110,9 @@ mod tests {
             keys == [SWITCH_SOLVER, SWITCH_START]
         };
         assert!(repeats((false, None), "beaker"));
-        assert!(repeats((false, Some(PresetName::Fast)), "beaker"));
+        assert!(repeats((false, Some(Preset::Fast)), "beaker"));
         assert!(!repeats((true, None), "beaker"));
-        assert!(!repeats((false, Some(PresetName::Balanced)), "beaker"));
+        assert!(!repeats((false, Some(Preset::Balanced)), "beaker"));
         assert!(!repeats((false, None), "two-flasks"));
     }
 }

@@ -5,25 +5,20 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::Serialize;
+use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON};
+use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
+use vitriol_experiment::{
+    Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
+    Outcome, Sample, Setup, Span, device, emit, track,
+};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_xr::Pose;
 use vitriol_xr::track::TrackSource;
 
 use crate::budget;
-use crate::cli::{CameraName, ColourName, FilterName, PresetName, ReplayArgs};
+use crate::cli::{CameraName, ReplayArgs};
 use crate::command::recorded::{changes_scene, head, own_solver, preset_of, scene_of, whole};
-use crate::command::track;
-use crate::console::{Format, emit};
-use crate::device;
-use crate::failure::{Blame, Failure};
-use crate::film::Film;
-use crate::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON, blame};
-use crate::recorder::{FILM_FPS, FILM_SIZE, Recorder, Recording};
-use crate::replay::{self, Experiment, Outcome, Span};
-use crate::report::units::{grouped, mass, percent, three_digits, with_unit};
-use crate::report::{FilmStatement, Report, Sample, SceneStatement, SolverStatement};
-use crate::statement;
+use crate::report::{FilmStatement, Report, SceneStatement, SolverStatement};
 
 /// What `vitriol replay --json` prints: the report without its time series, and
 /// where things are.
@@ -33,35 +28,6 @@ struct Replayed {
     report: Report,
     report_json: String,
     report_html: String,
-}
-
-/// What an experiment is made of.
-#[derive(Debug)]
-pub struct Setup<'a> {
-    /// The scene, its preset applied.
-    pub scene: &'a Scene,
-    /// Name or file that it was loaded from, for messages.
-    pub scene_name: &'a str,
-    /// That preset, for scenes that the track switches to.
-    pub preset: Preset,
-    /// Seed of the initial jitter.
-    pub seed: u64,
-    /// Number or part of the name of the device; the best one without.
-    pub device: Option<&'a str>,
-    /// Width and height of the pictures, pixels; `None` where none is asked for.
-    pub picture: Option<(u32, u32)>,
-    /// What each film's colours stand for, in the films' order.
-    pub colours: Vec<ColourName>,
-    /// Views side by side: 1, or 2 for both eyes.
-    pub eyes: u32,
-    /// Filter of the liquid's surface; `None` for the scene's.
-    pub filter: Option<FilterName>,
-    /// The head at the start (stage_from_view), where the pictures are what it
-    /// sees; `None` for a fixed camera.
-    pub head: Option<Pose>,
-    /// The shaders; where it watches a folder, what changes there is taken up
-    /// between two steps.
-    pub shaders: Arc<Library>,
 }
 
 /// Runs `vitriol replay`; `prepare` makes the experiment.
@@ -93,16 +59,16 @@ pub fn run(
         );
     }
     let preset = preset_of(args.preset, &track);
-    let scene = Scene::load(&name).input()?.with_preset(preset.into());
+    let scene = Scene::load(&name).input()?.with_preset(preset);
     let (scene, chosen) = chosen(args, scene)?;
     let head = head(args.camera, &args.track, &track)?;
     let colours = colours(args, &scene, &name)?;
-    let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track)).map_err(blame)?;
+    let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track))?;
     let seed = args.seed.unwrap_or(track.metadata.seed);
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
-        preset: preset.into(),
+        preset,
         seed,
         device: args.device.as_deref(),
         picture: (!args.no_video).then_some(FILM_SIZE),
@@ -121,29 +87,29 @@ pub fn run(
         Film::create(&path, width, height, FILM_FPS)
     });
     let films = films.collect::<Result<_, _>>().other()?;
-    let mut recorder = Recorder::new(span, films);
-    replay::run(
+    let mut observer = Observer::new(span, films);
+    vitriol_experiment::run(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,
-        &mut recorder,
+        &mut observer,
     )?;
-    let recording = recorder.finish()?;
-    for film in &recording.films {
+    let observations = observer.finish()?;
+    for film in &observations.films {
         out.adopt(film.clone());
     }
     let outcome = experiment.outcome()?;
     let (name, scene) = match &outcome.scene {
         Some(switched) => (
             switched.clone(),
-            Scene::load(switched).input()?.with_preset(preset.into()),
+            Scene::load(switched).input()?.with_preset(preset),
         ),
         None => (name, scene),
     };
     let scene = scene.with_effort(outcome.effort);
     let statements = (
-        statement::of_scene(&name, &scene),
-        statement::of_solver(&scene),
+        SceneStatement::of(&name, &scene),
+        SolverStatement::of(&scene),
     );
     let report = assemble(
         (args, chosen),
@@ -152,7 +118,7 @@ pub fn run(
         seed,
         statements,
         outcome,
-        recording,
+        observations,
     );
     write(&mut out, &report)?;
 
@@ -168,12 +134,12 @@ pub fn run(
 
 /// What the films' colours stand for; the first is the film, the second, if
 /// there is one, that of temperature.
-fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<ColourName>, Failure> {
+fn colours(args: &ReplayArgs, scene: &Scene, name: &str) -> Result<Vec<Colour>, Failure> {
     let heat = scene.models(Feature::Heat);
     match args.colour {
         _ if args.no_video => Ok(Vec::new()),
-        None if heat => Ok(vec![ColourName::Liquid, ColourName::Temperature]),
-        None => Ok(vec![ColourName::Liquid]),
+        None if heat => Ok(vec![Colour::Liquid, Colour::Temperature]),
+        None => Ok(vec![Colour::Liquid]),
         Some(colour) if heat || !colour.is_of_heat() => Ok(vec![colour]),
         Some(colour) => Err(format!(
             "--colour {}: the scene {name} models no heat; take --colour liquid or speed",
@@ -196,14 +162,14 @@ fn stem(track: &str) -> String {
 
 fn assemble(
     (args, chosen): (&ReplayArgs, Option<[u32; 2]>),
-    colours: &[ColourName],
-    preset: PresetName,
+    colours: &[Colour],
+    preset: Preset,
     seed: u64,
     (scene, solver): (SceneStatement, SolverStatement),
     outcome: Outcome,
-    recording: Recording,
+    observations: Observations,
 ) -> Report {
-    let samples = &recording.samples;
+    let samples = &observations.samples;
     // The filling is not the solver's work, so the start does not count.
     let solved = || samples.iter().skip(1);
     let count = solved().count().max(1) as f64;
@@ -214,7 +180,7 @@ fn assemble(
             width,
             height,
             fps: FILM_FPS,
-            frames: recording.film_frames,
+            frames: observations.film_frames,
             colour: colour.name().into(),
         })
     };
@@ -229,9 +195,9 @@ fn assemble(
         nan_particles: outcome.nan_particles,
         density_error_mean: solved().map(|s| s.density_error_mean).sum::<f64>() / count,
         density_error_p99: solved().map(|s| s.density_error_p99).fold(0.0, f64::max),
-        frames: recording.time.steps(),
-        simulated_s: recording.time.seconds(),
-        wall_s: recording.wall.as_secs_f64(),
+        frames: observations.time.steps(),
+        simulated_s: observations.time.seconds(),
+        wall_s: observations.wall.as_secs_f64(),
         state_hash: format!("{:016x}", outcome.state_hash),
         mass_kg: samples
             .last()
@@ -244,7 +210,7 @@ fn assemble(
         scene,
         solver,
         counters: outcome.counters,
-        series: recording.samples,
+        series: observations.samples,
     }
 }
 
@@ -263,12 +229,7 @@ fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
 
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
-fn command_line(
-    args: &ReplayArgs,
-    preset: PresetName,
-    seed: u64,
-    solver: Option<[u32; 2]>,
-) -> String {
+fn command_line(args: &ReplayArgs, preset: Preset, seed: u64, solver: Option<[u32; 2]>) -> String {
     let mut line = format!("vitriol replay {}", quoted(&args.track));
     if let Some(scene) = &args.scene {
         line += &format!(" --scene {}", quoted(scene));
@@ -321,9 +282,8 @@ fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), 
 /// a whole run.
 fn write(out: &mut OutDir, report: &Report) -> Result<(), Failure> {
     let json = serde_json::to_vec_pretty(report).other()?;
-    out.write(REPORT_HTML, report.to_html().as_bytes())
-        .and_then(|()| out.write(REPORT_JSON, &json))
-        .map_err(blame)
+    out.write(REPORT_HTML, report.to_html().as_bytes())?;
+    out.write(REPORT_JSON, &json)
 }
 
 fn describe(done: &Replayed, out: &Path) -> String {

@@ -3,17 +3,14 @@
 use std::fmt::Write;
 
 use serde::Serialize;
+use vitriol_experiment::units::{grouped, length, three_digits, with_unit};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_gpu::Timestamps;
 use vitriol_sim::scene::{Feature, Preset, Scene};
+use vitriol_study::bench::frame::anatomy;
 
-use crate::cli::{PresetName, ScenesArgs};
-use crate::console::{Format, emit};
-use crate::device;
-use crate::failure::{Blame, Failure};
-use crate::measure::anatomy;
-use crate::report::units::{grouped, length, three_digits, with_unit};
-use crate::report::{DeviceStatement, SceneStatement, SolverStatement};
-use crate::statement;
+use crate::cli::ScenesArgs;
+use crate::report::{SceneStatement, SolverStatement};
 
 #[derive(Debug, Serialize)]
 struct SceneList {
@@ -98,7 +95,7 @@ const FEATURES: [Feature; 10] = [
 fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
     let gpu = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let scenes = Scene::builtin_names().into_iter().map(|name| {
-        let scene = Scene::load(name).other()?.with_preset(args.preset.into());
+        let scene = Scene::load(name).other()?.with_preset(args.preset);
         let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;
         let [mut models, mut left_out] = [Vec::new(), Vec::new()];
         for feature in FEATURES {
@@ -115,7 +112,7 @@ fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
             fluid_particles: scene.liquids.iter().map(|l| scene.particle_count(l)).sum(),
             models,
             left_out,
-            boundary: statement::of_solver(&scene).boundary,
+            boundary: SolverStatement::of(&scene).boundary,
             bytes_per_particle,
             dispatches: passes.iter().map(|pass| pass.dispatches).sum(),
             passes: passes.into_iter().map(|p| (p.name, p.dispatches)).collect(),
@@ -161,22 +158,17 @@ fn describe_cost(cost: &SceneCost) -> String {
 
 fn look_into(name: &str) -> Result<SceneInfo, Failure> {
     let scene = Scene::load(name).other()?;
-    let all = [
-        PresetName::Fast,
-        PresetName::Balanced,
-        PresetName::Reference,
-    ];
-    let presets = all.map(|preset| {
-        let scene = scene.with_preset(Preset::from(preset));
+    let presets = Preset::ALL.map(|preset| {
+        let scene = scene.with_preset(preset);
         PresetInfo {
             preset: preset.name(),
             fluid_particles: scene.liquids.iter().map(|l| scene.particle_count(l)).sum(),
             d_m: scene.scale.spacing,
-            solver: statement::of_solver(&scene),
+            solver: SolverStatement::of(&scene),
         }
     });
     Ok(SceneInfo {
-        scene: statement::of_scene(name, &scene),
+        scene: SceneStatement::of(name, &scene),
         description: scene
             .description
             .split_whitespace()

@@ -5,12 +5,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
-use vitriol_xr::track::{self, Existing, Track, TrackError, builtin};
+use vitriol_experiment::units::three_digits;
+use vitriol_experiment::{Failure, Format, emit, track};
+use vitriol_xr::track::{self as tracks, Existing, builtin};
 
 use crate::cli::TrackArgs;
-use crate::console::{Format, emit};
-use crate::failure::Failure;
-use crate::report::units::three_digits;
 
 /// What a track holds.
 #[derive(Debug, Serialize)]
@@ -59,16 +58,8 @@ pub fn run(args: &TrackArgs, format: Format) -> Result<(), Failure> {
     }
 }
 
-/// Reads a track by name or file.
-///
-/// # Errors
-/// [`Failure::Input`], or [`Failure::Other`] where the system refuses.
-pub fn load(name: &str) -> Result<Track, Failure> {
-    track::load(name).map_err(blame)
-}
-
 fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
-    let written = track::convert(input, output, Existing::Refuse).map_err(blame)?;
+    let written = tracks::convert(input, output, Existing::Refuse).map_err(track::blame)?;
     let conversion = Conversion {
         input: input.to_owned(),
         output: output.display().to_string(),
@@ -86,7 +77,7 @@ fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
 }
 
 fn look_into(name: &str) -> Result<TrackInfo, Failure> {
-    let track = load(name)?;
+    let track = track::load(name)?;
     Ok(TrackInfo {
         track: name.to_owned(),
         duration_s: track.duration(),
@@ -131,15 +122,6 @@ fn describe(info: &TrackInfo) -> String {
         text.push_str("The recording broke off; it was read as far as it goes.\n");
     }
     text
-}
-
-/// Whose fault a track's error is.
-pub fn blame(error: TrackError) -> Failure {
-    match &error {
-        // A folder, or a file that this user may not read, was named.
-        TrackError::Io { action, .. } if *action != "read" => Failure::Other(error.into()),
-        _ => Failure::Input(error.into()),
-    }
 }
 
 #[cfg(test)]

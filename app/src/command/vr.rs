@@ -5,6 +5,8 @@ use std::io::IsTerminal;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::Serialize;
+use vitriol_experiment::units::{grouped, three_digits};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit, track};
 use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_sim::measure::Measurement;
 use vitriol_sim::scene::Scene;
@@ -12,12 +14,6 @@ use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
-use crate::command::track;
-use crate::console::{Format, emit};
-use crate::device;
-use crate::failure::{Blame, Failure};
-use crate::report::DeviceStatement;
-use crate::report::units::{grouped, three_digits};
 use crate::vr::bench::Plan;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
@@ -92,7 +88,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     let options = Options {
         plan: Plan {
             scene: args.scene.clone(),
-            preset: args.preset.into(),
+            preset: args.preset,
             seed: args.seed,
             solver: None,
             filter: None,

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::model::{HeatSample, LedgerSample, Report, Sample};
+use vitriol_experiment::{HeatSample, LedgerSample, Sample, units};
+
+use super::model::Report;
 use super::plot::Curve;
-use super::units;
 
 /// A plot's title, unit and curves.
 pub struct Plotted {
@@ -23,12 +24,12 @@ impl Report {
         let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
         let mist = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.mist_kg);
         let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
-        let mut lost = vec![(self.curve("spilled", &spilled), largest(self, &spilled))];
+        let mut lost = vec![(self.curve("spilled", &spilled), self.largest(&spilled))];
         if self.series.iter().any(|sample| ledger(sample).is_some()) {
-            lost.push((self.curve("evaporated", &steam), largest(self, &steam)));
+            lost.push((self.curve("evaporated", &steam), self.largest(&steam)));
             lost.push((
                 self.curve("of it mist in the air", &mist),
-                largest(self, &mist),
+                self.largest(&mist),
             ));
         }
         let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
@@ -147,6 +148,12 @@ impl Report {
         }
     }
 
+    /// The largest of its values.
+    pub(super) fn largest(&self, value: &dyn Fn(&Sample) -> f64) -> f64 {
+        let values = self.series.iter().map(value);
+        values.filter(|v| v.is_finite()).fold(0.0, f64::max)
+    }
+
     fn by_flask(
         &self,
         title: &'static str,
@@ -185,9 +192,4 @@ impl Report {
 
 fn ledger(sample: &Sample) -> Option<&LedgerSample> {
     sample.heat.as_ref()?.ledger.as_ref()
-}
-
-fn largest(report: &Report, value: &dyn Fn(&Sample) -> f64) -> f64 {
-    let values = report.series.iter().map(value);
-    values.filter(|v| v.is_finite()).fold(0.0, f64::max)
 }

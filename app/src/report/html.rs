@@ -1,44 +1,32 @@
 //! `report.html`: one file that needs nothing but the film beside it.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
+use vitriol_experiment::output::REPORT_JSON;
+use vitriol_experiment::page::{CURVE_COLOURS, page};
+use vitriol_experiment::units::{self, grouped, percent, three_digits, with_unit};
+use vitriol_experiment::{LedgerSample, Sample};
 
-use super::model::{LedgerSample, Report, Sample};
-use super::plot::{CURVE_COLOURS, Curve, Plot, over_time};
-use super::units::{self, grouped, percent, three_digits, with_unit};
+use super::model::Report;
+use super::plot::{Curve, Plot, over_time};
 
-/// The pages' style sheet.
-pub const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");
 
 impl Report {
     /// The report as a web page. Every string in it is escaped.
     pub fn to_html(&self) -> String {
-        let title = format!("{} · Vitriol", self.heading());
-        html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta name="color-scheme" content="light dark";
-                    title { (title) }
-                    style { (PreEscaped(STYLE)) }
-                }
-                body {
-                    main {
-                        (self.header())
-                        (self.figures())
-                        (self.film())
-                        (self.whereabouts())
-                        (self.plots())
-                        (self.statements())
-                        (self.footer())
-                    }
-                    script { (PreEscaped(SCRIPT)) }
-                }
+        let body = html! {
+            main {
+                (self.header())
+                (self.figures())
+                (self.film())
+                (self.whereabouts())
+                (self.plots())
+                (self.statements())
+                (self.footer())
             }
-        }
-        .into_string()
+            script { (PreEscaped(SCRIPT)) }
+        };
+        page(&self.heading(), "", &body)
     }
 
     fn header(&self) -> Markup {
@@ -160,12 +148,8 @@ impl Report {
 
     fn plots(&self) -> Markup {
         let curve = |label: &str, value: &dyn Fn(&Sample) -> f64| self.curve(label, value);
-        let largest = |value: &dyn Fn(&Sample) -> f64| {
-            let values = self.series.iter().map(value);
-            values.filter(|v| v.is_finite()).fold(0.0, f64::max)
-        };
-        let energy = units::energy(largest(&|s| s.kinetic_energy_j));
-        let mass = units::mass(largest(&|s| s.mass_kg.total()));
+        let energy = units::energy(self.largest(&|s| s.kinetic_energy_j));
+        let mass = units::mass(self.largest(&|s| s.mass_kg.total()));
         let places: Vec<Curve> = self
             .mass_kg
             .places()
@@ -271,7 +255,7 @@ impl Report {
                 p { "Made by " (self.program) " with" }
                 pre { code { (self.command) } }
                 p { "Hash of the final state " code { (self.state_hash) } ". All numbers: "
-                    a href=(crate::output::REPORT_JSON) { (crate::output::REPORT_JSON) } "." }
+                    a href=(REPORT_JSON) { (REPORT_JSON) } "." }
             }
         }
     }

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample};
+use vitriol_sim::scene::{Boundary, RelaxationKind, Scene};
 
 /// The report of one run. SI units throughout.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,36 +66,6 @@ pub struct Report {
     pub series: Vec<Sample>,
 }
 
-/// Fluid mass by place, kg.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct MassByPlace {
-    /// Inside each flask, by the flask's name.
-    pub flasks: BTreeMap<String, f64>,
-    /// On the table, outside all flasks.
-    pub table: f64,
-    /// On the floor.
-    pub floor: f64,
-    /// Neither: in the stream, or flying.
-    pub air: f64,
-}
-
-impl MassByPlace {
-    /// All of it, kg.
-    pub fn total(&self) -> f64 {
-        self.flasks.values().sum::<f64>() + self.table + self.floor + self.air
-    }
-
-    /// Each place with its mass, flasks first.
-    pub fn places(&self) -> impl Iterator<Item = (&str, f64)> {
-        let flasks = self.flasks.iter().map(|(name, kg)| (name.as_str(), *kg));
-        flasks.chain([
-            ("table", self.table),
-            ("floor", self.floor),
-            ("air", self.air),
-        ])
-    }
-}
-
 /// The film of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FilmStatement {
@@ -110,17 +82,6 @@ pub struct FilmStatement {
     /// What it shows: `liquid`, or particles coloured by `speed`, `temperature` or
     /// `acid`.
     pub colour: String,
-}
-
-/// The device and driver of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DeviceStatement {
-    /// The device's name.
-    pub name: String,
-    /// The driver and its version.
-    pub driver: String,
-    /// Vulkan API version.
-    pub api: String,
 }
 
 /// What every scene states of its scale, and what it models.
@@ -142,6 +103,21 @@ pub struct SceneStatement {
     pub models: Vec<String>,
 }
 
+impl SceneStatement {
+    /// That of a scene and what it models; `name` is how it was asked for.
+    pub fn of(name: &str, scene: &Scene) -> Self {
+        Self {
+            name: name.to_owned(),
+            d_m: scene.scale.spacing,
+            h_over_d: scene.scale.support_ratio,
+            frame_time_s: scene.scale.frame_time,
+            gravity_m_s2: scene.scale.gravity,
+            length_scale: scene.scale.length_scale,
+            models: scene.model.iter().map(|feature| feature.name()).collect(),
+        }
+    }
+}
+
 /// The solver's settings in this run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SolverStatement {
@@ -161,97 +137,27 @@ pub struct SolverStatement {
     pub boundary: String,
 }
 
-/// What was counted over a run.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Counters {
-    /// Substeps done.
-    pub substeps: u64,
-    /// Times that substeps and iterations changed, as in a session that had to keep pace.
-    #[serde(default)]
-    pub solver_changes: u64,
-    /// Times that the neighbour list was rebuilt.
-    pub neighbour_rebuilds: u64,
-    /// How often each limiter acted, by its name.
-    pub limiters: BTreeMap<String, u64>,
-}
-
-/// The state at one moment of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sample {
-    /// Simulated time, s.
-    pub t_s: f64,
-    /// Mean over particles of max(0, ρ/ρ₀ − 1).
-    pub density_error_mean: f64,
-    /// 99th percentile of the same.
-    pub density_error_p99: f64,
-    /// Kinetic energy, J.
-    pub kinetic_energy_j: f64,
-    /// What is where, kg.
-    pub mass_kg: MassByPlace,
-    /// Rebuilds of the neighbour list since the start.
-    pub neighbour_rebuilds: u64,
-    /// By flask: mass that has left it so far, each particle once, kg.
-    #[serde(default)]
-    pub left_kg: BTreeMap<String, f64>,
-    /// By flask: mass above its rim's plane, in no flask, that left it last, kg.
-    #[serde(default)]
-    pub above_rim_kg: BTreeMap<String, f64>,
-    /// Temperature and composition, where heat is modelled.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub heat: Option<HeatSample>,
-}
-
-/// Temperature and composition at one moment. Means are by mass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct HeatSample {
-    /// Mean temperature, °C.
-    pub temperature_mean_c: f64,
-    /// 99th percentile of the temperature over particles, °C.
-    pub temperature_p99_c: f64,
-    /// Highest temperature, °C.
-    pub temperature_max_c: f64,
-    /// Least and highest temperature in each flask that holds liquid, °C.
-    pub temperatures_in_flasks_c: BTreeMap<String, [f64; 2]>,
-    /// Mean acid mass fraction.
-    pub acid_mean: f64,
-    /// Least acid fraction.
-    pub acid_min: f64,
-    /// Largest acid fraction.
-    pub acid_max: f64,
-    /// Largest temperature above the boiling point, K (negative below it);
-    /// where there is a boiling point.
-    pub superheat_max_k: Option<f64>,
-    /// Particles above it.
-    pub boiling_particles: Option<u64>,
-    /// Of these, the members of each flask.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub boiling_in_flasks: BTreeMap<String, u64>,
-    /// Mass and energy; of the physical chemistry.
-    pub ledger: Option<LedgerSample>,
-}
-
-/// Where the enthalpy is that there was at the start: initial + exchanged =
-/// held + steam + kinetic. Relative to the pure liquids at 25 °C.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LedgerSample {
-    /// Enthalpy at the start, J.
-    pub initial_j: f64,
-    /// Heat gained from around, J; negative where it was lost.
-    pub exchanged_j: f64,
-    /// Enthalpy of what is still there, J.
-    pub held_j: f64,
-    /// Enthalpy that steam took along, J.
-    pub steam_j: f64,
-    /// Enthalpy that was paid for motion, J.
-    pub kinetic_j: f64,
-    /// By how much the two sides differ, over the sum of |h| at the start.
-    pub closure: f64,
-    /// Water that left as steam, kg.
-    pub steam_kg: f64,
-    /// Mist that it is in the air over the liquid, kg.
-    pub mist_kg: f64,
-    /// Vapour that is still in the liquid, kg.
-    pub vapour_kg: f64,
+impl SolverStatement {
+    /// The solver's settings in a scene, as its preset left them.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            substeps: scene.solver.substeps,
+            iterations: scene.solver.iterations,
+            relaxation: match scene.solver.relaxation {
+                RelaxationKind::Jacobi => "jacobi",
+                RelaxationKind::Chebyshev => "chebyshev",
+            }
+            .into(),
+            omega: scene.solver.omega,
+            carry: scene.solver.carry,
+            v_max: scene.solver.v_max,
+            boundary: match scene.solver.boundary {
+                Boundary::Map => "map",
+                Boundary::Particles => "particles",
+            }
+            .into(),
+        }
+    }
 }
 
 impl Report {

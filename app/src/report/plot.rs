@@ -1,20 +1,7 @@
 //! Plots over time, as inline SVG.
-//!
-//! The SVG carries plain colours, which the page's style sheet exchanges by
-//! attribute selector, so that one picture serves light and dark.
 
 use plotters::prelude::*;
-
-/// Colours of the curves as they stand in the SVG (Okabe and Ito's set, which
-/// colour-blind readers tell apart). The style sheet maps each to a variable.
-pub const CURVE_COLOURS: [RGBColor; 6] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-];
+use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 270;
@@ -89,9 +76,9 @@ fn draw(
     chart
         .configure_mesh()
         .disable_x_mesh()
-        .bold_line_style(RGBColor(0xdd, 0xdd, 0xdd))
+        .bold_line_style(GRID)
         .light_line_style(TRANSPARENT)
-        .axis_style(RGBColor(0x99, 0x99, 0x99))
+        .axis_style(AXIS)
         .label_style(("sans-serif", 18))
         .x_labels(7)
         .y_labels(5)

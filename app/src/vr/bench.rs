@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
@@ -11,7 +12,6 @@ use vitriol_sim::world::{World, WorldError, WorldState};
 use super::ladder::Ladder;
 use super::picture::{Eyes, Picture, Subject};
 use crate::budget;
-use crate::failure::{Blame, Failure};
 
 /// What a bench is made of.
 #[derive(Clone, Debug)]

@@ -1,6 +1,8 @@
 //! The picture for both eyes, drawn while the next steps are solved.
 
 use glam::Affine3A;
+use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of};
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
 use vitriol_render::camera::NEAR;
 use vitriol_render::{
@@ -14,8 +16,6 @@ use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, Targets};
 
 use super::hands::{BEAD_RADIUS, Bead, MOST_BEADS};
-use crate::camera::{affine, filter, laboratory, liquid_of};
-use crate::failure::{Blame, Failure};
 
 /// Pictures under way at most: one is shown, one is drawn, and the processor is not farther ahead
 /// than the poses are good for.
@@ -110,7 +110,7 @@ impl Picture {
         eyes: &Eyes,
     ) -> Result<Self, Failure> {
         let liquid = LiquidDesc {
-            filter: filter(scene),
+            filter: filter(scene.picture.filter),
             ..LiquidDesc::new(subject.particles)
         };
         let desc = RenderDesc {

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
+use vitriol_experiment::{Blame, Failure, SimulatedTime};
 use vitriol_gpu::{Ticket, Timestamps};
 use vitriol_shaders::Library;
 use vitriol_sim::solver::{FlaskReading, ReadingRecord};
@@ -25,8 +26,6 @@ use super::picture::Eyes;
 use super::placement::Posture;
 use super::record::{Recorded, Recording};
 use super::tally::{Holdings, Tally};
-use crate::failure::{Blame, Failure};
-use crate::replay::SimulatedTime;
 
 use pace::Pace;
 pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION, With};
@@ -160,7 +159,8 @@ impl Session {
         let bench = Bench::new(gpu, &library, &options.plan, &eyes)?;
         // Last of what can fail: a session that never was leaves no file.
         let recording = options.record.as_ref().map(|file| {
-            Recording::create(file, &metadata(&options.plan)).map_err(crate::command::track::blame)
+            Recording::create(file, &metadata(&options.plan))
+                .map_err(vitriol_experiment::track::blame)
         });
         let pace = Pace::new(gpu, &bench, options.governed);
         let counts = options.frames.is_some();

@@ -3,10 +3,8 @@
 use std::collections::VecDeque;
 
 use serde::Serialize;
+use vitriol_experiment::{Blame, Failure, Ranks};
 use vitriol_gpu::Ticket;
-
-use crate::failure::{Blame, Failure};
-use crate::rank::Ranks;
 
 /// Median, 95th and 99th percentile and the greatest of what was measured, each a value that was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use vitriol::experiment::{self, SWITCH_SOLVER};
+use vitriol_experiment::stage;
+use vitriol_experiment::switches::SWITCH_SOLVER;
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -153,9 +154,9 @@ pub fn replay(track: &Track) -> Replayed {
             let effort = [substeps, iterations].map(|number| number.parse().unwrap());
             world.set_effort(effort).unwrap();
         }
-        let hands = experiment::hands(&frame.hands, &scene);
+        let hands = stage::hands(&frame.hands, &scene);
         world.step(&StepInput { hands }).unwrap();
-        assert_eq!(&experiment::flasks(&world), flasks, "step {}", frame.step);
+        assert_eq!(&stage::flasks(&world), flasks, "step {}", frame.step);
         lifted = lifted.max(flasks[0].position.y);
     }
     let measured = world.measure().unwrap();

@@ -2,11 +2,8 @@
 
 use crate::common::{Trouble, Worn, hash, nobody, pour, session};
 use std::sync::Arc;
-use vitriol::command::replay::Setup;
-use vitriol::experiment::on_device;
-use vitriol::recorder::Recorder;
-use vitriol::replay::{self, Span};
 use vitriol::vr::stand_in::StandIn;
+use vitriol_experiment::{Observer, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -36,9 +33,9 @@ pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
     )
     .unwrap();
     let span = Span::covering(track.duration(), scene.scale.frame_time);
-    let mut recorder = Recorder::new(span, Vec::new());
+    let mut observer = Observer::new(span, Vec::new());
     let mut source = TrackSource::new(track);
-    replay::run(&mut source, experiment.as_mut(), span, &mut recorder).unwrap();
+    vitriol_experiment::run(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     experiment.outcome().unwrap().state_hash
 }
 

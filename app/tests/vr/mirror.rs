@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use crate::common::{Trouble, Worn, hash, nobody, options, pour, scene};
 use crate::loss::replayed;
-use vitriol::experiment::SWITCH_START;
 use vitriol::vr::mirror;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
+use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::QueueKind;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};

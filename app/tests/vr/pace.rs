@@ -4,9 +4,9 @@ use std::sync::mpsc::channel;
 
 use crate::common::{Trouble, Worn, hash, nobody, options, pour, scene, session_with};
 use crate::loss::replayed;
-use vitriol::experiment::{SWITCH_SOLVER, SWITCH_START};
 use vitriol::vr::session::{Decision, SWITCH_FILTER, SWITCH_PLACEMENT, SWITCH_RESOLUTION, WARM_UP};
 use vitriol::vr::stand_in::StandIn;
+use vitriol_experiment::switches::{SWITCH_SOLVER, SWITCH_START};
 use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 use vitriol_tests::gpu;

@@ -5,9 +5,9 @@ use std::sync::mpsc::{Sender, channel};
 use crate::common::{Trouble, Worn, hash, pour, session};
 use crate::loss::replayed;
 use glam::{Quat, Vec3};
-use vitriol::experiment::{SWITCH_SCENE, SWITCH_START};
 use vitriol::vr::session::{Decision, SWITCH_PLACEMENT};
 use vitriol::vr::stand_in::StandIn;
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose, Turn};
 

@@ -41,6 +41,20 @@ pub enum Preset {
     Reference,
 }
 
+impl Preset {
+    /// All of them, the cheapest first.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Balanced, Self::Reference];
+
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Balanced => "balanced",
+            Self::Reference => "reference",
+        }
+    }
+}
+
 /// A vessel of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flask {

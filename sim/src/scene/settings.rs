@@ -244,6 +244,16 @@ pub enum PictureFilter {
     CurvatureFlow,
 }
 
+impl PictureFilter {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NarrowRange => "narrow-range",
+            Self::CurvatureFlow => "curvature-flow",
+        }
+    }
+}
+
 /// How the scene is drawn; the simulation does not depend on it.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, default)]

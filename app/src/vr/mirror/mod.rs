@@ -7,6 +7,7 @@
 mod shrink;
 mod window;
 
+use vitriol_experiment::Failure;
 use vitriol_gpu::{Gpu, Image};
 use vitriol_shaders::Library;
 
@@ -14,7 +15,6 @@ use self::shrink::{Shrink, fit};
 use self::window::Say;
 pub use self::window::Window;
 use super::panel::Info;
-use crate::failure::Failure;
 
 /// Display time between two of the window's pictures, ns: 30 a second.
 const EVERY: i64 = 1_000_000_000 / 30;

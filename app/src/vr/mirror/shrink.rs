@@ -4,10 +4,9 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, ComputePipeline, CopyRegion, Gpu, GpuError, Image, QueueKind, Ticket};
 use vitriol_shaders::{Library, layout, mirror};
-
-use crate::failure::{Blame, Failure};
 
 /// Longest side of the window's picture, pixels: as high as an ordinary screen. A larger window
 /// scales it up.

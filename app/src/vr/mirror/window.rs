@@ -10,6 +10,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use softbuffer::{Context, Surface};
+use vitriol_experiment::Failure;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::error::EventLoopError;
@@ -20,7 +21,6 @@ use winit::window::{Window as Frame, WindowId};
 
 use super::fit;
 use super::shrink::Shrunk;
-use crate::failure::Failure;
 use crate::vr::menu;
 use crate::vr::session::Decision;
 

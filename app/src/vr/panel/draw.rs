@@ -5,13 +5,12 @@ use std::sync::Arc;
 
 use egui::epaint::{ImageData, Primitive};
 use egui::{ClippedPrimitive, Rect, TexturesDelta};
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{
     Blend, Buffer, ColourFormat, ColourTarget, Gpu, Image, ImageDesc, Load, RasterDesc,
     RasterPipeline, RasterTarget, Recorder, vk,
 };
 use vitriol_shaders::{Library, layout, panel};
-
-use crate::failure::{Blame, Failure};
 
 /// Of the picture: bytes are sRGB-encoded, and blended so.
 const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;

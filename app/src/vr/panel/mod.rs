@@ -5,12 +5,12 @@ mod view;
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
 use glam::{Quat, Vec3};
+use vitriol_experiment::Failure;
 use vitriol_gpu::{Gpu, Image, Recorder};
 use vitriol_shaders::Library;
 use vitriol_xr::{Hand, Pose};
 
 use super::session::Decision;
-use crate::failure::Failure;
 use draw::Painter;
 pub use view::{Effort, FlaskLine, Info};
 

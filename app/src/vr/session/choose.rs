@@ -1,12 +1,12 @@
 //! What the user chooses, by button, key and panel.
 
 use glam::Vec3;
+use vitriol_experiment::Failure;
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_sim::scene::Flask;
 use vitriol_xr::{Hand, Headset, PoseFrame, Side, Switch};
 
 use super::{Coming, Decision, SWITCH_PLACEMENT, Session, blame};
-use crate::experiment::{SWITCH_SCENE, SWITCH_START};
-use crate::failure::Failure;
 use crate::vr::bench::{Builder, Plan};
 use crate::vr::inputs::Pressed;
 use crate::vr::panel::{FlaskLine, Info};

@@ -2,13 +2,12 @@
 
 use std::time::Instant;
 
+use vitriol_experiment::{Blame, Failure, stage};
 use vitriol_gpu::QueueKind;
 use vitriol_sim::world::StepInput;
 use vitriol_xr::{Headset, HeadsetFrame, Pose, PoseFrame, Shown, Side};
 
 use super::{Session, WARM_UP, blame, milliseconds, nanoseconds};
-use crate::experiment;
-use crate::failure::{Blame, Failure};
 use crate::vr::bench::Bench;
 use crate::vr::hands;
 use crate::vr::haptics;
@@ -127,13 +126,13 @@ impl Session {
         frame.scenario = std::mem::take(&mut self.switches);
         let world = &mut self.bench.world;
         let frame_time = world.scene().scale.frame_time;
-        let hands = experiment::hands(&frame.hands, world.scene());
+        let hands = stage::hands(&frame.hands, world.scene());
         world
             .step_on(QueueKind::Async, &StepInput { hands })
             .other()?;
         self.solved.extend(world.last_step().cloned());
         if let Some(recording) = &mut self.recording {
-            recording.push(&frame, experiment::flasks(world));
+            recording.push(&frame, stage::flasks(world));
         }
         self.time.advance(frame_time);
         Ok(())

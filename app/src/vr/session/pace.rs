@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use serde::Serialize;
+use vitriol_experiment::switches::SWITCH_SOLVER;
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 
 use super::Session;
-use crate::experiment::SWITCH_SOLVER;
-use crate::failure::{Blame, Failure};
 use crate::vr::bench::Bench;
 use crate::vr::clock::MOST_STEPS;
 use crate::vr::governor::{Governor, Level, Taken};

@@ -1,0 +1,217 @@
+//! Arguments of what plays and looks: replays, pictures, the headset, tracks,
+//! scenes.
+
+use std::path::PathBuf;
+
+use clap::builder::TypedValueParser;
+use clap::{Args, ValueEnum};
+use vitriol_experiment::Colour;
+use vitriol_experiment::switches::pair;
+use vitriol_sim::scene::{PictureFilter, Preset};
+use vitriol_study::parse::{filter, named, positive, preset};
+
+use crate::vr::placement::Posture;
+
+/// Where a film is seen from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum CameraName {
+    /// A tripod before the bench
+    #[default]
+    Fixed,
+    /// The track's head, as the user saw it
+    Head,
+}
+
+/// What a film's colours stand for.
+fn colour() -> impl TypedValueParser<Value = Colour> {
+    const COLOURS: [(Colour, &str); 4] = [
+        (Colour::Liquid, "Liquid in glass"),
+        (Colour::Speed, "Speed of the particles"),
+        (
+            Colour::Temperature,
+            "Temperature, where the scene models heat",
+        ),
+        (
+            Colour::Acid,
+            "Acid mass fraction, where the scene models heat",
+        ),
+    ];
+    named(&COLOURS, Colour::name)
+}
+
+/// Arguments of `vitriol replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// A built-in track's name (see `vitriol track --list`) or an MCAP file
+    pub track: String,
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file; without
+    /// it the scene that the track names
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// In place of a preset: the most accurate setting by which a frame's solution
+    /// takes at most so many milliseconds on this device (99th percentile)
+    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with_all = ["preset", "solver"])]
+    pub budget_ms: Option<f64>,
+    /// Substeps and iterations in place of the preset's, such as 10x3
+    #[arg(long, value_name = "SxI", value_parser = pair)]
+    pub solver: Option<[u32; 2]>,
+    /// Simulated seconds; without it the whole track
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub seconds: Option<f64>,
+    /// Seed of the particles' initial jitter; without it the track's own
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+    /// Folder for film and report, which may be new; without it
+    /// out/TRACK-NUMBER
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Where the film is seen from
+    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    pub camera: CameraName,
+    /// One film only, of the liquid or of particles coloured by this; without it
+    /// one of the liquid, and where the scene models heat a second one by
+    /// temperature
+    #[arg(long, value_parser = colour(), value_name = "COLOUR", conflicts_with = "no_video")]
+    pub colour: Option<Colour>,
+    /// Filter of the liquid's surface; without it the scene's
+    #[arg(long, value_parser = filter(), value_name = "FILTER", conflicts_with = "no_video")]
+    pub filter: Option<PictureFilter>,
+    /// Make the report without a film
+    #[arg(long)]
+    pub no_video: bool,
+}
+
+/// Arguments of `vitriol picture`.
+#[derive(Debug, Args)]
+pub struct PictureArgs {
+    /// A built-in track's name (see `vitriol track --list`) or an MCAP file
+    pub track: String,
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file; without
+    /// it the scene that the track names
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Trade of speed for accuracy; without it the one that the track was
+    /// recorded with, or else balanced
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// Simulated time of the picture, seconds
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub at: f64,
+    /// PNG file to be made
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Width and height of a view, pixels
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair)]
+    pub size: [u32; 2],
+    /// Both eyes, side by side
+    #[arg(long)]
+    pub stereo: bool,
+    /// Where it is seen from
+    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
+    pub camera: CameraName,
+    /// Liquid, or particles coloured by this
+    #[arg(long, value_parser = colour(), default_value = "liquid", value_name = "COLOUR")]
+    pub colour: Colour,
+    /// Filter of the liquid's surface; without it the scene's
+    #[arg(long, value_parser = filter(), value_name = "FILTER")]
+    pub filter: Option<PictureFilter>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol vr`.
+#[derive(Debug, Args)]
+pub struct VrArgs {
+    /// A built-in scene's name (see `vitriol scenes`) or a TOML file
+    #[arg(long, value_name = "SCENE", default_value = "acid-into-water")]
+    pub scene: String,
+    /// Trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "balanced")]
+    pub preset: Preset,
+    /// In place of a preset: the most accurate setting by which a step's solution
+    /// takes at most so many milliseconds on this device (99th percentile)
+    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with_all = ["preset", "solver"])]
+    pub budget_ms: Option<f64>,
+    /// Substeps and iterations of the scene to begin with in place of the preset's, such as 10x3
+    #[arg(long, value_name = "SxI", value_parser = pair)]
+    pub solver: Option<[u32; 2]>,
+    /// Keep solver and picture as they are asked for, whatever frames take;
+    /// without it both do with less where the display would miss frames
+    #[arg(long)]
+    pub fixed: bool,
+    /// Seed of the particles' initial jitter
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// How you are at the bench
+    #[arg(long, value_enum, default_value_t, value_name = "POSTURE")]
+    pub posture: Posture,
+    /// Keep the session as a pose track in this new file, for `vitriol replay`
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// No window on the computer that shows what the left eye sees
+    #[arg(long)]
+    pub no_mirror: bool,
+    /// Measure that many frames, after some to warm up, and end
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub frames: Option<u64>,
+    /// In place of a headset images and a clock, worn by who moves as in this
+    /// track (by name or file), over and over: for measurements
+    #[arg(long, value_name = "TRACK")]
+    pub stand_in: Option<String>,
+    /// Width and height of an eye's picture of the stand-in, pixels
+    #[arg(long, value_name = "WxH", default_value = "2064x2208", value_parser = pair, requires = "stand_in")]
+    pub size: [u32; 2],
+    /// Frames a second of the stand-in
+    #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, requires = "stand_in")]
+    pub rate: f64,
+    /// Device of the stand-in: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long, requires = "stand_in")]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol track`.
+#[derive(Debug, Args)]
+#[command(arg_required_else_help = true)]
+pub struct TrackArgs {
+    /// Keyframes (TOML) to convert with -o; or a track, by name or file, to
+    /// look into
+    #[arg(required_unless_present = "list")]
+    pub input: Option<String>,
+    /// Write the track of these keyframes to this new MCAP file
+    #[arg(short, long, value_name = "FILE", requires = "input")]
+    pub output: Option<PathBuf>,
+    /// List the built-in tracks
+    #[arg(long, conflicts_with_all = ["input", "output"])]
+    pub list: bool,
+}
+
+/// Arguments of `vitriol scenes`.
+#[derive(Debug, Args)]
+pub struct ScenesArgs {
+    /// What each scene takes: passes of a frame, bytes a particle; and what is left
+    /// out of it
+    #[arg(long)]
+    pub cost: bool,
+    /// With --cost: trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "balanced", requires = "cost")]
+    pub preset: Preset,
+    /// With --cost: device to use, its number or a part of its name
+    #[arg(long, requires = "cost")]
+    pub device: Option<String>,
+}
+
+/// Frames a second.
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(rate),
+        _ => Err("give a rate of 1 to 1000 frames a second, such as 90".into()),
+    }
+}

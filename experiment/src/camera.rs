@@ -1,0 +1,343 @@
+//! The film's camera: on a tripod, or where the user's eyes were.
+
+use glam::{Affine3A, Vec3};
+use vitriol_gpu::{Gpu, QueueKind, Recorder};
+use vitriol_render::{
+    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, RenderDesc, RenderError, Renderer,
+    SteamSource, View,
+};
+use vitriol_shaders::{Library, ShaderId};
+use vitriol_sim::chemistry::adiabatic::{Feed, mix};
+use vitriol_sim::chemistry::table::SolutionTable;
+use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
+use vitriol_sim::world::World;
+
+use crate::failure::{Blame, Failure};
+use crate::legend::{Legend, draw_tints};
+use crate::scenery::{affine, filter, laboratory, liquid_of};
+
+/// Radius of a drawn particle over the spacing d: closes the gaps between them.
+const DRAWN_RADIUS: f64 = 0.6;
+
+/// A fall over this height (m, real) gives the speed at the end of the colour
+/// map: about that from one flask's lip to another's floor.
+const COLOURED_FALL: f64 = 0.075;
+
+/// Vertical field of view from the head, degrees: 66° across at 16:9. A
+/// headset's own 90° and more, flattened into a film, makes the glass small
+/// and the bench's edges long.
+const HEAD_FIELD: f32 = 40.0;
+
+/// Distance between a grown person's eyes, metres: the mean of some thousand
+/// adults (N. Dodgson, 2004).
+const EYES_APART: f32 = 0.063;
+
+/// What a film's colours stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colour {
+    /// Liquid in glass
+    Liquid,
+    /// Speed of the particles
+    Speed,
+    /// Temperature, where the scene models heat
+    Temperature,
+    /// Acid mass fraction, where the scene models heat
+    Acid,
+}
+
+impl Colour {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Liquid => "liquid",
+            Self::Speed => "speed",
+            Self::Temperature => "temperature",
+            Self::Acid => "acid",
+        }
+    }
+
+    /// Whether only a scene that models heat has it.
+    pub fn is_of_heat(self) -> bool {
+        matches!(self, Self::Temperature | Self::Acid)
+    }
+}
+
+/// What a camera is to take.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Width and height of a view, pixels.
+    pub extent: [u32; 2],
+    /// Views side by side: 1, or 2 for both eyes.
+    pub eyes: u32,
+    /// Particles of the liquid, where it is to look like liquid.
+    pub liquid: Option<u32>,
+    /// Filter of its surface; `None` for the scene's.
+    pub filter: Option<PictureFilter>,
+}
+
+impl Shot {
+    /// One view of coloured particles.
+    pub fn of(extent: [u32; 2]) -> Self {
+        Self {
+            extent,
+            eyes: 1,
+            liquid: None,
+            filter: None,
+        }
+    }
+}
+
+/// Takes pictures of a world.
+pub struct Camera {
+    renderer: Renderer,
+    eyes: u32,
+    view: View,
+    /// What the colours of temperature run over.
+    temperatures: ColourBy,
+}
+
+impl Camera {
+    /// A camera for such pictures of that scene, on its tripod
+    /// until [`Camera::follow`] takes it off.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, shot: &Shot) -> Result<Self, Failure> {
+        let extent = shot.extent;
+        let desc = RenderDesc {
+            views: shot.eyes,
+            liquid: shot.liquid.map(|particles| LiquidDesc {
+                filter: filter(shot.filter.unwrap_or(scene.picture.filter)),
+                ..LiquidDesc::new(particles)
+            }),
+            ..RenderDesc::film(extent)
+        };
+        let mut renderer = Renderer::new(gpu, library, &desc).other()?;
+        renderer.set_scene(&laboratory(scene)).other()?;
+        Ok(Self {
+            renderer,
+            eyes: shot.eyes,
+            view: view(scene, extent[0] as f32 / extent[1] as f32),
+            temperatures: temperatures(scene),
+        })
+    }
+
+    /// Takes up what changed of the renderer's shaders; `changed` is what
+    /// [`Library::changed`] returned. On an error the old pipelines stay.
+    ///
+    /// # Errors
+    /// What shader or device say.
+    pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
+        self.renderer.reload(library, changed)
+    }
+
+    /// Puts the camera where a head is: `stage_from_view`, in real metres.
+    pub fn follow(&mut self, stage_from_view: &vitriol_xr::Pose) {
+        let [width, height] = self.renderer.extent();
+        self.view = View {
+            stage_from_eye: Affine3A::from_rotation_translation(
+                stage_from_view.orientation.normalize(),
+                stage_from_view.position,
+            ),
+            fov: Fov::symmetric(HEAD_FIELD.to_radians(), width as f32 / height as f32),
+        };
+    }
+
+    /// Puts the camera elsewhere.
+    pub fn set_view(&mut self, view: View) {
+        self.view = view;
+    }
+
+    /// The world as it is now, coloured by speed where it has not what is asked
+    /// for: rows from the top, sRGB-encoded RGBA bytes.
+    /// Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
+        let gpu = world.gpu();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        self.record(&mut rec, world, colour)?;
+        let picture = self.renderer.read_back(&mut rec).other()?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+        let mut picture = picture.side_by_side().other()?;
+        let width = (self.eyes * self.renderer.extent()[0]) as usize;
+        match self.legend(world, colour) {
+            Some(legend) => legend.draw(&mut picture, width),
+            None if colour == Colour::Liquid && has_acid(world.scene()) => {
+                draw_tints(&mut picture, width)
+            }
+            None => {}
+        }
+        Ok(picture)
+    }
+
+    /// Records the picture of the world as it is after what was recorded
+    /// before on that queue.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record(&self, rec: &mut Recorder, world: &World, colour: Colour) -> Result<(), Failure> {
+        self.with_frame(world, colour, |frame| self.renderer.record(rec, frame))
+    }
+
+    /// Records the two parts of a picture of liquid for two queues, as
+    /// [`Renderer::record_shapes`] tells.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn record_apart(
+        &self,
+        shapes: &mut Recorder,
+        picture: &mut Recorder,
+        world: &World,
+        slot: usize,
+    ) -> Result<(), Failure> {
+        self.with_frame(world, Colour::Liquid, |frame| {
+            self.renderer.record_shapes(shapes, frame, slot)?;
+            self.renderer.record_picture(picture, frame, slot)
+        })
+    }
+
+    fn with_frame(
+        &self,
+        world: &World,
+        colour: Colour,
+        f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
+    ) -> Result<(), Failure> {
+        let scale = &world.scene().scale;
+        let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
+        let solver = world.solver();
+        let colour_by = self.colour_by(world, colour);
+        let attributes = match (colour_by, solver.heat()) {
+            (ColourBy::Temperature(..) | ColourBy::Acid, Some(heat)) => heat,
+            _ => solver.velocities(),
+        };
+        let particles = ParticleSource {
+            positions: solver.positions(),
+            attributes,
+            count: solver.count(),
+            radius: (DRAWN_RADIUS * scale.spacing) as f32,
+        };
+        let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
+        let frame = FrameDesc {
+            extent: None,
+            views: &self.views(),
+            vessels: &vessels,
+            particles: liquid.is_none().then_some(particles),
+            liquid,
+            steam: solver
+                .puffs()
+                .filter(|_| liquid.is_some())
+                .map(|puffs| SteamSource {
+                    puffs,
+                    count: vitriol_sim::solver::PUFFS,
+                }),
+            colour_by,
+            length_scale: scale.length_scale as f32,
+        };
+        f(&frame).other()
+    }
+
+    /// What particles' colours stand for: speed where the world has not what is
+    /// asked for.
+    fn colour_by(&self, world: &World, colour: Colour) -> ColourBy {
+        match (colour, world.solver().heat()) {
+            (Colour::Temperature, Some(_)) => self.temperatures,
+            (Colour::Acid, Some(_)) => ColourBy::Acid,
+            _ => {
+                let scale = &world.scene().scale;
+                let fall = COLOURED_FALL / scale.length_scale;
+                ColourBy::Speed((2.0 * scale.gravity.abs() * fall).sqrt() as f32)
+            }
+        }
+    }
+
+    /// What stands in the picture's corner.
+    fn legend(&self, world: &World, colour: Colour) -> Option<Legend> {
+        match colour {
+            Colour::Liquid => None,
+            _ => Legend::of(self.colour_by(world, colour)),
+        }
+    }
+
+    /// The camera's view, or that of the eyes to its left and right.
+    fn views(&self) -> Vec<View> {
+        let eye = |index: u32| {
+            let aside = (index as f32 - 0.5 * (self.eyes - 1) as f32) * EYES_APART;
+            View {
+                stage_from_eye: self.view.stage_from_eye
+                    * Affine3A::from_translation(Vec3::X * aside),
+                ..self.view
+            }
+        };
+        (0..self.eyes).map(eye).collect()
+    }
+}
+
+/// Whether there is any acid, which is drawn in another tint than water.
+fn has_acid(scene: &Scene) -> bool {
+    scene
+        .liquids
+        .iter()
+        .any(|liquid| liquid.acid_fraction > 0.0)
+}
+
+/// The range of a scene's temperatures: from the coldest that there is at the
+/// start to half as much again as the paper's boiling point, or to the hottest
+/// that its liquids can make of each other; whole tens.
+fn temperatures(scene: &Scene) -> ColourBy {
+    let liquids = || scene.liquids.iter();
+    let ambient = [
+        scene.paper.and_then(|paper| paper.T_a),
+        scene.physical.and_then(|physical| physical.ambient),
+    ];
+    let starts = || liquids().map(|liquid| liquid.temperature);
+    let coldest = starts()
+        .chain(ambient.into_iter().flatten())
+        .fold(f64::INFINITY, f64::min);
+    let mut hottest = starts().fold(coldest + 60.0, f64::max);
+    if let Some(boiling_point) = scene.paper.and_then(|paper| paper.T_B) {
+        hottest = hottest.max(1.5 * boiling_point);
+    } else if scene.physical.is_some() {
+        let table = SolutionTable::new();
+        for (a, b) in liquids().flat_map(|a| liquids().map(move |b| (a, b))) {
+            for share in (1..20).map(|n| 0.05 * f64::from(n)) {
+                let feed = |liquid: &Liquid, mass: f64| Feed {
+                    mass,
+                    acid: liquid.acid_fraction,
+                    temperature: liquid.temperature,
+                };
+                let mixed = mix(&table, &[feed(a, share), feed(b, 1.0 - share)]);
+                hottest = mixed.map_or(hottest, |mixed| hottest.max(mixed.temperature));
+            }
+        }
+    }
+    ColourBy::Temperature(
+        (10.0 * (coldest / 10.0).floor()) as f32,
+        (10.0 * (hottest / 10.0).ceil()) as f32,
+    )
+}
+
+/// At real size the view of a bench before a standing user; else one that has
+/// the vessels, and as much room above them for what is lifted, in its picture.
+fn view(scene: &Scene, aspect: f32) -> View {
+    let scale = scene.scale.length_scale as f32;
+    if scale == 1.0 || scene.flasks.is_empty() {
+        return View::bench(aspect);
+    }
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for flask in &scene.flasks {
+        let foot = flask.stage_from_flask.position * scale;
+        let reach = Vec3::new(1.0, 0.0, 1.0) * (flask.profile.outer_radius() as f32 * scale);
+        low = low.min(foot - reach);
+        high = high.max(foot + reach + Vec3::Y * (flask.profile.rim_height() as f32 * scale));
+    }
+    let lifted = 2.0 * (high.y - low.y);
+    let middle = 0.5 * (low + high);
+    let target = Vec3::new(middle.x, low.y + 0.4 * lifted, middle.z);
+    let vertical = 20.5_f32.to_radians();
+    let half = (0.6 * lifted).max(0.7 * (high.x - low.x) / aspect);
+    let eye = target + Vec3::new(0.0, 0.25, 1.0).normalize() * (half / (0.5 * vertical).tan());
+    View::look_at(eye, target, Fov::symmetric(vertical, aspect))
+}

@@ -1,0 +1,59 @@
+//! The device that a command runs on.
+
+use serde::{Deserialize, Serialize};
+use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader, Timestamps};
+
+use crate::failure::Failure;
+
+/// The device and driver of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DeviceStatement {
+    /// The device's name.
+    pub name: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// Vulkan API version.
+    pub api: String,
+}
+
+/// Opens the device that was asked for, or the best.
+///
+/// # Errors
+/// [`Failure::NoDevice`], or [`Failure::Input`] for a device that is not there.
+pub fn open(device: Option<&str>) -> Result<Gpu, Failure> {
+    timed(device, Timestamps::None)
+}
+
+/// The same, with its clock read.
+///
+/// # Errors
+/// As for [`open`].
+pub fn timed(device: Option<&str>, timestamps: Timestamps) -> Result<Gpu, Failure> {
+    let options = Options {
+        device: device.map(str::to_owned),
+        timestamps,
+        ..Options::default()
+    };
+    Gpu::open(&mut PlainLoader::default(), &options).map_err(blame)
+}
+
+/// What a report says of it.
+pub fn statement(gpu: &Gpu) -> DeviceStatement {
+    let info = gpu.info();
+    DeviceStatement {
+        name: info.name.clone(),
+        driver: info.driver.clone(),
+        api: info.api.clone(),
+    }
+}
+
+fn blame(error: GpuError) -> Failure {
+    match error {
+        GpuError::NoSuchDevice { .. } => Failure::Input(error.into()),
+        GpuError::NoLoader { .. }
+        | GpuError::NoInstance { .. }
+        | GpuError::NoDevice
+        | GpuError::Unsuitable { .. } => Failure::NoDevice(error.into()),
+        _ => Failure::Other(error.into()),
+    }
+}

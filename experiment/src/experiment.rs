@@ -1,0 +1,87 @@
+//! What the loop drives, and what it learns of it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use vitriol_xr::PoseFrame;
+
+use crate::device::DeviceStatement;
+use crate::failure::Failure;
+use crate::sample::Sample;
+
+/// What the loop drives: the simulated world, and the picture of it.
+pub trait Experiment {
+    /// Does what the frame's switches say, and advances by one fixed step with
+    /// what the user did at its time.
+    ///
+    /// # Errors
+    /// What device or solver say; [`Failure::Input`] for a switch to a scene
+    /// that is not there.
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure>;
+
+    /// Measures the state now, which is that at time `t` (s). Waits for the
+    /// device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn sample(&mut self, t: f64) -> Result<Sample, Failure>;
+
+    /// Draws the state now for one of the films, counted as they were asked
+    /// for: rows from the top, sRGB-encoded RGBA bytes of the film's size.
+    /// Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
+
+    /// What came of it, and on what device.
+    ///
+    /// # Errors
+    /// What the device says while the final state is read.
+    fn outcome(&mut self) -> Result<Outcome, Failure>;
+}
+
+/// A step that was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taken {
+    /// Its Δt_f, s.
+    pub frame_time: f64,
+    /// Before it a switch brought up a scene at its start.
+    pub anew: bool,
+}
+
+/// What an experiment states of itself at its end.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The scene at the end, where a switch brought it up.
+    pub scene: Option<String>,
+    /// Substeps and iterations at the end.
+    pub effort: [u32; 2],
+    /// Fluid particles at the start.
+    pub fluid_particles: u64,
+    /// Most particles that were on the wrong side of a wall in any measurement
+    /// of the run (ten a second) or at its end.
+    pub lost_particles: u64,
+    /// Particles taken out because they turned non-finite.
+    pub nan_particles: u64,
+    /// Hash of the final state.
+    pub state_hash: u64,
+    /// Device and driver.
+    pub device: DeviceStatement,
+    /// What was counted.
+    pub counters: Counters,
+}
+
+/// What was counted over a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Counters {
+    /// Substeps done.
+    pub substeps: u64,
+    /// Times that substeps and iterations changed, as in a session that had to keep pace.
+    #[serde(default)]
+    pub solver_changes: u64,
+    /// Times that the neighbour list was rebuilt.
+    pub neighbour_rebuilds: u64,
+    /// How often each limiter acted, by its name.
+    pub limiters: BTreeMap<String, u64>,
+}

@@ -1,0 +1,374 @@
+//! The simulated world and its picture on a Vulkan device, as the loop drives
+//! them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use vitriol_gpu::Gpu;
+use vitriol_shaders::{Library, ShaderId};
+use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
+use vitriol_sim::scene::{PictureFilter, Preset, Scene};
+use vitriol_sim::world::{StepInput, World, WorldError};
+use vitriol_xr::{Pose, PoseFrame, Switch};
+
+use crate::camera::{Camera, Colour, Shot};
+use crate::device;
+use crate::experiment::{Counters, Experiment, Outcome, Taken};
+use crate::failure::{Blame, Failure};
+use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
+use crate::stage::hands;
+use crate::switches::{self, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
+
+/// What an experiment is made of.
+#[derive(Debug)]
+pub struct Setup<'a> {
+    /// The scene, its preset applied.
+    pub scene: &'a Scene,
+    /// Name or file that it was loaded from, for messages.
+    pub scene_name: &'a str,
+    /// That preset, for scenes that the track switches to.
+    pub preset: Preset,
+    /// Seed of the initial jitter.
+    pub seed: u64,
+    /// Number or part of the name of the device; the best one without.
+    pub device: Option<&'a str>,
+    /// Width and height of the pictures, pixels; `None` where none is asked for.
+    pub picture: Option<(u32, u32)>,
+    /// What each film's colours stand for, in the films' order.
+    pub colours: Vec<Colour>,
+    /// Views side by side: 1, or 2 for both eyes.
+    pub eyes: u32,
+    /// Filter of the liquid's surface; `None` for the scene's.
+    pub filter: Option<PictureFilter>,
+    /// The head at the start (stage_from_view), where the pictures are what it
+    /// sees; `None` for a fixed camera.
+    pub head: Option<Pose>,
+    /// The shaders; where it watches a folder, what changes there is taken up
+    /// between two steps.
+    pub shaders: Arc<Library>,
+}
+
+/// The experiment of a scene on the device that was asked for.
+///
+/// # Errors
+/// [`Failure::NoDevice`]; [`Failure::Input`] for a device that is not there or
+/// a liquid that does not fit.
+pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
+    on_device(&device::open(setup.device)?, setup)
+}
+
+/// The same on a device that is open already.
+///
+/// # Errors
+/// [`Failure::Input`] for a liquid that does not fit.
+pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
+    let library = &setup.shaders;
+    let world = World::new(gpu, library, setup.scene, setup.seed).map_err(|error| {
+        match blame_world(error) {
+            // What is wrong with a scene is said with its file.
+            Failure::Input(cause) => {
+                Failure::Input(format!("{}: {cause}", setup.scene_name).into())
+            }
+            failure => failure,
+        }
+    })?;
+    let shot = setup.picture.map(|(width, height)| Shot {
+        extent: [width, height],
+        eyes: setup.eyes,
+        liquid: None,
+        filter: setup.filter,
+    });
+    let mut film = camera(&world, library, shot, &setup.colours)?;
+    if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
+        camera.follow(head);
+    }
+    Ok(Box::new(Laboratory {
+        world,
+        film,
+        shot,
+        preset: setup.preset,
+        switched: None,
+        follows_head: setup.head.is_some(),
+        seed: setup.seed,
+        shaders: setup.shaders.clone(),
+        lost: 0,
+        substeps: 0,
+        solver_changes: 0,
+        departures: Departures::default(),
+        start: None,
+        colours: setup.colours.clone(),
+        picture: Vec::new(),
+    }))
+}
+
+/// The camera for the pictures that were asked for.
+fn camera(
+    world: &World,
+    library: &Library,
+    shot: Option<Shot>,
+    colours: &[Colour],
+) -> Result<Option<Camera>, Failure> {
+    let liquid = colours.contains(&Colour::Liquid);
+    let of_world = |shot: Shot| {
+        let shot = Shot {
+            liquid: liquid.then(|| world.solver().count()),
+            ..shot
+        };
+        Camera::new(world.gpu(), library, world.scene(), &shot)
+    };
+    shot.map(of_world).transpose()
+}
+
+struct Laboratory {
+    world: World,
+    film: Option<Camera>,
+    /// What the film's pictures are like, whatever the scene.
+    shot: Option<Shot>,
+    preset: Preset,
+    /// The scene that a switch brought up.
+    switched: Option<String>,
+    follows_head: bool,
+    seed: u64,
+    shaders: Arc<Library>,
+    /// Most particles on the wrong side of a wall in any measurement.
+    lost: u64,
+    /// Substeps done.
+    substeps: u64,
+    /// Times that a switch changed substeps or iterations.
+    solver_changes: u64,
+    departures: Departures,
+    /// The ledger at the first sample.
+    start: Option<Ledger>,
+    colours: Vec<Colour>,
+    picture: Vec<u8>,
+}
+
+impl Laboratory {
+    /// Takes up shaders that were changed on disk. What does not compile, or
+    /// what the device refuses, leaves the old ones in use: who is writing a
+    /// shader mends it and goes on.
+    fn take_up_shaders(&mut self) {
+        let changed = self.shaders.changed();
+        if changed.is_empty() {
+            return;
+        }
+        let names: Vec<_> = changed.iter().map(ShaderId::path).collect();
+        let names = names.join(", ");
+        match self.rebuild(&changed) {
+            Ok(()) => tracing::warn!(
+                "taken up: {names}; the report's command line no longer gives this run"
+            ),
+            Err(failure) => tracing::warn!("the old {names} stay in use: {failure}"),
+        }
+    }
+
+    fn rebuild(&mut self, changed: &[ShaderId]) -> Result<(), Failure> {
+        let solves = changed.iter().any(|id| id.path().starts_with("sim/"));
+        let renewed = solves.then(|| self.renewed_world()).transpose()?;
+        if let Some(camera) = &mut self.film {
+            camera.reload(&self.shaders, changed).other()?;
+        }
+        if let Some(world) = renewed {
+            self.world = world;
+        }
+        Ok(())
+    }
+
+    /// Does what the switches say, in their order; whether that brought up a scene.
+    fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
+        let mut anew = false;
+        for switch in switches {
+            match switch.key.as_str() {
+                SWITCH_SCENE | SWITCH_START => {
+                    self.bring_up(&switch.value)?;
+                    anew = true;
+                }
+                SWITCH_SOLVER => self.change_solver(&switch.value)?,
+                _ => {}
+            }
+        }
+        Ok(anew)
+    }
+
+    /// Solves from the next step on as a session's governor did.
+    fn change_solver(&mut self, value: &str) -> Result<(), Failure> {
+        let effort = switches::pair(value);
+        let effort = effort.map_err(|error| format!("a switch to the solver {value:?}: {error}"));
+        let effort = effort.input()?;
+        self.solver_changes += u64::from(effort != self.world.effort());
+        self.world.set_effort(effort).input()?;
+        Ok(())
+    }
+
+    fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
+        let scene = Scene::load(name).input()?.with_preset(self.preset);
+        let gpu = self.world.gpu().clone();
+        self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
+        self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
+        (self.departures, self.start) = (Departures::default(), None);
+        self.switched = Some(name.to_owned());
+        Ok(())
+    }
+
+    /// A new world with the old one's state: shaders change seldom, and a
+    /// state that survives a change of device survives this too.
+    fn renewed_world(&self) -> Result<World, Failure> {
+        let state = self.world.snapshot().map_err(blame_world)?;
+        let (gpu, scene) = (self.world.gpu(), self.world.scene());
+        let mut world = World::new(gpu, &self.shaders, scene, self.seed).map_err(blame_world)?;
+        world.restore(&state).map_err(blame_world)?;
+        Ok(world)
+    }
+}
+
+impl Experiment for Laboratory {
+    fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure> {
+        self.take_up_shaders();
+        let anew = self.switch(&frame.scenario)?;
+
+        if let Some(camera) = &mut self.film
+            && self.follows_head
+        {
+            let scene = self.world.scene();
+            let origin = scene.origin * scene.scale.length_scale;
+            let mut view = frame.stage_from_view;
+            view.position -= origin.as_vec3();
+            camera.follow(&view);
+        }
+        let scale = self.world.scene().scale;
+        let hands = hands(&frame.hands, self.world.scene());
+        self.world.step(&StepInput { hands }).map_err(blame_world)?;
+        self.substeps += u64::from(self.world.scene().solver.substeps);
+        Ok(Taken {
+            frame_time: scale.frame_time,
+            anew,
+        })
+    }
+
+    fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
+        let state = self.world.solver().snapshot().other()?;
+        let measured = self.world.measure_state(&state).map_err(blame_world)?;
+        self.lost = self.lost.max(measured.lost_particles);
+        let scene = self.world.scene();
+        let mass = self.world.solver().parameters().particle_mass();
+        let poses = self.world.poses();
+        let departed = self.departures.observe(&state, &scene.flasks, poses, mass);
+        let ledger = measured.heat.as_ref().and_then(|heat| heat.ledger);
+        let start = *self.start.get_or_insert(ledger.unwrap_or_default());
+        Ok(Sample {
+            t_s: t,
+            density_error_mean: measured.density_error_mean,
+            density_error_p99: measured.density_error_p99,
+            kinetic_energy_j: measured.kinetic_energy,
+            mass_kg: by_place(self.world.scene(), &measured),
+            neighbour_rebuilds: measured.list_rebuilds.into(),
+            left_kg: by_flask(scene, &departed.left),
+            above_rim_kg: by_flask(scene, &departed.above_rim),
+            heat: measured.heat.map(|heat| of_heat(scene, &heat, &start)),
+        })
+    }
+
+    fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
+        if let (Some(camera), Some(&colour)) = (&self.film, self.colours.get(film)) {
+            self.picture = camera.shoot(&self.world, colour)?;
+        }
+        Ok(&self.picture)
+    }
+
+    fn outcome(&mut self) -> Result<Outcome, Failure> {
+        let measured = self.world.measure().map_err(blame_world)?;
+        let counted = self.world.counters().map_err(blame_world)?;
+        let state = self.world.snapshot().map_err(blame_world)?;
+        let limiters = [
+            ("neighbour list full", counted.list_overflows),
+            (
+                "correction cut to the neighbour list's margin",
+                counted.list_limited,
+            ),
+            ("speed cut to v_max", counted.speed_limited),
+            (
+                "diffusion cut to what pairs may exchange",
+                counted.diffusion_limited,
+            ),
+            (
+                "boiling cut to 30 % of a relative velocity",
+                counted.growth_limited,
+            ),
+            ("density taken at the end of its table", counted.table_ends),
+        ];
+        Ok(Outcome {
+            scene: self.switched.clone(),
+            effort: self.world.effort(),
+            fluid_particles: self.world.solver().count().into(),
+            lost_particles: self.lost.max(measured.lost_particles),
+            nan_particles: measured.nan_particles,
+            state_hash: state.solver.hash(),
+            device: device::statement(self.world.gpu()),
+            counters: Counters {
+                substeps: self.substeps,
+                solver_changes: self.solver_changes,
+                neighbour_rebuilds: counted.list_rebuilds.into(),
+                limiters: limiters
+                    .map(|(name, times)| (name.to_owned(), times.into()))
+                    .into_iter()
+                    .collect(),
+            },
+        })
+    }
+}
+
+fn by_flask<T: Copy>(scene: &Scene, values: &[T]) -> BTreeMap<String, T> {
+    let names = scene.flasks.iter().map(|flask| flask.name.clone());
+    names.zip(values.iter().copied()).collect()
+}
+
+fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample {
+    let superheat = heat.superheat.as_ref();
+    let boiling_in_flasks = superheat.map(|superheat| {
+        let mut counts = superheat.in_flasks.clone();
+        counts.resize(scene.flasks.len(), 0);
+        by_flask(scene, &counts)
+    });
+    HeatSample {
+        temperature_mean_c: heat.temperature_mean,
+        temperature_p99_c: heat.temperature_p99,
+        temperature_max_c: heat.temperature_max,
+        temperatures_in_flasks_c: by_flask(scene, &heat.temperatures_in_flasks)
+            .into_iter()
+            .filter(|(_, [least, most])| least <= most)
+            .collect(),
+        acid_mean: heat.acid_mean,
+        acid_min: heat.acid_min,
+        acid_max: heat.acid_max,
+        superheat_max_k: superheat.map(|superheat| superheat.max),
+        boiling_particles: superheat.map(|superheat| superheat.particles),
+        boiling_in_flasks: boiling_in_flasks.unwrap_or_default(),
+        ledger: heat.ledger.map(|ledger| LedgerSample {
+            initial_j: start.balance(),
+            exchanged_j: ledger.exchanged,
+            held_j: ledger.held,
+            steam_j: ledger.steam_enthalpy,
+            kinetic_j: ledger.kinetic,
+            closure: ledger.closure(start),
+            steam_kg: ledger.steam,
+            mist_kg: ledger.mist,
+            vapour_kg: ledger.vapour,
+        }),
+    }
+}
+
+fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
+    MassByPlace {
+        flasks: by_flask(scene, &measured.in_flasks),
+        table: measured.on_table,
+        floor: measured.on_floor,
+        air: measured.in_air,
+    }
+}
+
+fn blame_world(error: WorldError) -> Failure {
+    match error {
+        WorldError::Fill(_) => Failure::Input(error.into()),
+        _ => Failure::Other(error.into()),
+    }
+}

@@ -1,0 +1,150 @@
+//! What is kept of a run while it goes on: film, samples and progress.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::clock::{SimulatedTime, Span};
+use crate::experiment::Experiment;
+use crate::failure::{Blame, Failure};
+use crate::film::Film;
+use crate::sample::Sample;
+
+/// Frame rate of the film, Hz.
+pub const FILM_FPS: u32 = 30;
+/// Width and height of the film, pixels.
+pub const FILM_SIZE: (u32, u32) = (960, 540);
+
+/// Samples for each simulated second: enough to see a slosh (about 3 Hz in a
+/// beaker), few enough that waiting for the device does not count.
+const SAMPLES_PER_SECOND: f64 = 10.0;
+
+/// Takes film frames and samples at their times.
+#[derive(Debug)]
+pub struct Observer {
+    span: Span,
+    films: Vec<Film>,
+    film_frames: u64,
+    samples: Vec<Sample>,
+    /// Number of the last sample's time.
+    sampled: Option<u64>,
+    time: SimulatedTime,
+    bar: ProgressBar,
+    begin: Instant,
+}
+
+/// What an observer kept.
+#[derive(Debug)]
+pub struct Observations {
+    /// The films' paths, in the order in which they were asked for.
+    pub films: Vec<PathBuf>,
+    /// Frames in each.
+    pub film_frames: u64,
+    /// Samples over time; the first is of the start, or of the first step after
+    /// the last switch to a scene; the last is of the end.
+    pub samples: Vec<Sample>,
+    /// Steps and simulated time.
+    pub time: SimulatedTime,
+    /// Wall-clock time of the run, its film's included.
+    pub wall: Duration,
+}
+
+impl Observer {
+    /// An observer of a run of that span; its clock starts now.
+    pub fn new(span: Span, films: Vec<Film>) -> Self {
+        Self {
+            span,
+            films,
+            film_frames: 0,
+            samples: Vec::new(),
+            sampled: None,
+            time: SimulatedTime::default(),
+            bar: progress_bar(span.steps),
+            begin: Instant::now(),
+        }
+    }
+
+    /// Takes what is due at that time.
+    ///
+    /// # Errors
+    /// What experiment or film say.
+    pub fn observe(
+        &mut self,
+        time: &SimulatedTime,
+        experiment: &mut dyn Experiment,
+    ) -> Result<(), Failure> {
+        self.time = *time;
+        let due = self.film_frames_due(time);
+        if due > self.film_frames {
+            for (index, film) in self.films.iter_mut().enumerate() {
+                let picture = experiment.picture(index)?;
+                // More than one where a step is longer than a film frame: the
+                // film keeps real time.
+                for _ in self.film_frames..due {
+                    film.push_rgba(picture).other()?;
+                }
+            }
+            self.film_frames = due;
+        }
+        let number = Some((time.seconds() * SAMPLES_PER_SECOND + 1e-6).floor() as u64);
+        if self.sampled < number || self.span.is_over(time) {
+            self.sampled = number;
+            self.samples.push(experiment.sample(time.seconds())?);
+        }
+        self.bar.set_position(time.steps());
+        Ok(())
+    }
+
+    /// Forgets the samples: what follows is another scene, or the same from its
+    /// start, and curves over both would be of neither. Films go on.
+    pub fn start_over(&mut self) {
+        self.samples.clear();
+        self.sampled = None;
+    }
+
+    /// Ends the films and hands over what was kept.
+    ///
+    /// # Errors
+    /// What a film says.
+    pub fn finish(self) -> Result<Observations, Failure> {
+        let films: Result<_, _> = self.films.into_iter().map(Film::finish).collect();
+        self.bar.finish_and_clear();
+        Ok(Observations {
+            films: films.other()?,
+            film_frames: self.film_frames,
+            samples: self.samples,
+            time: self.time,
+            wall: self.begin.elapsed(),
+        })
+    }
+
+    /// Film frames whose time has come: frame n shows the
+    /// first state at or after n / [`FILM_FPS`] s, and the film is as long as
+    /// the run. The first frame waits for the first step, which finds the
+    /// neighbours that a liquid's surface is made of.
+    fn film_frames_due(&self, time: &SimulatedTime) -> u64 {
+        if time.steps() == 0 {
+            return 0;
+        }
+        let fps = f64::from(FILM_FPS);
+        let all = (self.span.seconds() * fps - 1e-6).ceil() as u64;
+        let now = (time.seconds() * fps + 1e-6).floor() as u64 + 1;
+        now.min(all)
+    }
+}
+
+fn progress_bar(steps: u64) -> ProgressBar {
+    // Where nobody watches, a bar would only fill a log.
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(steps);
+    let template = "{bar:40} step {pos} of {len}, {eta} left";
+    // The template is ours; where it could not be read, the plain bar does.
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}

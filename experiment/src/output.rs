@@ -1,0 +1,321 @@
+//! Where results go: nothing half-written, nothing overwritten.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use serde::Serialize;
+use tempfile::NamedTempFile;
+
+use crate::failure::{Blame, Failure};
+
+/// The report's name in the output folder; it is written last, so a folder
+/// that holds it is a whole run.
+pub const REPORT_JSON: &str = "report.json";
+/// The readable report's name in the output folder.
+pub const REPORT_HTML: &str = "report.html";
+/// The film's name in the output folder.
+pub const FILM: &str = "film.mp4";
+/// Likewise of the film coloured by temperature.
+pub const FILM_TEMPERATURE: &str = "film-temperature.mp4";
+
+/// What can go wrong with the place of the results.
+#[derive(Debug, thiserror::Error)]
+enum OutputError {
+    /// The folder holds an earlier run's results.
+    #[error(
+        "--out {dir}: holds {found} of an earlier run, which is not overwritten; name another folder or take that one away"
+    )]
+    Taken {
+        /// The folder asked for.
+        dir: PathBuf,
+        /// The file that was found in it.
+        found: &'static str,
+    },
+    /// The folder asked for is a file.
+    #[error("--out {dir}: is not a folder; name a folder, which may be new")]
+    NotAFolder {
+        /// The path asked for.
+        dir: PathBuf,
+    },
+    /// The file exists already.
+    #[error("{path}: exists and is not overwritten; name another file or take that one away")]
+    Exists {
+        /// The file's path.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("{path}: could not be written; is there room and permission?")]
+    Write {
+        /// The path of the folder or file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+impl OutputError {
+    fn write(path: &Path, source: io::Error) -> Self {
+        let path = path.to_owned();
+        if source.kind() == io::ErrorKind::AlreadyExists {
+            Self::Exists { path }
+        } else {
+            Self::Write { path, source }
+        }
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        match error {
+            OutputError::Write { .. } => Self::Other(error.into()),
+            _ => Self::Input(error.into()),
+        }
+    }
+}
+
+/// A file that is written under a temporary name in its own folder and gets its
+/// name when it is whole. Dropped before that, it is removed.
+#[derive(Debug)]
+pub struct Staged {
+    file: NamedTempFile<File>,
+    path: PathBuf,
+}
+
+impl Staged {
+    /// Begins the file that will be found at `path`.
+    ///
+    /// # Errors
+    /// `AlreadyExists` where `path` exists, else what the system says.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        if path.symlink_metadata().is_ok() {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let file = tempfile::Builder::new()
+            .prefix(".vitriol-")
+            .suffix(".part")
+            // Not tempfile's own way of opening, which lets nobody but the
+            // owner read the file that it becomes.
+            .make_in(folder, |path| File::create_new(path))?;
+        Ok(Self {
+            file,
+            path: path.to_owned(),
+        })
+    }
+
+    /// The path that the file will have.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A second handle to the file being written.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn try_clone(&self) -> io::Result<File> {
+        self.file.as_file().try_clone()
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// `AlreadyExists` where a file of that name has appeared meanwhile, which
+    /// is kept; else what the system says.
+    pub fn keep(self) -> io::Result<()> {
+        self.file.as_file().sync_all()?;
+        self.file.persist_noclobber(&self.path)?;
+        Ok(())
+    }
+}
+
+/// The path of a file that a command will write at its end into a folder,
+/// which may be new; asked for at its start, so that a long run does not end
+/// in a refusal.
+///
+/// # Errors
+/// [`Failure::Input`] where the file exists or the folder is a file.
+pub fn new_file(dir: &Path, name: &str) -> Result<PathBuf, Failure> {
+    let path = dir.join(name);
+    if path.symlink_metadata().is_ok() {
+        return Err(OutputError::Exists { path }.into());
+    }
+    if dir.symlink_metadata().is_ok() && !dir.is_dir() {
+        let dir = dir.to_owned();
+        return Err(OutputError::NotAFolder { dir }.into());
+    }
+    Ok(path)
+}
+
+/// Those of several files in the folder that `--out` names; `None` without one.
+///
+/// # Errors
+/// As for [`new_file`].
+pub fn new_files<const N: usize>(
+    dir: Option<&Path>,
+    names: [&str; N],
+) -> Result<Option<[PathBuf; N]>, Failure> {
+    let Some(dir) = dir else { return Ok(None) };
+    for name in names {
+        new_file(dir, name)?;
+    }
+    Ok(Some(names.map(|name| dir.join(name))))
+}
+
+/// Writes a whole new file at once, by way of [`Staged`], and its folder where
+/// there is none.
+///
+/// # Errors
+/// [`Failure::Input`] where the file exists, else [`Failure::Other`].
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let write = || {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let staged = Staged::create(path)?;
+        staged.file.as_file().write_all(bytes)?;
+        staged.keep()
+    };
+    Ok(write().map_err(|source| OutputError::write(path, source))?)
+}
+
+/// The same of an object, as JSON.
+///
+/// # Errors
+/// As for [`write_new`].
+pub fn write_json(path: &Path, object: &impl Serialize) -> Result<(), Failure> {
+    write_new(path, &serde_json::to_vec_pretty(object).other()?)
+}
+
+/// The same of a picture of `[width, height]` pixels, RGB or RGBA bytes, as PNG.
+///
+/// # Errors
+/// As for [`write_new`].
+pub fn write_png(
+    path: &Path,
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    colours: ExtendedColorType,
+) -> Result<(), Failure> {
+    let mut png = Vec::new();
+    let encoder = PngEncoder::new(&mut png);
+    encoder
+        .write_image(pixels, width, height, colours)
+        .other()?;
+    write_new(path, &png)
+}
+
+/// The folder of one run's results.
+///
+/// Dropped before [`OutDir::complete`], because the run failed, it takes away
+/// again what it holds of the run, and the folder too where it made it.
+#[derive(Debug)]
+pub struct OutDir {
+    path: PathBuf,
+    made: bool,
+    files: Vec<PathBuf>,
+}
+
+impl OutDir {
+    /// Takes the folder that the user named, which may be new, or else the
+    /// first free `out/<stem>-<number>`.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a folder with an earlier run's results or a file
+    /// of its name, else [`Failure::Other`].
+    pub fn take(named: Option<&Path>, stem: &str) -> Result<Self, Failure> {
+        Ok(match named {
+            Some(path) => Self::named(path),
+            None => Self::numbered(Path::new("out"), stem),
+        }?)
+    }
+
+    /// The folder's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of a file in the folder.
+    pub fn join(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a whole new file into the folder.
+    ///
+    /// # Errors
+    /// As for [`write_new`].
+    pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+        let path = self.join(name);
+        write_new(&path, bytes)?;
+        self.adopt(path);
+        Ok(())
+    }
+
+    /// Counts a file that someone else wrote into the folder among the run's.
+    pub fn adopt(&mut self, file: PathBuf) {
+        self.files.push(file);
+    }
+
+    /// The run is whole: all stays.
+    pub fn complete(mut self) {
+        self.files.clear();
+    }
+
+    fn new(path: PathBuf, made: bool) -> Self {
+        Self {
+            path,
+            made,
+            files: Vec::new(),
+        }
+    }
+
+    fn named(path: &Path) -> Result<Self, OutputError> {
+        let dir = path.to_owned();
+        if path.is_dir() {
+            for found in [REPORT_JSON, REPORT_HTML, FILM, FILM_TEMPERATURE] {
+                if path.join(found).symlink_metadata().is_ok() {
+                    return Err(OutputError::Taken { dir, found });
+                }
+            }
+            return Ok(Self::new(dir, false));
+        }
+        if path.symlink_metadata().is_ok() {
+            return Err(OutputError::NotAFolder { dir });
+        }
+        fs::create_dir_all(path).map_err(|source| OutputError::write(path, source))?;
+        Ok(Self::new(dir, true))
+    }
+
+    fn numbered(parent: &Path, stem: &str) -> Result<Self, OutputError> {
+        fs::create_dir_all(parent).map_err(|source| OutputError::write(parent, source))?;
+        let mut number = 1u32;
+        loop {
+            let path = parent.join(format!("{stem}-{number:03}"));
+            // Making the folder is what claims the number: two runs begun at
+            // once get two folders.
+            match fs::create_dir(&path) {
+                Ok(()) => return Ok(Self::new(path, true)),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+                Err(source) => return Err(OutputError::write(&path, source)),
+            }
+        }
+    }
+}
+
+impl Drop for OutDir {
+    fn drop(&mut self) {
+        for file in &self.files {
+            // What cannot be taken away is at least a whole file.
+            let _ = fs::remove_file(file);
+        }
+        if self.made {
+            // Succeeds on an empty folder only, which is the intention.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}

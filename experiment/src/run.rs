@@ -1,0 +1,49 @@
+//! The one loop for replay and picture: poses in, simulation steps, pictures
+//! and samples out, on the simulation's own fixed clock.
+
+use vitriol_xr::{PoseFrame, PoseSource};
+
+use crate::clock::{SimulatedTime, Span};
+use crate::experiment::Experiment;
+use crate::failure::{Blame, Failure};
+use crate::observer::Observer;
+
+/// Runs an experiment with the poses of a source. Where the source ends before
+/// the span does, its last poses are held. The span's steps are those of the scene
+/// at the start; where a switch brings up one with others, the time counts.
+///
+/// # Errors
+/// What source, experiment or film say.
+pub fn run(
+    source: &mut dyn PoseSource,
+    experiment: &mut dyn Experiment,
+    span: Span,
+    observer: &mut Observer,
+) -> Result<(), Failure> {
+    let mut time = SimulatedTime::default();
+    observer.observe(&time, experiment)?;
+    let mut held: Option<PoseFrame> = None;
+    while !span.is_over(&time) {
+        let step = time.steps();
+        match source.next(step, time.seconds()).other()? {
+            Some(frame) => held = Some(frame),
+            None => {
+                if let Some(frame) = &mut held {
+                    frame.step = step;
+                    // A switch acts once, not again in each held frame.
+                    frame.scenario.clear();
+                }
+            }
+        }
+        let Some(frame) = &held else {
+            return Err("the track has no pose at its start; record it again").input();
+        };
+        let taken = experiment.step(frame)?;
+        if taken.anew {
+            observer.start_over();
+        }
+        time.advance(taken.frame_time);
+        observer.observe(&time, experiment)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! What the renderer draws of a scene, in its own terms: room, vessels, liquid.
+
+use glam::{Affine3A, Vec3};
+use vitriol_render::{
+    BoxDesc, LiquidSource, Neighbours, SceneDesc, SurfaceFilter, VesselDesc, VesselTables,
+};
+use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::{Flask, PictureFilter, Scene, TableTop};
+use vitriol_sim::world::World;
+
+/// The liquid in the solver's buffers.
+pub fn liquid_of(world: &World) -> LiquidSource<'_> {
+    let (solver, scene) = (world.solver(), world.scene());
+    let (flasks, distances) = solver.flask_tables();
+    LiquidSource {
+        positions: solver.positions(),
+        heat: solver.heat(),
+        volumes: solver.volumes(),
+        count: solver.count(),
+        spacing: scene.scale.spacing as f32,
+        neighbours: solver.neighbours().map(|(counts, list)| Neighbours {
+            counts,
+            list,
+            support: solver.parameters().support_radius as f32,
+        }),
+        vessels: Some(VesselTables { flasks, distances }),
+        table: table(scene),
+        floor: scene.floor.height as f32,
+    }
+}
+
+/// What the renderer calls a scene's filter.
+pub fn filter(filter: PictureFilter) -> SurfaceFilter {
+    match filter {
+        PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
+        PictureFilter::CurvatureFlow => SurfaceFilter::CurvatureFlow,
+    }
+}
+
+/// The scene's table.
+fn table(scene: &Scene) -> Option<BoxDesc> {
+    scene.table.map(|table| {
+        let half = [0.5 * table.size[0], 0.5 * table.size[1]];
+        let under = table.top - TableTop::THICKNESS / scene.scale.length_scale;
+        let corner = |side: f64, y: f64| {
+            Vec3::new(
+                (table.centre[0] + side * half[0]) as f32,
+                y as f32,
+                (table.centre[1] + side * half[1]) as f32,
+            )
+        };
+        BoxDesc {
+            min: corner(-1.0, under),
+            max: corner(1.0, table.top),
+        }
+    })
+}
+
+/// Heights of a vessel's graduation marks: where whole multiples of a round
+/// volume, as drawn, would stand. A funnel, which hangs upside down, has none.
+fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
+    let upright = flask.stage_from_flask.orientation * Vec3::Y;
+    let capacity = flask.profile.capacity() * length_scale.powi(3);
+    let steps = [1e-6, 2e-6, 5e-6, 10e-6, 25e-6, 50e-6, 100e-6, 250e-6];
+    let step = steps.into_iter().find(|step| capacity / step < 9.0);
+    let Some(step) = step.filter(|_| upright.y > 0.9) else {
+        return Vec::new();
+    };
+    // The uppermost tenth is left free.
+    (1..)
+        .map(|n| f64::from(n) * step)
+        .take_while(|volume| *volume < 0.9 * capacity)
+        .filter_map(|volume| {
+            flask
+                .profile
+                .level_for_volume(volume / length_scale.powi(3))
+        })
+        .collect()
+}
+
+/// The scene's vessels on their table in the room.
+pub fn laboratory(scene: &Scene) -> SceneDesc {
+    let vessels = scene.flasks.iter().map(|flask| VesselDesc {
+        inner: flask.profile.inner_outline().to_vec(),
+        outer: flask.profile.outer_outline().to_vec(),
+        marks: marks(flask, scene.scale.length_scale),
+    });
+    let length_scale = scene.scale.length_scale;
+    let top = scene.table.map_or(0.0, |table| table.top) * length_scale;
+    let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
+    SceneDesc {
+        table: table(scene),
+        ..room
+    }
+}
+
+/// A pose as the renderer takes it.
+pub fn affine(pose: &Pose) -> Affine3A {
+    Affine3A::from_rotation_translation(pose.orientation, pose.position)
+}

@@ -1,0 +1,31 @@
+//! The switches that a track may hold beside its poses: their keys, and their
+//! values read.
+
+/// Key of the switch to another scene, which its value names.
+pub const SWITCH_SCENE: &str = "scene";
+/// Key of the switch back to the start of the scene, which its value names.
+pub const SWITCH_START: &str = "start";
+/// Key of the switch to other substeps and iterations, its value such as `8x4`.
+pub const SWITCH_SOLVER: &str = "solver";
+
+/// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
+pub fn pair(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
+    match sides {
+        Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
+        _ => Err("give two whole numbers above 0 with an x between them, such as 960x540".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_two_numbers_above_zero() {
+        assert_eq!(pair("960x540"), Ok([960, 540]));
+        for wrong in ["960", "960x", "0x540", "960,540", "-1x2", "axb"] {
+            assert!(pair(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The experiment itself on a device, behind the loop, with the validation layer on.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod camera;
+mod common;
+mod reload;

@@ -1,0 +1,85 @@
+//! A scene at rest, solved frame by frame, and its time on the device's own clock.
+
+use std::time::Instant;
+
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::{Gpu, QueueKind, Ticket};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::World;
+
+use super::report::{PassRow, Timing};
+use super::tally::Tally;
+
+/// Simulated time before the first measured frame, seconds: the filling
+/// lattice has settled, and the driver has compiled what it compiles late.
+const WARM_UP: f64 = 1.0;
+
+/// Frames that are submitted before the device is waited for: as in the loop,
+/// recording one frame overlaps with solving the one before, and the time is
+/// that of whichever takes longer.
+pub(super) const QUEUED: u32 = 8;
+
+/// Begins a frame of a scene at rest.
+pub(super) fn solve(gpu: &Gpu, world: &World) -> Result<Ticket, Failure> {
+    let mut rec = gpu.recorder(QueueKind::Main).other()?;
+    let poses = world.poses();
+    world.solver().record(&mut rec, poses, poses).other()?;
+    gpu.submit(rec).other()
+}
+
+/// A frame's share, ms, of [`QUEUED`] frames at rest; `cpu` gets the time that
+/// each took to record and submit.
+pub(super) fn queued(gpu: &Gpu, world: &World, cpu: &mut Vec<f64>) -> Result<f64, Failure> {
+    let begin = Instant::now();
+    let mut last = None;
+    for _ in 0..QUEUED {
+        let recording = Instant::now();
+        last = Some(solve(gpu, world)?);
+        cpu.push(milliseconds(recording));
+    }
+    if let Some(ticket) = last {
+        ticket.wait().other()?;
+    }
+    Ok(milliseconds(begin) / f64::from(QUEUED))
+}
+
+/// The passes of `frames` frames of a scene at rest, and the frames.
+pub(super) fn passes(
+    gpu: &Gpu,
+    scene: &Scene,
+    frames: u32,
+) -> Result<(Vec<PassRow>, Timing), Failure> {
+    let world = settled(gpu, scene)?;
+    let mut tally = Tally::default();
+    for _ in 0..frames {
+        tally.add(&solve(gpu, &world)?)?;
+    }
+    Ok(tally.rows())
+}
+
+/// Passes of a first frame of `scene`, which rebuilds its lists in every substep that
+/// asks for it, and bytes of device memory a particle.
+///
+/// # Errors
+/// What the device says.
+pub fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure> {
+    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let mut tally = Tally::default();
+    tally.add(&solve(gpu, &world)?)?;
+    Ok((tally.rows().0, world.solver().bytes_per_particle()))
+}
+
+/// A world whose liquid has come to rest.
+pub(super) fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
+    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let frames = (WARM_UP / scene.scale.frame_time).ceil() as u64;
+    for _ in 0..frames {
+        solve(gpu, &world)?.wait().other()?;
+    }
+    Ok(world)
+}
+
+pub(super) fn milliseconds(begin: Instant) -> f64 {
+    begin.elapsed().as_secs_f64() * 1e3
+}

@@ -1,0 +1,170 @@
+//! `vitriol bench --render`: what each pass of the picture takes, at a headset's
+//! resolutions and a screen's, of a scene in motion.
+
+use std::time::Instant;
+
+use glam::Vec3;
+use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot};
+use vitriol_gpu::{Gpu, QueueKind, Ticket};
+use vitriol_render::{Fov, View};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::World;
+
+use super::frame::{QUEUED, milliseconds, solve};
+use super::report::{PassRow, RenderRow, Timing};
+use super::tally::Tally;
+use crate::cli::BenchArgs;
+
+/// Views, and width and height of each.
+const SIZES: [(u32, [u32; 2]); 3] = [(2, [1440, 1584]), (2, [2064, 2208]), (1, [1920, 1080])];
+
+/// Simulated time before the first measured frame, seconds: funnels run.
+const BEGIN: f64 = 0.5;
+
+/// Half a meter before the vessels and above them, in real metres, as one
+/// leans over a bench.
+const HEAD: [Vec3; 2] = [Vec3::new(0.0, 1.12, 0.02), Vec3::new(0.0, 0.84, -0.40)];
+
+/// The scene's picture at each size.
+///
+/// # Errors
+/// [`Failure::Input`] for a scene that is not there; what the device says.
+pub fn rows(
+    timed: &Gpu,
+    plain: &Gpu,
+    name: &str,
+    args: &BenchArgs,
+) -> Result<Vec<RenderRow>, Failure> {
+    let scene = Scene::load(name).input()?.with_preset(args.preset);
+    SIZES
+        .iter()
+        .map(|&(views, extent)| row(timed, plain, name, &scene, args, views, extent))
+        .collect()
+}
+
+fn row(
+    timed: &Gpu,
+    plain: &Gpu,
+    name: &str,
+    scene: &Scene,
+    args: &BenchArgs,
+    views: u32,
+    extent: [u32; 2],
+) -> Result<RenderRow, Failure> {
+    let (world, camera) = ready(timed, scene, args, views, extent)?;
+    let (passes, total) = passes(timed, &world, &camera, args.frames)?;
+    let (world, camera) = ready(plain, scene, args, views, extent)?;
+    let queued = queued(plain, &world, Some(&camera), args.frames)?;
+    Ok(RenderRow {
+        scene: name.to_owned(),
+        fluid_particles: world.solver().count().into(),
+        views,
+        width: extent[0],
+        height: extent[1],
+        passes,
+        device_total: total,
+        frame: queued,
+        overlapped: overlapped(plain, &world, &camera, args.frames)?,
+        solver: self::queued(plain, &world, None, args.frames)?,
+    })
+}
+
+/// A world in motion and the camera before it.
+fn ready(
+    gpu: &Gpu,
+    scene: &Scene,
+    args: &BenchArgs,
+    eyes: u32,
+    extent: [u32; 2],
+) -> Result<(World, Camera), Failure> {
+    let library = Library::embedded();
+    let world = World::new(gpu, &library, scene, 0).other()?;
+    let shot = Shot {
+        extent,
+        eyes,
+        liquid: Some(world.solver().count()),
+        filter: args.filter,
+    };
+    let mut camera = Camera::new(gpu, &library, scene, &shot)?;
+    let aspect = extent[0] as f32 / extent[1] as f32;
+    // A headset's field; on a screen a wide lens.
+    let vertical: f32 = if eyes == 2 { 96.0 } else { 60.0 };
+    let [eye, target] = HEAD;
+    camera.set_view(View::look_at(
+        eye,
+        target,
+        Fov::symmetric(vertical.to_radians(), aspect),
+    ));
+    for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
+        solve(gpu, &world)?;
+    }
+    gpu.wait_idle().other()?;
+    Ok((world, camera))
+}
+
+/// Each pass on the device's clock, and all of them.
+fn passes(
+    gpu: &Gpu,
+    world: &World,
+    camera: &Camera,
+    frames: u32,
+) -> Result<(Vec<PassRow>, Timing), Failure> {
+    let mut tally = Tally::default();
+    for _ in 0..frames {
+        solve(gpu, world)?;
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        camera.record(&mut rec, world, Colour::Liquid)?;
+        tally.add(&gpu.submit(rec).other()?)?;
+    }
+    Ok(tally.rows())
+}
+
+/// A frame's share, ms, where a frame is solved on one queue while the one before it is drawn
+/// on the other.
+fn overlapped(gpu: &Gpu, world: &World, camera: &Camera, frames: u32) -> Result<Timing, Failure> {
+    let mut times = Vec::new();
+    for _ in 0..frames.div_ceil(QUEUED) {
+        let begin = Instant::now();
+        let mut drawn: Vec<Ticket> = Vec::new();
+        for n in 0..QUEUED as usize {
+            let mut solved = gpu.recorder(QueueKind::Async).other()?;
+            let mut picture = gpu.recorder(QueueKind::Main).other()?;
+            let poses = world.poses();
+            world.solver().record(&mut solved, poses, poses).other()?;
+            camera.record_apart(&mut solved, &mut picture, world, n)?;
+            // The picture that had this slot before.
+            let before: Vec<&Ticket> = n.checked_sub(2).map(|n| &drawn[n]).into_iter().collect();
+            let solved = gpu.submit_after(solved, &before).other()?;
+            drawn.push(gpu.submit_after(picture, &[&solved]).other()?);
+        }
+        gpu.wait_idle().other()?;
+        times.push(milliseconds(begin) / f64::from(QUEUED));
+    }
+    Ok(Timing::of(&times))
+}
+
+/// A frame's share, ms, of [`QUEUED`] frames that are solved and, with a camera,
+/// drawn.
+fn queued(
+    gpu: &Gpu,
+    world: &World,
+    camera: Option<&Camera>,
+    frames: u32,
+) -> Result<Timing, Failure> {
+    let mut times = Vec::new();
+    for _ in 0..frames.div_ceil(QUEUED) {
+        let begin = Instant::now();
+        for _ in 0..QUEUED {
+            solve(gpu, world)?;
+            if let Some(camera) = camera {
+                let mut rec = gpu.recorder(QueueKind::Main).other()?;
+                camera.record(&mut rec, world, Colour::Liquid)?;
+                gpu.submit(rec).other()?;
+            }
+        }
+        gpu.wait_idle().other()?;
+        times.push(milliseconds(begin) / f64::from(QUEUED));
+    }
+    Ok(Timing::of(&times))
+}

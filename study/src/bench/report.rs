@@ -1,0 +1,302 @@
+//! What `vitriol bench` found: the time of each pass and in total, with the density
+//! error of the run beside it: a time without its error counts for nothing.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_experiment::units::{grouped, percent};
+use vitriol_experiment::{DeviceStatement, Ranks};
+
+/// What `vitriol bench` measured.
+#[derive(Debug, Clone, Serialize)]
+pub struct Benchmark {
+    /// The device.
+    pub device: DeviceStatement,
+    /// Frames measured in each row.
+    pub frames: u32,
+    /// One row for each scene.
+    pub rows: Vec<Row>,
+    /// What each feature of the scene costs, where it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<FeatureRow>,
+    /// What the picture takes, where it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pictures: Vec<RenderRow>,
+}
+
+/// The times of a picture of one scene at one size.
+#[derive(Debug, Clone, Serialize)]
+pub struct RenderRow {
+    /// The scene.
+    pub scene: String,
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Views: one, or one for each eye.
+    pub views: u32,
+    /// Width of a view, pixels.
+    pub width: u32,
+    /// Height of a view, pixels.
+    pub height: u32,
+    /// Each pass, summed over a picture.
+    pub passes: Vec<PassRow>,
+    /// All passes of a picture by the device's clock, with timestamps around
+    /// them.
+    pub device_total: Timing,
+    /// A frame's share of several that are queued one behind the other, each
+    /// solved and drawn, without timestamps.
+    pub frame: Timing,
+    /// The same, where a frame is solved on a second queue while the one before
+    /// it is drawn.
+    pub overlapped: Timing,
+    /// The same of frames that are solved and not drawn.
+    pub solver: Timing,
+}
+
+/// What a feature costs: the scene with it less the scene without it.
+#[derive(Debug, Clone, Serialize)]
+pub struct FeatureRow {
+    /// The feature.
+    pub feature: String,
+    /// What was off with it, being built upon it.
+    pub also_off: Vec<String>,
+    /// Median over several rounds of the difference of two frames' times, ms.
+    pub cost_ms: f64,
+    /// Least and greatest difference of the rounds, ms.
+    pub range_ms: [f64; 2],
+    /// Dispatches in a frame.
+    pub dispatches: i64,
+    /// Bytes of device memory for each particle.
+    pub bytes_per_particle: i64,
+}
+
+/// One scene's times.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// The scene.
+    pub scene: String,
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Boundary particles; 0 where the boundary is not of particles.
+    pub solid_particles: u64,
+    /// Substeps in a frame.
+    pub substeps: u32,
+    /// Iterations in a substep.
+    pub iterations: u32,
+    /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end of the run.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same.
+    pub density_error_p99: f64,
+    /// A frame's share of several that are queued one behind the other,
+    /// measured without timestamps around their passes.
+    pub total: Timing,
+    /// All passes of a frame by the device's clock, with timestamps around them.
+    pub device_total: Timing,
+    /// Recording and submitting a frame.
+    pub cpu: Timing,
+    /// Each pass, summed over a frame.
+    pub passes: Vec<PassRow>,
+    /// The paper's row, where Table 2 has one.
+    pub paper: Option<PaperRow>,
+}
+
+/// One pass in a frame.
+#[derive(Debug, Clone, Serialize)]
+pub struct PassRow {
+    /// Label of the pass.
+    pub name: String,
+    /// Dispatches in a frame.
+    pub dispatches: u32,
+    /// Bytes of the buffers that its dispatches in a frame bind, each once a
+    /// dispatch.
+    pub bytes: u64,
+    /// Its time in a frame.
+    #[serde(flatten)]
+    pub time: Timing,
+}
+
+/// Median and 95th percentile, ms.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Timing {
+    /// Median over frames, ms.
+    pub median_ms: f64,
+    /// 95th percentile over frames, ms.
+    pub p95_ms: f64,
+}
+
+impl Timing {
+    /// Of times in ms, one a frame; NaN where there is none. The percentile
+    /// is the nearest rank, so it is always a time that was measured.
+    pub fn of(times: &[f64]) -> Self {
+        let ranks = Ranks::of(times);
+        let rank = |share| ranks.at(share).unwrap_or(f64::NAN);
+        Self {
+            median_ms: rank(0.5),
+            p95_ms: rank(0.95),
+        }
+    }
+}
+
+/// A column of the paper's Table 2 (its card, 3 substeps × 2 iterations),
+/// without rendering.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PaperRow {
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Solid particles.
+    pub solid_particles: u64,
+    /// "Solve fluid", ms.
+    pub fluid_ms: f64,
+    /// "Solve boiling", ms.
+    pub boiling_ms: f64,
+    /// "Solve flasks", ms.
+    pub flasks_ms: f64,
+}
+
+/// Table 2 of the paper, by the names of the scenes here.
+pub const TABLE_2: [(&str, PaperRow); 4] = [
+    ("moving-flask", paper(10_925, 51_158, 3.014, 0.0, 0.027)),
+    (
+        "single-dilution",
+        paper(13_894, 48_044, 2.667, 0.380, 0.024),
+    ),
+    (
+        "triple-dilution",
+        paper(39_888, 60_632, 6.973, 1.003, 0.058),
+    ),
+    ("tomato-soup", paper(14_880, 2_341, 2.58, 0.379, 0.025)),
+];
+
+const fn paper(fluid: u64, solid: u64, fluid_ms: f64, boiling_ms: f64, flasks_ms: f64) -> PaperRow {
+    PaperRow {
+        fluid_particles: fluid,
+        solid_particles: solid,
+        fluid_ms,
+        boiling_ms,
+        flasks_ms,
+    }
+}
+
+/// A table for people.
+pub fn describe(bench: &Benchmark) -> String {
+    let mut text = format!(
+        "{}, {}, {} frames\n",
+        bench.device.name, bench.device.driver, bench.frames
+    );
+    for row in &bench.rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "\n{}: {} fluid and {} boundary particles, {} × {}\n\
+             density error: mean {}, 99th percentile {}\n\
+             {:<28} {:>10} {:>10} {:>10} {:>10}",
+            row.scene,
+            grouped(row.fluid_particles),
+            grouped(row.solid_particles),
+            row.substeps,
+            row.iterations,
+            percent(row.density_error_mean),
+            percent(row.density_error_p99),
+            "pass",
+            "median ms",
+            "95 % ms",
+            "dispatches",
+            "MB"
+        );
+        for pass in &row.passes {
+            let _ = writeln!(
+                text,
+                "{:<28} {:>10.3} {:>10.3} {:>10} {:>10.2}",
+                pass.name,
+                pass.time.median_ms,
+                pass.time.p95_ms,
+                pass.dispatches,
+                pass.bytes as f64 * 1e-6
+            );
+        }
+        let _ = writeln!(
+            text,
+            "{:<28} {:>10.3} {:>10.3}\n{:<28} {:>10.3} {:>10.3}\n{:<28} {:>10.3} {:>10.3}",
+            "all passes, timed",
+            row.device_total.median_ms,
+            row.device_total.p95_ms,
+            "frame, queued, untimed",
+            row.total.median_ms,
+            row.total.p95_ms,
+            "of it recording, submitting",
+            row.cpu.median_ms,
+            row.cpu.p95_ms
+        );
+        if let Some(paper) = &row.paper {
+            let _ = writeln!(
+                text,
+                "{:<28} {:>10.3}   (fluid {}, boiling {}, flasks {}; {} fluid and {} solid \
+                 particles)",
+                "the paper",
+                paper.fluid_ms + paper.boiling_ms + paper.flasks_ms,
+                paper.fluid_ms,
+                paper.boiling_ms,
+                paper.flasks_ms,
+                grouped(paper.fluid_particles),
+                grouped(paper.solid_particles)
+            );
+        }
+    }
+    for row in &bench.pictures {
+        describe_picture(row, &mut text);
+    }
+    if !bench.features.is_empty() {
+        let _ = writeln!(
+            text,
+            "\n{:<14} {:>10} {:>20} {:>10} {:>12}  off with it",
+            "feature", "cost ms", "from to", "dispatches", "B a particle"
+        );
+    }
+    for row in &bench.features {
+        let range = format!("{:.3} {:.3}", row.range_ms[0], row.range_ms[1]);
+        let _ = writeln!(
+            text,
+            "{:<14} {:>10.3} {:>20} {:>10} {:>12}  {}",
+            row.feature,
+            row.cost_ms,
+            range,
+            row.dispatches,
+            row.bytes_per_particle,
+            row.also_off.join(", ")
+        );
+    }
+    text
+}
+
+fn describe_picture(row: &RenderRow, text: &mut String) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "\n{}: {} fluid particles, {} × {} × {}\n{:<28} {:>10} {:>10} {:>10}",
+        row.scene,
+        grouped(row.fluid_particles),
+        row.views,
+        row.width,
+        row.height,
+        "pass",
+        "median ms",
+        "95 % ms",
+        "number"
+    );
+    let named = [
+        ("picture, all passes, timed", row.device_total),
+        ("frame: solved and drawn", row.frame),
+        ("the same on two queues", row.overlapped),
+        ("the same, not drawn", row.solver),
+    ];
+    for pass in &row.passes {
+        let Timing { median_ms, p95_ms } = pass.time;
+        let (name, number) = (&pass.name, pass.dispatches);
+        let _ = writeln!(
+            text,
+            "{name:<28} {median_ms:>10.4} {p95_ms:>10.4} {number:>10}"
+        );
+    }
+    for (name, Timing { median_ms, p95_ms }) in named {
+        let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4}");
+    }
+}

@@ -1,0 +1,238 @@
+//! The subcommands that measure, and their arguments.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+use vitriol_sim::scene::{PictureFilter, Preset};
+
+use crate::parse::{filter, positive, preset};
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Measure the time of each pass, with the density error beside it
+    Bench(BenchArgs),
+    /// Fig. 5 of the paper: a flask moved violently, without and with the flask
+    /// constraint
+    Fig5(Fig5Args),
+    /// The collapse of a column of water against Martin and Moyce's
+    /// measurements of 1952
+    DamBreak(DamBreakArgs),
+    /// What the renderer draws against the surface that it stands for, marched
+    /// on the CPU
+    Fidelity(FidelityArgs),
+    /// Mix water and acid in a closed, insulated vessel until it is even
+    Calorimeter(CalorimeterArgs),
+    /// The trade of speed for accuracy: knobs, what each costs, and what it is off by
+    Trade(TradeArgs),
+    /// Cases at the extremes of scene, parameter and motion: whether each keeps what
+    /// it has to, or is refused at load
+    Extremes(ExtremesArgs),
+}
+
+/// Arguments of `vitriol bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// A built-in scene's name or a TOML file
+    #[arg(long, value_name = "SCENE", conflicts_with = "paper")]
+    pub scene: Option<String>,
+    /// Table 2 of the paper: its rows as far as they exist, beside its times
+    #[arg(long)]
+    pub paper: bool,
+    /// What each feature of the scene costs: with it, and without it and what
+    /// is built upon it
+    #[arg(long, conflicts_with = "paper")]
+    pub features: bool,
+    /// What each pass of the picture takes, for a headset's two views at two
+    /// resolutions and for a screen
+    #[arg(long, conflicts_with_all = ["paper", "features"])]
+    pub render: bool,
+    /// With --render: filter of the liquid's surface; without it the scene's
+    #[arg(long, value_parser = filter(), value_name = "FILTER", requires = "render")]
+    pub filter: Option<PictureFilter>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "balanced")]
+    pub preset: Preset,
+    /// Frames to measure, after as many as it takes to warm up
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: u32,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol fig5`.
+#[derive(Debug, Args)]
+pub struct Fig5Args {
+    /// Folder for the two pictures; without it none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol dam-break`.
+#[derive(Debug, Args)]
+pub struct DamBreakArgs {
+    /// Folder for the figure; without it none is made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "balanced")]
+    pub preset: Preset,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol fidelity`.
+#[derive(Debug, Args)]
+pub struct FidelityArgs {
+    /// Folder for fidelity.json and the picture of the difference; without it
+    /// none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// The two lower resolutions only
+    #[arg(long)]
+    pub quick: bool,
+    /// Trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "fast")]
+    pub preset: Preset,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Which liquid is in the vessel when the other one comes in on top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum OrderName {
+    /// Acid onto water
+    #[default]
+    WaterFirst,
+    /// Water onto acid
+    AcidFirst,
+}
+
+impl OrderName {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WaterFirst => "water-first",
+            Self::AcidFirst => "acid-first",
+        }
+    }
+}
+
+/// The chemistries that have real amounts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum RealChemistry {
+    /// Enthalpy, evaporation and densities from tables
+    #[default]
+    Physical,
+}
+
+/// Arguments of `vitriol calorimeter`.
+#[derive(Debug, Args)]
+pub struct CalorimeterArgs {
+    /// Water, millilitres
+    #[arg(long, value_name = "ML", allow_negative_numbers = true)]
+    pub water_ml: f64,
+    /// Acid, millilitres
+    #[arg(long, value_name = "ML", allow_negative_numbers = true)]
+    pub acid_ml: f64,
+    /// Acid in it, per cent by mass
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 98.0,
+        allow_negative_numbers = true
+    )]
+    pub acid_percent: f64,
+    /// Temperature of the water, °C
+    #[arg(
+        long,
+        value_name = "C",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub water_c: f64,
+    /// Temperature of the acid, °C
+    #[arg(
+        long,
+        value_name = "C",
+        default_value_t = 20.0,
+        allow_negative_numbers = true
+    )]
+    pub acid_c: f64,
+    /// Which liquid is in the vessel when the other one comes in on top
+    #[arg(long, value_enum, default_value_t)]
+    pub order: OrderName,
+    /// Chemistry: the paper's has no real amounts
+    #[arg(long, value_enum, default_value_t)]
+    pub chemistry: RealChemistry,
+    /// Trade of speed for accuracy
+    #[arg(long, value_parser = preset(), default_value = "balanced")]
+    pub preset: Preset,
+    /// Seed of the particles' initial jitter
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Parts of `vitriol trade`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TradePart {
+    /// Settings of the solver in a vessel of water
+    Solver,
+    /// Calorimeter, and water poured into acid
+    Chemistry,
+    /// Convergence, and the f64 reference
+    Truth,
+}
+
+/// Arguments of `vitriol trade`.
+#[derive(Debug, Args)]
+pub struct TradeArgs {
+    /// Few settings of 4,000 particles: minutes on two cores
+    #[arg(long)]
+    pub quick: bool,
+    /// One part only; without it all three
+    #[arg(long, value_enum, value_name = "PART")]
+    pub part: Option<TradePart>,
+    /// Seconds after which no further setting is begun
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub within: Option<f64>,
+    /// Folder for trade.json and trade.html; without it none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}
+
+/// Arguments of `vitriol extremes`.
+#[derive(Debug, Args)]
+pub struct ExtremesArgs {
+    /// Cases: those that were thought of first, then random ones
+    #[arg(long, default_value_t = 2000)]
+    pub cases: usize,
+    /// Seed of the random cases
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// One case only, by its number
+    #[arg(long, value_name = "CASE")]
+    pub only: Option<usize>,
+    /// Cases at a time
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: u32,
+    /// Folder for extremes.json, and with --only for the case's scene; without it
+    /// none are made
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Device to use: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long)]
+    pub device: Option<String>,
+}

@@ -1,0 +1,49 @@
+//! `vitriol bench`: the time of each pass.
+
+use vitriol_experiment::{Failure, Format, device, emit};
+use vitriol_gpu::Timestamps;
+
+use crate::bench::report::{Benchmark, TABLE_2, describe};
+use crate::bench::{features, picture, solver};
+use crate::cli::BenchArgs;
+
+/// Runs `vitriol bench`.
+///
+/// # Errors
+/// [`Failure::NoDevice`], or [`Failure::Input`] for a scene or device that is
+/// not there; [`Failure::Other`] where standard output cannot be written.
+pub fn run(args: &BenchArgs, format: Format) -> Result<(), Failure> {
+    emit(format, &measure(args)?, describe)
+}
+
+fn measure(args: &BenchArgs) -> Result<Benchmark, Failure> {
+    let timed = device::timed(args.device.as_deref(), Timestamps::Passes)?;
+    let plain = device::open(args.device.as_deref())?;
+    let names: Vec<String> = match (&args.scene, args.paper) {
+        (_, true) => TABLE_2.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        (Some(scene), false) => vec![scene.clone()],
+        (None, false) if args.render => vec!["triple-dilution".to_owned()],
+        (None, false) => vec!["beaker".to_owned()],
+    };
+    let (mut rows, mut costs, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    if args.render {
+        for name in &names {
+            pictures.extend(picture::rows(&timed, &plain, name, args)?);
+        }
+    } else if args.features {
+        for name in &names {
+            costs.extend(features::costs(&timed, &plain, name, args)?);
+        }
+    } else {
+        for name in &names {
+            rows.push(solver::row(&timed, &plain, name, args)?);
+        }
+    }
+    Ok(Benchmark {
+        device: device::statement(&timed),
+        frames: args.frames,
+        rows,
+        features: costs,
+        pictures,
+    })
+}

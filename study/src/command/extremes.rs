@@ -1,0 +1,95 @@
+//! `vitriol extremes`: many cases, each of something extreme.
+
+use std::time::Instant;
+
+use vitriol_experiment::{Blame, Failure, Format, device, emit, output};
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+
+use crate::cli::ExtremesArgs;
+use crate::extremes::{Case, Finding, Verdict, cases, describe, judge, summary};
+use crate::several::at_a_time;
+
+/// The numbers' name in the folder.
+const NUMBERS: &str = "extremes.json";
+
+/// Runs `vitriol extremes`.
+///
+/// # Errors
+/// [`Failure::NoDevice`]; [`Failure::Input`] where the file exists already or there
+/// is no such case; [`Failure::Other`] where device or folder fails, or a case does.
+pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
+    let wanted = match args.only {
+        Some(only) => cases(only + 1, args.seed).split_off(only),
+        None => cases(args.cases, args.seed),
+    };
+    let file = output::new_files(args.out.as_deref(), [NUMBERS])?;
+    let gpu = device::open(args.device.as_deref())?;
+    let begin = Instant::now();
+    let found = judge_all(&gpu, &wanted, args.jobs as usize)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    if let (Some(folder), Some([case])) =
+        (&args.out, wanted.get(..1).filter(|_| args.only.is_some()))
+    {
+        let name = format!("case-{}.toml", case.number);
+        output::write_new(&folder.join(name), case.recipe.text().as_bytes())?;
+    }
+    let all = summary(device::statement(&gpu), args.seed, &found, seconds);
+    if let Some([path]) = file {
+        output::write_json(&path, &all)?;
+    }
+    match (args.only, &found[..]) {
+        (Some(_), [finding]) => emit(format, finding, describe_one)?,
+        _ => emit(format, &all, describe)?,
+    }
+    if all.failed > 0 {
+        return Err(format!("{} of {} cases failed", all.failed, all.cases)).other();
+    }
+    Ok(())
+}
+
+/// Judges cases, `jobs` at a time: most of a small case is the host's work.
+///
+/// # Errors
+/// The first of what the device says.
+pub fn judge_all(gpu: &Gpu, cases: &[Case], jobs: usize) -> Result<Vec<Finding>, Failure> {
+    let library = Library::embedded();
+    at_a_time(jobs, cases, |case| {
+        let finding = judge(gpu, &library, case);
+        tracing::info!("{} {}", case.number, case.label());
+        finding
+    })
+}
+
+fn describe_one(finding: &Finding) -> String {
+    let verdict = match &finding.verdict {
+        Verdict::Passed => "passed".to_owned(),
+        Verdict::Refused { message } => format!("refused at load: {message}"),
+        Verdict::Failed { reasons } => format!("FAILED: {}", reasons.join("; ")),
+    };
+    let limiters: Vec<String> = finding
+        .limiters
+        .iter()
+        .map(|(name, times)| format!("{name}: {times}"))
+        .collect();
+    format!(
+        "case {}: {}\n{verdict}\n{} particles, {} steps; speed {:.4} of v_max, energy {:.4} of \
+         what was turned over, {:.4} m/s at the end\nacid {:.1e}, mass {:.1e}, enthalpy {:.1e}\n\
+         limiters: {}",
+        finding.case,
+        finding.label,
+        finding.particles,
+        finding.steps,
+        finding.speed_over_max,
+        finding.energy_excess,
+        finding.end_speed,
+        finding.drifts[0],
+        finding.drifts[1],
+        finding.drifts[2],
+        if limiters.is_empty() {
+            "none acted".into()
+        } else {
+            limiters.join(", ")
+        }
+    )
+}

@@ -1,0 +1,314 @@
+//! `vitriol trade`: what accuracy costs.
+
+use std::time::Instant;
+
+use vitriol_experiment::{Blame, Failure, Format, device, emit, output, track};
+use vitriol_gpu::Gpu;
+use vitriol_sim::scene::{Feature, Preset, Scene, SolverSettings};
+use vitriol_xr::track::Track;
+
+use super::calorimeter::resolution;
+use crate::calorimeter::{self, Feed};
+use crate::cli::{TradeArgs, TradePart};
+use crate::several::at_a_time;
+use crate::trade::report::{Calorimetry, Effect};
+use crate::trade::{
+    Errors, Knob, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page, rest,
+    sweep, tip, vouch,
+};
+
+/// The files' names in the folder.
+const NUMBERS: &str = "trade.json";
+const PAGE: &str = "trade.html";
+
+/// Whose liquid and presets the settings are.
+const SCENE: &str = "beaker";
+/// What is poured into acid, by which track.
+const BOILING: (&str, &str) = ("water-into-acid", "two-flasks");
+/// Seeds of chaotic runs; of those that leave a feature out.
+const SEEDS: [u64; 2] = [10, 4];
+
+/// Seeds that run at once.
+const AT_ONCE: usize = 3;
+
+/// 20 °C water and acid of 98 %, mL, and where they end, °C: enthalpies by Wagman et
+/// al. (1982), boiling by the boiling points of the composition.
+const MIXES: [([f64; 2], f64); 6] = [
+    ([10.0, 100.0], 75.5),
+    ([50.0, 100.0], 154.5),
+    ([100.0, 100.0], 149.1),
+    ([200.0, 100.0], 120.5),
+    ([400.0, 100.0], 82.9),
+    ([100.0, 10.0], 48.5),
+];
+
+/// Runs `vitriol trade`.
+///
+/// # Errors
+/// [`Failure::NoDevice`]; [`Failure::Input`] where a file of that name exists
+/// already; [`Failure::Other`] where device or folder fails.
+pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
+    let files = output::new_files(args.out.as_deref(), [NUMBERS, PAGE])?;
+    let gpu = device::open(args.device.as_deref())?;
+    let mut work = Work {
+        gpu: &gpu,
+        begin: Instant::now(),
+        args,
+        found: Trade {
+            device: device::statement(&gpu),
+            quick: args.quick,
+            finest: None,
+            points: Vec::new(),
+            skipped: 0,
+            calorimetry: Vec::new(),
+            boiling: Vec::new(),
+            boiling_costs: Vec::new(),
+            vouched: None,
+            effects: Vec::new(),
+            orders: Vec::new(),
+            seconds: 0.0,
+        },
+    };
+    let wanted = |part| args.part.is_none_or(|only| only == part);
+    if wanted(TradePart::Truth) {
+        work.truth()?;
+    }
+    if wanted(TradePart::Chemistry) {
+        work.chemistry()?;
+    }
+    if wanted(TradePart::Solver) {
+        work.solver()?;
+    }
+    let mut found = work.found;
+    found.seconds = work.begin.elapsed().as_secs_f64();
+    if let Some([numbers, html]) = files {
+        output::write_new(&html, page(&found).as_bytes())?;
+        output::write_json(&numbers, &found)?;
+    }
+    emit(format, &found, describe)
+}
+
+struct Work<'a> {
+    gpu: &'a Gpu,
+    begin: Instant,
+    args: &'a TradeArgs,
+    found: Trade,
+}
+
+impl Work<'_> {
+    fn late(&self) -> bool {
+        let spent = self.begin.elapsed().as_secs_f64();
+        self.args.within.is_some_and(|within| spent > within)
+    }
+
+    fn solver(&mut self) -> Result<(), Failure> {
+        let scene = Scene::load(SCENE).other()?;
+        let seconds = if self.args.quick { 0.6 } else { 1.5 };
+        // The device's clocks rise with the first work that it gets.
+        rest(self.gpu, &scene, &Setting::of(&scene, Preset::Fast), 0.5)?;
+        let particles = if self.args.quick { 6e3 } else { 110e3 };
+        let truth = finest(&scene, particles);
+        let poured = tip(self.gpu, &scene, &truth)?;
+        self.found.finest = Some((truth, poured));
+        for (preset, knob, setting) in sweep(&scene, self.args.quick) {
+            if self.late() {
+                self.found.skipped += 1;
+                continue;
+            }
+            self.found.points.push(self.point(
+                &scene,
+                (preset, knob, setting),
+                seconds,
+                poured.poured,
+            )?);
+            tracing::info!(
+                "{} after {:.0} s",
+                setting.label(),
+                self.begin.elapsed().as_secs_f64()
+            );
+        }
+        Ok(())
+    }
+
+    fn point(
+        &self,
+        scene: &Scene,
+        (preset, knob, setting): (Preset, Knob, Setting),
+        seconds: f64,
+        poured: f64,
+    ) -> Result<Point, Failure> {
+        let rested = rest(self.gpu, scene, &setting, seconds)?;
+        let tipped = tip(self.gpu, scene, &setting)?;
+        Ok(Point {
+            preset: preset.name(),
+            knob,
+            setting,
+            stiffness: setting.stiffness(scene.scale.gravity, DEPTH),
+            errors: Errors {
+                rest_p99: rested.density_p99,
+                pour_p99: tipped.density_p99,
+                poured: (tipped.poured / poured - 1.0).abs(),
+                lost_volume: rested.lost_volume,
+            },
+            rest: rested,
+            pour: tipped,
+        })
+    }
+
+    fn chemistry(&mut self) -> Result<(), Failure> {
+        let quick = self.args.quick;
+        let presets = if quick {
+            &Preset::ALL[..1]
+        } else {
+            &Preset::ALL
+        };
+        let mixes = if quick { &MIXES[2..3] } else { &MIXES[..] };
+        for &preset in presets {
+            for &mix in mixes {
+                self.found
+                    .calorimetry
+                    .push(calorimetry(self.gpu, preset, mix)?);
+            }
+        }
+        let scene = Scene::load(BOILING.0).other()?;
+        let track = track::load(BOILING.1)?;
+        if quick {
+            let coarse = vitriol_sim::scene::PresetOverrides {
+                spacing: Some(0.004),
+                substeps: Some(6),
+                ..scene.presets[&Preset::Fast]
+            };
+            let mut scene = scene;
+            scene.presets.insert(Preset::Fast, coarse);
+            return self.seeds("coarse", &scene.with_preset(Preset::Fast), &track, (2, 5.0));
+        }
+        let whole = track.duration();
+        let all = (SEEDS[0], whole);
+        let fine = finest_boiling(&scene);
+        self.seeds("finest", &fine, &track, all)?;
+        for preset in [Preset::Reference, Preset::Balanced, Preset::Fast] {
+            self.seeds(preset.name(), &scene.with_preset(preset), &track, all)?;
+        }
+        let balanced = scene.with_preset(Preset::Balanced);
+        for feature in [
+            Feature::Boiling,
+            Feature::Density,
+            Feature::Viscosity,
+            Feature::Evaporation,
+            Feature::Steam,
+            Feature::Losses,
+        ] {
+            let (less, gone) = balanced.without(feature);
+            let names: Vec<String> = gone.iter().map(|feature| feature.name()).collect();
+            let name = format!("balanced without {}", names.join(", "));
+            self.seeds(&name, &less, &track, (SEEDS[1], whole))?;
+        }
+        Ok(())
+    }
+
+    fn seeds(
+        &mut self,
+        name: &str,
+        scene: &Scene,
+        track: &Track,
+        (count, seconds): (u64, f64),
+    ) -> Result<(), Failure> {
+        if self.late() {
+            self.found.skipped += 1;
+            return Ok(());
+        }
+        // The first alone, for its time; of the others, whose time nobody asks for,
+        // several at once.
+        let (first, cost) = boil(self.gpu, scene, track, seconds, 1)?;
+        let others: Vec<u64> = (2..=count).collect();
+        let boil = |&seed: &u64| Ok(boil(self.gpu, scene, track, seconds, seed)?.0);
+        let others = at_a_time(AT_ONCE, &others, boil)?;
+        let seeds = std::iter::once(first).chain(others);
+        self.found
+            .boiling
+            .push(Seeds::of(name.to_owned(), seeds.collect()));
+        self.found.boiling_costs.push(cost);
+        tracing::info!("{name} after {:.0} s", self.begin.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    fn truth(&mut self) -> Result<(), Failure> {
+        let scene = Scene::load(SCENE).other()?;
+        self.found.orders = convergence(self.gpu, self.args.quick)?;
+        let (count, seconds) = if self.args.quick {
+            (300, 0.1)
+        } else {
+            (3000, 0.3)
+        };
+        let vouched = vouch(self.gpu, &scene, &finest(&scene, 28e3), count, seconds)?;
+        self.found.vouched = Some(vouched);
+        self.effects(&scene)
+    }
+}
+
+impl Work<'_> {
+    /// Pours as the scene has it, with each effect that it leaves out, and with
+    /// none of what is numerics alone.
+    fn effects(&mut self, scene: &Scene) -> Result<(), Failure> {
+        type Change = fn(&mut SolverSettings);
+        let all: [(&'static str, Change); 5] = [
+            ("as it is", |_| {}),
+            ("with cohesion of 0.072 N/m", |s| s.cohesion = Some(0.072)),
+            ("with cohesion and adhesion of 0.072 N/m", |s| {
+                (s.cohesion, s.adhesion) = (Some(0.072), Some(0.072));
+            }),
+            ("with vorticity confinement of 0.005 m/s", |s| {
+                s.vorticity = Some(0.005)
+            }),
+            ("without viscosity of the numerics", |s| s.viscosity = 0.0),
+        ];
+        let (preset, seconds) = if self.args.quick {
+            (Preset::Fast, 0.3)
+        } else {
+            (Preset::Balanced, 1.5)
+        };
+        for (name, change) in &all[..if self.args.quick { 2 } else { 5 }] {
+            let mut scene = scene.clone();
+            change(&mut scene.solver);
+            let setting = Setting::of(&scene, preset);
+            self.found.effects.push(Effect {
+                name,
+                rest: rest(self.gpu, &scene, &setting, seconds)?,
+                pour: tip(self.gpu, &scene, &setting)?,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Depth of the water at rest, m.
+const DEPTH: f64 = 0.063;
+
+/// The finest run of the scene that boils: half as many particles again as
+/// `reference`, and more substeps.
+fn finest_boiling(scene: &Scene) -> Scene {
+    let mut fine = scene.with_preset(Preset::Reference);
+    fine.scale.spacing *= 0.87;
+    fine.solver.substeps = 20;
+    fine
+}
+
+fn calorimetry(
+    gpu: &Gpu,
+    preset: Preset,
+    (millilitres, table): ([f64; 2], f64),
+) -> Result<Calorimetry, Failure> {
+    let feed = |volume: f64, acid: f64| Feed {
+        volume: 1e-6 * volume,
+        temperature: 20.0,
+        acid,
+    };
+    let feeds = [feed(millilitres[0], 0.0), feed(millilitres[1], 0.98)];
+    let mixed = calorimeter::mix(gpu, feeds, resolution(preset), 1)?;
+    Ok(Calorimetry {
+        preset: preset.name(),
+        millilitres,
+        temperature: [mixed.end.temperature_mean, table],
+        drifts: mixed.drifts,
+    })
+}

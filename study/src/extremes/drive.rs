@@ -1,0 +1,409 @@
+//! Runs a case and keeps what is judged of it.
+
+use glam::{DVec3, Vec3};
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+use vitriol_sim::bodies::Hand;
+use vitriol_sim::measure::Ledger;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::{Counters, SolverState};
+use vitriol_sim::world::{StepInput, World};
+
+use super::case::Case;
+use super::motion::{BEFORE, LASTS, Motion};
+use super::recipe::{Base, Crowd};
+
+/// Time in which what moves has to come to rest, s.
+pub(super) const REST: f64 = 1.0;
+/// Steps that a case takes at most: one of a tenth of the time step ends earlier.
+const MOST_STEPS: u64 = 400;
+/// Time at the end over which a speed is a mean, s.
+const LAST: f64 = 0.25;
+/// Steps between two looks at all particles.
+const BETWEEN: u64 = 3;
+/// P₀ of Eq. 17's stated power, W/kg, and what more it may inject (docs/chemistry.md:
+/// 11 % at one substep).
+const POWER: (f64, f64) = (200.0, 1.15);
+
+/// What a case came to.
+pub(super) struct Run {
+    /// Particles.
+    pub particles: usize,
+    /// Steps done.
+    pub steps: u64,
+    /// Whether a whole [`REST`] passed after the extreme.
+    pub rested: bool,
+    /// Numbers that are none, of particles that are there, at any look.
+    pub not_finite: u64,
+    /// Most particles on the wrong side of a wall at any look.
+    pub lost: u64,
+    /// Largest speed at any look, m/s.
+    pub speed: f64,
+    /// Most energy beyond what was there or declared, J, and what it is compared with.
+    pub excess: f64,
+    pub turnover: f64,
+    /// Energy that the filling set free in the first [`BEFORE`], J.
+    pub settling: f64,
+    /// Root mean square of the members' speeds over the last [`LAST`], m/s.
+    pub end_speed: f64,
+    /// Particles in the flask at the end.
+    pub members: usize,
+    /// Particles above their boiling point in the second half of the rest.
+    pub boiling: u64,
+    /// Σ c or Σ m c, relative change; mass with what left; the enthalpy's.
+    pub drifts: [f64; 3],
+    /// Lowest and highest temperature and acid fraction at any look.
+    pub temperatures: [f64; 2],
+    pub acids: [f64; 2],
+    /// What was limited.
+    pub counters: Counters,
+    /// Hash of the end.
+    pub hash: u64,
+}
+
+/// Runs `case` in `scene`, which its text made.
+pub(super) fn drive(
+    gpu: &Gpu,
+    library: &Library,
+    scene: &Scene,
+    case: &Case,
+) -> Result<Run, Failure> {
+    let mut world = World::new(gpu, library, scene, case.seed).other()?;
+    crowd(&mut world, case)?;
+    let moves = case.recipe.motion != Motion::Still;
+    let dt = scene.scale.frame_time;
+    let active = if moves { BEFORE + LASTS } else { LASTS };
+    let active_steps = (active / dt).ceil() as u64;
+    let all = active_steps + (REST / dt).ceil() as u64;
+    let steps = all.min(MOST_STEPS);
+    let mut watch = Watch::new(&world, case)?;
+    for step in 1..=steps {
+        let before = world.poses().to_vec();
+        let hand = hand(case, scene, step as f64 * dt);
+        let input = StepInput {
+            hands: [hand, Hand::ABSENT],
+        };
+        world.step(&input).other()?;
+        watch.work(&world, &before)?;
+        watch.late = 2 * step > active_steps + all;
+        watch.last_part = dt * (steps - step) as f64 <= LAST;
+        if step % BETWEEN == 0 || step == steps || step == active_steps {
+            watch.look(&world, step)?;
+        }
+    }
+    watch.finish(&world, steps, steps == all)
+}
+
+fn hand(case: &Case, scene: &Scene, time: f64) -> Hand {
+    let flask = &scene.flasks[0];
+    let middle = Vec3::Y * (0.5 * flask.profile.rim_height()) as f32;
+    let grip = flask.stage_from_flask.transform_point(middle).as_dvec3();
+    case.recipe
+        .motion
+        .hand(time, grip, scene.scale.length_scale)
+}
+
+/// Puts particles where no filling puts them.
+fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
+    if case.recipe.crowd == Crowd::Filled {
+        return Ok(());
+    }
+    let mut state = world.snapshot().other()?;
+    let count = state.solver.positions.len();
+    let Some(&[x, y, z, _]) = state.solver.positions.get(count / 2) else {
+        return Ok(());
+    };
+    let centre = Vec3::new(x, y, z);
+    let (share, radius) = match case.recipe.crowd {
+        Crowd::Filled => (0.0, 0.0),
+        Crowd::OnePlace(share) => (share, 0.0),
+        Crowd::Ball(radius) => (1.0, radius * case.recipe.support()),
+    };
+    let chosen = ((share * count as f64).ceil() as usize).max(2).min(count);
+    for (index, position) in state.solver.positions.iter_mut().take(chosen).enumerate() {
+        // Even over the ball, by the golden angle and the cube root.
+        let part = (index as f64 + 0.5) / chosen as f64;
+        let (turn, up) = (2.399_963 * index as f64, (7.0 * part).fract() * 2.0 - 1.0);
+        let aside = (1.0 - up * up).sqrt();
+        let out = DVec3::new(aside * turn.cos(), up, aside * turn.sin());
+        // Within the glass, which is ten spacings wide.
+        let place = centre + (out * radius * part.cbrt()).as_vec3();
+        (position[0], position[1], position[2]) = (place.x, place.y, place.z);
+    }
+    world.restore(&state).other()
+}
+
+/// A particle's part of the energy, by identity.
+#[derive(Clone, Copy)]
+struct Held {
+    member: bool,
+    energy: f64,
+}
+
+struct Watch {
+    moves: bool,
+    late: bool,
+    last_part: bool,
+    /// Σ v² and number of the members over looks in the last part.
+    squares: [f64; 2],
+    gravity: f64,
+    particle_mass: f64,
+    /// Height that potential energy counts from, m.
+    base: f64,
+    frame_time: f64,
+    boiling: Option<(f64, f64)>,
+    literal_limit: f64,
+    last: Vec<Held>,
+    last_step: u64,
+    start_energy: f64,
+    start: Amounts,
+    /// Work by glass, and all else that may become motion, J.
+    declared: f64,
+    /// Of motion paid for, of the physical chemistry, J.
+    paid: f64,
+    run: Run,
+}
+
+/// What is kept.
+#[derive(Clone, Copy, Default)]
+struct Amounts {
+    acid: f64,
+    mass: f64,
+    ledger: Option<Ledger>,
+}
+
+impl Watch {
+    fn new(world: &World, case: &Case) -> Result<Self, Failure> {
+        let parameters = world.solver().parameters();
+        let recipe = &case.recipe;
+        let mut watch = Self {
+            moves: recipe.motion != Motion::Still || recipe.upside_down,
+            late: false,
+            last_part: false,
+            squares: [0.0; 2],
+            gravity: recipe.gravity,
+            particle_mass: parameters.particle_mass(),
+            base: world.scene().floor.height,
+            frame_time: recipe.frame_time,
+            boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
+            literal_limit: 0.5 * recipe.v_max * recipe.v_max,
+            last: Vec::new(),
+            last_step: 0,
+            start_energy: 0.0,
+            start: Amounts::default(),
+            declared: 0.0,
+            paid: 0.0,
+            run: Run {
+                particles: world.solver().count() as usize,
+                steps: 0,
+                rested: false,
+                not_finite: 0,
+                lost: 0,
+                speed: 0.0,
+                excess: 0.0,
+                turnover: 0.0,
+                settling: 0.0,
+                end_speed: 0.0,
+                members: 0,
+                boiling: 0,
+                drifts: [0.0; 3],
+                temperatures: [f64::INFINITY, f64::NEG_INFINITY],
+                acids: [f64::INFINITY, f64::NEG_INFINITY],
+                counters: Counters::default(),
+                hash: 0,
+            },
+        };
+        let state = world.solver().snapshot().other()?;
+        watch.last = watch.energies(&state);
+        watch.start_energy = watch.last.iter().map(|held| held.energy).sum();
+        watch.start = watch.amounts(world, &state);
+        // A lattice that settles by a spacing, and what it is compared with at least.
+        watch.run.turnover = watch.least();
+        Ok(watch)
+    }
+
+    /// m g d over all particles, J, or that of 1 cm/s where there is no weight.
+    fn least(&self) -> f64 {
+        let d = (self.particle_mass / 1e3).cbrt();
+        self.particle_mass * self.run.particles as f64 * (self.gravity * d).max(5e-5)
+    }
+
+    fn energies(&self, state: &SolverState) -> Vec<Held> {
+        let mut held = vec![
+            Held {
+                member: false,
+                energy: 0.0
+            };
+            state.tags.len()
+        ];
+        for slot in (0..state.tags.len()).filter(|&slot| state.is_present(slot)) {
+            let [_, y, _, _] = state.positions[slot];
+            let [u, v, w, _] = state.velocities[slot];
+            let squared = f64::from(u).powi(2) + f64::from(v).powi(2) + f64::from(w).powi(2);
+            let mass = self.particle_mass * state.mass_of(slot);
+            held[state.tags[slot][1] as usize] = Held {
+                member: state.flask_of(slot).is_some(),
+                energy: mass * (0.5 * squared + self.gravity * (f64::from(y) - self.base)),
+            };
+        }
+        held
+    }
+
+    fn amounts(&self, world: &World, state: &SolverState) -> Amounts {
+        let heat = vitriol_sim::measure::measure_heat(world.solver().parameters(), state);
+        let ledger = heat.as_ref().and_then(|heat| heat.ledger);
+        let present = (0..state.tags.len()).filter(|&slot| state.is_present(slot));
+        let mass = match &ledger {
+            Some(ledger) => ledger.mass + ledger.steam,
+            None => self.particle_mass * present.clone().count() as f64,
+        };
+        let acid = match &ledger {
+            Some(ledger) => ledger.acid,
+            None => present
+                .filter_map(|slot| state.heat.get(slot))
+                .map(|heat| self.particle_mass * f64::from(heat[1]))
+                .sum(),
+        };
+        Amounts { acid, mass, ledger }
+    }
+
+    /// What the glass did in the last step to what is in it.
+    fn work(&mut self, world: &World, before: &[vitriol_sim::pose::Pose]) -> Result<(), Failure> {
+        let loads = world.loads().other()?;
+        for ((load, from), to) in loads.iter().zip(before).zip(world.poses()) {
+            let moved = (to.position - from.position).as_dvec3();
+            let turn = (to.orientation * from.orientation.conjugate()).normalize();
+            let turn = if turn.w < 0.0 { -turn } else { turn };
+            let turned = turn.to_scaled_axis().as_dvec3();
+            let work =
+                load.impulse.as_dvec3().dot(moved) + load.angular_impulse.as_dvec3().dot(turned);
+            // The load is the liquid's on the glass.
+            self.declared -= work / self.frame_time;
+            self.run.turnover += (work / self.frame_time).abs();
+        }
+        Ok(())
+    }
+
+    fn look(&mut self, world: &World, step: u64) -> Result<(), Failure> {
+        let state = world.solver().snapshot().other()?;
+        let time = self.frame_time * (step - self.last_step) as f64;
+        self.last_step = step;
+        self.numbers(&state);
+        let measured = world.measure_state(&state).other()?;
+        self.run.lost = self.run.lost.max(measured.lost_particles);
+        let now = self.energies(&state);
+        if self.moves {
+            // The load is that of members: of who left, or is struck from outside, all
+            // that it gained counts as declared.
+            for (now, before) in now.iter().zip(&self.last) {
+                if !(now.member && before.member) {
+                    self.declared += (now.energy - before.energy).max(0.0);
+                }
+            }
+        }
+        self.declared += self.boiled(&state, time);
+        if let Some(ledger) = self.amounts(world, &state).ledger {
+            self.declared += ledger.kinetic - self.paid;
+            self.paid = ledger.kinetic;
+        }
+        let energy: f64 = now.iter().map(|held| held.energy).sum();
+        let kinetic = measured.kinetic_energy;
+        self.run.turnover = self.run.turnover.max(self.least() + kinetic);
+        let excess = energy - self.start_energy - self.declared;
+        self.run.excess = larger(self.run.excess, excess);
+        if self.frame_time * step as f64 <= BEFORE {
+            // A filling is no equilibrium: the lattice is too dense at the wall, and
+            // what is in one place is pushed apart. What that sets free counts as there.
+            self.run.settling += excess.max(0.0);
+            self.start_energy += excess.max(0.0);
+            self.run.excess = 0.0;
+        }
+        if self.late
+            && let Some(superheat) = measured.heat.as_ref().and_then(|h| h.superheat.as_ref())
+        {
+            self.run.boiling = self.run.boiling.max(superheat.particles);
+        }
+        self.keep(world, &state);
+        self.last = now;
+        Ok(())
+    }
+
+    /// Power of Eq. 17 over `time` as it is stated, J.
+    fn boiled(&self, state: &SolverState, time: f64) -> f64 {
+        let Some((point, intensity)) = self.boiling else {
+            return 0.0;
+        };
+        let powers = state.heat.iter().map(|heat| {
+            let excess = intensity * (f64::from(heat[0]) - point).max(0.0) / point;
+            // No more than brings all to v_max.
+            (POWER.1 * POWER.0 * excess * excess * time).min(self.literal_limit)
+        });
+        self.particle_mass * powers.sum::<f64>()
+    }
+
+    /// Finite, how fast, how hot.
+    fn numbers(&mut self, state: &SolverState) {
+        let run = &mut self.run;
+        for slot in (0..state.tags.len()).filter(|&slot| state.is_present(slot)) {
+            let mut values = [state.positions[slot], state.velocities[slot]].concat();
+            if let Some(heat) = state.heat.get(slot) {
+                values.extend([heat[0], heat[1]]);
+                let (t, c) = (f64::from(heat[0]), f64::from(heat[1]));
+                run.temperatures = [run.temperatures[0].min(t), run.temperatures[1].max(t)];
+                run.acids = [run.acids[0].min(c), run.acids[1].max(c)];
+            }
+            if let Some(matter) = state.matter.get(slot) {
+                values.extend_from_slice(matter);
+            }
+            run.not_finite += values.iter().filter(|value| !value.is_finite()).count() as u64;
+            let [u, v, w, _] = state.velocities[slot];
+            let speed = f64::from(Vec3::new(u, v, w).length());
+            run.speed = larger(run.speed, speed);
+            if self.last_part && state.flask_of(slot).is_some() {
+                self.squares[0] += speed * speed;
+                self.squares[1] += 1.0;
+            }
+        }
+    }
+
+    fn keep(&mut self, world: &World, state: &SolverState) {
+        let now = self.amounts(world, state);
+        let change = |now: f64, start: f64, whole: f64| {
+            if whole > 0.0 {
+                ((now - start) / whole).abs()
+            } else {
+                0.0
+            }
+        };
+        let enthalpy = match (&now.ledger, &self.start.ledger) {
+            (Some(now), Some(start)) => now.closure(start).abs(),
+            _ => 0.0,
+        };
+        let drifts = [
+            change(now.acid, self.start.acid, self.start.acid),
+            change(now.mass, self.start.mass, self.start.mass),
+            enthalpy,
+        ];
+        for (largest, now) in self.run.drifts.iter_mut().zip(drifts) {
+            *largest = larger(*largest, now);
+        }
+    }
+
+    fn finish(mut self, world: &World, steps: u64, rested: bool) -> Result<Run, Failure> {
+        let state = world.solver().snapshot().other()?;
+        let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot).is_some());
+        self.run.members = members.count();
+        let [sum, count] = self.squares;
+        self.run.end_speed = (sum / count.max(1.0)).sqrt();
+        (self.run.steps, self.run.rested) = (steps, rested);
+        self.run.counters = world.counters().other()?;
+        self.run.hash = state.hash();
+        Ok(self.run)
+    }
+}
+
+/// The larger one; NaN of NaN, which `f64::max` would pass over.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}

@@ -1,0 +1,198 @@
+//! What `vitriol extremes` says of all cases.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_experiment::DeviceStatement;
+
+use super::judge::{Finding, Verdict};
+
+/// What `vitriol extremes` prints and writes.
+#[derive(Clone, Debug, Serialize)]
+pub struct Extremes {
+    /// The device.
+    pub device: DeviceStatement,
+    /// The seed of the random cases.
+    pub seed: u64,
+    /// Cases.
+    pub cases: usize,
+    /// Of these, those in which all criteria hold.
+    pub passed: usize,
+    /// Those that were refused at load.
+    pub refused: usize,
+    /// Those in which some criterion does not hold.
+    pub failed: usize,
+    /// By limiter: in how many cases it acted, and how often.
+    pub limiters: BTreeMap<String, Acted>,
+    /// By kind of extreme.
+    pub kinds: BTreeMap<String, Kind>,
+    /// By what was refused, the message's beginning: cases.
+    pub refusals: BTreeMap<String, usize>,
+    /// Worst figures of the cases that ran.
+    pub worst: Worst,
+    /// Every case that failed; `--only` repeats it.
+    pub failures: Vec<Finding>,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// How often a limiter acted.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Acted {
+    /// Cases in which it did.
+    pub cases: usize,
+    /// Times over all of these.
+    pub times: u64,
+}
+
+/// Cases with one kind of extreme, alone or in a pair.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Kind {
+    /// All of them.
+    pub cases: usize,
+    /// Passed.
+    pub passed: usize,
+    /// Refused at load.
+    pub refused: usize,
+    /// Failed.
+    pub failed: usize,
+    /// Passed, and some limiter acted.
+    pub limited: usize,
+}
+
+/// Worst figures.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Worst {
+    /// Speed over v_max.
+    pub speed_over_max: f64,
+    /// Energy beyond what was declared, over what was turned over.
+    pub energy_excess: f64,
+    /// Energy that a filling set free as it settled, likewise.
+    pub settling: f64,
+    /// Relative changes of acid, mass, enthalpy.
+    pub drifts: [f64; 3],
+}
+
+/// Sums findings up.
+pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f64) -> Extremes {
+    let mut all = Extremes {
+        device,
+        seed,
+        cases: found.len(),
+        passed: 0,
+        refused: 0,
+        failed: 0,
+        limiters: BTreeMap::new(),
+        kinds: BTreeMap::new(),
+        refusals: BTreeMap::new(),
+        worst: Worst::default(),
+        failures: Vec::new(),
+        seconds,
+    };
+    for finding in found {
+        for name in &finding.kinds {
+            let kind = all.kinds.entry((*name).to_owned()).or_default();
+            kind.cases += 1;
+            match &finding.verdict {
+                Verdict::Passed => {
+                    kind.passed += 1;
+                    kind.limited += usize::from(!finding.limiters.is_empty());
+                }
+                Verdict::Refused { .. } => kind.refused += 1,
+                Verdict::Failed { .. } => kind.failed += 1,
+            }
+        }
+        match &finding.verdict {
+            Verdict::Passed => all.passed += 1,
+            Verdict::Refused { message } => {
+                all.refused += 1;
+                *all.refusals.entry(field(message)).or_default() += 1;
+            }
+            Verdict::Failed { .. } => {
+                all.failed += 1;
+                all.failures.push(finding.clone());
+            }
+        }
+        for (name, &times) in &finding.limiters {
+            let acted = all.limiters.entry((*name).to_owned()).or_default();
+            acted.cases += 1;
+            acted.times += u64::from(times);
+        }
+        let worst = &mut all.worst;
+        worst.speed_over_max = worst.speed_over_max.max(finding.speed_over_max);
+        worst.energy_excess = worst.energy_excess.max(finding.energy_excess);
+        worst.settling = worst.settling.max(finding.settling);
+        for (worst, drift) in worst.drifts.iter_mut().zip(finding.drifts) {
+            *worst = worst.max(drift);
+        }
+    }
+    all
+}
+
+/// The field that a scene's message names.
+fn field(message: &str) -> String {
+    let parts: Vec<&str> = message.splitn(3, ": ").collect();
+    parts.get(1).copied().unwrap_or(message).to_owned()
+}
+
+/// The table for people.
+pub fn describe(all: &Extremes) -> String {
+    let mut text = format!(
+        "{}, {}\n{} cases of seed {}: {} passed, {} refused at load, {} failed, in {:.0} s\n\n\
+         {:<28} {:>6} {:>7} {:>8} {:>8} {:>7}\n",
+        all.device.name,
+        all.device.driver,
+        all.cases,
+        all.seed,
+        all.passed,
+        all.refused,
+        all.failed,
+        all.seconds,
+        "extreme",
+        "cases",
+        "passed",
+        "limited",
+        "refused",
+        "failed"
+    );
+    for (name, kind) in &all.kinds {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{name:<28} {:>6} {:>7} {:>8} {:>8} {:>7}",
+            kind.cases, kind.passed, kind.limited, kind.refused, kind.failed
+        );
+    }
+    let _ = writeln!(text, "\n{:<44} {:>6} {:>12}", "limiter", "cases", "times");
+    for (name, acted) in &all.limiters {
+        let _ = writeln!(text, "{name:<44} {:>6} {:>12}", acted.cases, acted.times);
+    }
+    let _ = writeln!(text, "\n{:<44} {:>6}", "refused at load", "cases");
+    for (name, cases) in &all.refusals {
+        let _ = writeln!(text, "{name:<44} {cases:>6}");
+    }
+    let _ = writeln!(
+        text,
+        "\nworst: speed {:.6} of v_max, energy {:.4} of what was turned over, acid {:.1e}, mass \
+         {:.1e}, enthalpy {:.1e}",
+        all.worst.speed_over_max,
+        all.worst.energy_excess,
+        all.worst.drifts[0],
+        all.worst.drifts[1],
+        all.worst.drifts[2]
+    );
+    for finding in &all.failures {
+        if let Verdict::Failed { reasons } = &finding.verdict {
+            let _ = writeln!(
+                text,
+                "\nFAILED {} (--seed {} --only {}): {}",
+                finding.label,
+                all.seed,
+                finding.case,
+                reasons.join("; ")
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,140 @@
+//! The liquids that are looked at: built-in scenes and tracks through the
+//! solver to stated times.
+
+use glam::DVec3;
+use vitriol_experiment::stage::grip;
+use vitriol_experiment::{Blame, Failure, Span, track};
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::world::{StepInput, World};
+use vitriol_xr::PoseSource;
+use vitriol_xr::track::TrackSource;
+
+use super::glassware::Glassware;
+
+/// What a state is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct StateSpec {
+    /// Its name.
+    pub name: &'static str,
+    /// Built-in scene.
+    pub scene: &'static str,
+    /// Built-in track that moves it.
+    pub track: &'static str,
+    /// Simulated time, s.
+    pub seconds: f64,
+    /// What the views look at, stage, real metres.
+    pub target: [f32; 3],
+    /// Half the height of what they show there, metres.
+    pub reach: f32,
+}
+
+/// A beaker at rest, a pour in its middle, and water on acid that boils. The
+/// track closes its hand on the flask after 0.8 s, pours from 2.8 s to 5.2 s
+/// and lets the flask drain.
+pub const STATES: [StateSpec; 3] = [
+    StateSpec {
+        name: "still",
+        scene: "two-flasks",
+        track: "two-flasks",
+        seconds: 0.5,
+        target: [-0.12, 0.79, -0.40],
+        reach: 0.06,
+    },
+    StateSpec {
+        name: "pouring",
+        scene: "two-flasks",
+        track: "two-flasks",
+        seconds: 4.2,
+        target: [0.085, 0.85, -0.40],
+        reach: 0.12,
+    },
+    StateSpec {
+        name: "boiling",
+        scene: "water-into-acid",
+        track: "two-flasks",
+        seconds: 5.2,
+        target: [0.11, 0.84, -0.40],
+        reach: 0.11,
+    },
+];
+
+/// A liquid at one moment, on the device and here.
+pub struct State {
+    /// What it was made of.
+    pub spec: StateSpec,
+    /// The world; its device holds what the renderer draws.
+    pub world: World,
+    /// The particles that are there, stage, scene's unit.
+    pub positions: Vec<DVec3>,
+    /// Their volumes, scene's unit cubed.
+    pub volumes: Vec<f64>,
+    /// What is solid around them.
+    pub glassware: Glassware,
+}
+
+/// Runs the states' scenes under `preset`.
+///
+/// # Errors
+/// What scene, track or device say.
+pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, Failure> {
+    let of = |spec: &StateSpec| run_one(gpu, library, preset, *spec);
+    STATES.iter().map(of).collect()
+}
+
+fn run_one(
+    gpu: &Gpu,
+    library: &Library,
+    preset: Preset,
+    spec: StateSpec,
+) -> Result<State, Failure> {
+    let scene = Scene::load(spec.scene).input()?.with_preset(preset);
+    let track = track::load(spec.track)?;
+    let seed = track.metadata.seed;
+    let mut source = TrackSource::new(track);
+    let mut world = World::new(gpu, library, &scene, seed).other()?;
+    let length_scale = scene.scale.length_scale;
+    let span = Span::covering(spec.seconds, scene.scale.frame_time);
+    for step in 0..span.steps {
+        let time = step as f64 * span.frame_time;
+        let Some(frame) = source.next(step, time).other()? else {
+            break;
+        };
+        let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
+        world.step(&StepInput { hands }).other()?;
+    }
+    State::new(spec, world)
+}
+
+impl State {
+    /// The liquid of a world as it is now; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(spec: StateSpec, world: World) -> Result<Self, Failure> {
+        let scene = world.scene();
+        let state = world.solver().snapshot().other()?;
+        let volume = scene.scale.spacing.powi(3);
+        let present: Vec<usize> = (0..state.positions.len())
+            .filter(|&slot| state.is_present(slot))
+            .collect();
+        let position = |&slot: &usize| {
+            let [x, y, z, _] = state.positions[slot];
+            DVec3::new(x.into(), y.into(), z.into())
+        };
+        let positions: Vec<DVec3> = present.iter().map(position).collect();
+        let members = present.iter().map(|&slot| state.flask_of(slot));
+        let glassware = Glassware::new(scene, world.poses(), positions.clone(), members.collect());
+        Ok(Self {
+            spec,
+            volumes: present
+                .iter()
+                .map(|&slot| volume * state.volume_of(slot))
+                .collect(),
+            positions,
+            glassware,
+            world,
+        })
+    }
+}

@@ -1,0 +1,12 @@
+//! The study: what measures solver and renderer, as subcommands.
+
+pub mod bench;
+pub mod calorimeter;
+pub mod cli;
+pub mod column;
+pub mod command;
+pub mod extremes;
+pub mod fidelity;
+pub mod parse;
+mod several;
+pub mod trade;

@@ -1,0 +1,233 @@
+//! What `vitriol trade` found.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_experiment::DeviceStatement;
+use vitriol_experiment::units::percent;
+
+use super::boil::{Quartiles, Seeds};
+use super::order::Convergence;
+use super::setting::{Knob, Setting};
+use super::tank::{Cost, Rested, Tipped};
+use super::vouch::Vouched;
+
+/// What `vitriol trade` prints and writes.
+#[derive(Clone, Debug, Serialize)]
+pub struct Trade {
+    /// The device.
+    pub device: DeviceStatement,
+    /// Whether with `--quick`.
+    pub quick: bool,
+    /// The setting whose poured volume is the others' truth, and what it poured.
+    pub finest: Option<(Setting, Tipped)>,
+    /// Settings of the solver, in one vessel of water.
+    pub points: Vec<Point>,
+    /// Settings that were not tried for want of time.
+    pub skipped: usize,
+    /// The calorimeter under each preset.
+    pub calorimetry: Vec<Calorimetry>,
+    /// Water poured into acid: presets, what is finest, and features left out.
+    pub boiling: Vec<Seeds>,
+    /// Frame times of these.
+    pub boiling_costs: Vec<Cost>,
+    /// The finest setting by the f64 reference.
+    pub vouched: Option<Vouched>,
+    /// What each effect that plain water leaves out would change of a pour.
+    pub effects: Vec<Effect>,
+    /// How errors shrink.
+    pub orders: Vec<Convergence>,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// One setting.
+#[derive(Clone, Debug, Serialize)]
+pub struct Point {
+    /// The preset from which one knob was turned.
+    pub preset: &'static str,
+    /// The knob.
+    pub knob: Knob,
+    /// The setting.
+    pub setting: Setting,
+    /// Δt_s over its limit in the vessel that rests.
+    pub stiffness: f64,
+    /// At rest.
+    pub rest: Rested,
+    /// While it is poured.
+    pub pour: Tipped,
+    /// What it is off by.
+    pub errors: Errors,
+}
+
+/// Errors of a setting, relative.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Errors {
+    /// 99th percentile of the density error at rest.
+    pub rest_p99: f64,
+    /// Likewise while pouring.
+    pub pour_p99: f64,
+    /// Of the poured volume against that of the finest run.
+    pub poured: f64,
+    /// Of the height of the centre of mass at rest.
+    pub lost_volume: f64,
+}
+
+/// A pour with an effect that scenes of water leave out.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Effect {
+    /// The effect.
+    pub name: &'static str,
+    /// At rest.
+    pub rest: Rested,
+    /// While it is poured.
+    pub pour: Tipped,
+}
+
+/// What the calorimeter says of one mix.
+#[derive(Clone, Debug, Serialize)]
+pub struct Calorimetry {
+    /// The preset.
+    pub preset: &'static str,
+    /// Water and acid, mL.
+    pub millilitres: [f64; 2],
+    /// Temperature at the end, °C, and the table's.
+    pub temperature: [f64; 2],
+    /// Largest relative changes of mass, acid, enthalpy.
+    pub drifts: [f64; 3],
+}
+
+impl Point {
+    /// 99th percentile of the time, ms, that a ninetieth of a second takes, at rest or
+    /// poured, whichever is more: settings of other frame times have as many frames
+    /// in it as they need.
+    pub fn cost(&self) -> f64 {
+        let frames = 1.0 / 90.0 / self.setting.frame_time;
+        frames * self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
+    }
+}
+
+/// A name, and how the error is read.
+type NamedError = (&'static str, fn(&Errors) -> f64);
+
+impl Errors {
+    /// Names and readers of each.
+    pub const ALL: [NamedError; 4] = [
+        ("density error at rest, 99th percentile", |e| e.rest_p99),
+        ("density error while pouring, 99th percentile", |e| {
+            e.pour_p99
+        }),
+        ("poured volume", |e| e.poured),
+        ("lost volume", |e| e.lost_volume.abs()),
+    ];
+}
+
+/// Tables for people.
+pub fn describe(trade: &Trade) -> String {
+    let mut t = format!(
+        "{}, {}\n\n{:<10} {:<22} {:<52} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
+        trade.device.name,
+        trade.device.driver,
+        "preset",
+        "knob",
+        "setting",
+        "n",
+        "ms p99",
+        "rest",
+        "pour",
+        "poured",
+        "lost",
+        "Δt/limit"
+    );
+    for point in &trade.points {
+        let e = &point.errors;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            t,
+            "{:<10} {:<22} {:<52} {:>8} {:>8.3} {:>8} {:>8} {:>8} {:>8} {:>8.2}",
+            point.preset,
+            point.knob.name(),
+            point.setting.label(),
+            point.rest.particles,
+            point.cost(),
+            percent(e.rest_p99),
+            percent(e.pour_p99),
+            percent(e.poured),
+            percent(e.lost_volume),
+            point.stiffness
+        );
+    }
+    if let Some((setting, tipped)) = &trade.finest {
+        let _ = writeln!(
+            t,
+            "finest: {}, {:.2} mL poured, {:.2} mL in the end by geometry",
+            setting.label(),
+            1e6 * tipped.poured,
+            1e6 * tipped.in_the_end
+        );
+    }
+    for row in &trade.calorimetry {
+        let [water, acid] = row.millilitres;
+        let [own, table] = row.temperature;
+        let _ = writeln!(
+            t,
+            "calorimeter, {}: {water} and {acid} mL end at {own:.2} °C, the table's {table:.1}",
+            row.preset
+        );
+    }
+    for seeds in &trade.boiling {
+        let show = |Quartiles([low, middle, high]): &Quartiles| {
+            format!("{middle:.3} ({low:.3} to {high:.3})")
+        };
+        let _ = writeln!(
+            t,
+            "{}, {} seeds: superheat {} K, onset {} s, thrown {} g, steam {} g, mean {} °C",
+            seeds.name,
+            seeds.seeds.len(),
+            show(&seeds.superheat),
+            show(&seeds.onset),
+            show(&seeds.thrown),
+            show(&seeds.steam),
+            show(&seeds.temperature)
+        );
+    }
+    if let Some(v) = &trade.vouched {
+        let _ = writeln!(
+            t,
+            "f64 and device, {} particles after {} s: density error p99 {} and {}, centre of mass \
+             {:.4} and {:.4} mm, at most {:.4} mm apart",
+            v.particles,
+            v.seconds,
+            percent(v.density_p99[0]),
+            percent(v.density_p99[1]),
+            1e3 * v.centre[0],
+            1e3 * v.centre[1],
+            1e3 * v.apart
+        );
+    }
+    for effect in &trade.effects {
+        let _ = writeln!(
+            t,
+            "{}: {:.3} mL poured; density error p99 {} at rest, {} while pouring; rms speed at \
+             rest {:.4} m/s; a frame {:.3} ms",
+            effect.name,
+            1e6 * effect.pour.poured,
+            percent(effect.rest.density_p99),
+            percent(effect.pour.density_p99),
+            effect.rest.speed,
+            effect.pour.cost.median_ms
+        );
+    }
+    for order in &trade.orders {
+        let _ = writeln!(
+            t,
+            "{} over {}: order {:.2}",
+            order.name, order.by, order.order
+        );
+    }
+    if trade.skipped > 0 {
+        let _ = writeln!(t, "{} settings not tried for want of time", trade.skipped);
+    }
+    let _ = writeln!(t, "{:.0} s", trade.seconds);
+    t
+}

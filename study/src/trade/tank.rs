@@ -1,0 +1,299 @@
+//! Water in a beaker on the device: at rest, and tipped until half of it has run
+//! out.
+
+use std::time::Instant;
+
+use glam::{DVec3, Quat, Vec3};
+use serde::Serialize;
+use vitriol_experiment::{Blame, Failure, Ranks};
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_sim::fill::{count_for_volume, fill};
+use vitriol_sim::flask::{Profile, glass, particles::sample};
+use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+
+use super::exact;
+use super::setting::Setting;
+
+/// Water at rest, m³: the paper's single dilution at d = 2.5 mm.
+pub const VOLUME: f64 = 217.09e-6;
+/// Water that is poured from, m³.
+const POURED_FROM: f64 = 150e-6;
+/// The vessel.
+const VESSEL: &str = "beaker-250";
+/// How far it is tipped, radians, in which time, s, and how long it is held there.
+const TILT: f64 = 1.2;
+const TIPPED_IN: f64 = 1.5;
+const HELD: f64 = 1.0;
+/// Frames between two looks.
+const BETWEEN: u32 = 5;
+
+/// Time of a frame, recorded, solved and waited for.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Cost {
+    /// Median, ms.
+    pub median_ms: f64,
+    /// 99th percentile, ms.
+    pub p99_ms: f64,
+}
+
+impl Cost {
+    /// Of times in ms.
+    pub fn of(times: &[f64]) -> Self {
+        let ranks = Ranks::of(times);
+        let rank = |share| ranks.at(share).unwrap_or(f64::NAN);
+        Self {
+            median_ms: rank(0.5),
+            p99_ms: rank(0.99),
+        }
+    }
+}
+
+/// What came of resting.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Rested {
+    /// Particles.
+    pub particles: u32,
+    /// A frame's time.
+    pub cost: Cost,
+    /// Mean of max(0, ρ/ρ₀ − 1) over the last part.
+    pub density_mean: f64,
+    /// 99th percentile of the same.
+    pub density_p99: f64,
+    /// By how much the centre of mass is too low, over its height: lost volume.
+    pub lost_volume: f64,
+    /// Root mean square speed, m/s.
+    pub speed: f64,
+    /// Root mean square of the carried −p/ρ less g times the depth, over that at the
+    /// floor; none where nothing is carried.
+    pub pressure: Option<f64>,
+}
+
+/// What came of tipping.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Tipped {
+    /// A frame's time.
+    pub cost: Cost,
+    /// 99th percentile of max(0, ρ/ρ₀ − 1) in the vessel while it runs out, mean over
+    /// looks.
+    pub density_p99: f64,
+    /// Volume that has run out, m³.
+    pub poured: f64,
+    /// Volume that will have run out in the end, by geometry, m³: the last of it
+    /// takes many seconds over the lip.
+    pub in_the_end: f64,
+    /// Particles that went through the glass.
+    pub lost: u64,
+}
+
+/// A vessel of water, and nothing around it.
+struct Tank {
+    gpu: Gpu,
+    profile: Profile,
+    solver: Solver,
+    frame_time: f64,
+    gravity: f64,
+}
+
+impl Tank {
+    fn new(gpu: &Gpu, scene: &Scene, setting: &Setting, volume: f64) -> Result<Self, Failure> {
+        let parameters = setting.parameters(scene);
+        let vessel = glass::find(VESSEL).ok_or("the vessel of the trade is no glassware");
+        let profile = vessel.other()?.profile(1.0).other()?;
+        let d = setting.spacing;
+        let count = count_for_volume(volume, d);
+        let places = fill(&profile, Pose::IDENTITY, count, d, Some(1)).other()?;
+        let top = places.iter().map(|place| place.y).fold(0.0, f64::max);
+        let gravity = scene.scale.gravity;
+        let particles: Vec<Particle> = places
+            .into_iter()
+            .map(|position| Particle {
+                position,
+                velocity: DVec3::ZERO,
+                flask: Some(0),
+                temperature: 20.0,
+                acid: 0.0,
+                carried: gravity * (position.y - top),
+            })
+            .collect();
+        let flasks = [profile.clone()];
+        let solids = setting
+            .boundary_particles
+            .then(|| vec![sample(&profile, 0.5 * d, parameters.support_radius)]);
+        let spec = SolverSpec {
+            parameters,
+            flasks: &flasks,
+            solids: solids.as_deref(),
+            ground: Ground {
+                floor: -1000.0,
+                table: None,
+                scale: 1.0,
+            },
+            particles: &particles,
+            loads: false,
+            constraint: true,
+            lanes: None,
+        };
+        Ok(Self {
+            gpu: gpu.clone(),
+            solver: Solver::new(gpu, &Library::embedded(), &spec).other()?,
+            profile,
+            frame_time: setting.frame_time,
+            gravity,
+        })
+    }
+
+    /// A frame; its time, ms.
+    fn frame(&self, before: Pose, after: Pose) -> Result<f64, Failure> {
+        let begin = Instant::now();
+        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
+        self.solver.record(&mut rec, &[before], &[after]).other()?;
+        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        Ok(begin.elapsed().as_secs_f64() * 1e3)
+    }
+
+    /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of what is in the vessel.
+    fn density(&self, state: &SolverState) -> Result<(f64, f64), Failure> {
+        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
+        let copy = self.solver.record_density(&mut rec).other()?;
+        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        let densities = copy.get::<f32>().other()?;
+        let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
+        let errors: Vec<f64> = members
+            .map(|slot| (f64::from(densities[slot]) - 1.0).max(0.0))
+            .collect();
+        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        let p99 = Ranks::of(&errors).at(0.99).unwrap_or(0.0);
+        Ok((mean, p99))
+    }
+}
+
+/// Rests water for `seconds`, of which the last third is looked at.
+///
+/// # Errors
+/// What the device says.
+pub fn rest(gpu: &Gpu, scene: &Scene, setting: &Setting, seconds: f64) -> Result<Rested, Failure> {
+    let tank = Tank::new(gpu, scene, setting, VOLUME)?;
+    let frames = (seconds / tank.frame_time).ceil() as u32;
+    let still = Pose::IDENTITY;
+    let (mut times, mut looks) = (Vec::new(), Vec::new());
+    for frame in 1..=frames {
+        let time = tank.frame(still, still)?;
+        if 3 * frame < 2 * frames {
+            continue;
+        }
+        times.push(time);
+        if frame % BETWEEN == 0 || frame == frames {
+            looks.push(tank.rested()?);
+        }
+    }
+    let mean = |of: &dyn Fn(&Look) -> f64| looks.iter().map(of).sum::<f64>() / looks.len() as f64;
+    let parameters = tank.solver.parameters();
+    Ok(Rested {
+        particles: tank.solver.count(),
+        cost: Cost::of(&times),
+        density_mean: mean(&|look| look.density.0),
+        density_p99: mean(&|look| look.density.1),
+        lost_volume: mean(&|look| look.lost_volume),
+        speed: mean(&|look| look.speed * look.speed).sqrt(),
+        pressure: (parameters.carry > 0.0).then(|| mean(&|look| look.pressure)),
+    })
+}
+
+struct Look {
+    density: (f64, f64),
+    lost_volume: f64,
+    speed: f64,
+    pressure: f64,
+}
+
+impl Tank {
+    fn rested(&self) -> Result<Look, Failure> {
+        let state = self.solver.snapshot().other()?;
+        let count = state.tags.len() as f64;
+        let volume = count * self.solver.parameters().particle_volume();
+        let none = "the liquid of the trade does not fit its vessel";
+        let exact = exact::centre_of_mass(&self.profile, volume).ok_or(none);
+        let level = self.profile.level_for_volume(volume).ok_or(none).other()?;
+        let floor = self.profile.floor_height();
+        let exact = exact.other()? - floor;
+        let (mut centre, mut squares, mut pressures) = (0.0, 0.0, 0.0);
+        for (position, velocity) in state.positions.iter().zip(&state.velocities) {
+            let y = f64::from(position[1]);
+            centre += y / count;
+            let [u, v, w, carried] = velocity.map(f64::from);
+            squares += (u * u + v * v + w * w) / count;
+            // −p/ρ is never above zero.
+            let off = carried + self.gravity * (level - y).max(0.0);
+            pressures += off * off / count;
+        }
+        Ok(Look {
+            density: self.density(&state)?,
+            lost_volume: 1.0 - (centre - floor) / exact,
+            speed: squares.sqrt(),
+            pressure: pressures.sqrt() / (self.gravity * (level - floor)),
+        })
+    }
+}
+
+/// Tips a vessel about its base's edge, holds it, and counts what has run out.
+///
+/// # Errors
+/// What the device says.
+pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failure> {
+    let tank = Tank::new(gpu, scene, setting, POURED_FROM)?;
+    let pose = |time: f64| {
+        // Smoothly from rest to rest.
+        let part = (time / TIPPED_IN).clamp(0.0, 1.0);
+        let angle = TILT * part * part * (3.0 - 2.0 * part);
+        Pose::new(Vec3::ZERO, Quat::from_rotation_z(-angle as f32))
+    };
+    let all = ((TIPPED_IN + HELD) / tank.frame_time).ceil() as u32;
+    let (mut times, mut densities, mut lost) = (Vec::new(), Vec::new(), 0);
+    for frame in 1..=all {
+        let time = |frame: u32| f64::from(frame) * tank.frame_time;
+        times.push(tank.frame(pose(time(frame - 1)), pose(time(frame)))?);
+        if frame % BETWEEN == 0 || frame == all {
+            let state = tank.solver.snapshot().other()?;
+            if time(frame) < TIPPED_IN {
+                densities.push(tank.density(&state)?.1);
+            }
+            lost = lost.max(tank.through_glass(&state, pose(time(frame))));
+        }
+    }
+    let state = tank.solver.snapshot().other()?;
+    let left = (0..state.tags.len()).filter(|&slot| state.flask_of(slot).is_none());
+    let volume = tank.solver.parameters().particle_volume();
+    // The first frames are recorded while the driver compiles.
+    let warm = times.len() / 10;
+    Ok(Tipped {
+        cost: Cost::of(&times[warm..]),
+        density_p99: densities.iter().sum::<f64>() / densities.len().max(1) as f64,
+        poured: left.count() as f64 * volume,
+        in_the_end: f64::from(tank.solver.count()) * volume - exact::retained(&tank.profile, TILT),
+        lost,
+    })
+}
+
+impl Tank {
+    /// Particles that are not the vessel's but in it, or the reverse.
+    fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
+        let flask_from_stage = pose.inverse();
+        let tolerance = 0.05 * self.solver.parameters().support_radius;
+        let wrong = (0..state.tags.len()).filter(|&slot| {
+            let [x, y, z, _] = state.positions[slot];
+            let local = flask_from_stage
+                .transform_point(Vec3::new(x, y, z))
+                .as_dvec3();
+            let r = local.x.hypot(local.z);
+            let depth = self.profile.signed_distance_inner(r, local.y);
+            match state.flask_of(slot) {
+                Some(_) => depth < -tolerance,
+                None => self.profile.is_inside(r, local.y) && depth > tolerance,
+            }
+        });
+        wrong.count() as u64
+    }
+}

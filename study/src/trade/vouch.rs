@@ -1,0 +1,127 @@
+//! Whether the f64 reference vouches for a setting: the same water by both.
+
+use glam::DVec3;
+use serde::Serialize;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_sim::fill::fill;
+use vitriol_sim::flask::Profile;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::reference::Reference;
+use vitriol_sim::reference::measure::DensityError;
+use vitriol_sim::reference::surroundings::{Surroundings, Vessel};
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec};
+
+use super::setting::Setting;
+
+/// What both found of a glass of water that settles.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Vouched {
+    /// Particles.
+    pub particles: usize,
+    /// Simulated time, s.
+    pub seconds: f64,
+    /// 99th percentile of max(0, ρ/ρ₀ − 1), f64 and device.
+    pub density_p99: [f64; 2],
+    /// Mean of the same.
+    pub density_mean: [f64; 2],
+    /// Height of the centre of mass, m.
+    pub centre: [f64; 2],
+    /// Kinetic energy, J.
+    pub kinetic: [f64; 2],
+    /// Largest distance of a particle's two places, m.
+    pub apart: f64,
+}
+
+/// Lets `count` particles settle for `seconds` by both.
+///
+/// # Errors
+/// What the device says.
+pub fn vouch(
+    gpu: &Gpu,
+    scene: &Scene,
+    setting: &Setting,
+    count: usize,
+    seconds: f64,
+) -> Result<Vouched, Failure> {
+    let parameters = setting.parameters(scene);
+    let d = setting.spacing;
+    // As deep as it is wide.
+    let radius = (count as f64 * d.powi(3) / (2.0 * std::f64::consts::PI)).cbrt();
+    let height = 4.0 * radius;
+    let profile = Profile::new(&[[0.0, radius], [height, radius]], 0.002).other()?;
+    let places = fill(&profile, Pose::IDENTITY, count, d, Some(1)).other()?;
+    let still = [Pose::IDENTITY];
+    let frames = (seconds / setting.frame_time).ceil() as usize;
+
+    let vessel = Vessel::with_maps(profile.clone(), parameters.support_radius);
+    let around = Surroundings::new(vec![vessel], None, None, parameters.support_radius);
+    let mut reference = Reference::new(parameters.clone(), around, places.clone(), &still);
+    for _ in 0..frames {
+        reference.step(&still, &still);
+    }
+    let truth = reference.density_error();
+
+    let particles: Vec<Particle> = places
+        .iter()
+        .map(|&position| Particle {
+            position,
+            velocity: DVec3::ZERO,
+            flask: Some(0),
+            temperature: 20.0,
+            acid: 0.0,
+            carried: 0.0,
+        })
+        .collect();
+    let mass = parameters.particle_mass();
+    let spec = SolverSpec {
+        parameters,
+        flasks: &[profile],
+        solids: None,
+        ground: Ground {
+            floor: -1000.0,
+            table: None,
+            scale: 1.0,
+        },
+        particles: &particles,
+        loads: false,
+        constraint: true,
+        lanes: None,
+    };
+    let solver = Solver::new(gpu, &Library::embedded(), &spec).other()?;
+    for _ in 0..frames {
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        solver.record(&mut rec, &still, &still).other()?;
+        gpu.submit(rec).and_then(|t| t.wait()).other()?;
+    }
+    let state = solver.snapshot().other()?;
+    let mut rec = gpu.recorder(QueueKind::Main).other()?;
+    let copy = solver.record_density(&mut rec).other()?;
+    gpu.submit(rec).and_then(|t| t.wait()).other()?;
+    let densities = copy.get::<f32>().other()?;
+    let own: Vec<f64> = densities.iter().take(count).map(|&d| d.into()).collect();
+    let own = DensityError::of(&own);
+    let (mut apart, mut centre, mut squares) = (0.0f64, 0.0, 0.0);
+    for (slot, tag) in state.tags.iter().enumerate() {
+        let [x, y, z, _] = state.positions[slot].map(f64::from);
+        let [u, v, w, _] = state.velocities[slot].map(f64::from);
+        let place = DVec3::new(x, y, z);
+        if let Some(at) = reference.ids.iter().position(|&id| id == tag[1]) {
+            apart = apart.max(place.distance(reference.positions[at]));
+        }
+        centre += y / count as f64;
+        squares += u * u + v * v + w * w;
+    }
+    let middle: f64 = reference.positions.iter().map(|p| p.y).sum();
+    Ok(Vouched {
+        particles: count,
+        seconds,
+        density_p99: [truth.p99, own.p99],
+        density_mean: [truth.mean, own.mean],
+        centre: [middle / reference.positions.len().max(1) as f64, centre],
+        kinetic: [reference.kinetic_energy(), 0.5 * mass * squares],
+        apart,
+    })
+}

@@ -1,0 +1,39 @@
+//! Some of the cases of `vitriol extremes`, evenly out of all two thousand.
+
+use vitriol_shaders::Library;
+use vitriol_study::extremes::{Verdict, cases, judge};
+use vitriol_tests::gpu;
+
+/// Every so many of the cases.
+const STRIDE: usize = 80;
+
+#[test]
+fn every_eightieth_case_keeps_what_it_has_to() {
+    let device = gpu::device();
+    let library = Library::embedded();
+    let mut refused = 0;
+    for case in cases(2000, 1).iter().step_by(STRIDE) {
+        let finding = judge(&device, &library, case).unwrap();
+        match finding.verdict {
+            Verdict::Passed => {}
+            Verdict::Refused { .. } => refused += 1,
+            Verdict::Failed { reasons } => {
+                panic!("--only {}: {}: {reasons:?}", finding.case, finding.label)
+            }
+        }
+    }
+    assert!(refused < 2000 / STRIDE / 2, "{refused} were refused");
+}
+
+/// The same scene 10 km off has the same bits; the judge runs both.
+#[test]
+fn a_scene_ten_kilometres_off_has_the_same_bits() {
+    let device = gpu::device();
+    let library = Library::embedded();
+    let all = cases(400, 1);
+    let far = all
+        .iter()
+        .find(|case| case.extremes.len() == 1 && case.recipe.origin != [0.0; 3]);
+    let finding = judge(&device, &library, far.unwrap()).unwrap();
+    assert!(matches!(finding.verdict, Verdict::Passed), "{finding:?}");
+}
