@@ -216,11 +216,11 @@ impl Session {
         parts.catch_up(&NoFrameOpen::in_a_turn_without())?;
         parts.benches.current.world.gpu().wait_idle().other()?;
         parts.counts.tally.collect()?;
-        let finished = parts.track.finish();
+        let (time, recorded) = parts.track.finish();
         Ok(SessionOutcome {
             bench: parts.benches.current,
-            steps: finished.steps,
-            simulated: finished.simulated,
+            steps: time.steps(),
+            simulated: time.seconds(),
             slowed: parts.steps.slowed(),
             frames: parts.counts.frames,
             skipped: parts.counts.skipped,
@@ -228,7 +228,7 @@ impl Session {
             tally: parts.counts.tally,
             governor: parts.pacing.report().clone(),
             holdings: [parts.counts.began_with, Holdings::now()],
-            recorded: finished.recorded,
+            recorded,
         })
     }
 }

@@ -29,19 +29,8 @@ struct Coming {
     switch: Switch,
 }
 
-/// A bench has taken the place of another.
-pub(super) struct Replaced {
-    /// For the recording.
-    pub switch: Switch,
-    /// It has the scene of the one before.
-    pub same_scene: bool,
-}
-
 impl Benches {
     /// The first bench, at its start.
-    ///
-    /// # Errors
-    /// As for [`Workbench::new`].
     pub fn new(headset: &dyn Headset, plan: &Plan) -> Result<Self, Failure> {
         let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset));
         Ok(Self {
@@ -78,8 +67,8 @@ impl Benches {
     }
 
     /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a
-    /// failure; does not wait.
-    pub fn take_up(&mut self) -> Option<Replaced> {
+    /// failure; does not wait. Its switch is for the recording.
+    pub fn replace_if_built(&mut self) -> Option<Switch> {
         let coming = self.coming.take_if(|coming| coming.builder.is_finished())?;
         let eyes = coming.builder.eyes().clone();
         match coming.builder.finish() {
@@ -88,10 +77,7 @@ impl Benches {
                 // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
                 // these.
                 self.eyes = eyes;
-                Some(Replaced {
-                    same_scene: coming.switch.key == SWITCH_START,
-                    switch: coming.switch,
-                })
+                Some(coming.switch)
             }
             Err(failure) => {
                 tracing::warn!("the bench stays as it is: {failure}");
@@ -102,9 +88,6 @@ impl Benches {
 
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
     /// with the first views and may change. Waits for an upload.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn take_mask(&mut self, headset: &dyn Headset, _: &NoFrameOpen) -> Result<(), Failure> {
         let eyes = Eyes::of(headset);
         if eyes.hidden != self.eyes.hidden {
@@ -116,9 +99,6 @@ impl Benches {
 
     /// Moves the bench to the headset's new device, every particle where it was, and begins the one that was being
     /// built anew.
-    ///
-    /// # Errors
-    /// As for [`Workbench::new`].
     pub fn move_to(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset);

@@ -23,8 +23,6 @@ pub(super) struct Chosen {
     pub scene: Option<String>,
     /// The bench before the user.
     pub recentre: bool,
-    /// The session's end.
-    pub end: bool,
 }
 
 impl Choices {
@@ -37,16 +35,12 @@ impl Choices {
         }
     }
 
-    /// Takes in what the keys said; whether that was the end, which waits for no frame.
+    /// Takes in what the keys said; whether the end was asked for, which waits for no frame.
     pub fn hear(&mut self) -> bool {
-        let mut end = false;
-        while let Ok(decision) = self.elsewhere.try_recv() {
-            match decision {
-                Decision::End => end = true,
-                decision => self.wanted.push(decision),
-            }
-        }
-        end
+        self.wanted.extend(self.elsewhere.try_iter());
+        let all = self.wanted.len();
+        self.wanted.retain(|decision| *decision != Decision::End);
+        self.wanted.len() < all
     }
 
     /// Takes in what was pressed on the panel.
@@ -61,14 +55,14 @@ impl Choices {
         let mut chosen = Chosen {
             scene: pressed.start.then(|| present.to_owned()),
             recentre: pressed.recentre,
-            end: false,
         };
-        for decision in self.wanted.drain(..) {
+        for decision in std::mem::take(&mut self.wanted) {
             match decision {
                 Decision::Scene(name) => chosen.scene = Some(name),
                 Decision::Start => chosen.scene = Some(present.to_owned()),
                 Decision::Recentre => chosen.recentre = true,
-                Decision::End => chosen.end = true,
+                // `hear` says it before the next frame.
+                Decision::End => self.wanted.push(decision),
             }
         }
         chosen
@@ -99,7 +93,6 @@ mod tests {
         let expected = Chosen {
             scene,
             recentre: true,
-            end: false,
         };
         assert_eq!(chosen, expected);
         assert_eq!(choices.take(&hands, "present"), Chosen::default());
@@ -118,11 +111,7 @@ mod tests {
         assert!(choices.hear());
         assert!(!choices.hear());
         let hands = [Hand::default(), Hand::default()];
-        let chosen = choices.take(&hands, "present");
-        assert_eq!(
-            (chosen.scene.as_deref(), chosen.end),
-            (Some("other"), false)
-        );
+        assert_eq!(choices.take(&hands, "x").scene.as_deref(), Some("other"));
     }
 
     #[test]

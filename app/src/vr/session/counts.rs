@@ -21,15 +21,6 @@ pub(super) struct Counts {
     before: Option<i64>,
 }
 
-/// What a frame's begin says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Begun {
-    /// It is the first that counts.
-    pub warmed_up: bool,
-    /// Display periods went by without a frame since the one before.
-    pub missed: bool,
-}
-
 impl Counts {
     /// None yet.
     pub fn new(tally: Tally) -> Self {
@@ -42,11 +33,10 @@ impl Counts {
         }
     }
 
-    /// A frame has begun.
-    pub fn begin(&mut self, info: &FrameInfo) -> Begun {
+    /// A frame has begun; whether display periods went by without one since the frame before.
+    pub fn begin(&mut self, info: &FrameInfo) -> bool {
         self.frames += 1;
-        let warmed_up = self.frames == WARM_UP + 1;
-        if warmed_up {
+        if self.is_first() {
             self.tally.restart();
             self.skipped = 0;
             self.began_with = Holdings::now();
@@ -59,10 +49,12 @@ impl Counts {
             skipped = (periods - 1.0).max(0.0) as u64;
         }
         self.skipped += skipped;
-        Begun {
-            warmed_up,
-            missed: skipped > 0,
-        }
+        skipped > 0
+    }
+
+    /// Whether the present frame is the first that counts.
+    pub fn is_first(&self) -> bool {
+        self.frames == WARM_UP + 1
     }
 
     /// The headset shows nothing: what passes until the next frame is not missed.
@@ -94,18 +86,18 @@ mod tests {
     fn periods_without_a_frame_are_missed() {
         let mut counts = counts();
         // Whenever the first comes, nothing is missed before it. Then the periods 6, 8 and 9.
-        let missed = [5, 7, 10, 11].map(|period| counts.begin(&at(period)).missed);
+        let missed = [5, 7, 10, 11].map(|period| counts.begin(&at(period)));
         assert_eq!(missed, [false, true, true, false]);
         assert_eq!((counts.frames, counts.skipped), (4, 3));
         // Nobody would have seen those that pass while the headset is off.
         counts.pause();
-        assert!(!counts.begin(&at(100)).missed);
+        assert!(!counts.begin(&at(100)));
         // A runtime that names no period misses none.
         let unknown = FrameInfo {
             period_ns: 0,
             ..at(200)
         };
-        assert!(!counts.begin(&unknown).missed);
+        assert!(!counts.begin(&unknown));
         assert_eq!(counts.skipped, 3);
     }
 
@@ -114,12 +106,13 @@ mod tests {
         let mut counts = counts();
         // Every other period is missed, and each frame takes 1 ms.
         for frame in 1..=WARM_UP as i64 {
-            assert!(!counts.begin(&at(2 * frame)).warmed_up);
+            counts.begin(&at(2 * frame));
+            assert!(!counts.is_first());
             counts.tally.frame(1.0);
         }
         assert_eq!(counts.skipped, WARM_UP - 1);
-        let begun = counts.begin(&at(2 * WARM_UP as i64 + 1));
-        assert_eq!((begun.warmed_up, begun.missed), (true, false));
+        assert!(!counts.begin(&at(2 * WARM_UP as i64 + 1)));
+        assert!(counts.is_first());
         assert_eq!((counts.frames, counts.skipped), (WARM_UP + 1, 0));
         assert!(counts.tally.cpu_ms.is_empty());
     }

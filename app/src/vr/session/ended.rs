@@ -11,9 +11,6 @@ pub(super) struct NoFrameOpen(());
 
 impl NoFrameOpen {
     /// Ends the frame, with what is shown or empty.
-    ///
-    /// # Errors
-    /// What the headset says.
     pub fn by_ending(headset: &mut dyn Headset, shown: Option<&Shown>) -> Result<Self, Failure> {
         headset.end(shown).map_err(blame)?;
         Ok(Self(()))

@@ -14,6 +14,7 @@ use super::pacing::Pacing;
 use super::readings::{Readings, has_acid};
 use super::steps::Steps;
 use super::track::SessionTrack;
+use crate::experiment::SWITCH_START;
 use crate::failure::{Blame, Failure};
 use crate::vr::blame::blame;
 use crate::vr::hands;
@@ -61,9 +62,6 @@ struct Acquired {
 impl Parts {
     /// One frame, which the headset's `next` has begun: item 1 of the list. Between there and the end nothing waits
     /// for the device.
-    ///
-    /// # Errors
-    /// What headset or device say.
     pub fn frame(
         &mut self,
         headset: &mut dyn Headset,
@@ -74,28 +72,30 @@ impl Parts {
         self.count(frame);
         // 2. What the user decided, and a bench that was built meanwhile.
         let now = sound(&frame.poses, self.placement.last());
-        self.decide(headset, frame.recentred, &now)?;
-        self.take_up_bench()?;
+        self.decide(headset, frame.recentred, &now);
+        self.replace_bench()?;
         // 3. The steps up to this frame's display time.
         self.take_steps(now)?;
         // 4. What the hands feel.
         self.vibrate(headset)?;
-        let no_frame = if frame.should_render {
+        let shown = if frame.should_render {
             self.show_panel();
             // 5. The images, and the liquid's ellipsoids behind the steps.
             let acquired = self.acquire(headset)?;
             // 6. The eyes, as late as can be, and the picture for them.
-            let shown = self.locate_and_draw(headset, acquired)?;
-            // 7. The frame's end, with what is shown.
-            let no_frame = NoFrameOpen::by_ending(headset, Some(&shown))?;
-            // 8. With no frame open any more: the mirror's part, and what may wait for the device.
-            self.take_mirrored(shown.extent, info.xr_time, &no_frame)?;
-            no_frame
+            Some(self.locate_and_draw(headset, acquired)?)
         } else {
-            // Times are of pictures that are shown.
+            // Times are of frames that are shown.
             self.steps.submitted();
-            NoFrameOpen::by_ending(headset, None)?
+            None
         };
+        // 7. The frame's end, with what is shown.
+        let no_frame = NoFrameOpen::by_ending(headset, shown.as_ref())?;
+        // 8. The mirror's part, behind the picture, and what may wait for the device.
+        if let (Some(mirror), Some(shown)) = (&mut self.mirror, &shown) {
+            let picture = self.benches.current.picture.image();
+            mirror.take(picture, shown.extent, info.xr_time)?;
+        }
         self.counts.tally.frame(1e3 * begun.elapsed().as_secs_f64());
         self.catch_up(&no_frame)?;
         // 9. What the next frames are solved and drawn with.
@@ -105,27 +105,18 @@ impl Parts {
 
     /// Counts the frame, and what was missed before it.
     fn count(&mut self, frame: &HeadsetFrame) {
-        let begun = self.counts.begin(&frame.poses.info);
-        if begun.warmed_up {
-            self.pacing.restart_counting();
-        }
-        if begun.missed {
+        if self.counts.begin(&frame.poses.info) {
             self.pacing.miss();
+        }
+        if self.counts.is_first() {
+            self.pacing.restart_counting();
         }
     }
 
     /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
-    fn decide(
-        &mut self,
-        headset: &mut dyn Headset,
-        recentred: bool,
-        now: &PoseFrame,
-    ) -> Result<(), Failure> {
+    fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
         let present = &self.benches.current.plan.scene;
         let chosen = self.choices.take(&now.hands, present);
-        if chosen.end {
-            headset.request_exit().map_err(blame)?;
-        }
         if let Some(scene) = chosen.scene {
             self.benches.build(headset.gpu(), scene);
         }
@@ -133,18 +124,17 @@ impl Parts {
             self.track.switch(self.placement.recentre(now));
             self.steps.pause();
         }
-        Ok(())
     }
 
     /// Goes on with the bench that was built meanwhile, if one was.
-    fn take_up_bench(&mut self) -> Result<(), Failure> {
+    fn replace_bench(&mut self) -> Result<(), Failure> {
         let resolution = self.pacing.setting(&self.benches.current).resolution;
-        if let Some(replaced) = self.benches.take_up() {
-            // A replay brings up the scene before it does what its settings say.
-            self.track.switch(replaced.switch);
+        if let Some(switch) = self.benches.replace_if_built() {
+            let same = switch.key == SWITCH_START;
+            // Before the switches of its settings: a replay brings up the scene first.
+            self.track.switch(switch);
             let (bench, track) = (&mut self.benches.current, &mut self.track);
-            self.pacing
-                .begin(replaced.same_scene, resolution, bench, track)?;
+            self.pacing.begin(same, resolution, bench, track)?;
             self.readings.clear();
         }
         Ok(())
@@ -250,26 +240,8 @@ impl Parts {
         })
     }
 
-    /// Lets the mirror take the first `drawn` pixels of the picture that is shown at `time` (ns): behind the picture
-    /// and after the frame's end, so that the headset waits for nothing of it.
-    fn take_mirrored(
-        &mut self,
-        drawn: [u32; 2],
-        time: i64,
-        _: &NoFrameOpen,
-    ) -> Result<(), Failure> {
-        let picture = self.benches.current.picture.image();
-        match &mut self.mirror {
-            Some(mirror) => mirror.take(picture, drawn, time),
-            None => Ok(()),
-        }
-    }
-
     /// Does what may wait for the device: takes the steps that are left over, waits for the picture before the last,
     /// and collects pictures, readings and times that have come.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
         let Workbench { world, picture, .. } = &mut self.benches.current;
         self.steps.take_rest(world, &mut self.track, no_frame)?;

@@ -149,9 +149,6 @@ impl Pacing {
 
     /// Tells the governor what the frames that are done took, and does what it decides; `period` is the display's,
     /// ms.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn govern(
         &mut self,
         loads: &[FrameLoad],
@@ -169,7 +166,7 @@ impl Pacing {
                 }
             }
         }
-        if let Some(filter) = self.repainter.take_up(benches, no_frame)? {
+        if let Some(filter) = self.repainter.replace_if_made(benches, no_frame)? {
             self.settle();
             let name = match filter {
                 PictureFilter::NarrowRange => "narrow-range",
@@ -238,9 +235,6 @@ impl Pacing {
     /// A bench has come. With the `same` scene as before it goes on at the level that there was, with another one as
     /// it was asked for. `resolution` is the last picture's. A replay begins with what the preset has, so what
     /// differs from it is recorded.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn begin(
         &mut self,
         same: bool,

@@ -33,9 +33,6 @@ impl Readings {
     }
 
     /// Takes a reading that has come; does not wait.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn collect(&mut self) -> Result<(), Failure> {
         if let Some((reading, ticket)) = &self.under_way
             && ticket.is_done().other()?

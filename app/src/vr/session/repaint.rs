@@ -61,10 +61,7 @@ impl Repainter {
 
     /// Gives the bench the picture that was being made, if it is ready; the filter that it is drawn with then.
     /// What the lenses hide may have to be uploaded anew, which waits for the device.
-    ///
-    /// # Errors
-    /// What the device says.
-    pub fn take_up(
+    pub fn replace_if_made(
         &mut self,
         benches: &mut Benches,
         _: &NoFrameOpen,

@@ -64,9 +64,6 @@ impl Steps {
 
     /// Takes the steps that are due as far as the device has got: a step needs the push on the flasks of two
     /// steps ago, and a frame that is open waits for nothing. The rest is for [`Steps::take_rest`].
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn take_ready(
         &mut self,
         world: &mut World,
@@ -79,9 +76,6 @@ impl Steps {
     }
 
     /// Takes all steps that are due; may wait for the device.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn take_rest(
         &mut self,
         world: &mut World,

@@ -21,21 +21,8 @@ pub(super) struct SessionTrack {
     time: SimulatedTime,
 }
 
-/// A track at its end.
-pub(super) struct FinishedTrack {
-    /// Steps taken.
-    pub steps: u64,
-    /// Simulated time, s.
-    pub simulated: f64,
-    /// What became of the recording, if there was one.
-    pub recorded: Option<RecordingStatus>,
-}
-
 impl SessionTrack {
     /// The track of a session that begins with `plan`, recorded to a new `file` if one is named.
-    ///
-    /// # Errors
-    /// [`Failure::Input`] for a file that is there already, [`Failure::Other`] for one that cannot be made.
     pub fn new(file: Option<&Path>, plan: &Plan) -> Result<Self, Failure> {
         let recording = file.map(|file| TrackRecording::create(file, &metadata(plan)));
         Ok(Self {
@@ -69,14 +56,11 @@ impl SessionTrack {
         Some((self.time.seconds(), recording.state()))
     }
 
-    /// Marks the recording's end and waits for its file.
-    pub fn finish(self) -> FinishedTrack {
+    /// Marks the recording's end and waits for its file; the time at the end, and what became of the recording.
+    pub fn finish(self) -> (SimulatedTime, Option<RecordingStatus>) {
         let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
-        FinishedTrack {
-            steps,
-            simulated: self.time.seconds(),
-            recorded: self.recording.map(|it| it.finish(steps, end_ns)),
-        }
+        let recorded = self.recording.map(|it| it.finish(steps, end_ns));
+        (self.time, recorded)
     }
 }
 
@@ -143,10 +127,9 @@ mod tests {
         track.switch(switch("c"));
         // A scene with another step.
         track.step(poses(), 0.02, Vec::new);
-        let finished = track.finish();
-        assert_eq!(finished.steps, 3);
-        assert!((finished.simulated - 0.04).abs() < 1e-12);
-        assert_eq!(finished.recorded.unwrap().steps, 3);
+        let (time, recorded) = track.finish();
+        assert_eq!((time.steps(), recorded.unwrap().steps), (3, 3));
+        assert!((time.seconds() - 0.04).abs() < 1e-12);
 
         let track = Track::open(&file).unwrap();
         assert_eq!(track.metadata.scene, "two-flasks");
