@@ -14,13 +14,16 @@ use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
-use crate::vr::bench::Plan;
+use crate::vr::blame::blame;
+use crate::vr::decision::Decision;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
-use crate::vr::record::Recorded;
-use crate::vr::session::{self, Decision, Kept, Options, Outcome, PANEL, Session, WARM_UP, With};
-use crate::vr::stand_in::{Pace, Ready, StandIn, StandInSpec};
+use crate::vr::panel::PANEL;
+use crate::vr::record::RecordingStatus;
+use crate::vr::session::{FramesWith, GovernorReport, Options, Session, SessionOutcome, WARM_UP};
+use crate::vr::stand_in::{Ready, StandIn, StandInSpec, Timing};
 use crate::vr::tally::{Holdings, Spread};
+use crate::vr::workbench::Plan;
 
 /// What `vitriol vr` prints at the session's end.
 #[derive(Debug, Serialize)]
@@ -43,14 +46,14 @@ struct SessionReport {
     /// Times that a lost session was found again.
     renewals: u64,
     /// What was done to keep pace with the display.
-    governor: Kept,
+    governor: GovernorReport,
     #[serde(flatten)]
     times: Times,
     /// What the process held after warming up and at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     holdings: Option<[Holdings; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    recording: Option<Recorded>,
+    recording: Option<RecordingStatus>,
     state_hash: String,
 }
 
@@ -111,7 +114,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             let spec = StandInSpec {
                 extent: args.size,
                 rate_hz: args.rate,
-                pace: Pace::Real,
+                timing: Timing::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
             let options = with_solver(args, options, &gpu)?;
@@ -132,7 +135,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 device_extensions: Vec::new(),
                 panel: PANEL,
             })
-            .map_err(session::blame)?;
+            .map_err(blame)?;
             let options = with_solver(args, options, headset.gpu())?;
             let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
             (headset.name().to_owned(), outcome, None)
@@ -196,7 +199,7 @@ fn keys() -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
 
 fn state(
     headset: String,
-    outcome: &Outcome,
+    outcome: &SessionOutcome,
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
     let world = &outcome.bench.world;
@@ -223,7 +226,7 @@ fn state(
         slow_motion_s: outcome.slowed,
         missed_frames: outcome.skipped + late.count() as u64,
         renewals: outcome.renewals,
-        governor: outcome.kept.clone(),
+        governor: outcome.governor.clone(),
         times: Times {
             cpu_ms: Spread::of(&tally.cpu_ms),
             gpu_solver_ms: Spread::of(&tally.solve_ms),
@@ -243,13 +246,17 @@ fn state(
 }
 
 /// What the governor did, a line for each setting.
-fn kept(kept: &Kept) -> String {
-    if !kept.on {
-        let cause = kept.cause.as_deref().unwrap_or("as was asked for");
+fn governed(governor: &GovernorReport) -> String {
+    if !governor.on {
+        let cause = governor.cause.as_deref().unwrap_or("as was asked for");
         return format!("settings fixed: {cause}\n");
     }
-    let mut text = format!("settings changed {} times to keep pace\n", kept.changes);
-    for With { setting, frames } in &kept.settings {
+    let mut text = format!(
+        "settings changed {} times to keep pace
+",
+        governor.changes
+    );
+    for FramesWith { setting, frames } in &governor.settings {
         let [substeps, iterations] = setting.solver;
         let picture = 100.0 * setting.resolution;
         // Writing to a string cannot fail.
@@ -280,7 +287,7 @@ fn describe(session: &SessionReport) -> String {
     );
     let times = &session.times;
     // Writing to a string cannot fail.
-    let _ = write!(text, "{}", kept(&session.governor));
+    let _ = write!(text, "{}", governed(&session.governor));
     let rows = [
         ("processor, a frame, ms", times.cpu_ms),
         ("device, solver, ms", times.gpu_solver_ms),

@@ -6,8 +6,8 @@
 //! with the poses of its own end, between those of the two frames. The last of them ends less than
 //! a step before the picture is seen, which is all that this adds to the delay from hand to flask.
 
-/// Most steps in a frame. A display of 20 Hz has 4.5 at 90 Hz of simulation; whoever needs more has
-/// a machine that is too slow, and more work in each frame would make it slower still.
+/// Most steps in a frame. A display of 20 Hz has 4.5 at 90 Hz of simulation. A machine on which more are due is too
+/// slow, and more steps in each frame would make it slower still.
 pub const MOST_STEPS: u32 = 5;
 
 /// Turns display times into steps.
@@ -47,7 +47,7 @@ impl StepClock {
             return due;
         }
         let passed = 1e-9 * passed as f64;
-        // A millionth of a step is rounding.
+        // The display's times are rounded to ns: a step that lacks less than a millionth of itself is due.
         let whole = ((self.since + passed) / frame_time + 1e-6).floor();
         if whole <= f64::from(MOST_STEPS) {
             let end = |step: u32| (f64::from(step) * frame_time - self.since) / passed;
@@ -56,7 +56,7 @@ impl StepClock {
                 .collect();
             self.since = (self.since + passed - whole * frame_time).max(0.0);
         } else {
-            // Slow motion: the hands' whole way in fewer steps.
+            // Slow motion: the hands' whole way is spread over fewer steps.
             due.ends = (1..=MOST_STEPS)
                 .map(|step| step as f32 / MOST_STEPS as f32)
                 .collect();

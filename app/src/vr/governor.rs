@@ -1,71 +1,70 @@
-//! Keeps a session within its display's period: from what frames took on the device to how much
-//! work the next ones are given. It knows times and ladders of work only; what a rung is, `ladder`
-//! says.
+//! Keeps frames within the display's period: it is told what frames took on the device and decides how much work the
+//! next ones are given. It knows only times and the costs of rungs. What a rung means is in `ladder`.
 //!
-//! It foresees. A frame that is missed is seen by who wears the headset, so a part is stepped
-//! down when the times of the last quarter of a second, carried on by their own trend, come to more
-//! than [`FULL`] of a period. It steps up when what the finer rung would take has been below
-//! [`ROOM`] for a while. Between the two lies more than the step between most rungs, and
-//! where that is not enough, what has to be taken back is tried ever more seldom.
+//! A dropped frame is visible, so the governor reduces work before one drops. It extrapolates the times of the last
+//! quarter of a second by their trend; where the sum is more than [`FULL`] of a period, it takes the dearer part of
+//! the work (solver or picture) a rung down. It goes a rung up where the finer rung would have taken less than
+//! [`ROOM`] of a period for a while. Most rungs differ by less than lies between the two, so that it does not go up
+//! and down in turn. Where they differ by more, each step up that has to be taken back doubles the wait for the next.
 
 #[cfg(test)]
 mod tests;
 
 use std::collections::VecDeque;
 
-/// Share of a period that a frame's work may take on the device. The rest is the compositor's, about a
-/// millisecond of 11.1, and the processor's before its first submission.
+/// Share of a period that a frame's work may take on the device. The rest is for the compositor, which takes about a
+/// millisecond of 11.1, and for the processor until its first submission.
 pub const FULL: f64 = 0.85;
 /// Share of a period below which a finer rung has room.
 pub const ROOM: f64 = 0.68;
-/// Share of a period from which on a missed frame is the device's fault, and less work would mend it. Below,
-/// it was another program or the processor.
+/// Share of a period above which the device's work is taken as the cause of a missed frame, so that less work
+/// helps. Below, the cause was the processor or another program.
 const BUSY: f64 = 0.6;
 
-/// Frames that are looked at: a quarter of a second at 90 Hz.
+/// Frames that an extrapolation is made from: a quarter of a second at 90 Hz.
 const WINDOW: usize = 24;
-/// Frames of a window before anything is foreseen from it.
+/// Fewest frames that an extrapolation is made from.
 const LEAST: usize = 4;
-/// Frames of a window from which on it has a trend.
+/// Fewest frames that a trend is taken from; with less, the times are taken as constant.
 const TREND: usize = 12;
-/// Frames that a trend is carried on for: those under way, and a step down with its own.
+/// Frames that a trend is extrapolated by: those under way, and those until a step down takes effect.
 const AHEAD: f64 = 12.0;
 
-/// A frame missed within this time of another is no single mishap, s.
+/// Two frames missed within this time are taken as overload and not as chance, s.
 const AGAIN: f64 = 1.0;
 
-/// Time for which there must be room before a step up, s: at first, and at most.
+/// Time for which the finer rung must have had room before a step up, s: at first, and at most.
 const WAIT: [f64; 2] = [2.0, 64.0];
-/// A step up that has to be taken back within this time was a mistake, s.
+/// A step up that has to be taken back within this time counts as a mistake, s.
 const SOON: f64 = 15.0;
 
-/// Rungs of the solver and of the picture, the parts of a frame's work; 0 is the finest.
+/// Rung of each part of a frame's work, solver and picture; 0 is the finest.
 pub type Level = [usize; 2];
 
-/// A frame as the device took it.
+/// What a frame took on the device.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taken {
-    /// Time by part, ms: of as many steps as a display period has, and of the picture.
+pub struct FrameTimes {
+    /// Time by part, ms: that of as many steps as a display period has, and that of the picture.
     pub times: [f64; 2],
     /// The display's period, ms.
     pub period: f64,
-    /// Time since the frame taken before it, s.
+    /// Time since the frame before it that the governor was told of, s.
     pub since: f64,
 }
 
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Governor {
-    /// By part, what each rung costs in terms of the others; falling.
+    /// By part, what each rung costs in units of its own; falling.
     costs: [Vec<f64>; 2],
     level: Level,
     /// By part, the last frames' times at this level, ms.
     times: [VecDeque<f64>; 2],
     /// Seconds for which the next finer rung of each part has had room.
     room: [f64; 2],
-    /// Seconds for which it must.
+    /// Seconds for which it must have had room before a step up.
     wait: [f64; 2],
-    /// Seconds since a part was stepped up, until that is proven.
+    /// Seconds since a part went up, until that has held for [`SOON`].
     risen: [Option<f64>; 2],
     /// Seconds since a frame was missed.
     since_miss: f64,
@@ -94,15 +93,16 @@ impl Governor {
         self.level
     }
 
-    /// Forgets what frames took: there is another device or another picture.
+    /// Forgets what frames took, because the device or the work has changed.
     pub fn forget(&mut self) {
         self.times.iter_mut().for_each(VecDeque::clear);
         self.room = [0.0; 2];
     }
 
-    /// Takes in a frame of this level that is done, and whether one was missed since the last; the new level if that
-    /// changes it. Frames of the level before, which are under way still then, are not to be given.
-    pub fn take(&mut self, taken: &Taken, missed: bool) -> Option<Level> {
+    /// Takes in a frame that is done, and whether a frame was missed since the last one. Returns the new level if the
+    /// level changes. Only for frames that were begun at this level: after a change, some of the level before are
+    /// still under way.
+    pub fn take(&mut self, taken: &FrameTimes, missed: bool) -> Option<Level> {
         for (times, &time) in self.times.iter_mut().zip(&taken.times) {
             if times.len() == WINDOW {
                 times.pop_front();
@@ -133,15 +133,15 @@ impl Governor {
                 }
             }
         }
-        // Taken back where there turns out to be none.
+        // `step_up` sets it back to 0 where there is none.
         self.room.iter_mut().for_each(|room| *room += seconds);
     }
 
-    /// Down from the dearest part, until what is foreseen fits.
-    fn step_down(&mut self, taken: &Taken, missed: bool) -> Option<Level> {
+    /// Rungs down, each of the part that takes longer, until the extrapolated time fits.
+    fn step_down(&mut self, taken: &FrameTimes, missed: bool) -> Option<Level> {
         let again = missed && std::mem::replace(&mut self.since_miss, 0.0) < AGAIN;
         let known = self.foreseen();
-        // Before there is a window there is the frame itself.
+        // With too few frames for an extrapolation, this frame's own times.
         let mut foreseen = known.unwrap_or(taken.times);
         let mut level = self.level;
         let mut step = |foreseen: &mut [f64; 2]| -> bool {
@@ -156,7 +156,7 @@ impl Governor {
             }
             part.is_some()
         };
-        // A miss is one step at once: was it a single mishap, more would be too much.
+        // A miss is one rung down at once. If it was chance, more would be too much.
         let mut went = missed && step(&mut foreseen);
         let full = FULL * taken.period;
         while (known.is_some() || again)
@@ -176,7 +176,7 @@ impl Governor {
         Some(level)
     }
 
-    /// One rung up in the part that is farthest down, where there has been room for long enough.
+    /// One rung up, of the part that is farthest down among those that have had room for long enough.
     fn step_up(&mut self, period: f64) -> Option<Level> {
         let foreseen = self.foreseen()?;
         let whole: f64 = foreseen.iter().sum();
@@ -193,7 +193,7 @@ impl Governor {
         let down = |part: usize| self.level[part] as f64 / (self.costs[part].len() - 1) as f64;
         let part = (0..2)
             .filter(|&part| self.level[part] > 0 && self.room[part] >= self.wait[part])
-            // Of equals the solver.
+            // Where both are equally far down, the solver.
             .reduce(|a, b| if down(b) > down(a) { b } else { a })?;
         let mut level = self.level;
         level[part] -= 1;
@@ -201,19 +201,19 @@ impl Governor {
         Some(level)
     }
 
-    /// What rung `to` of a part takes over what `from` takes.
+    /// Cost of rung `to` of a part over that of rung `from`.
     fn ratio(&self, part: usize, to: usize, from: usize) -> f64 {
         self.costs[part][to] / self.costs[part][from]
     }
 
-    /// Time by part that frames will take as things go, ms; `None` before there is a window.
+    /// Extrapolated time by part, ms; `None` with too few frames.
     fn foreseen(&self) -> Option<[f64; 2]> {
         let [solver, picture] = self.times.each_ref().map(foreseen);
         Some([solver?, picture?])
     }
 }
 
-/// The greatest time but one, which a single frame's mishap does not move, and where it is going.
+/// The second greatest time, which one slow frame does not change, plus the trend over [`AHEAD`] frames.
 fn foreseen(times: &VecDeque<f64>) -> Option<f64> {
     if times.len() < LEAST {
         return None;

@@ -1,19 +1,19 @@
 //! What a hand feels of the flask that it holds.
 
-/// Kinetic energy at the wall, of real size, at which a hand is shaken with all that it takes, J:
-/// a beaker of 200 mL that boils hard has a few grams at its wall that move at 0.5 m/s.
+/// Kinetic energy at a wall of real size that is felt with full strength, J: a beaker of 200 mL that boils hard has a
+/// few grams at its wall that move at 0.5 m/s.
 const FULL: f32 = 1e-3;
-/// Below this nothing is felt: a liquid at rest is never quite still.
+/// Strength below which nothing is felt: particles at rest still move a little.
 const LEAST: f32 = 0.06;
 
 /// Strength, 0 to 1, for the kinetic energy (J) at a flask's wall in a scene that is
-/// 1 / `length_scale` times as large as real: mass goes with the third power of length, the square
-/// of speed with the second. It follows the energy's root, which is a speed: twice as fast is felt
-/// twice as strongly.
+/// 1 / `length_scale` times as large as real. Mass goes with the third power of length and the square
+/// of speed with the second, so energy goes with the fifth. The strength is proportional to the energy's
+/// root: liquid that moves twice as fast is felt twice as strongly.
 pub fn amplitude(energy: f32, length_scale: f64) -> f32 {
     let real = energy * length_scale.powi(5) as f32;
     let strength = (real / FULL).max(0.0).sqrt().min(1.0);
-    // Comparisons with NaN are false: what is no number is not felt.
+    // Comparisons with NaN are false, so NaN is felt as 0.
     if strength >= LEAST { strength } else { 0.0 }
 }
 

@@ -1,12 +1,12 @@
-//! What a runtime gives, made fit to be simulated and recorded; buttons as events.
+//! A runtime's poses and values, made valid for simulation and recording; buttons as events.
 
 use std::f32::consts::FRAC_PI_2;
 
 use vitriol_xr::{Hand, Pose, PoseFrame, Side};
 
-/// `frame` with values in their ranges and poses that are poses: the one that is consumed is the
-/// one that is recorded, and a track refuses what lies outside. In place of a pose that is none
-/// stands the last one, of a hand that then is not valid.
+/// `frame` with each value in its range and each pose finite and normalised. The steps consume this one, because the
+/// recording keeps what they consumed and a track refuses anything else. An invalid pose is replaced by the last one,
+/// and its hand is marked as not valid.
 pub fn sound(frame: &PoseFrame, last: Option<&PoseFrame>) -> PoseFrame {
     let mut frame = frame.clone();
     let known = |pose: Option<Pose>| pose.unwrap_or(Pose::IDENTITY);
@@ -58,7 +58,7 @@ pub struct Buttons {
     held: [[bool; 3]; 2],
 }
 
-/// A trigger counts as pressed from here on, and as released below half of it.
+/// A trigger counts as pressed from this value on, and as released below half of it.
 const TRIGGER: f32 = 0.6;
 
 impl Buttons {
@@ -66,7 +66,7 @@ impl Buttons {
     pub fn advance(&mut self, hands: &[Hand; 2]) -> Pressed {
         let mut pressed = Pressed::default();
         for (index, (held, hand)) in self.held.iter_mut().zip(hands).enumerate() {
-            // Of a hand that is away nothing changes.
+            // A controller that sleeps keeps its buttons as they were.
             if !hand.active {
                 continue;
             }

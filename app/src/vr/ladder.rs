@@ -1,5 +1,6 @@
-//! What the rungs of a governor are: for the solver substeps and iterations down the front of speed and
-//! accuracy, for the picture the surface's filter and then the pixels. Never the number of particles.
+//! The rungs that a governor goes down and up: for the solver substeps and iterations along the front of speed and
+//! accuracy (`budget`), for the picture the surface's filter and then the number of pixels. The number of particles
+//! never changes.
 
 use serde::Serialize;
 use vitriol_sim::scene::{PictureFilter, Scene};
@@ -7,17 +8,17 @@ use vitriol_sim::scene::{PictureFilter, Scene};
 use super::governor::Level;
 use crate::budget;
 
-/// Sides of a picture, over the display's.
+/// Each side of a picture over the display's.
 const RESOLUTIONS: [f64; 4] = [1.0, 0.85, 0.7, 0.6];
 
-/// Share of a picture's time that does not go with its pixels: ellipsoids, tiles, dispatches and barriers
+/// Share of a picture's time that does not depend on its pixels: ellipsoids, tiles, dispatches and barriers
 /// (docs/rendering.md, half the pixels).
 const FIXED: f64 = 0.3;
 
-/// What forty passes of curvature flow take beside the rest of a picture (docs/rendering.md).
+/// Time of curvature flow's forty passes over that of the rest of a picture (docs/rendering.md).
 const CURVATURE_FLOW: f64 = 0.3;
 
-/// What a level comes to.
+/// What frames are solved and drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Setting {
     /// Substeps a step and iterations a substep.
@@ -28,7 +29,7 @@ pub struct Setting {
     pub resolution: f64,
 }
 
-/// A scene's rungs, the finest first: what the session was asked for.
+/// A scene's rungs. The first ones are what the session was asked for.
 #[derive(Clone, Debug)]
 pub struct Ladder {
     solver: Vec<[u32; 2]>,
@@ -39,7 +40,7 @@ impl Ladder {
     /// Of `scene`, which has `balanced` substeps and iterations under that preset.
     pub fn of(scene: &Scene, balanced: [u32; 2]) -> Self {
         let own = scene.picture.filter;
-        // The other filter takes a seventh of its time, and looks better than fewer pixels do.
+        // The narrow-range filter takes a seventh of its time, and looks better than fewer pixels do.
         let first = (own == PictureFilter::CurvatureFlow).then_some((own, 1.0));
         let rest = RESOLUTIONS.map(|resolution| (PictureFilter::NarrowRange, resolution));
         Self {
@@ -48,7 +49,7 @@ impl Ladder {
         }
     }
 
-    /// What the rungs of solver and picture cost, in units of their own.
+    /// Costs of the rungs of solver and picture, each in units of its own.
     pub fn costs(&self) -> [Vec<f64>; 2] {
         let picture = |&(filter, resolution): &(PictureFilter, f64)| {
             let filtered = match filter {
@@ -63,7 +64,7 @@ impl Ladder {
         ]
     }
 
-    /// The setting at a level; beyond a ladder's end that of its end.
+    /// The setting at a level. Rungs past the last one are the last one.
     pub fn setting(&self, [solver, picture]: Level) -> Setting {
         let (filter, resolution) = self.picture[picture.min(self.picture.len() - 1)];
         Setting {

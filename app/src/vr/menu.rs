@@ -1,6 +1,6 @@
-//! What can be chosen while it runs: on the panel, and by a key of the computer's keyboard.
+//! What can be chosen while a session runs, on the panel and by the computer's keyboard.
 
-use super::session::Decision;
+use super::decision::Decision;
 
 /// A scene that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,16 @@
 //! In the headset: the frame loop that feeds the flasks from a live session.
 //!
-//! `session` is the loop itself, over the face that an OpenXR session and the stand-in share; every
-//! other file is one of its parts. `docs/headset.md` says what happens in a frame, and when.
+//! `session` is the loop, over the trait [`Headset`](vitriol_xr::Headset) that an OpenXR session and the stand-in
+//! implement. The other files are what it uses, and know no session. `docs/headset.md` lists what happens in a
+//! frame, in that order.
 
-pub mod bench;
+pub mod blame;
 pub mod clock;
+pub mod decision;
 pub mod governor;
 pub mod hands;
 pub mod haptics;
+pub mod info;
 pub mod inputs;
 pub mod ladder;
 pub mod menu;
@@ -19,3 +22,4 @@ pub mod record;
 pub mod session;
 pub mod stand_in;
 pub mod tally;
+pub mod workbench;

@@ -17,8 +17,8 @@ use vitriol_xr::{Headset, Pose, Targets};
 
 use super::hands::{BEAD_RADIUS, Bead, MOST_BEADS};
 
-/// Pictures under way at most: one is shown, one is drawn, and the processor is not farther ahead
-/// than the poses are good for.
+/// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
+/// poses that it draws with older by then.
 const UNDER_WAY: usize = 2;
 
 /// What pictures are made for.
@@ -26,7 +26,7 @@ const UNDER_WAY: usize = 2;
 pub struct Eyes {
     /// Width and height of each, pixels.
     pub extent: [u32; 2],
-    /// Corners of the triangles that neither sees.
+    /// By eye, corners of the triangles that the lens hides.
     pub hidden: [Vec<[f32; 2]>; 2],
 }
 
@@ -43,7 +43,7 @@ impl Eyes {
 /// Draws a world for two eyes, with the hands.
 pub struct Picture {
     renderer: Renderer,
-    /// Each slot's copy of the steam, which the solver changes meanwhile.
+    /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
     /// Middles and attributes of the hands' beads.
     beads: [Buffer; 2],
@@ -138,7 +138,7 @@ impl Picture {
         })
     }
 
-    /// Goes on where `before` ends, whose pictures may be under way still.
+    /// Takes over from `before`, whose pictures may still be under way.
     pub fn follow(&mut self, before: Self) {
         self.under_way = before.under_way;
     }
@@ -167,7 +167,7 @@ impl Picture {
             rec.copy(from, &copies[slot], &[whole]).other()?;
         }
         also(&mut rec)?;
-        // The picture that had this slot before.
+        // Wait on the device for the picture that used this slot before.
         let before = self.under_way.iter().rev().nth(1);
         gpu.submit_after(rec, before.as_slice()).other()
     }
@@ -202,7 +202,7 @@ impl Picture {
         Ok(Drawn { shapes, picture })
     }
 
-    /// Waits until no more pictures are under way than there may be; between frames.
+    /// Waits until at most [`UNDER_WAY`] pictures are under way. Only while no frame is open.
     ///
     /// # Errors
     /// What the device says.
@@ -236,7 +236,7 @@ impl Picture {
             .clone()
             .map(|(middle, _)| (*middle / scale).extend(0.0).to_array());
         rec.upload(middles, &placed.collect::<Vec<_>>()).other()?;
-        // A bead's colour is that of a speed.
+        // Particles are coloured by speed: a closed hand has the colour of a higher one.
         let coloured = shown.map(|&(_, closed)| [0.35 + 0.4 * closed, 0.0, 0.0, 0.0]);
         rec.upload(attributes, &coloured.collect::<Vec<_>>())
             .other()

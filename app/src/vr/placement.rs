@@ -3,12 +3,16 @@
 //! A scene has its own stage, with the table's top at 0.75 m and a user at the origin who looks along
 //! −Z. It is laid into the headset's stage, `stage_from_scene`, so that the table's top lies as far
 //! below the eyes as it does for a grown person who sits or stands at a bench, and turned to where
-//! she looks. Everything behind this (bodies, liquid, picture, recording) is in the scene's stage: a
-//! recording holds what the steps consumed, and a replay needs no placement. It is kept in the track
-//! none the less, for who wants to know where in the room it was.
+//! she looks. Bodies, liquid, picture and recording are in the scene's stage: a recording holds what the steps
+//! consumed, and a replay needs no placement. The track keeps it as a switch all the same, so that one can tell
+//! where in the room the bench was.
 
 use glam::{EulerRot, Quat, Vec3};
-use vitriol_xr::{Pose, PoseFrame};
+use vitriol_xr::{Pose, PoseFrame, Switch};
+
+/// Key of the switch that keeps where the bench stands in the room: `stage_from_scene` as position (m)
+/// and angle about Y (rad).
+pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
 
 /// Height of the eyes above a table at which one sits, m: a seated grown person's eyes are some
 /// 1.20 m above the floor (0.79 m above a seat of 0.42 m: NASA-STD-3000, eye height, sitting), a
@@ -17,8 +21,8 @@ const SEATED: f32 = 0.45;
 /// Height of the eyes above a bench at which one stands, m: eyes at 1.58 m (mean of men and women:
 /// NASA-STD-3000, eye height, standing), a laboratory bench at 0.90 m.
 const STANDING: f32 = 0.68;
-/// Eyes higher above the floor than this stand, m: between tall people who sit and small ones who
-/// stand.
+/// Height of the eyes above the floor from which on the user is taken to stand, m: between tall people who sit and
+/// small ones who stand.
 const STANDS: f32 = 1.38;
 /// Height of the table's top in a scene, real metres.
 const SCENE_TABLE: f32 = 0.75;
@@ -35,8 +39,73 @@ pub enum Posture {
     Standing,
 }
 
+/// Where the bench stands in the room, and where the user was in the last frame.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    posture: Posture,
+    /// `None` until the user has been seen.
+    stage_from_scene: Option<Pose>,
+    /// The last frame in the headset's stage, where this one's steps begin; `None` where that would be
+    /// somewhere else: before the first frame, after a recentring and on another device.
+    last: Option<PoseFrame>,
+}
+
+impl Placement {
+    /// Of a user who has not been seen yet.
+    pub fn new(posture: Posture) -> Self {
+        Self {
+            posture,
+            stage_from_scene: None,
+            last: None,
+        }
+    }
+
+    /// Whether the bench has a place.
+    pub fn is_known(&self) -> bool {
+        self.stage_from_scene.is_some()
+    }
+
+    /// The bench's place; the stage's origin as long as nobody has been seen.
+    pub fn stage_from_scene(&self) -> Pose {
+        self.stage_from_scene.unwrap_or(Pose::IDENTITY)
+    }
+
+    /// Lays the bench before the user. The switch is for the recording. The last frame is forgotten: between
+    /// it and the next one lies the leap from one place to the other.
+    pub fn recentre(&mut self, now: &PoseFrame) -> Switch {
+        let placed = before(&now.stage_from_view, self.posture);
+        self.stage_from_scene = Some(placed);
+        self.last = None;
+        Switch {
+            key: SWITCH_PLACEMENT.into(),
+            value: as_text(&placed),
+        }
+    }
+
+    /// The last frame, in the headset's stage.
+    pub fn last(&self) -> Option<&PoseFrame> {
+        self.last.as_ref()
+    }
+
+    /// Takes in a frame, which is the last one from now on.
+    pub fn advance(&mut self, now: PoseFrame) {
+        self.last = Some(now);
+    }
+
+    /// Forgets the last frame, which was another device's.
+    pub fn forget_last(&mut self) {
+        self.last = None;
+    }
+
+    /// The last frame, in the scene's stage.
+    pub fn seen(&self) -> Option<PoseFrame> {
+        let placed = self.stage_from_scene();
+        self.last.as_ref().map(|last| in_scene(last, &placed))
+    }
+}
+
 /// `stage_from_scene` for a user whose head is there.
-pub fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
+fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
     let head = stage_from_view.position;
     let stands = match posture {
         Posture::Auto => head.y > STANDS,
@@ -59,7 +128,7 @@ pub fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
     )
 }
 
-/// What the user does, seen from the scene.
+/// `frame` in the scene's stage.
 pub fn in_scene(frame: &PoseFrame, stage_from_scene: &Pose) -> PoseFrame {
     let scene_from_stage = stage_from_scene.inverse();
     let moved = |stage_from_it: &Pose| {
@@ -75,7 +144,7 @@ pub fn in_scene(frame: &PoseFrame, stage_from_scene: &Pose) -> PoseFrame {
     frame
 }
 
-/// The same in the frame of a scene's file, whose vessels stand around `origin` (real m).
+/// `frame` in the frame of a scene's file, whose vessels stand around `origin` (real m).
 pub fn shifted(mut frame: PoseFrame, origin: Vec3) -> PoseFrame {
     frame.stage_from_view.position += origin;
     for hand in &mut frame.hands {
@@ -85,8 +154,8 @@ pub fn shifted(mut frame: PoseFrame, origin: Vec3) -> PoseFrame {
     frame
 }
 
-/// As a switch keeps it: position (m), then the angle about Y (rad).
-pub fn as_text(stage_from_scene: &Pose) -> String {
+/// See [`SWITCH_PLACEMENT`].
+fn as_text(stage_from_scene: &Pose) -> String {
     let Vec3 { x, y, z } = stage_from_scene.position;
     let (yaw, _, _) = stage_from_scene.orientation.to_euler(EulerRot::YXZ);
     format!("{x} {y} {z} {yaw}")

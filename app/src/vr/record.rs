@@ -1,4 +1,4 @@
-//! Keeps a session as a pose track, on a thread of its own: no frame waits for a disk.
+//! Writes a session's steps to a pose track, on a thread of its own so that no frame waits for a disk.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
@@ -9,10 +9,11 @@ use serde::Serialize;
 use vitriol_xr::track::{Existing, TrackError, TrackMetadata, TrackWriter};
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
-/// Steps that may wait for the disk: some five seconds, as long as one sleeps.
+/// Steps that may wait for the disk: those of some five seconds, which is how long a disk that sleeps takes to wake.
 pub const QUEUE: usize = 512;
 
-/// A step: what it consumed, and stage_from_flask of each flask after it (real m); none marks the end.
+/// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
+/// end, which is no step.
 type Entry = (PoseFrame, Option<Vec<Pose>>);
 
 /// Where steps are written to.
@@ -40,37 +41,37 @@ impl Sink for TrackWriter {
     }
 }
 
-/// What became of a recording.
+/// How a recording stands, or ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Recorded {
+pub struct RecordingStatus {
     /// Steps written.
     pub steps: u64,
-    /// Steps that could not be written; a replay differs from the first of them on.
+    /// Steps that could not be written. A replay differs from the session from the first of them on.
     pub unwritten: u64,
-    /// Why, the first time.
+    /// Why the first of them could not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cause: Option<String>,
 }
 
-impl Recorded {
+impl RecordingStatus {
     fn fail(&mut self, cause: String) {
         self.unwritten += 1;
         self.cause.get_or_insert(cause);
     }
 }
 
-/// A recording that goes on.
-pub struct Recording {
+/// A recording to a track that goes on.
+pub struct TrackRecording {
     queue: Option<SyncSender<Entry>>,
     thread: Option<JoinHandle<()>>,
-    done: Arc<Mutex<Recorded>>,
-    /// Switches of steps that found the queue full: they go with the next that does not.
+    done: Arc<Mutex<RecordingStatus>>,
+    /// Switches of steps for which the queue was full. They go with the next step that is queued.
     switches: Vec<Switch>,
-    /// The last step's, for the frame that marks the end.
+    /// The last step, for the frame that marks the end.
     last: Option<PoseFrame>,
 }
 
-impl Recording {
+impl TrackRecording {
     /// Begins a new file.
     ///
     /// # Errors
@@ -80,10 +81,10 @@ impl Recording {
         Ok(Self::into_sink(Box::new(writer), QUEUE))
     }
 
-    /// Writes to `sink` what a queue of that length takes.
+    /// Writes to `sink`, through a queue of that many steps.
     pub fn into_sink(sink: Box<dyn Sink>, length: usize) -> Self {
         let (queue, entries) = sync_channel(length);
-        let done = Arc::new(Mutex::new(Recorded::default()));
+        let done = Arc::new(Mutex::new(RecordingStatus::default()));
         let said = Arc::clone(&done);
         Self {
             queue: Some(queue),
@@ -94,7 +95,7 @@ impl Recording {
         }
     }
 
-    /// Takes a step, or counts it where the queue is full; does not wait.
+    /// Queues a step, or counts it as unwritten where the queue is full; does not wait.
     pub fn push(&mut self, frame: &PoseFrame, flasks: Vec<Pose>) {
         let mut frame = frame.clone();
         let mut switches = std::mem::take(&mut self.switches);
@@ -113,14 +114,13 @@ impl Recording {
     }
 
     /// How it stands.
-    pub fn state(&self) -> Recorded {
+    pub fn state(&self) -> RecordingStatus {
         lock(&self.done).clone()
     }
 
-    /// Marks the end, `step` at `time_ns` being the first that is not taken any more, and waits for
-    /// the file. A track's length is the time of its last frame; this one makes a replay take the
-    /// last step, too.
-    pub fn finish(mut self, step: u64, time_ns: i64) -> Recorded {
+    /// Marks the end and waits for the file. `step` and `time_ns` are those that the next step would have had: a
+    /// track's length is the time of its last frame, so without this one a replay would leave out the last step.
+    pub fn finish(mut self, step: u64, time_ns: i64) -> RecordingStatus {
         if let (Some(last), Some(queue)) = (self.last.take(), &self.queue) {
             let end = PoseFrame {
                 step,
@@ -128,7 +128,7 @@ impl Recording {
                 scenario: std::mem::take(&mut self.switches),
                 ..last
             };
-            // Now there is time to wait; a thread that has ended has said why.
+            // No frame is open any more, so it may wait. A thread that has ended has said why.
             let _ = queue.send((end, None));
         }
         self.close();
@@ -147,17 +147,17 @@ impl Recording {
     }
 }
 
-impl Drop for Recording {
+impl Drop for TrackRecording {
     fn drop(&mut self) {
         self.close();
     }
 }
 
-fn lock(done: &Mutex<Recorded>) -> std::sync::MutexGuard<'_, Recorded> {
+fn lock(done: &Mutex<RecordingStatus>) -> std::sync::MutexGuard<'_, RecordingStatus> {
     done.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn write(mut sink: Box<dyn Sink>, entries: &Receiver<Entry>, done: &Mutex<Recorded>) {
+fn write(mut sink: Box<dyn Sink>, entries: &Receiver<Entry>, done: &Mutex<RecordingStatus>) {
     for (frame, flasks) in entries {
         let is_step = flasks.is_some();
         match sink.write(&frame, &flasks.unwrap_or_default()) {
@@ -173,8 +173,8 @@ fn write(mut sink: Box<dyn Sink>, entries: &Receiver<Entry>, done: &Mutex<Record
     }
 }
 
-/// Keeps the first cause, and says it.
-fn say(done: &Mutex<Recorded>, error: &TrackError) {
+/// Keeps the first cause, and logs it.
+fn say(done: &Mutex<RecordingStatus>, error: &TrackError) {
     let cause = match std::error::Error::source(error) {
         Some(source) => format!("{error}: {source}"),
         None => error.to_string(),

@@ -1,44 +1,45 @@
-//! The session: the frame loop's turns, and what it is made of. A frame is in `frame`, what the user
-//! chooses in `choose`, what keeps pace with the display in `pace`.
+//! The session: from its first frame to its end, through whatever turns the runtime takes. A frame is in `frame`, with
+//! the parts that it goes through, each in a file of its own.
 
-mod choose;
+mod benches;
+mod choices;
+mod counts;
+mod ended;
 mod frame;
-mod pace;
+mod pacing;
+mod readings;
+mod repaint;
+mod steps;
+mod track;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::mpsc::Receiver;
-use std::time::Duration;
 
-use vitriol_experiment::{Blame, Failure, SimulatedTime};
-use vitriol_gpu::{Ticket, Timestamps};
-use vitriol_shaders::Library;
-use vitriol_sim::solver::{FlaskReading, ReadingRecord};
-use vitriol_xr::track::TrackMetadata;
-use vitriol_xr::{Headset, HeadsetError, Pose, PoseFrame, Switch, Turn};
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::Timestamps;
+use vitriol_xr::{Headset, Turn};
 
-use super::bench::{Bench, Builder, Plan};
-use super::clock::StepClock;
-use super::inputs::Buttons;
+use super::blame::blame;
+use super::decision::Decision;
 use super::mirror::{Mirror, Window};
-use super::panel::Panel;
-use super::picture::Eyes;
-use super::placement::Posture;
-use super::record::{Recorded, Recording};
+use super::panel::{PANEL, Panel};
+use super::placement::{Placement, Posture};
+use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
+use super::workbench::{Plan, Workbench};
 
-use pace::Pace;
-pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION, With};
+use benches::Benches;
+use choices::Choices;
+use counts::Counts;
+use ended::NoFrameOpen;
+use frame::Parts;
+use pacing::Pacing;
+use readings::Readings;
+use steps::Steps;
+use track::SessionTrack;
 
-/// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
-pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
-
-/// Width and height of the panel, pixels.
-pub const PANEL: [u32; 2] = [1024, 640];
-
-/// Frames before what is measured counts: a second and more, in which the driver compiles what it
-/// compiles late.
-pub const WARM_UP: u64 = 120;
+pub use counts::WARM_UP;
+pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_RESOLUTION};
 
 /// What a session is to be.
 #[derive(Clone, Debug)]
@@ -51,34 +52,21 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
-    /// Whether a governor keeps pace with the display, by less accuracy and fewer pixels where it must.
+    /// Whether a governor gives solver and picture less to do where frames would not fit the display's period.
     pub governed: bool,
 }
 
-/// What the user wants.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Decision {
-    /// Another scene, or the same from its start.
-    Scene(String),
-    /// The scene from its start.
-    Start,
-    /// The bench before the user.
-    Recentre,
-    /// No more of it.
-    End,
-}
-
 /// A session as it ends.
-pub struct Outcome {
+pub struct SessionOutcome {
     /// The bench.
-    pub bench: Bench,
+    pub bench: Workbench,
     /// Steps taken.
     pub steps: u64,
     /// Simulated time, s.
     pub simulated: f64,
     /// Time that was shown as slow motion, s.
     pub slowed: f64,
-    /// Frames, those of warming up included.
+    /// Frames, those of the warm-up included.
     pub frames: u64,
     /// Display periods without a frame, of those that count.
     pub skipped: u64,
@@ -86,61 +74,20 @@ pub struct Outcome {
     pub renewals: u64,
     /// Times of the frames that count.
     pub tally: Tally,
-    /// How it kept pace, in the frames that count.
-    pub kept: Kept,
+    /// What the governor did in the frames that count.
+    pub governor: GovernorReport,
     /// What the process held when counting began, and at the end.
     pub holdings: [Option<Holdings>; 2],
-    /// The recording, if there was one.
-    pub recorded: Option<Recorded>,
-}
-
-/// A bench under construction, and the switch that a recording keeps of it.
-struct Coming {
-    builder: Builder,
-    switch: Switch,
+    /// What became of the recording, if there was one.
+    pub recorded: Option<RecordingStatus>,
 }
 
 /// See the module.
 pub struct Session {
-    options: Options,
-    /// What the user decides elsewhere than in the headset.
-    decisions: Receiver<Decision>,
-    library: Arc<Library>,
-    eyes: Eyes,
-    bench: Bench,
-    coming: Option<Coming>,
-    clock: StepClock,
-    buttons: Buttons,
-    /// The last frame, in the headset's stage.
-    last: Option<PoseFrame>,
-    /// Display time of the last frame, ns, unless the headset was off since: what is missed is counted
-    /// from it.
-    counted: Option<i64>,
-    /// Where the bench stands; `None` until the user has been seen.
-    placed: Option<Pose>,
-    /// Steps that the frame has still to take, in the scene's stage.
-    due: Vec<PoseFrame>,
-    /// What goes with the next step.
-    switches: Vec<Switch>,
-    time: SimulatedTime,
-    frames: u64,
-    skipped: u64,
+    parts: Parts,
+    /// Frames after which it ends, those of the warm-up included.
+    most: Option<u64>,
     renewals: u64,
-    recording: Option<Recording>,
-    tally: Tally,
-    pace: Pace,
-    began_with: Option<Holdings>,
-    /// Submissions of steps since the last picture.
-    solved: Vec<Ticket>,
-    panel: Panel,
-    mirror: Option<Mirror>,
-    /// What was decided and not done yet.
-    wanted: Vec<Decision>,
-    /// A reading under way, and the last one that came.
-    reading: Option<(ReadingRecord, Ticket)>,
-    read: Vec<FlaskReading>,
-    /// Simulated time over display time, lately.
-    speed: f64,
 }
 
 impl Session {
@@ -154,49 +101,32 @@ impl Session {
         options: Options,
         decisions: Receiver<Decision>,
     ) -> Result<Self, Failure> {
-        let (gpu, eyes) = (headset.gpu(), Eyes::of(headset));
-        let library = Arc::new(Library::embedded());
-        let bench = Bench::new(gpu, &library, &options.plan, &eyes)?;
-        // Last of what can fail: a session that never was leaves no file.
-        let recording = options.record.as_ref().map(|file| {
-            Recording::create(file, &metadata(&options.plan))
-                .map_err(vitriol_experiment::track::blame)
-        });
-        let pace = Pace::new(gpu, &bench, options.governed);
+        let gpu = headset.gpu();
+        let mut benches = Benches::new(headset, &options.plan)?;
+        let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
         let counts = options.frames.is_some();
-        let timed = gpu.options().timestamps != Timestamps::None && (counts || pace.follows());
-        let mut session = Self {
-            bench,
-            panel: Panel::new(gpu, &library, PANEL)?,
-            tally: Tally::new(counts, timed),
-            pace,
-            recording: recording.transpose()?,
-            options,
-            decisions,
-            library,
-            eyes,
-            coming: None,
-            clock: StepClock::default(),
-            buttons: Buttons::default(),
-            last: None,
-            counted: None,
-            placed: None,
-            due: Vec::new(),
-            switches: Vec::new(),
-            time: SimulatedTime::default(),
-            frames: 0,
-            skipped: 0,
+        let timed = gpu.options().timestamps != Timestamps::None;
+        let tally = Tally::new(counts, timed && (counts || pacing.is_governed()));
+        let panel = Panel::new(gpu, &benches.library, PANEL)?;
+        // After what fails for a user's mistake, so that a session that never was leaves no file.
+        let mut track = SessionTrack::new(options.record.as_deref(), &options.plan)?;
+        pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
+        Ok(Self {
+            parts: Parts {
+                benches,
+                choices: Choices::new(decisions),
+                placement: Placement::new(options.posture),
+                steps: Steps::new(),
+                track,
+                readings: Readings::default(),
+                panel,
+                mirror: None,
+                pacing,
+                counts: Counts::new(tally),
+            },
+            most: options.frames.map(|frames| WARM_UP + frames),
             renewals: 0,
-            began_with: None,
-            solved: Vec::new(),
-            wanted: Vec::new(),
-            mirror: None,
-            reading: None,
-            read: Vec::new(),
-            speed: 1.0,
-        };
-        session.pace_bench(true, 1.0)?;
-        Ok(session)
+        })
     }
 
     /// The same, with what the left eye sees in `window`.
@@ -204,8 +134,14 @@ impl Session {
     /// # Errors
     /// What the device says.
     pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
-        let gpu = self.bench.world.gpu();
-        self.mirror = Some(Mirror::new(gpu, &self.library, self.eyes.extent, window)?);
+        let Benches {
+            current,
+            library,
+            eyes,
+            ..
+        } = &self.parts.benches;
+        let mirror = Mirror::new(current.world.gpu(), library, eyes.extent, window)?;
+        self.parts.mirror = Some(mirror);
         Ok(self)
     }
 
@@ -213,15 +149,17 @@ impl Session {
     ///
     /// # Errors
     /// What headset or device say.
-    pub fn run(mut self, headset: &mut dyn Headset) -> Result<Outcome, Failure> {
+    pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
         loop {
-            self.hear(headset)?;
+            if self.parts.choices.hear() {
+                headset.request_exit().map_err(blame)?;
+            }
             match headset.next().map_err(blame)? {
                 Turn::Frame(frame) => {
-                    self.frame(headset, &frame)?;
-                    let most = self.options.frames;
-                    if most.is_some_and(|most| self.frames >= WARM_UP + most) {
+                    self.parts.frame(headset, &frame)?;
+                    let frames = self.parts.counts.frames;
+                    if self.most.is_some_and(|most| frames >= most) {
                         headset.request_exit().map_err(blame)?;
                     }
                 }
@@ -243,85 +181,54 @@ impl Session {
 
     /// The headset shows nothing, for this reason: time stands still.
     fn pause(&mut self, why: &str) -> Result<(), Failure> {
-        let info = self.info();
-        if let Some(mirror) = &mut self.mirror {
+        let parts = &mut self.parts;
+        let info = parts.info();
+        if let Some(mirror) = &mut parts.mirror {
             mirror.entitle(&info, Some(why));
         }
-        self.clock.pause();
-        self.counted = None;
-        self.after()
+        parts.steps.pause();
+        parts.counts.pause();
+        parts.catch_up(&NoFrameOpen::in_a_turn_without())
     }
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
         self.pause("the headset was lost")?;
         self.renewals += 1;
-        self.eyes = Eyes::of(headset);
-        let gpu = headset.gpu();
-        let state = self.bench.world.snapshot().other()?;
-        let (plan, effort) = (&self.bench.plan, self.bench.world.effort());
-        self.bench = Bench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
-        self.pace.forget();
-        self.tally.restart();
-        self.panel = Panel::new(gpu, &self.library, PANEL)?;
-        if let Some(mirror) = &mut self.mirror {
-            mirror.move_to(gpu, &self.library, self.eyes.extent)?;
+        let (parts, gpu) = (&mut self.parts, headset.gpu());
+        parts.benches.move_to(headset)?;
+        let (library, eyes) = (&parts.benches.library, &parts.benches.eyes);
+        parts.panel = Panel::new(gpu, library, PANEL)?;
+        if let Some(mirror) = &mut parts.mirror {
+            mirror.move_to(gpu, library, eyes.extent)?;
         }
-        self.solved.clear();
-        self.reading = None;
-        self.last = None;
-        if let Some(coming) = self.coming.take() {
-            let (plan, eyes) = (coming.builder.plan().clone(), self.eyes.clone());
-            let builder = Builder::start(gpu, &self.library, plan, eyes);
-            self.coming = Some(Coming { builder, ..coming });
-        }
+        // What was under way on the old device will not come, and what it took says nothing of the new one.
+        parts.pacing.forget();
+        parts.counts.tally.restart();
+        parts.steps.submitted();
+        parts.readings.forget_under_way();
+        parts.placement.forget_last();
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Outcome, Failure> {
-        self.after()?;
-        self.bench.world.gpu().wait_idle().other()?;
-        self.tally.collect()?;
-        let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
-        let recorded = self.recording.map(|it| it.finish(steps, end_ns));
-        Ok(Outcome {
-            bench: self.bench,
-            steps,
-            simulated: self.time.seconds(),
-            slowed: self.clock.slowed(),
-            frames: self.frames,
-            skipped: self.skipped,
+    fn finish(self) -> Result<SessionOutcome, Failure> {
+        let mut parts = self.parts;
+        parts.catch_up(&NoFrameOpen::in_a_turn_without())?;
+        parts.benches.current.world.gpu().wait_idle().other()?;
+        parts.counts.tally.collect()?;
+        let (time, recorded) = parts.track.finish();
+        Ok(SessionOutcome {
+            bench: parts.benches.current,
+            steps: time.steps(),
+            simulated: time.seconds(),
+            slowed: parts.steps.slowed(),
+            frames: parts.counts.frames,
+            skipped: parts.counts.skipped,
             renewals: self.renewals,
-            tally: self.tally,
-            kept: self.pace.kept().clone(),
-            holdings: [self.began_with, Holdings::now()],
+            tally: parts.counts.tally,
+            governor: parts.pacing.report().clone(),
+            holdings: [parts.counts.began_with, Holdings::now()],
             recorded,
         })
     }
-}
-
-fn metadata(plan: &Plan) -> TrackMetadata {
-    let preset = format!("{:?}", plan.preset).to_lowercase();
-    TrackMetadata {
-        scene: plan.scene.clone(),
-        seed: plan.seed,
-        parameters: [("preset".to_owned(), preset)].into(),
-        program_version: env!("CARGO_PKG_VERSION").into(),
-    }
-}
-
-/// Whose fault a headset's error is.
-pub fn blame(error: HeadsetError) -> Failure {
-    match error {
-        HeadsetError::NoRuntime { .. } => Failure::NoDevice(error.into()),
-        _ => Failure::Other(error.into()),
-    }
-}
-
-fn nanoseconds(time: &SimulatedTime) -> i64 {
-    (1e9 * time.seconds()).round() as i64
-}
-
-fn milliseconds(time: Duration) -> f64 {
-    1e3 * time.as_secs_f64()
 }

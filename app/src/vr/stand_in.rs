@@ -1,13 +1,13 @@
 //! A stand-in for a headset: images of any size on the device at hand, a clock that paces frames
-//! and sees which come too late, and a pose track as the wearer. For measurements and tests; it
-//! shows nothing to anybody.
+//! and notes which come too late, and a pose track as the wearer. It is for measurements and tests and
+//! shows nothing.
 
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::session::PANEL;
+use super::panel::PANEL;
 use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
 use vitriol_xr::track::{Track, TrackSource};
@@ -29,17 +29,17 @@ const LEFT_EYE: Fov = Fov {
     down: -0.96,
 };
 
-/// Time on the runtime's clock at the start, ns: not the simulation's 0, so that who mistakes the
-/// two is found out.
+/// Time on the runtime's clock at the start, ns. Not 0, where the simulation's time begins, so that a test finds code
+/// that mistakes one for the other.
 pub const EPOCH: i64 = 1_000_000_000_000;
 
-/// How the stand-in's time goes.
+/// How the stand-in's clock runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
-    /// As on the wall: a frame begins a period before its picture is to be shown, and what is not
-    /// done by then is late.
+pub enum Timing {
+    /// In real time: a frame begins a period before its picture is to be shown, and a picture that is not done by then
+    /// is late.
     Real,
-    /// By one period a frame, however long it takes.
+    /// One period a frame, however long the frame takes.
     Free,
 }
 
@@ -50,8 +50,8 @@ pub struct StandInSpec {
     pub extent: [u32; 2],
     /// Frames a second.
     pub rate_hz: f64,
-    /// How its time goes.
-    pub pace: Pace,
+    /// How its clock runs.
+    pub timing: Timing,
 }
 
 /// A frame's picture as the stand-in's compositor saw it.
@@ -83,7 +83,7 @@ pub struct StandIn {
     name: String,
 }
 
-/// Waits for pictures beside the frame loop, which must not.
+/// Waits for pictures on a thread of its own, since the frame loop must not.
 struct Compositor {
     frames: Option<Sender<(u64, Instant, Ticket)>>,
     seen: Arc<Mutex<Vec<Ready>>>,
@@ -91,7 +91,7 @@ struct Compositor {
 }
 
 impl StandIn {
-    /// A headset worn by who moves as in `track`, over and over.
+    /// A headset whose wearer moves as in `track`, over and over.
     ///
     /// # Errors
     /// [`GpuError`] where the device has no room for the images.
@@ -109,7 +109,7 @@ impl StandIn {
             view: Pose::IDENTITY,
             leaving: false,
             felt: [0.0; 2],
-            compositor: (spec.pace == Pace::Real).then(Compositor::start),
+            compositor: (spec.timing == Timing::Real).then(Compositor::start),
             name: format!(
                 "a stand-in of 2 × {} × {} at {} Hz on {}",
                 spec.extent[0],
@@ -131,7 +131,7 @@ impl StandIn {
         Ok(())
     }
 
-    /// Frames whose work on the device is done, in their order; none where its pace is free.
+    /// Frames whose work on the device is done, in order; none with [`Timing::Free`].
     pub fn ready(&self) -> Vec<Ready> {
         let seen = self.compositor.as_ref().map(|it| &it.seen);
         seen.map_or_else(Vec::new, |seen| {
@@ -158,7 +158,7 @@ impl StandIn {
     fn pace(&mut self) {
         let start = *self.started.get_or_insert_with(Instant::now);
         let mut period = self.period + 1;
-        if self.spec.pace == Pace::Real {
+        if self.spec.timing == Timing::Real {
             let now = start.elapsed().as_secs_f64() / self.seconds();
             period = period.max(now.floor() as u64 + 1);
             let begin = start + Duration::from_secs_f64((period - 1) as f64 * self.seconds());
@@ -272,7 +272,7 @@ impl Headset for StandIn {
         let (Some(compositor), Some(start)) = (&self.compositor, self.started) else {
             return Ok(());
         };
-        // Nothing, behind the pictures on their queue: done when they are.
+        // An empty submission behind the pictures on their queue is done when they are.
         let fence = self.gpu.submit(self.gpu.recorder(QueueKind::Main)?)?;
         let begin = start + Duration::from_secs_f64((self.period - 1) as f64 * self.seconds());
         if let Some(frames) = &compositor.frames {
@@ -300,7 +300,7 @@ impl Compositor {
         let writes = Arc::clone(&seen);
         let thread = std::thread::spawn(move || {
             for (index, begin, ticket) in queue {
-                // A device that is lost is the frame loop's to say.
+                // The frame loop reports a lost device.
                 if ticket.wait().is_err() {
                     return;
                 }

@@ -3,10 +3,11 @@
 use std::collections::VecDeque;
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Failure, Ranks};
 use vitriol_gpu::Ticket;
 
-/// Median, 95th and 99th percentile and the greatest of what was measured, each a value that was.
+use vitriol_experiment::{Blame, Failure, Ranks};
+
+/// Median, 95th and 99th percentile and the greatest of measured values; each is one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Median.
@@ -20,7 +21,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of values by nearest rank; `None` of none.
+    /// Spread of `values` by nearest rank; `None` without values.
     pub fn of(values: &[f64]) -> Option<Self> {
         let ranks = Ranks::of(values);
         Some(Self {
@@ -39,7 +40,7 @@ pub struct Tally {
     pub cpu_ms: Vec<f64>,
     /// From the eyes' location to the submission of the picture, ms.
     pub pose_age_ms: Vec<f64>,
-    /// From the hands' poses that the flasks in the picture follow to the picture's display time,
+    /// From the time of the hands' poses that the flasks in the picture follow to the picture's display time,
     /// simulation steps.
     pub delay_steps: Vec<f64>,
     /// A frame's work on the device on the solver's queue, ms: its steps and the picture's part that
@@ -47,42 +48,42 @@ pub struct Tally {
     pub solve_ms: Vec<f64>,
     /// The picture's, ms.
     pub picture_ms: Vec<f64>,
-    /// Whether anything is kept: a session that nobody measures would only grow by it.
+    /// Whether times are kept. In a session that nobody measures they would only fill memory.
     counts: bool,
-    /// Whether submissions are timed for what is kept, or for who follows.
+    /// Whether the device's times are asked for, to be kept or for a governor.
     timed: bool,
     pending: VecDeque<Submitted>,
-    loads: Vec<Load>,
+    loads: Vec<FrameLoad>,
 }
 
 /// A frame's submissions.
 pub struct Submitted {
-    /// Its steps'.
+    /// Those of its steps.
     pub steps: Vec<Ticket>,
-    /// That of the picture's part behind them.
+    /// That of the picture's part that reads the particles, behind the steps.
     pub shapes: Ticket,
-    /// That of its other part.
+    /// That of the rest of the picture.
     pub picture: Ticket,
-    /// As the frame loop counts its settings.
+    /// Counts the changes of solver and picture before it: frames with the same stamp had the same work.
     pub stamp: u64,
 }
 
 /// What a frame took on the device.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
+pub struct FrameLoad {
     /// Its steps.
     pub steps: usize,
     /// Their time, ms.
     pub solve_ms: f64,
     /// The picture's, ms.
     pub picture_ms: f64,
-    /// As the frame loop counts its settings.
+    /// Counts the changes of solver and picture before it: frames with the same stamp had the same work.
     pub stamp: u64,
 }
 
 impl Tally {
-    /// One that keeps times if it `counts`, and asks the device for its own if they are to be `timed`, which
-    /// takes one that was opened for it. Their [`Load`]s are there until they are taken.
+    /// Keeps times if it `counts`, and asks the device for its own if submissions are `timed`. The device must have
+    /// been opened with timestamps for that.
     pub fn new(counts: bool, timed: bool) -> Self {
         Self {
             counts,
@@ -106,19 +107,19 @@ impl Tally {
         }
     }
 
-    /// Takes a frame's submissions.
+    /// Takes a frame's submissions, whose times [`Tally::collect`] reads once they are done.
     pub fn submitted(&mut self, submitted: Submitted) {
         if self.timed {
             self.pending.push_back(submitted);
         }
     }
 
-    /// What the frames took whose times were taken since the last call.
-    pub fn loads(&mut self) -> Vec<Load> {
+    /// What the frames took that were collected since the last call.
+    pub fn loads(&mut self) -> Vec<FrameLoad> {
         std::mem::take(&mut self.loads)
     }
 
-    /// Takes the times of frames that are done; does not wait.
+    /// Collects the device's times of frames that are done; does not wait.
     ///
     /// # Errors
     /// What the device says.
@@ -136,7 +137,7 @@ impl Tally {
                 self.solve_ms.push(solve_ms + shapes);
                 self.picture_ms.push(picture);
             }
-            self.loads.push(Load {
+            self.loads.push(FrameLoad {
                 steps: frame.steps.len(),
                 solve_ms,
                 picture_ms: shapes + picture,
@@ -147,7 +148,7 @@ impl Tally {
         Ok(())
     }
 
-    /// Forgets what was measured so far: it was the warming up.
+    /// Forgets what was measured so far.
     pub fn restart(&mut self) {
         *self = Self::new(self.counts, self.timed);
     }

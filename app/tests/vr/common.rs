@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 
-use vitriol::vr::bench::Plan;
+use vitriol::vr::decision::Decision;
 use vitriol::vr::placement::Posture;
-use vitriol::vr::session::{Decision, Options, Outcome, Session};
-use vitriol::vr::stand_in::{Pace, StandIn, StandInSpec};
+use vitriol::vr::session::{Options, Session, SessionOutcome};
+use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
+use vitriol::vr::workbench::Plan;
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::track::{Keyframes, Track};
@@ -64,7 +65,7 @@ impl<T: Trouble> Worn<T> {
         let spec = StandInSpec {
             extent: [96, 64],
             rate_hz,
-            pace: Pace::Free,
+            timing: Timing::Free,
         };
         Self {
             inner: StandIn::new(gpu, track, spec).unwrap(),
@@ -152,7 +153,7 @@ pub fn session(
     headset: &mut dyn Headset,
     folder: &Path,
     decisions: Receiver<Decision>,
-) -> (Outcome, Track) {
+) -> (SessionOutcome, Track) {
     session_with(headset, options(folder), decisions)
 }
 
@@ -161,7 +162,7 @@ pub fn session_with(
     headset: &mut dyn Headset,
     options: Options,
     decisions: Receiver<Decision>,
-) -> (Outcome, Track) {
+) -> (SessionOutcome, Track) {
     let file = options.record.clone().unwrap();
     let outcome = Session::new(headset, options, decisions)
         .unwrap()
@@ -175,7 +176,7 @@ pub fn session_with(
 }
 
 /// Hash of the state that a session ended with.
-pub fn hash(outcome: &Outcome) -> u64 {
+pub fn hash(outcome: &SessionOutcome) -> u64 {
     outcome.bench.world.snapshot().unwrap().solver.hash()
 }
 

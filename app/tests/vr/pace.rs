@@ -4,7 +4,9 @@ use std::sync::mpsc::channel;
 
 use crate::common::{Trouble, Worn, hash, nobody, options, pour, scene, session_with};
 use crate::loss::replayed;
-use vitriol::vr::session::{Decision, SWITCH_FILTER, SWITCH_PLACEMENT, SWITCH_RESOLUTION, WARM_UP};
+use vitriol::vr::decision::Decision;
+use vitriol::vr::placement::SWITCH_PLACEMENT;
+use vitriol::vr::session::{SWITCH_FILTER, SWITCH_RESOLUTION, WARM_UP};
 use vitriol::vr::stand_in::StandIn;
 use vitriol_experiment::switches::{SWITCH_SOLVER, SWITCH_START};
 use vitriol_gpu::{Gpu, QueueKind, Timestamps};
@@ -86,8 +88,13 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     let sides: Vec<u32> = headset.shown.iter().map(|shown| shown.extent[0]).collect();
     assert_eq!((sides[0], sides.iter().min()), (96, Some(&58)));
     assert_eq!(sides.last(), Some(&96));
-    let counted: u64 = outcome.kept.settings.iter().map(|with| with.frames).sum();
-    assert_eq!((outcome.kept.on, counted), (true, 180 - WARM_UP));
+    let counted: u64 = outcome
+        .governor
+        .settings
+        .iter()
+        .map(|with| with.frames)
+        .sum();
+    assert_eq!((outcome.governor.on, counted), (true, 180 - WARM_UP));
     assert_eq!(replayed(&gpu, track.clone()), hash(&outcome));
     // It is the changes that make it so.
     let mut other = track;
@@ -186,7 +193,7 @@ fn the_filter_gives_way() {
     assert_eq!(outcome.bench.filter(), PictureFilter::NarrowRange);
     assert_eq!(values(&switches(&track), SWITCH_FILTER), ["narrow-range"]);
     let filters: Vec<_> = outcome
-        .kept
+        .governor
         .settings
         .iter()
         .map(|with| with.setting.filter)

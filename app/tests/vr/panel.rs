@@ -4,9 +4,10 @@ use std::sync::mpsc::channel;
 
 use crate::common::{Trouble, Worn, pour, session};
 use glam::{Quat, Vec3};
+use vitriol::vr::decision::Decision;
+use vitriol::vr::info::{Effort, FlaskLine, Info};
 use vitriol::vr::menu::CHOICES;
-use vitriol::vr::panel::{Effort, FlaskLine, Info, Panel, WIDTH, scene_from_panel};
-use vitriol::vr::session::{Decision, PANEL};
+use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::stand_in::StandIn;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::{Gpu, QueueKind};

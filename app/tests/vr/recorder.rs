@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use vitriol::vr::record::{Recording, Sink};
+use vitriol::vr::record::{Sink, TrackRecording};
 use vitriol_xr::track::TrackError;
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
 
@@ -67,7 +67,7 @@ fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
 #[test]
 fn a_full_queue_delays_nobody_and_is_counted() {
     let (disk, allow, written) = disk(usize::MAX);
-    let mut recording = Recording::into_sink(disk, 4);
+    let mut recording = TrackRecording::into_sink(disk, 4);
     let begun = Instant::now();
     for step in 0..20 {
         recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
@@ -94,7 +94,7 @@ fn a_full_queue_delays_nobody_and_is_counted() {
 fn a_full_disk_is_counted_and_said() {
     let (disk, allow, _) = disk(3);
     drop(allow);
-    let mut recording = Recording::into_sink(disk, 64);
+    let mut recording = TrackRecording::into_sink(disk, 64);
     for step in 0..10 {
         recording.push(&frame(step, None), Vec::new());
     }

@@ -46,7 +46,7 @@ fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
         if level != governor.level() {
             continue;
         }
-        let taken = Taken {
+        let taken = FrameTimes {
             times: shares.map(|share| share * PERIOD),
             period: PERIOD,
             since: 1.0 / 90.0,
@@ -189,7 +189,7 @@ fn the_dear_part_pays() {
 fn only_what_the_device_misses_is_its_fault() {
     for (share, stepped) in [(0.3, None), (0.7, Some([1, 0]))] {
         let mut governor = Governor::new(ladders(), [0, 0]);
-        let taken = Taken {
+        let taken = FrameTimes {
             times: [0.9, 0.1].map(|part| part * share * PERIOD),
             period: PERIOD,
             since: 1.0 / 90.0,

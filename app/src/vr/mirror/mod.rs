@@ -1,8 +1,8 @@
 //! The mirror: what the left eye sees, in a window on the computer.
 //!
-//! By softbuffer and not by a swapchain: the runtime chooses the device, on which the screen need
-//! not hang; a device that is lost is made anew under the window; and a screen that waits for its
-//! refresh must not hold up a queue of the headset's.
+//! The window is filled by softbuffer and not by a swapchain, for three reasons. The runtime chooses the device, and the
+//! screen may hang on another. A lost device is made anew, and the window stays. A swapchain that waits for the screen's
+//! refresh would hold up the headset's queue.
 
 mod shrink;
 mod window;
@@ -11,10 +11,10 @@ use vitriol_experiment::Failure;
 use vitriol_gpu::{Gpu, Image};
 use vitriol_shaders::Library;
 
-use self::shrink::{Shrink, fit};
+use self::shrink::Shrink;
 use self::window::Say;
 pub use self::window::Window;
-use super::panel::Info;
+use super::info::Info;
 
 /// Display time between two of the window's pictures, ns: 30 a second.
 const EVERY: i64 = 1_000_000_000 / 30;
@@ -23,7 +23,7 @@ const EVERY: i64 = 1_000_000_000 / 30;
 pub struct Mirror {
     window: Window,
     shrink: Shrink,
-    /// Display time from which on there is to be a picture, ns.
+    /// Display time of the next picture, ns.
     due: i64,
     title: String,
 }
@@ -66,7 +66,7 @@ impl Mirror {
         let Some(extent) = self.window.extent() else {
             return Ok(());
         };
-        // Display times are rounded: every third frame of 90 Hz is to be one.
+        // Display times are rounded. With this margin it is every third frame at 90 Hz, and never the fourth.
         if time < self.due.saturating_sub(EVERY / 8) {
             return Ok(());
         }
@@ -85,7 +85,7 @@ impl Mirror {
         Ok(())
     }
 
-    /// Says in the window's title what `info` says; `instead` of that it runs.
+    /// Puts scene and state into the window's title; `instead` is why the headset shows nothing, if it does not.
     pub fn entitle(&mut self, info: &Info, instead: Option<&str>) {
         let title = title(info, instead);
         if self.title != title {

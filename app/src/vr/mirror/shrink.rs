@@ -12,7 +12,7 @@ use vitriol_shaders::{Library, layout, mirror};
 /// scales it up.
 const LONGEST: u32 = 1080;
 
-/// Pictures on their way: one is shrunk, one is copied by the window's thread, one is to spare.
+/// Buffers that a picture can be in: one is filled by the device, one is copied by the window's thread, one is spare.
 const SLOTS: usize = 3;
 
 /// A picture as a window takes it.
@@ -41,7 +41,7 @@ pub struct Shrink {
     /// The largest picture.
     most: [u32; 2],
     shrunk: Buffer,
-    /// One that nobody else holds is free.
+    /// A slot whose buffer nobody else holds is free.
     slots: [Arc<Buffer>; SLOTS],
     under_way: VecDeque<(Ticket, Shrunk)>,
 }
@@ -67,7 +67,7 @@ impl Shrink {
     }
 
     /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size,
-    /// behind what was submitted before; leaves it where no slot is free.
+    /// behind what was submitted before. Does nothing where no slot is free.
     ///
     /// # Errors
     /// What the device says.

@@ -1,5 +1,4 @@
-//! The window, on a thread of its own: whatever the screen or its server wait for, the frame loop
-//! does not.
+//! The window, on a thread of its own, so that the frame loop never waits for the screen or its server.
 
 use std::num::NonZeroU32;
 use std::rc::Rc;
@@ -19,10 +18,9 @@ use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopProxy};
 use winit::keyboard::Key;
 use winit::window::{Window as Frame, WindowId};
 
-use super::fit;
-use super::shrink::Shrunk;
+use super::shrink::{Shrunk, fit};
+use crate::vr::decision::Decision;
 use crate::vr::menu;
-use crate::vr::session::Decision;
 
 /// Longest side of the window when it opens, pixels.
 const OPENS_AT: u32 = 800;
@@ -35,15 +33,15 @@ pub enum Say {
     Title(String),
     /// A new picture.
     Picture(Shrunk),
-    /// To go.
+    /// That the session is over.
     End,
 }
 
-/// A window from another thread: nothing that is said to it waits.
+/// The frame loop's handle of the window. Nothing that is sent to the window waits for it.
 pub struct Window {
     proxy: EventLoopProxy<Say>,
     extent: Arc<Extent>,
-    /// Has an end when the thread has.
+    /// Disconnected when the thread has ended.
     ended: Receiver<()>,
     thread: Option<JoinHandle<()>>,
 }
@@ -65,7 +63,7 @@ impl Extent {
     }
 }
 
-/// Leaves with the thread, however it ends: nothing is drawn for a window that is gone.
+/// Sets the extent to 0 when the thread ends, however it does, so that no picture is made for a window that is gone.
 struct Leaving {
     extent: Arc<Extent>,
     _end: Sender<()>,
@@ -83,7 +81,7 @@ impl Window {
     /// # Errors
     /// Why there is none: no screen, or none that can be used.
     pub fn open(eye: [u32; 2], decisions: Sender<Decision>) -> Result<Self, Failure> {
-        // winit would say it with a place in its own source.
+        // winit's own message for this names a line of its source.
         if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() {
             return Err(Failure::Other(
                 "there is no X server (DISPLAY is not set)".into(),
@@ -109,7 +107,7 @@ impl Window {
                     }
                 };
                 if opened.send(Ok(events.create_proxy())).is_err() {
-                    // Who opens has waited long enough: no window of nobody.
+                    // `open` has given up waiting, so nobody would use the window.
                     return;
                 }
                 let mut face = Face {
@@ -141,7 +139,7 @@ impl Window {
         self.extent.get()
     }
 
-    /// Tells it something, which a window that is closed does not hear.
+    /// Sends it a message, which is lost if it is closed.
     pub fn say(&self, what: Say) {
         let _ = self.proxy.send_event(what);
     }
@@ -150,7 +148,7 @@ impl Window {
 impl Drop for Window {
     fn drop(&mut self) {
         self.say(Say::End);
-        // A screen that hangs does not keep the program.
+        // The program does not wait for a screen that hangs.
         let hangs =
             self.ended.recv_timeout(PATIENCE) == Err(std::sync::mpsc::RecvTimeoutError::Timeout);
         if let (Some(thread), false) = (self.thread.take(), hangs) {
@@ -159,7 +157,7 @@ impl Drop for Window {
     }
 }
 
-/// One that needs not be the main thread's, which is the frame loop's.
+/// An event loop outside the main thread, on which the frame loop runs.
 fn event_loop() -> Result<EventLoop<Say>, EventLoopError> {
     let mut builder = EventLoop::with_user_event();
     #[cfg(target_os = "linux")]
@@ -169,7 +167,7 @@ fn event_loop() -> Result<EventLoop<Say>, EventLoopError> {
     builder.build()
 }
 
-/// What the window shows, as memory.
+/// The window's pixels in memory.
 type Pixels = Surface<Rc<Frame>, Rc<Frame>>;
 
 /// The window on its own thread.
@@ -181,10 +179,11 @@ struct Face {
     shown: Option<(Vec<u32>, [u32; 2])>,
 }
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+/// What screen or device say.
+type WindowResult = Result<(), Box<dyn std::error::Error>>;
 
 impl Face {
-    fn open(&mut self, events: &ActiveEventLoop) -> Outcome {
+    fn open(&mut self, events: &ActiveEventLoop) -> WindowResult {
         let [width, height] = self.extent.get().unwrap_or([OPENS_AT; 2]);
         let wanted = Frame::default_attributes()
             .with_title("Vitriol")
@@ -198,7 +197,7 @@ impl Face {
     }
 
     /// Shows the last picture, as large as it fits, in the middle.
-    fn draw(&mut self) -> Outcome {
+    fn draw(&mut self) -> WindowResult {
         let Some((frame, surface)) = &mut self.frame else {
             return Ok(());
         };
@@ -217,7 +216,7 @@ impl Face {
         Ok(())
     }
 
-    fn hear(&mut self, what: Say) -> Outcome {
+    fn hear(&mut self, what: Say) -> WindowResult {
         let Some((frame, _)) = &self.frame else {
             return Ok(());
         };
@@ -232,8 +231,8 @@ impl Face {
         Ok(())
     }
 
-    /// Ends the window, not the session, where it cannot go on.
-    fn settle(&mut self, events: &ActiveEventLoop, outcome: Outcome) {
+    /// Closes the window where it cannot go on. The session goes on.
+    fn settle(&mut self, events: &ActiveEventLoop, outcome: WindowResult) {
         if let Err(error) = outcome {
             tracing::warn!("the mirror window is closed: {error}");
             events.exit();
@@ -258,7 +257,7 @@ impl ApplicationHandler<Say> for Face {
         }
     }
 
-    /// The window goes while the loop still is: it is the loop that sends this to the screen.
+    /// Drops the window while the event loop still runs, which sends that to the screen.
     fn exiting(&mut self, _: &ActiveEventLoop) {
         self.frame = None;
         self.extent.set([0, 0]);

@@ -1,20 +1,21 @@
-//! Draws egui's triangles through a pipeline of our own: three buffers and a shader, in place of a
-//! renderer that would want the device's command buffers.
+//! Draws egui's triangles with three buffers and a shader. A ready-made renderer would need the device's command
+//! buffers, which `vitriol_gpu` keeps to itself.
 
 use std::sync::Arc;
 
 use egui::epaint::{ImageData, Primitive};
 use egui::{ClippedPrimitive, Rect, TexturesDelta};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{
     Blend, Buffer, ColourFormat, ColourTarget, Gpu, Image, ImageDesc, Load, RasterDesc,
     RasterPipeline, RasterTarget, Recorder, vk,
 };
 use vitriol_shaders::{Library, layout, panel};
 
-/// Of the picture: bytes are sRGB-encoded, and blended so.
+use vitriol_experiment::{Blame, Failure};
+
+/// The picture's format: bytes are sRGB-encoded and blended as they are, as egui expects.
 const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
-/// What is under everything, sRGB: dark, so that it does not shine over the bench.
+/// Background, sRGB: dark, so that the panel does not outshine the bench.
 const GROUND: [f32; 4] = [0.075, 0.085, 0.10, 1.0];
 
 /// The panel's picture.
@@ -101,7 +102,7 @@ impl Painter {
             primitive,
         } in meshes
         {
-            // Nothing of ours draws by a callback.
+            // The layout uses no callbacks.
             let Primitive::Mesh(mesh) = primitive else {
                 continue;
             };
@@ -177,7 +178,7 @@ impl Painter {
         if enough {
             return Ok(());
         }
-        // Half as much again, since texts grow and shrink.
+        // Half as much again as is needed now, since texts grow.
         let room = |label, words: usize| {
             let bytes = 4 * (words + words / 2).max(1024) as u64;
             Buffer::storage(&self.gpu, label, bytes).other()

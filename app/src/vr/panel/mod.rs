@@ -1,4 +1,4 @@
-//! The panel behind the bench: temperatures, state, and buttons for who points at it.
+//! The panel behind the bench: temperatures, state, and buttons that a hand presses by pointing.
 
 mod draw;
 mod view;
@@ -10,20 +10,23 @@ use vitriol_gpu::{Gpu, Image, Recorder};
 use vitriol_shaders::Library;
 use vitriol_xr::{Hand, Pose};
 
-use super::session::Decision;
+use super::decision::Decision;
+use super::info::Info;
 use draw::Painter;
-pub use view::{Effort, FlaskLine, Info};
+
+/// Width and height of the panel, pixels.
+pub const PANEL: [u32; 2] = [1024, 640];
 
 /// Width of the panel, m.
 pub const WIDTH: f32 = 0.60;
 
-/// Where it stands in the scene's stage: behind the vessels, over the table's far edge, leaning back
-/// a little, so that it is read from 0.8 m, by who sits or stands, past what is held up.
+/// Where it stands in the scene's stage: behind the vessels, over the table's far edge, leaning back a little. So it is
+/// read from 0.8 m, sitting or standing, and a flask that is held up does not hide it.
 pub fn scene_from_panel() -> Pose {
     Pose::new(Vec3::new(0.0, 1.16, -0.80), Quat::from_rotation_x(-0.12))
 }
 
-/// The trigger presses from here on, and releases below half of it.
+/// The trigger presses from this value on, and releases below half of it.
 const PRESSES: f32 = 0.6;
 
 /// See the module.
@@ -35,7 +38,7 @@ pub struct Panel {
     /// Where a hand points, pixels.
     pointer: Option<Pos2>,
     pressed: bool,
-    /// Whether the pointing hand has had its trigger released here.
+    /// Whether the pointing hand has had its trigger released while it pointed here.
     armed: bool,
     shown: Option<(Info, Option<Pos2>, bool)>,
 }
@@ -80,7 +83,7 @@ impl Panel {
                 events.push(Event::PointerMoved(at));
                 let least = if self.pressed { 0.5 * PRESSES } else { PRESSES };
                 let presses = trigger >= least;
-                // A hand that comes in with its trigger pulled presses nothing.
+                // A hand that begins to point with its trigger pulled presses nothing.
                 self.armed = !presses || (self.armed && was.is_some());
                 if presses != self.pressed && self.armed {
                     self.pressed = presses;

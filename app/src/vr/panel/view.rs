@@ -1,4 +1,4 @@
-//! What stands on the panel.
+//! The panel's layout.
 
 use egui::{
     Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Layout,
@@ -6,11 +6,11 @@ use egui::{
 };
 use vitriol_render::tints;
 
+use crate::vr::decision::Decision;
+use crate::vr::info::{FlaskLine, Info};
 use crate::vr::menu::{self, CHOICES};
-use crate::vr::session::Decision;
 
-/// Text on the panel is at least so high, pixels: 13 mm at 0.8 m are 0.9°, twice what print at arm's
-/// length has.
+/// Least height of text on the panel, pixels: 13 mm, which at 0.8 m are 0.9°, twice what print at arm's length has.
 const TEXT: f32 = 23.0;
 const HEADING: f32 = 30.0;
 
@@ -24,77 +24,7 @@ const HOT: Color32 = Color32::from_rgb(235, 90, 40);
 /// Where a thermometer's column ends, °C.
 const RANGE: [f32; 2] = [0.0, 180.0];
 
-/// A flask's line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FlaskLine {
-    /// Its name.
-    pub name: String,
-    /// Mean temperature of its liquid, whole °C; `None` where heat is not modelled or it is empty.
-    pub temperature: Option<i32>,
-    /// Acid by mass, whole per cent.
-    pub acid: Option<i32>,
-}
-
-/// How much is solved and drawn to keep pace with the display.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Effort {
-    /// Whether the last change was for the better.
-    pub finer: bool,
-    /// Substeps a step and iterations a substep.
-    pub solver: [u32; 2],
-    /// What was asked for.
-    pub asked: [u32; 2],
-    /// Each side of the picture, per cent of the display's.
-    pub picture: u32,
-    /// Whether the liquid's surface is drawn by another filter.
-    pub other_filter: bool,
-}
-
-impl Effort {
-    /// In a sentence; only what is less.
-    fn text(&self) -> String {
-        let mut parts = Vec::new();
-        if self.solver != self.asked {
-            let ([substeps, iterations], [of, by]) = (self.solver, self.asked);
-            parts.push(format!(
-                "{substeps} × {iterations} substeps × iterations of {of} × {by}"
-            ));
-        }
-        if self.other_filter {
-            parts.push("a plainer surface".into());
-        }
-        if self.picture < 100 {
-            parts.push(format!("picture {} %", self.picture));
-        }
-        let how = if self.finer { "finer again" } else { "coarser" };
-        format!("{how}: {}", parts.join(", "))
-    }
-}
-
-/// What the panel says.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Info {
-    /// The scene.
-    pub scene: String,
-    /// Its flasks.
-    pub flasks: Vec<FlaskLine>,
-    /// Whether there is acid, whose tint is explained.
-    pub acid: bool,
-    /// Speed of simulated time in per cent of real time; `None` at full speed.
-    pub slow: Option<u32>,
-    /// Seconds that are recorded; `None` without a recording.
-    pub recording: Option<u64>,
-    /// Steps that could not be recorded.
-    pub unwritten: u64,
-    /// Display periods without a frame.
-    pub missed: u64,
-    /// What is solved and drawn with, where that is less than was asked for.
-    pub effort: Option<Effort>,
-    /// The scene that is being set up.
-    pub coming: Option<String>,
-}
-
-/// Sizes and colours, once.
+/// Sets sizes and colours of a context.
 pub fn style(context: &Context) {
     context.all_styles_mut(|style| {
         for text in [TextStyle::Body, TextStyle::Button] {
@@ -105,12 +35,12 @@ pub fn style(context: &Context) {
             .insert(TextStyle::Heading, FontId::proportional(HEADING));
         style.visuals.override_text_color = Some(WHITE);
         style.spacing.item_spacing = vec2(12.0, 9.0);
-        // A panel that fades in is drawn many times over.
+        // No animations: the panel is drawn anew for each of their frames.
         style.animation_time = 0.0;
     });
 }
 
-/// Lays it out; what was pressed.
+/// Lays the panel out; returns what was pressed.
 pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>) -> Option<Decision> {
     let mut decided = None;
     let frame = Frame::new().inner_margin(Margin::same(22));
@@ -144,7 +74,7 @@ fn readings(ui: &mut Ui, info: &Info) {
         ui.label(RichText::new(text).color(WARNING));
     }
     if let Some(effort) = &info.effort {
-        // Of two lines; columns would justify the first.
+        // It may have two lines, and a column would justify the first.
         ui.with_layout(Layout::top_down(Align::Min), |ui| {
             ui.label(RichText::new(effort.text()).color(WARNING));
         });
@@ -197,7 +127,7 @@ fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
     }
 }
 
-/// The tints, and that they are not the liquids' own.
+/// The tints, and that they are artificial.
 fn legend(ui: &mut Ui) {
     ui.horizontal(|ui| {
         for (tint, name) in [(tints::WATER, "water"), (tints::ACID, "sulfuric acid")] {

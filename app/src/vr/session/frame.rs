@@ -1,186 +1,214 @@
-//! One frame.
+//! One frame: the parts of a session, in the order in which a frame goes through them (docs/headset.md, "A frame").
 
 use std::time::Instant;
 
-use vitriol_experiment::{Blame, Failure, stage};
-use vitriol_gpu::QueueKind;
-use vitriol_sim::world::StepInput;
-use vitriol_xr::{Headset, HeadsetFrame, Pose, PoseFrame, Shown, Side};
+use vitriol_experiment::switches::SWITCH_START;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::Ticket;
+use vitriol_sim::world::World;
+use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 
-use super::{Session, WARM_UP, blame, milliseconds, nanoseconds};
-use crate::vr::bench::Bench;
+use super::benches::Benches;
+use super::choices::Choices;
+use super::counts::Counts;
+use super::ended::NoFrameOpen;
+use super::pacing::Pacing;
+use super::readings::{Readings, has_acid};
+use super::steps::Steps;
+use super::track::SessionTrack;
+use crate::vr::blame::blame;
 use crate::vr::hands;
 use crate::vr::haptics;
+use crate::vr::info::Info;
 use crate::vr::inputs::sound;
-use crate::vr::panel;
-use crate::vr::picture::{Eyes, Picture, Sight, eye};
-use crate::vr::placement;
-use crate::vr::tally::{Holdings, Submitted};
+use crate::vr::ladder::Setting;
+use crate::vr::mirror::Mirror;
+use crate::vr::panel::{self, Panel};
+use crate::vr::picture::{Picture, Sight, eye};
+use crate::vr::placement::Placement;
+use crate::vr::tally::Submitted;
+use crate::vr::workbench::Workbench;
 
-/// Frames between two readings of the flasks' temperatures: ten a second at 90 Hz.
-const READING_EVERY: u64 = 9;
+/// What a session is made of. Each part keeps one thing and knows no other part but those that it is handed.
+pub(super) struct Parts {
+    /// The bench in use and the one that is being built.
+    pub benches: Benches,
+    /// What the user chose and is not done yet.
+    pub choices: Choices,
+    /// Where the bench stands, and the last frame's poses.
+    pub placement: Placement,
+    /// Steps that are due.
+    pub steps: Steps,
+    /// The recording, with simulated time and the switches of the next step.
+    pub track: SessionTrack,
+    /// What the panel says of the flasks.
+    pub readings: Readings,
+    /// The panel.
+    pub panel: Panel,
+    /// The window on the computer, if there is one.
+    pub mirror: Option<Mirror>,
+    /// The governor, and what it has decided.
+    pub pacing: Pacing,
+    /// Frames, and what they took.
+    pub counts: Counts,
+}
 
-impl Session {
-    /// One frame, from after its begin to after its end.
-    pub(super) fn frame(
+/// The headset's images, and the submission of the picture's part that reads the particles.
+struct Acquired {
+    targets: Targets,
+    shapes: Ticket,
+}
+
+impl Parts {
+    /// One frame, which the headset's `next` has begun: item 1 of the list. Between there and the end nothing waits
+    /// for the device.
+    pub fn frame(
         &mut self,
         headset: &mut dyn Headset,
         frame: &HeadsetFrame,
     ) -> Result<(), Failure> {
         let begun = Instant::now();
+        let info = frame.poses.info;
         self.count(frame);
-        let now = sound(&frame.poses, self.last.as_ref());
-        let pressed = self.buttons.advance(&now.hands);
-        self.decide(headset, pressed, frame.recentred, &now)?;
-        self.take_up_bench()?;
-        self.plan_steps(now);
-        // What would wait for the device waits until the frame has ended.
-        while !self.due.is_empty() && self.bench.world.is_ready().other()? {
-            self.take_step()?;
-        }
-        self.feel(headset)?;
-        if frame.should_render {
-            self.draw(headset)?;
+        // 2. What the user decided, and a bench that was built meanwhile.
+        let now = sound(&frame.poses, self.placement.last());
+        self.decide(headset, frame.recentred, &now);
+        self.replace_bench()?;
+        // 3. The steps up to this frame's display time.
+        self.take_steps(now)?;
+        // 4. What the hands feel.
+        self.vibrate(headset)?;
+        let shown = if frame.should_render {
+            self.show_panel();
+            // 5. The images, and the liquid's ellipsoids behind the steps.
+            let acquired = self.acquire(headset)?;
+            // 6. The eyes, as late as can be, and the picture for them.
+            Some(self.locate_and_draw(headset, acquired)?)
         } else {
-            headset.end(None).map_err(blame)?;
             // Times are of frames that are shown.
-            self.solved.clear();
+            self.steps.submitted();
+            None
+        };
+        // 7. The frame's end, with what is shown.
+        let no_frame = NoFrameOpen::by_ending(headset, shown.as_ref())?;
+        // 8. The mirror's part, behind the picture, and what may wait for the device.
+        if let (Some(mirror), Some(shown)) = (&mut self.mirror, &shown) {
+            let picture = self.benches.current.picture.image();
+            mirror.take(picture, shown.extent, info.xr_time)?;
         }
-        self.tally.frame(milliseconds(begun.elapsed()));
-        self.after()?;
-        let loads = self.tally.loads();
-        self.keep_pace(&loads, 1e-6 * frame.poses.info.period_ns as f64)?;
-        self.take_up_mask(headset)
+        self.counts.tally.frame(1e3 * begun.elapsed().as_secs_f64());
+        self.catch_up(&no_frame)?;
+        // 9. What the next frames are solved and drawn with.
+        self.govern(1e-6 * info.period_ns as f64, &no_frame)?;
+        self.benches.take_mask(headset, &no_frame)
     }
 
-    /// What the lenses hide is known with the eyes' fields of view, which come with the first views, and
-    /// may change. It waits for an upload, so no frame is open now.
-    fn take_up_mask(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
-        let eyes = Eyes::of(headset);
-        if eyes.hidden != self.eyes.hidden {
-            self.bench.picture.hide(&eyes.hidden)?;
-            self.eyes = eyes;
-        }
-        Ok(())
-    }
-
-    /// What may wait for the device: no frame is open now.
-    pub(super) fn after(&mut self) -> Result<(), Failure> {
-        while !self.due.is_empty() {
-            self.take_step()?;
-        }
-        self.bench.picture.keep_up()?;
-        if let Some(mirror) = &mut self.mirror {
-            mirror.hand_over()?;
-        }
-        self.take_reading()?;
-        self.tally.collect()
-    }
-
+    /// Counts the frame, and what was missed before it.
     fn count(&mut self, frame: &HeadsetFrame) {
-        self.frames += 1;
-        if self.frames == WARM_UP + 1 {
-            self.tally.restart();
-            self.pace.restart();
-            self.skipped = 0;
-            self.began_with = Holdings::now();
+        if self.counts.begin(&frame.poses.info) {
+            self.pacing.miss();
         }
-        let info = &frame.poses.info;
-        let last = self.counted.replace(info.xr_time);
-        if let (Some(last), true) = (last, info.period_ns > 0) {
-            let passed = info.xr_time.saturating_sub(last) as f64;
-            let periods = (passed / info.period_ns as f64).round();
-            let skipped = (periods - 1.0).max(0.0) as u64;
-            self.skipped += skipped;
-            self.pace.missed |= skipped > 0;
+        if self.counts.is_first() {
+            self.pacing.restart_counting();
         }
     }
 
-    /// Finds the steps that are due, with the poses of their own times.
-    fn plan_steps(&mut self, now: PoseFrame) {
-        let scene = self.bench.world.scene();
-        let frame_time = scene.scale.frame_time;
-        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
-        let due = self.clock.advance(now.info.xr_time, frame_time);
-        if let (Some(last), Some(placed)) = (&self.last, &self.placed) {
-            let passed = (now.info.xr_time - last.info.xr_time) as f64;
-            for s in due.ends {
-                let frame = placement::in_scene(&last.between(&now, s), placed);
-                let mut frame = placement::shifted(frame, origin);
-                frame.info.xr_time = last.info.xr_time + (f64::from(s) * passed).round() as i64;
-                self.due.push(frame);
-            }
-            if passed > 0.0 {
-                let speed = 1.0 - 1e9 * due.skipped / passed;
-                self.speed += 0.05 * (speed - self.speed);
-            }
+    /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
+    fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
+        let present = &self.benches.current.plan.scene;
+        let chosen = self.choices.take(&now.hands, present);
+        if let Some(scene) = chosen.scene {
+            self.benches.build(headset.gpu(), scene);
         }
-        self.last = Some(now);
+        if chosen.recentre || recentred || !self.placement.is_known() {
+            self.track.switch(self.placement.recentre(now));
+            self.steps.pause();
+        }
     }
 
-    /// Takes the next step that is due.
-    fn take_step(&mut self) -> Result<(), Failure> {
-        let mut frame = self.due.remove(0);
-        frame.step = self.time.steps();
-        frame.time_ns = nanoseconds(&self.time);
-        frame.scenario = std::mem::take(&mut self.switches);
-        let world = &mut self.bench.world;
-        let frame_time = world.scene().scale.frame_time;
-        let hands = stage::hands(&frame.hands, world.scene());
-        world
-            .step_on(QueueKind::Async, &StepInput { hands })
-            .other()?;
-        self.solved.extend(world.last_step().cloned());
-        if let Some(recording) = &mut self.recording {
-            recording.push(&frame, stage::flasks(world));
+    /// Goes on with the bench that was built meanwhile, if one was.
+    fn replace_bench(&mut self) -> Result<(), Failure> {
+        let resolution = self.pacing.setting(&self.benches.current).resolution;
+        if let Some(switch) = self.benches.replace_if_built() {
+            let same = switch.key == SWITCH_START;
+            // Before the switches of its settings: a replay brings up the scene first.
+            self.track.switch(switch);
+            let (bench, track) = (&mut self.benches.current, &mut self.track);
+            self.pacing.begin(same, resolution, bench, track)?;
+            self.readings.clear();
         }
-        self.time.advance(frame_time);
         Ok(())
+    }
+
+    /// Plans the steps that are due and takes those that need not wait for the device.
+    fn take_steps(&mut self, now: PoseFrame) -> Result<(), Failure> {
+        let world = &mut self.benches.current.world;
+        self.steps.plan(&now, &self.placement, world.scene());
+        self.placement.advance(now);
+        self.steps.take_ready(world, &mut self.track)
     }
 
     /// Lets each hand feel what stirs in the flask that it holds.
-    fn feel(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
-        let world = &self.bench.world;
+    fn vibrate(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
+        let world = &self.benches.current.world;
         let scale = world.scene().scale.length_scale;
         for side in Side::BOTH {
-            let flasks = 0..world.scene().flasks.len();
-            let held = flasks
-                .filter(|&flask| world.holder(flask) == Some(side as usize))
-                .map(|flask| haptics::amplitude(world.stirring(flask), scale));
-            let amplitude = held.fold(0.0, f32::max);
-            headset.vibrate(side, amplitude).map_err(blame)?;
+            let felt = held_by(world, side)
+                .map(|flask| haptics::amplitude(world.stirring(flask), scale))
+                .fold(0.0, f32::max);
+            headset.vibrate(side, felt).map_err(blame)?;
         }
         Ok(())
     }
 
-    fn draw(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
-        let placed = self.placed.unwrap_or(Pose::IDENTITY);
-        let seen = self
-            .last
-            .as_ref()
-            .map(|last| placement::in_scene(last, &placed));
-        self.show_panel(seen.as_ref());
-        let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
+    /// Brings panel and window title up to date, and lets the hands that hold nothing point at the panel.
+    fn show_panel(&mut self) {
+        let world = &self.benches.current.world;
+        let seen = self.placement.seen();
+        let pointing = |side: Side| -> Option<&Hand> {
+            let hand = seen.as_ref()?.hand(side);
+            let holds = held_by(world, side).next().is_some();
+            (hand.active && hand.valid && !holds).then_some(hand)
+        };
+        let hands = Side::BOTH.map(pointing);
+        let info = self.info();
+        self.choices.add(self.panel.update(hands, &info));
+        if let Some(mirror) = &mut self.mirror {
+            mirror.entitle(&info, None);
+        }
+    }
 
-        let setting = self.setting();
-        let extent = self.eyes.extent.map(|side| {
-            let side = (setting.resolution * f64::from(side)).round();
-            (side as u32).max(1)
-        });
+    /// Acquires the headset's images, and submits what reads the particles behind the steps, on the solver's queue.
+    fn acquire(&mut self, headset: &mut dyn Headset) -> Result<Acquired, Failure> {
         let targets = headset.acquire().map_err(blame)?;
-        let Bench { world, picture, .. } = &mut self.bench;
-        let gpu = world.gpu().clone();
+        let Workbench { world, picture, .. } = &self.benches.current;
+        let is_due = self.readings.is_due(self.counts.frames);
         let mut reading = None;
-        let reads = self.reading.is_none() && self.frames.is_multiple_of(READING_EVERY);
-        let shapes = picture.shapes(&gpu, world, |rec| {
-            if reads {
+        let shapes = picture.shapes(world.gpu(), world, |rec| {
+            if is_due {
                 reading = world.solver().record_reading(rec).other()?;
             }
             Ok(())
         })?;
-        if let Some(reading) = reading {
-            self.reading = Some((reading, shapes.clone()));
-        }
+        self.readings.began(reading, &shapes);
+        Ok(Acquired { targets, shapes })
+    }
+
+    /// Locates the eyes, and draws and submits the picture with these views, which are those that it is to be shown
+    /// with. Between the two is as little as can be.
+    fn locate_and_draw(
+        &mut self,
+        headset: &mut dyn Headset,
+        acquired: Acquired,
+    ) -> Result<Shown, Failure> {
+        let Acquired { targets, shapes } = acquired;
+        let placed = self.placement.stage_from_scene();
+        let seen = self.placement.seen();
+        let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
+        let setting = self.pacing.setting(&self.benches.current);
+        let extent = scaled(self.benches.eyes.extent, &setting);
+        let Workbench { world, picture, .. } = &mut self.benches.current;
+
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {
@@ -193,38 +221,74 @@ impl Session {
             panel.record(rec)?;
             rec.copy_image(panel.image(), &targets.panel).other()
         })?;
-        let age = milliseconds(located.elapsed());
-        let behind = self.clock.behind() / world.scene().scale.frame_time;
-        self.tally.picture(age, behind + self.due.len() as f64);
-        self.tally.submitted(Submitted {
-            steps: std::mem::take(&mut self.solved),
+        let age_ms = 1e3 * located.elapsed().as_secs_f64();
+
+        let behind = self.steps.behind(world.scene().scale.frame_time);
+        self.counts.tally.picture(age_ms, behind);
+        self.counts.tally.submitted(Submitted {
+            steps: self.steps.submitted(),
             shapes: drawn.shapes,
             picture: drawn.picture,
-            stamp: self.pace.stamp,
+            stamp: self.pacing.stamp(),
         });
-        self.pace.shown(setting);
-        let shown = Shown {
+        self.pacing.shown(setting);
+        Ok(Shown {
             views,
             extent,
             near: Picture::near(),
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
-        };
-        headset.end(Some(&shown)).map_err(blame)?;
-        // Behind the picture, and nothing that the headset waits for.
-        if let (Some(mirror), Some(time)) = (&mut self.mirror, self.counted) {
-            mirror.take(self.bench.picture.image(), extent, time)?;
-        }
-        Ok(())
+        })
     }
 
-    /// Takes a reading that has come.
-    fn take_reading(&mut self) -> Result<(), Failure> {
-        if let Some((reading, ticket)) = &self.reading
-            && ticket.is_done().other()?
-        {
-            self.read = reading.get().other()?;
-            self.reading = None;
+    /// Does what may wait for the device: takes the steps that are left over, waits for the picture before the last,
+    /// and collects pictures, readings and times that have come.
+    pub fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
+        let Workbench { world, picture, .. } = &mut self.benches.current;
+        self.steps.take_rest(world, &mut self.track, no_frame)?;
+        picture.keep_up()?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.hand_over()?;
         }
-        Ok(())
+        self.readings.collect()?;
+        self.counts.tally.collect()
     }
+
+    /// Tells the governor what the frames that are done took, and does what it decides; `period` is in ms.
+    fn govern(&mut self, period: f64, no_frame: &NoFrameOpen) -> Result<(), Failure> {
+        let loads = self.counts.tally.loads();
+        let (benches, track) = (&mut self.benches, &mut self.track);
+        self.pacing.govern(&loads, period, benches, track, no_frame)
+    }
+
+    /// What panel and window title say.
+    pub fn info(&self) -> Info {
+        let bench = &self.benches.current;
+        let scene = bench.world.scene();
+        let recorded = self.track.state();
+        Info {
+            scene: bench.plan.scene.clone(),
+            flasks: self.readings.lines(scene),
+            acid: has_acid(scene),
+            slow: self.steps.slow_motion(),
+            recording: recorded.as_ref().map(|(seconds, _)| *seconds as u64),
+            unwritten: recorded.map_or(0, |(_, state)| state.unwritten),
+            missed: self.counts.skipped,
+            effort: self.pacing.effort(bench),
+            coming: self.benches.coming().map(Into::into),
+        }
+    }
+}
+
+/// The flasks that a hand holds.
+fn held_by(world: &World, side: Side) -> impl Iterator<Item = usize> {
+    let flasks = 0..world.scene().flasks.len();
+    flasks.filter(move |&flask| world.holder(flask) == Some(side as usize))
+}
+
+/// Width and height of a picture with that setting, pixels, where the display has `extent`.
+fn scaled(extent: [u32; 2], setting: &Setting) -> [u32; 2] {
+    extent.map(|side| {
+        let side = (setting.resolution * f64::from(side)).round();
+        (side as u32).max(1)
+    })
 }

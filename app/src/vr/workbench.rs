@@ -1,4 +1,4 @@
-//! The bench: a world with its picture, and the next one, which is built beside the frame loop.
+//! The bench that the user works at: a world with its picture. [`Builder`] makes one beside the frame loop.
 
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -22,17 +22,17 @@ pub struct Plan {
     pub preset: Preset,
     /// Substeps and iterations in place of the preset's.
     pub solver: Option<[u32; 2]>,
-    /// Filter of the liquid's surface in place of the scene's, where a governor found that one too dear.
+    /// Filter of the liquid's surface in place of the scene's, if the governor has changed it.
     pub filter: Option<PictureFilter>,
     /// Seed of the initial jitter.
     pub seed: u64,
 }
 
 /// A world and its picture.
-pub struct Bench {
+pub struct Workbench {
     /// What it was made of.
     pub plan: Plan,
-    /// What it may do with less, the finest first.
+    /// What it may be solved and drawn with, the finest first.
     pub ladder: Ladder,
     /// Substeps and iterations that its preset has, which a replay begins with.
     pub of_preset: [u32; 2],
@@ -42,7 +42,7 @@ pub struct Bench {
     pub picture: Picture,
 }
 
-impl Bench {
+impl Workbench {
     /// The bench at its start.
     ///
     /// # Errors
@@ -84,7 +84,7 @@ impl Bench {
     /// The same bench on another device, every particle where it was, solved as it was.
     ///
     /// # Errors
-    /// As for [`Bench::new`].
+    /// As for [`Workbench::new`].
     pub fn moved(
         gpu: &Gpu,
         library: &Library,
@@ -104,15 +104,15 @@ impl Bench {
 pub struct Builder {
     plan: Plan,
     eyes: Eyes,
-    thread: JoinHandle<Result<Bench, Failure>>,
+    thread: JoinHandle<Result<Workbench, Failure>>,
 }
 
 impl Builder {
-    /// Begins.
+    /// Begins to make a bench for a headset's eyes.
     pub fn start(gpu: &Gpu, library: &Arc<Library>, plan: Plan, eyes: Eyes) -> Self {
         let (gpu, library) = (gpu.clone(), Arc::clone(library));
         let (made, of) = (plan.clone(), eyes.clone());
-        let thread = std::thread::spawn(move || Bench::new(&gpu, &library, &made, &of));
+        let thread = std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of));
         Self { plan, eyes, thread }
     }
 
@@ -134,8 +134,8 @@ impl Builder {
     /// The bench.
     ///
     /// # Errors
-    /// As for [`Bench::new`].
-    pub fn finish(self) -> Result<Bench, Failure> {
+    /// As for [`Workbench::new`].
+    pub fn finish(self) -> Result<Workbench, Failure> {
         let made = self.thread.join();
         made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other())
     }

@@ -1,0 +1,13 @@
+//! Whose fault a headset's error is.
+
+use vitriol_xr::HeadsetError;
+
+use vitriol_experiment::Failure;
+
+/// A missing runtime is [`Failure::NoDevice`], everything else [`Failure::Other`].
+pub fn blame(error: HeadsetError) -> Failure {
+    match error {
+        HeadsetError::NoRuntime { .. } => Failure::NoDevice(error.into()),
+        _ => Failure::Other(error.into()),
+    }
+}

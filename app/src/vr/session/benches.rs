@@ -1,0 +1,115 @@
+//! The bench in use, and the one that is built beside the frame loop to follow it.
+
+use std::sync::Arc;
+
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::Gpu;
+use vitriol_shaders::Library;
+use vitriol_xr::{Headset, Switch};
+
+use super::ended::NoFrameOpen;
+use crate::vr::picture::Eyes;
+use crate::vr::workbench::{Builder, Plan, Workbench};
+
+/// The bench in use, what it and its like are made with, and the next one.
+pub(super) struct Benches {
+    /// The shaders.
+    pub library: Arc<Library>,
+    /// What pictures are made for.
+    pub eyes: Eyes,
+    /// The bench in use.
+    pub current: Workbench,
+    coming: Option<Coming>,
+}
+
+/// A bench under construction, and the switch that a recording keeps of it.
+struct Coming {
+    builder: Builder,
+    switch: Switch,
+}
+
+impl Benches {
+    /// The first bench, at its start.
+    pub fn new(headset: &dyn Headset, plan: &Plan) -> Result<Self, Failure> {
+        let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset));
+        Ok(Self {
+            current: Workbench::new(headset.gpu(), &library, plan, &eyes)?,
+            library,
+            eyes,
+            coming: None,
+        })
+    }
+
+    /// Begins to build a scene at its start; a bench that is under construction already is given up.
+    pub fn build(&mut self, gpu: &Gpu, scene: String) {
+        let same = scene == self.current.plan.scene;
+        let switch = Switch {
+            key: if same { SWITCH_START } else { SWITCH_SCENE }.into(),
+            value: scene.clone(),
+        };
+        let mut plan = Plan {
+            scene,
+            ..self.current.plan.clone()
+        };
+        if !same {
+            // `--solver` and `--budget-ms` are for the session's first scene; others have their preset.
+            (plan.solver, plan.filter) = (None, None);
+        }
+        let builder = Builder::start(gpu, &self.library, plan, self.eyes.clone());
+        self.coming = Some(Coming { builder, switch });
+    }
+
+    /// The scene of the bench that is being built.
+    pub fn coming(&self) -> Option<&str> {
+        let coming = self.coming.as_ref();
+        coming.map(|coming| coming.switch.value.as_str())
+    }
+
+    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a
+    /// failure; does not wait. Its switch is for the recording.
+    pub fn replace_if_built(&mut self) -> Option<Switch> {
+        let coming = self.coming.take_if(|coming| coming.builder.is_finished())?;
+        let eyes = coming.builder.eyes().clone();
+        match coming.builder.finish() {
+            Ok(bench) => {
+                self.current = bench;
+                // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
+                // these.
+                self.eyes = eyes;
+                Some(coming.switch)
+            }
+            Err(failure) => {
+                tracing::warn!("the bench stays as it is: {failure}");
+                None
+            }
+        }
+    }
+
+    /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
+    /// with the first views and may change. Waits for an upload.
+    pub fn take_mask(&mut self, headset: &dyn Headset, _: &NoFrameOpen) -> Result<(), Failure> {
+        let eyes = Eyes::of(headset);
+        if eyes.hidden != self.eyes.hidden {
+            self.current.picture.hide(&eyes.hidden)?;
+            self.eyes = eyes;
+        }
+        Ok(())
+    }
+
+    /// Moves the bench to the headset's new device, every particle where it was, and begins the one that was being
+    /// built anew.
+    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
+        let gpu = headset.gpu();
+        self.eyes = Eyes::of(headset);
+        let state = self.current.world.snapshot().other()?;
+        let (plan, effort) = (&self.current.plan, self.current.world.effort());
+        self.current = Workbench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
+        if let Some(Coming { builder, switch }) = self.coming.take() {
+            let (plan, eyes) = (builder.plan().clone(), self.eyes.clone());
+            let builder = Builder::start(gpu, &self.library, plan, eyes);
+            self.coming = Some(Coming { builder, switch });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,289 @@
+//! Fits frames into the display's period: what the governor decides is done here, said and recorded.
+
+use serde::Serialize;
+use vitriol_experiment::switches::SWITCH_SOLVER;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_gpu::{Gpu, Timestamps};
+use vitriol_sim::scene::PictureFilter;
+use vitriol_xr::Switch;
+
+use super::benches::Benches;
+use super::ended::NoFrameOpen;
+use super::repaint::Repainter;
+use super::track::SessionTrack;
+use crate::vr::clock::MOST_STEPS;
+use crate::vr::governor::{FrameTimes, Governor, Level};
+use crate::vr::info::Effort;
+use crate::vr::ladder::Setting;
+use crate::vr::tally::FrameLoad;
+use crate::vr::workbench::Workbench;
+
+/// Key of the switch to a picture of another resolution, its value each side over the display's.
+pub const SWITCH_RESOLUTION: &str = "resolution";
+/// Key of the switch to another filter of the liquid's surface, its value as `--filter` takes it.
+pub const SWITCH_FILTER: &str = "filter";
+
+/// What the governor did in a session.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct GovernorReport {
+    /// Whether there was one.
+    pub on: bool,
+    /// Why there was none, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cause: Option<String>,
+    /// Times that it changed something.
+    pub changes: u64,
+    /// Settings, in the order in which they came.
+    pub settings: Vec<FramesWith>,
+}
+
+/// Frames that were shown with a setting.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FramesWith {
+    /// What they were solved and drawn with.
+    #[serde(flatten)]
+    pub setting: Setting,
+    /// How many.
+    pub frames: u64,
+}
+
+/// The governor, and what it is told and has decided.
+pub(super) struct Pacing {
+    /// `None` where everything stays as it begins.
+    governor: Option<Governor>,
+    /// How much less than was asked for is solved and drawn.
+    level: Level,
+    /// Counts changes: a frame that was begun before the last one has another stamp.
+    stamp: u64,
+    /// A display period went by without a frame since the governor was told of one.
+    missed: bool,
+    /// Time since the governor was told of a frame, s. Frames without a step tell it nothing.
+    since: f64,
+    /// The last change was to more accuracy or pixels.
+    finer: bool,
+    report: GovernorReport,
+    repainter: Repainter,
+}
+
+impl Pacing {
+    /// With a governor if it is `asked` for and the device measures what frames take.
+    pub fn new(gpu: &Gpu, bench: &Workbench, asked: bool) -> Self {
+        let timed = gpu.options().timestamps != Timestamps::None;
+        let measures = timed && gpu.info().timestamp_period > 0.0;
+        let on = asked && measures;
+        let cause = asked && !measures;
+        Self {
+            governor: on.then(|| Governor::new(bench.ladder.costs(), [0, 0])),
+            level: [0, 0],
+            stamp: 0,
+            missed: false,
+            since: 0.0,
+            finer: false,
+            report: GovernorReport {
+                on,
+                cause: cause.then(|| "this device does not measure what frames take on it".into()),
+                ..GovernorReport::default()
+            },
+            repainter: Repainter::default(),
+        }
+    }
+
+    /// Whether there is a governor, for which frames are to be timed.
+    pub fn is_governed(&self) -> bool {
+        self.governor.is_some()
+    }
+
+    /// What goes with a frame that is submitted now, see [`FrameLoad::stamp`].
+    pub fn stamp(&self) -> u64 {
+        self.stamp
+    }
+
+    /// What frames are solved and drawn with now.
+    pub fn setting(&self, bench: &Workbench) -> Setting {
+        Setting {
+            // The wanted one's picture may still be in the making.
+            filter: bench.filter(),
+            ..bench.ladder.setting(self.level)
+        }
+    }
+
+    /// A display period went by without a frame.
+    pub fn miss(&mut self) {
+        self.missed = true;
+    }
+
+    /// Counts a frame that is shown with `setting`.
+    pub fn shown(&mut self, setting: Setting) {
+        let mut counted = self.report.settings.iter_mut();
+        match counted.find(|with| with.setting == setting) {
+            Some(with) => with.frames += 1,
+            None => self.report.settings.push(FramesWith { setting, frames: 1 }),
+        }
+    }
+
+    /// Counting begins: what came before was the warm-up.
+    pub fn restart_counting(&mut self) {
+        self.report.changes = 0;
+        self.report.settings.clear();
+    }
+
+    /// What it did in the frames that count.
+    pub fn report(&self) -> &GovernorReport {
+        &self.report
+    }
+
+    /// Forgets what frames took: it was on another device or another scene.
+    pub fn forget(&mut self) {
+        self.repainter.forget();
+        self.settle();
+    }
+
+    /// Something changed, so that the frames under way say nothing about the next ones.
+    fn settle(&mut self) {
+        self.stamp += 1;
+        self.missed = false;
+        if let Some(governor) = &mut self.governor {
+            governor.forget();
+        }
+    }
+
+    /// Tells the governor what the frames that are done took, and does what it decides; `period` is the display's,
+    /// ms.
+    pub fn govern(
+        &mut self,
+        loads: &[FrameLoad],
+        period: f64,
+        benches: &mut Benches,
+        track: &mut SessionTrack,
+        no_frame: &NoFrameOpen,
+    ) -> Result<(), Failure> {
+        // A runtime may not say how long a frame is shown. While another picture is in the making nothing is
+        // decided, since it changes what frames take.
+        if period > 0.0 && !self.repainter.is_busy() {
+            for load in loads {
+                if let Some(level) = self.heed(load, period, &benches.current) {
+                    self.go_to(level, &mut benches.current, track)?;
+                }
+            }
+        }
+        if let Some(filter) = self.repainter.replace_if_made(benches, no_frame)? {
+            self.settle();
+            let name = match filter {
+                PictureFilter::NarrowRange => "narrow-range",
+                PictureFilter::CurvatureFlow => "curvature-flow",
+            };
+            track.switch(switch(SWITCH_FILTER, name.into()));
+        }
+        let wanted = benches.current.ladder.setting(self.level).filter;
+        self.repainter.want(wanted, benches);
+        Ok(())
+    }
+
+    /// Tells the governor of a frame that is done; the new level, if it wants another.
+    fn heed(&mut self, load: &FrameLoad, period: f64, bench: &Workbench) -> Option<Level> {
+        let governor = self.governor.as_mut()?;
+        self.since += 1e-3 * period;
+        if load.stamp != self.stamp {
+            // It was begun before the last change; so was the one that was missed meanwhile.
+            self.missed = false;
+            return None;
+        }
+        if load.steps == 0 {
+            return None;
+        }
+        // As many steps as a period has. A frame that makes up for a missed one has more, which is no reason to do
+        // less in the next ones.
+        let frame_time = 1e3 * bench.world.scene().scale.frame_time;
+        let steps = (period / frame_time - 1e-6)
+            .ceil()
+            .clamp(1.0, MOST_STEPS.into());
+        let times = FrameTimes {
+            times: [steps * load.solve_ms / load.steps as f64, load.picture_ms],
+            period,
+            since: std::mem::take(&mut self.since),
+        };
+        let missed = std::mem::take(&mut self.missed);
+        let level = governor.take(&times, missed)?;
+        self.finer = level.iter().sum::<usize>() < self.level.iter().sum();
+        self.report.changes += 1;
+        Some(level)
+    }
+
+    /// Goes on at `level`, and has it recorded.
+    fn go_to(
+        &mut self,
+        level: Level,
+        bench: &mut Workbench,
+        track: &mut SessionTrack,
+    ) -> Result<(), Failure> {
+        let before = bench.ladder.setting(self.level);
+        let after = bench.ladder.setting(level);
+        self.level = level;
+        self.settle();
+        if after.solver != bench.world.effort() {
+            bench.world.set_effort(after.solver).other()?;
+            track.switch(solver_switch(after.solver));
+        }
+        let ([substeps, iterations], percent) = (after.solver, 100.0 * after.resolution);
+        tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %");
+        if after.resolution != before.resolution {
+            track.switch(resolution_switch(after.resolution));
+        }
+        Ok(())
+    }
+
+    /// A bench has come. With the `same` scene as before it goes on at the level that there was, with another one as
+    /// it was asked for. `resolution` is the last picture's. A replay begins with what the preset has, so what
+    /// differs from it is recorded.
+    pub fn begin(
+        &mut self,
+        same: bool,
+        resolution: f64,
+        bench: &mut Workbench,
+        track: &mut SessionTrack,
+    ) -> Result<(), Failure> {
+        if !same {
+            self.level = [0, 0];
+            if let Some(governor) = &mut self.governor {
+                *governor = Governor::new(bench.ladder.costs(), self.level);
+            }
+        }
+        self.forget();
+        let setting = bench.ladder.setting(self.level);
+        bench.world.set_effort(setting.solver).other()?;
+        if setting.solver != bench.of_preset {
+            track.switch(solver_switch(setting.solver));
+        }
+        if setting.resolution != resolution {
+            track.switch(resolution_switch(setting.resolution));
+        }
+        Ok(())
+    }
+
+    /// What the panel says of it; `None` where all is as it was asked for.
+    pub fn effort(&self, bench: &Workbench) -> Option<Effort> {
+        let (now, asked) = (self.setting(bench), bench.ladder.setting([0, 0]));
+        (now != asked).then_some(Effort {
+            finer: self.finer,
+            solver: now.solver,
+            asked: asked.solver,
+            picture: (100.0 * now.resolution).round() as u32,
+            other_filter: now.filter != asked.filter,
+        })
+    }
+}
+
+fn switch(key: &str, value: String) -> Switch {
+    Switch {
+        key: key.into(),
+        value,
+    }
+}
+
+fn solver_switch([substeps, iterations]: [u32; 2]) -> Switch {
+    switch(SWITCH_SOLVER, format!("{substeps}x{iterations}"))
+}
+
+fn resolution_switch(resolution: f64) -> Switch {
+    switch(SWITCH_RESOLUTION, resolution.to_string())
+}
