@@ -192,22 +192,21 @@ pub fn write_json(path: &Path, object: &impl Serialize) -> Result<(), Failure> {
     write_new(path, &serde_json::to_vec_pretty(object).other()?)
 }
 
-/// The same of a picture of `[width, height]` pixels, RGB or RGBA bytes, as PNG.
+/// A picture of `[width, height]` pixels as PNG.
 ///
 /// # Errors
-/// As for [`write_new`].
-pub fn write_png(
-    path: &Path,
+/// What the encoder says.
+pub fn png(
     pixels: &[u8],
     [width, height]: [u32; 2],
     colours: ExtendedColorType,
-) -> Result<(), Failure> {
+) -> Result<Vec<u8>, Failure> {
     let mut png = Vec::new();
     let encoder = PngEncoder::new(&mut png);
     encoder
         .write_image(pixels, width, height, colours)
         .other()?;
-    write_new(path, &png)
+    Ok(png)
 }
 
 /// The folder of one run's results.

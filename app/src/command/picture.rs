@@ -80,7 +80,10 @@ pub fn run(
     observer.finish()?;
     let picture = experiment.picture(0)?;
     let size = [eyes * width, height];
-    output::write_png(&path, picture, size, ExtendedColorType::Rgba8)?;
+    output::write_new(
+        &path,
+        &output::png(picture, size, ExtendedColorType::Rgba8)?,
+    )?;
     let pictured = Pictured {
         picture: path,
         size,

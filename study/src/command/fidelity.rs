@@ -81,7 +81,10 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
     };
     if let Some([numbers, difference]) = files {
         let (pixels, size) = sheet::picture(&samples);
-        output::write_png(&difference, &pixels, size, ExtendedColorType::Rgb8)?;
+        output::write_new(
+            &difference,
+            &output::png(&pixels, size, ExtendedColorType::Rgb8)?,
+        )?;
         output::write_json(&numbers, &found)?;
     }
     emit(format, &found, describe)

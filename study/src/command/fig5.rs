@@ -176,7 +176,10 @@ fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let extent = [width, height];
     let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &Shot::of(extent))?;
     let picture = camera.shoot(world, Colour::Speed)?;
-    output::write_png(path, &picture, extent, ExtendedColorType::Rgba8)
+    output::write_new(
+        path,
+        &output::png(&picture, extent, ExtendedColorType::Rgba8)?,
+    )
 }
 
 fn describe(result: &Fig5) -> String {

@@ -157,17 +157,12 @@ impl Work<'_> {
 
     fn chemistry(&mut self) -> Result<(), Failure> {
         let quick = self.args.quick;
-        let presets = if quick {
-            &Preset::ALL[..1]
-        } else {
-            &Preset::ALL
-        };
-        let mixes = if quick { &MIXES[2..3] } else { &MIXES[..] };
-        for &preset in presets {
-            for &mix in mixes {
-                self.found
-                    .calorimetry
-                    .push(calorimetry(self.gpu, preset, mix)?);
+        let presets = if quick { 0..1 } else { 0..3 };
+        let mixes = if quick { 2..3 } else { 0..6 };
+        for &preset in &Preset::ALL[presets] {
+            for &mix in &MIXES[mixes.clone()] {
+                let found = calorimetry(self.gpu, preset, mix)?;
+                self.found.calorimetry.push(found);
             }
         }
         let scene = Scene::load(BOILING.0).other()?;
@@ -244,9 +239,7 @@ impl Work<'_> {
         self.found.vouched = Some(vouched);
         self.effects(&scene)
     }
-}
 
-impl Work<'_> {
     /// Pours as the scene has it, with each effect that it leaves out, and with
     /// none of what is numerics alone.
     fn effects(&mut self, scene: &Scene) -> Result<(), Failure> {

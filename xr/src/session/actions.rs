@@ -5,7 +5,7 @@ use std::sync::Arc;
 use openxr as xr;
 
 use super::bindings::{On, PROFILES, Profile, Use};
-use super::convert::{Failure, failed, located};
+use super::convert::{CallFailure, failed, located};
 use super::pinch::Pinch;
 use crate::{Hand, Side};
 
@@ -44,7 +44,7 @@ struct Bound {
 }
 
 impl Set {
-    fn new(instance: &xr::Instance) -> Result<Self, Failure> {
+    fn new(instance: &xr::Instance) -> Result<Self, CallFailure> {
         let hands = [
             find(instance, xr::USER_HAND_LEFT)?,
             find(instance, xr::USER_HAND_RIGHT)?,
@@ -71,7 +71,7 @@ impl Set {
         &self,
         instance: &xr::Instance,
         profile: &Profile,
-    ) -> Result<xr::Result<()>, Failure> {
+    ) -> Result<xr::Result<()>, CallFailure> {
         let mut bindings = Vec::new();
         for (used, on, control) in profile.controls {
             let hands = match on {
@@ -100,7 +100,7 @@ impl Set {
 
 impl Actions {
     /// Makes the actions, suggests bindings for every profile that is offered, and attaches them.
-    pub(super) fn new(instance: &xr::Instance, session: &Session) -> Result<Self, Failure> {
+    pub(super) fn new(instance: &xr::Instance, session: &Session) -> Result<Self, CallFailure> {
         let of = Set::new(instance)?;
         let on = instance.exts();
         for profile in PROFILES.iter().filter(|profile| (profile.offered)(on)) {
@@ -118,7 +118,7 @@ impl Actions {
                 .create_space(session, path, xr::Posef::IDENTITY)
                 .map_err(failed("xrCreateActionSpace"))
         };
-        let bound = |path| -> Result<Bound, Failure> {
+        let bound = |path| -> Result<Bound, CallFailure> {
             Ok(Bound {
                 path,
                 grip: space(&of.grip, path)?,
@@ -138,7 +138,7 @@ impl Actions {
         &mut self,
         instance: &xr::Instance,
         session: &Session,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CallFailure> {
         for hand in &mut self.hands {
             let profile = session
                 .current_interaction_profile(hand.path)
@@ -162,7 +162,7 @@ impl Actions {
         stage: &xr::Space,
         time: xr::Time,
         hands: &mut [Hand; 2],
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CallFailure> {
         // Without the focus this answers SESSION_NOT_FOCUSED, which is no error, and every action
         // is inactive.
         session
@@ -185,8 +185,8 @@ impl Actions {
         time: xr::Time,
         bound: &Bound,
         hand: &mut Hand,
-    ) -> Result<(), Failure> {
-        let float = |action: &xr::Action<f32>| -> Result<f32, Failure> {
+    ) -> Result<(), CallFailure> {
+        let float = |action: &xr::Action<f32>| -> Result<f32, CallFailure> {
             let state = action
                 .state(session, bound.path)
                 .map_err(failed("xrGetActionStateFloat"))?;
@@ -196,7 +196,7 @@ impl Actions {
                 0.0
             })
         };
-        let button = |action: &xr::Action<bool>| -> Result<bool, Failure> {
+        let button = |action: &xr::Action<bool>| -> Result<bool, CallFailure> {
             let state = action
                 .state(session, bound.path)
                 .map_err(failed("xrGetActionStateBoolean"))?;
@@ -244,7 +244,7 @@ impl Actions {
         session: &Session,
         side: Side,
         amplitude: f32,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CallFailure> {
         let path = self.hands[side as usize].path;
         if amplitude > 0.0 {
             let vibration = xr::HapticVibration::new()
@@ -264,7 +264,7 @@ impl Actions {
     }
 }
 
-fn find(instance: &xr::Instance, path: &str) -> Result<xr::Path, Failure> {
+fn find(instance: &xr::Instance, path: &str) -> Result<xr::Path, CallFailure> {
     instance
         .string_to_path(path)
         .map_err(failed("xrStringToPath"))
@@ -275,7 +275,7 @@ fn action<T: xr::ActionTy>(
     name: &str,
     shown: &str,
     hands: &[xr::Path],
-) -> Result<xr::Action<T>, Failure> {
+) -> Result<xr::Action<T>, CallFailure> {
     set.create_action(name, shown, hands)
         .map_err(failed("xrCreateAction"))
 }

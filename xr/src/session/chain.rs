@@ -4,7 +4,7 @@ use openxr as xr;
 use vitriol_gpu::ash::vk::Handle;
 use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
 
-use super::convert::{Failure, failed};
+use super::convert::{CallFailure, failed};
 
 /// A swapchain of one size and format.
 pub(super) struct Chain {
@@ -25,7 +25,7 @@ impl Chain {
         extent: [u32; 2],
         layers: u32,
         format: vk::Format,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, CallFailure> {
         let depth = format == vk::Format::D32_SFLOAT;
         let (xr_use, usage, layout) = if depth {
             (
@@ -85,7 +85,7 @@ impl Chain {
     }
 
     /// The image for this frame, when the compositor has let go of it.
-    pub(super) fn acquire(&mut self, gpu: &Gpu) -> Result<Image, Failure> {
+    pub(super) fn acquire(&mut self, gpu: &Gpu) -> Result<Image, CallFailure> {
         let (held, ours) = match self.held {
             Some(held) => held,
             None => {
@@ -107,7 +107,7 @@ impl Chain {
     }
 
     /// Gives the image back with what was submitted for it.
-    pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), Failure> {
+    pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), CallFailure> {
         if self.held.take_if(|(_, ours)| *ours).is_none() {
             return Ok(());
         }

@@ -62,21 +62,21 @@ pub(super) fn located(location: &xr::SpaceLocation) -> Option<Pose> {
 
 /// Why a call on a live session failed.
 #[derive(Debug)]
-pub(super) enum Failure {
+pub(super) enum CallFailure {
     /// Runtime or session are gone, or going: they are to be sought again.
     Lost(String),
     /// Asking again does not help.
     Fatal(HeadsetError),
 }
 
-impl From<vitriol_gpu::GpuError> for Failure {
+impl From<vitriol_gpu::GpuError> for CallFailure {
     fn from(error: vitriol_gpu::GpuError) -> Self {
         Self::Fatal(HeadsetError::Gpu(error))
     }
 }
 
 /// For `map_err`: sorts what `call` answered.
-pub(super) fn failed(call: &'static str) -> impl Fn(xr::sys::Result) -> Failure {
+pub(super) fn failed(call: &'static str) -> impl Fn(xr::sys::Result) -> CallFailure {
     use xr::sys::Result as R;
     move |answer| match answer {
         // The specification names the first three; a runtime that dies in the middle of a call
@@ -84,8 +84,8 @@ pub(super) fn failed(call: &'static str) -> impl Fn(xr::sys::Result) -> Failure 
         R::ERROR_SESSION_LOST
         | R::ERROR_INSTANCE_LOST
         | R::ERROR_RUNTIME_UNAVAILABLE
-        | R::ERROR_RUNTIME_FAILURE => Failure::Lost(format!("{call}: {answer}")),
-        _ => Failure::Fatal(HeadsetError::Refused {
+        | R::ERROR_RUNTIME_FAILURE => CallFailure::Lost(format!("{call}: {answer}")),
+        _ => CallFailure::Fatal(HeadsetError::Refused {
             call,
             cause: answer.to_string(),
         }),

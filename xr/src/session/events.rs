@@ -2,13 +2,13 @@
 
 use openxr as xr;
 
-use super::convert::{Failure, failed, state};
+use super::convert::{CallFailure, failed, state};
 use super::live::{Live, STEREO};
 use super::mask::Mask;
 
 impl Live {
     /// Takes all events that wait.
-    pub(super) fn take_events(&mut self) -> Result<(), Failure> {
+    pub(super) fn take_events(&mut self) -> Result<(), CallFailure> {
         let mut buffer = xr::EventDataBuffer::new();
         // A clone, so that the event's borrow does not hold `self`.
         let instance = self.instance.clone();
@@ -21,11 +21,11 @@ impl Live {
         Ok(())
     }
 
-    fn take(&mut self, event: xr::Event<'_>) -> Result<(), Failure> {
+    fn take(&mut self, event: xr::Event<'_>) -> Result<(), CallFailure> {
         match event {
             xr::Event::SessionStateChanged(change) => self.change_state(change.state())?,
             xr::Event::InstanceLossPending(_) => {
-                return Err(Failure::Lost("the runtime is ending".to_owned()));
+                return Err(CallFailure::Lost("the runtime is ending".to_owned()));
             }
             xr::Event::EventsLost(lost) => {
                 // A change of state among them comes again only with the next one; what can be
@@ -52,7 +52,7 @@ impl Live {
         Ok(())
     }
 
-    fn change_state(&mut self, to: xr::SessionState) -> Result<(), Failure> {
+    fn change_state(&mut self, to: xr::SessionState) -> Result<(), CallFailure> {
         self.state = state(to);
         tracing::info!(state = ?self.state, "OpenXR session");
         match to {
@@ -68,14 +68,14 @@ impl Live {
             }
             xr::SessionState::EXITING => self.ended = true,
             xr::SessionState::LOSS_PENDING => {
-                return Err(Failure::Lost("the session is ending".to_owned()));
+                return Err(CallFailure::Lost("the session is ending".to_owned()));
             }
             _ => {}
         }
         Ok(())
     }
 
-    fn refresh(&mut self) -> Result<(), Failure> {
+    fn refresh(&mut self) -> Result<(), CallFailure> {
         self.refresh_masks();
         self.actions.name_profiles(&self.instance, &self.session)
     }

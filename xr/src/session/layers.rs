@@ -4,14 +4,14 @@ use openxr as xr;
 use vitriol_gpu::QueueKind;
 
 use super::chain::Chain;
-use super::convert::{Failure, failed, fovf, posef};
+use super::convert::{CallFailure, failed, fovf, posef};
 use super::live::{Begun, Live};
 use super::stage::Stage;
 use crate::{Pose, Shown, View};
 
 impl Live {
     /// Gives the images back and shows them.
-    pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), Failure> {
+    pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), CallFailure> {
         self.release()?;
         let depths = self.depth.as_ref().map(|depth| depths(depth, shown));
         let views = [0, 1].map(|eye| {

@@ -7,7 +7,7 @@ use vitriol_gpu::{Gpu, QueueKind, vk};
 use super::OpenXrOptions;
 use super::actions::Actions;
 use super::chain::Chain;
-use super::convert::{Failure, failed};
+use super::convert::{CallFailure, failed};
 use super::mask::Mask;
 use super::provider::Runtime;
 use super::stage::Stage;
@@ -61,7 +61,7 @@ pub(super) struct Live {
 
 impl Live {
     /// Everything from the instance on, or nothing.
-    pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, Failure> {
+    pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, CallFailure> {
         let instance = system::instance(entry)?;
         let Headset {
             system,
@@ -98,7 +98,7 @@ impl Live {
         let offered = |format: vk::Format| formats.contains(&(format.as_raw() as u32));
         let srgb = vk::Format::R8G8B8A8_SRGB;
         if !offered(srgb) {
-            return Err(Failure::Fatal(HeadsetError::Refused {
+            return Err(CallFailure::Fatal(HeadsetError::Refused {
                 call: "xrCreateSwapchain",
                 cause: "it has no images in 8-bit RGBA, sRGB".to_owned(),
             }));
@@ -151,7 +151,7 @@ impl Live {
     }
 
     /// Waits for the next frame and begins it.
-    pub(super) fn begin(&mut self) -> Result<Begun, Failure> {
+    pub(super) fn begin(&mut self) -> Result<Begun, CallFailure> {
         let state = self.waiter.wait().map_err(failed("xrWaitFrame"))?;
         let begun = Begun {
             time: state.predicted_display_time,
@@ -166,7 +166,7 @@ impl Live {
     }
 
     /// Ends the frame, if one has begun, with nothing to show.
-    pub(super) fn end_empty(&mut self) -> Result<(), Failure> {
+    pub(super) fn end_empty(&mut self) -> Result<(), CallFailure> {
         let Some(begun) = self.begun.take() else {
             return Ok(());
         };
@@ -179,7 +179,7 @@ impl Live {
     }
 
     /// The frame's images, when the compositor has let go of them.
-    pub(super) fn acquire(&mut self) -> Result<Targets, Failure> {
+    pub(super) fn acquire(&mut self) -> Result<Targets, CallFailure> {
         Ok(Targets {
             colour: self.colour.acquire(&self.gpu)?,
             depth: match &mut self.depth {
@@ -200,7 +200,7 @@ impl Live {
     }
 
     /// Gives all images back.
-    pub(super) fn release(&mut self) -> Result<(), Failure> {
+    pub(super) fn release(&mut self) -> Result<(), CallFailure> {
         self.colour.release(&self.gpu)?;
         if let Some(depth) = &mut self.depth {
             depth.release(&self.gpu)?;

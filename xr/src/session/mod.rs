@@ -22,7 +22,7 @@ use std::ffi::CString;
 use openxr as xr;
 use vitriol_gpu::Gpu;
 
-use convert::{Failure, failed, fov, located, pose};
+use convert::{CallFailure, failed, fov, located, pose};
 use live::{Begun, Live, STEREO};
 use seek::Seek;
 
@@ -79,13 +79,13 @@ impl OpenXr {
     pub fn open(options: OpenXrOptions) -> Result<Self, HeadsetError> {
         let entry = system::entry()?;
         let live = Live::start(&entry, &options).map_err(|failure| match failure {
-            Failure::Lost(cause) => HeadsetError::NoRuntime {
+            CallFailure::Lost(cause) => HeadsetError::NoRuntime {
                 remedy: format!(
                     "The OpenXR runtime went away while the session was opened ({cause}): start it \
                      again."
                 ),
             },
-            Failure::Fatal(error) => error,
+            CallFailure::Fatal(error) => error,
         })?;
         let eye = View {
             stage_from_eye: Pose::IDENTITY,
@@ -126,14 +126,14 @@ impl OpenXr {
                 self.live = Some(live);
                 Ok(Turn::Renewed)
             }
-            Err(Failure::Lost(cause)) => again(cause),
-            Err(Failure::Fatal(error @ HeadsetError::Gpu(_))) => Err(error),
-            Err(Failure::Fatal(error)) => again(error.to_string()),
+            Err(CallFailure::Lost(cause)) => again(cause),
+            Err(CallFailure::Fatal(error @ HeadsetError::Gpu(_))) => Err(error),
+            Err(CallFailure::Fatal(error)) => again(error.to_string()),
         }
     }
 
     /// One turn of a live session.
-    fn turn(&mut self) -> Result<Turn, Failure> {
+    fn turn(&mut self) -> Result<Turn, CallFailure> {
         let Some(live) = &mut self.live else {
             return Ok(Turn::Paused);
         };
@@ -195,14 +195,14 @@ impl OpenXr {
     }
 
     /// Sorts a failure in the middle of a frame: a loss is the next turn's.
-    fn settle<T>(&mut self, result: Result<T, Failure>) -> Result<Option<T>, HeadsetError> {
+    fn settle<T>(&mut self, result: Result<T, CallFailure>) -> Result<Option<T>, HeadsetError> {
         match result {
             Ok(value) => Ok(Some(value)),
-            Err(Failure::Lost(cause)) => {
+            Err(CallFailure::Lost(cause)) => {
                 self.lost = Some(cause);
                 Ok(None)
             }
-            Err(Failure::Fatal(error)) => Err(error),
+            Err(CallFailure::Fatal(error)) => Err(error),
         }
     }
 
@@ -253,15 +253,15 @@ impl Headset for OpenXr {
         }
         match self.turn() {
             Ok(turn) => Ok(turn),
-            Err(Failure::Lost(cause)) => Ok(self.lose(cause)),
-            Err(Failure::Fatal(error)) => Err(error),
+            Err(CallFailure::Lost(cause)) => Ok(self.lose(cause)),
+            Err(CallFailure::Fatal(error)) => Err(error),
         }
     }
 
     fn acquire(&mut self) -> Result<Targets, HeadsetError> {
         let acquired = match (&mut self.live, &self.lost) {
             (Some(live), None) => live.acquire(),
-            _ => Err(Failure::Lost("there is no session".to_owned())),
+            _ => Err(CallFailure::Lost("there is no session".to_owned())),
         };
         if let Some(targets) = self.settle(acquired)? {
             return Ok(targets);
@@ -318,7 +318,7 @@ impl Headset for OpenXr {
 }
 
 /// The eyes at the frame's display time; what is not known stays.
-fn locate_views(live: &Live, begun: Begun, views: &mut [View; 2]) -> Result<(), Failure> {
+fn locate_views(live: &Live, begun: Begun, views: &mut [View; 2]) -> Result<(), CallFailure> {
     let (flags, found) = live
         .session
         .locate_views(STEREO, begun.time, &live.stage.space)

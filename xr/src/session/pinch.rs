@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{Mat3, Quat, Vec3};
 use openxr as xr;
 
-use super::convert::{Failure, failed, pose};
+use super::convert::{CallFailure, failed, pose};
 use crate::{Hand, Pose, Side};
 
 /// Distance of the two fingertips' joints at which they touch, m: a joint lies half a finger's
@@ -37,7 +37,7 @@ impl Pinch {
         time: xr::Time,
         side: Side,
         hand: &mut Hand,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CallFailure> {
         let joints = stage
             .locate_hand_joints(&self.0[side as usize], time)
             .map_err(failed("xrLocateHandJointsEXT"))?;

@@ -2,7 +2,7 @@
 
 use openxr as xr;
 
-use super::convert::{Failure, failed};
+use super::convert::{CallFailure, failed};
 
 /// The space that all poses are in.
 pub(super) struct Stage {
@@ -13,7 +13,7 @@ pub(super) struct Stage {
 impl Stage {
     /// STAGE, else LOCAL_FLOOR, else LOCAL, whose origin is where the eyes were: there the floor
     /// is not known, and the bench is placed by the head.
-    pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, Failure> {
+    pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, CallFailure> {
         let offered = session
             .enumerate_reference_spaces()
             .map_err(failed("xrEnumerateReferenceSpaces"))?;

@@ -2,7 +2,7 @@
 
 use openxr as xr;
 
-use super::convert::{Failure, failed};
+use super::convert::{CallFailure, failed};
 use super::live::STEREO;
 use crate::{HeadsetError, probe};
 
@@ -24,7 +24,7 @@ pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
 }
 
 /// An instance with the extensions of ours that the runtime offers.
-pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, Failure> {
+pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, CallFailure> {
     let absent = |error| none(probe::no_runtime(error));
     let offered = entry.enumerate_extensions().map_err(absent)?;
     if !offered.khr_vulkan_enable2 {
@@ -46,7 +46,7 @@ pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, Failure> {
 }
 
 /// The headset of the instance's runtime.
-pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, Failure> {
+pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, CallFailure> {
     let system = instance
         .system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)
         .map_err(|answer| match answer {
@@ -61,7 +61,7 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, Failure> {
         .graphics_requirements::<xr::Vulkan>(system)
         .map_err(failed("xrGetVulkanGraphicsRequirements2KHR"))?;
     if requirements.min_api_version_supported > xr::Version::new(1, 3, 0) {
-        return Err(Failure::Fatal(HeadsetError::Refused {
+        return Err(CallFailure::Fatal(HeadsetError::Refused {
             call: "xrGetVulkanGraphicsRequirements2KHR",
             cause: format!(
                 "it wants Vulkan {}, and Vitriol uses 1.3",
@@ -73,7 +73,7 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, Failure> {
         .enumerate_view_configuration_views(system, STEREO)
         .map_err(failed("xrEnumerateViewConfigurationViews"))?;
     let [left, right] = views[..] else {
-        return Err(Failure::Fatal(HeadsetError::Refused {
+        return Err(CallFailure::Fatal(HeadsetError::Refused {
             call: "xrEnumerateViewConfigurationViews",
             cause: format!("stereo has {} views", views.len()),
         }));
@@ -110,6 +110,6 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, Failure> {
     })
 }
 
-fn none(remedy: String) -> Failure {
-    Failure::Fatal(HeadsetError::NoRuntime { remedy })
+fn none(remedy: String) -> CallFailure {
+    CallFailure::Fatal(HeadsetError::NoRuntime { remedy })
 }
