@@ -251,11 +251,7 @@ fn governed(governor: &GovernorReport) -> String {
         let cause = governor.cause.as_deref().unwrap_or("as was asked for");
         return format!("settings fixed: {cause}\n");
     }
-    let mut text = format!(
-        "settings changed {} times to keep pace
-",
-        governor.changes
-    );
+    let mut text = format!("settings changed {} times to keep pace\n", governor.changes);
     for FramesWith { setting, frames } in &governor.settings {
         let [substeps, iterations] = setting.solver;
         let picture = 100.0 * setting.resolution;

@@ -202,7 +202,7 @@ impl Picture {
         Ok(Drawn { shapes, picture })
     }
 
-    /// Waits until at most [`UNDER_WAY`] pictures are under way. Only while no frame is open.
+    /// Waits until at most two pictures are under way. Only while no frame is open.
     ///
     /// # Errors
     /// What the device says.

@@ -142,7 +142,12 @@ mod tests {
     fn at(seconds: f64) -> PoseFrame {
         let mut hands = [Hand::default(), Hand::default()];
         let position = Vec3::new(0.3 + 0.9 * seconds as f32, 1.0, -0.3);
-        hands[1].stage_from_grip = Pose::new(position, Quat::IDENTITY);
+        hands[1] = Hand {
+            active: true,
+            valid: true,
+            stage_from_grip: Pose::new(position, Quat::IDENTITY),
+            ..Hand::default()
+        };
         PoseFrame {
             step: 0,
             time_ns: 0,
