@@ -3,8 +3,9 @@
 use openxr as xr;
 
 use super::convert::{Failure, failed, state};
-use super::live::{Live, STEREO};
+use super::live::Live;
 use super::mask::Mask;
+use super::system::STEREO;
 
 impl Live {
     /// Takes all events that wait.

@@ -11,39 +11,27 @@ mod events;
 mod layers;
 mod live;
 mod mask;
+mod options;
 mod pinch;
 mod provider;
 mod seek;
 mod stage;
 mod system;
 
-use std::ffi::CString;
-
 use openxr as xr;
 use vitriol_gpu::Gpu;
 
 use convert::{Failure, failed, fov, located, pose};
-use live::{Begun, Live, STEREO};
+use live::{Begun, Live};
+pub use options::OpenXrOptions;
 use seek::Seek;
+use system::STEREO;
 
 use crate::headset::{HeadsetFrame, Shown, Targets, Turn, View};
 use crate::{Fov, FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionState, Side};
 
 /// Longest that a turn without a frame waits.
 const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
-
-/// What the session is opened with, and opened with again after a loss.
-#[derive(Clone, Debug)]
-pub struct OpenXrOptions {
-    /// How to open the device; which one it is says the runtime.
-    pub gpu: vitriol_gpu::Options,
-    /// Further instance extensions, such as those of a window's surface.
-    pub instance_extensions: Vec<CString>,
-    /// Further device extensions, such as `VK_KHR_swapchain`.
-    pub device_extensions: Vec<CString>,
-    /// Width and height of the panel, pixels.
-    pub panel: [u32; 2],
-}
 
 /// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and what else the runtime
 /// offers of local_floor, composition_layer_depth, visibility_mask, display_refresh_rate,
