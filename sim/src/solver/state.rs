@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
-/// it: rebuilt at another moment than in the run that was interrupted, it
-/// would have the same pairs in another order, and sums other bits.
+/// it: rebuilt at another step, it would hold the same pairs in another order,
+/// and sums over them would differ in their last bits.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SolverState {
     /// Positions in the stage (m) by slot; w is −1 for one taken out, else the

@@ -12,7 +12,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::layout::Puff;
 use vitriol_shaders::{Library, sim};
 
-/// Puffs of steam that are kept; of each vent the oldest gives way.
+/// Puffs of steam at most; a new one replaces its vent's oldest.
 pub const PUFFS: u32 = 1024;
 
 /// Puffs that a frame may bring.

@@ -1,4 +1,4 @@
-//! What the runtime tells: states of the session, losses, moves of the stage.
+//! Events of the runtime: states of the session, losses, moves of the stage.
 
 use openxr as xr;
 

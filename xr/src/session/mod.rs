@@ -39,19 +39,19 @@ const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
 pub struct OpenXr {
     options: OpenXrOptions,
     entry: xr::Entry,
-    /// `None` while the runtime is sought.
+    /// `None` while there is no runtime.
     live: Option<Live>,
-    /// While it is sought.
+    /// When to look for the runtime again.
     seek: Seek,
     /// The program has asked for the end.
     leaving: bool,
-    /// Why the live session is lost, found out in the middle of a frame.
+    /// Why the session was lost in the middle of a frame.
     lost: Option<String>,
-    // What stays readable while there is no session.
+    // Readable without a session too.
     gpu: Gpu,
     extent: [u32; 2],
     name: String,
-    // What a new session goes on from.
+    // Continued by a new session.
     index: u64,
     head: Pose,
     views: [View; 2],
@@ -125,7 +125,7 @@ impl OpenXr {
         let Some(live) = &mut self.live else {
             return Ok(Turn::Paused);
         };
-        // A frame that the caller gave up on its way.
+        // The caller may not have ended the frame before.
         live.end_empty()?;
         live.take_events()?;
         if live.ended {
@@ -182,7 +182,7 @@ impl OpenXr {
         Ok(Turn::Frame(Box::new(frame)))
     }
 
-    /// Sorts a failure in the middle of a frame: a loss is the next turn's.
+    /// Keeps a loss in the middle of a frame for the next turn, which reports it.
     fn settle<T>(&mut self, result: Result<T, Failure>) -> Result<Option<T>, HeadsetError> {
         match result {
             Ok(value) => Ok(Some(value)),
@@ -194,7 +194,7 @@ impl OpenXr {
         }
     }
 
-    /// Lets go of the session and begins to seek.
+    /// Drops the session and begins to look for the runtime.
     fn lose(&mut self, cause: String) -> Turn {
         tracing::warn!(cause, "OpenXR session lost");
         self.live = None;
