@@ -37,10 +37,10 @@ pub enum OutputError {
         /// The path asked for.
         dir: PathBuf,
     },
-    /// The file exists already.
-    #[error("{path}: exists and is not overwritten; name another file or take that one away")]
+    /// The file or folder exists already.
+    #[error("{path}: exists and is not overwritten; name another or take that one away")]
     Exists {
-        /// The file's path.
+        /// Its path.
         path: PathBuf,
     },
     /// The system refused.
@@ -154,6 +154,18 @@ pub fn new_file(dir: &Path, name: &str) -> Result<PathBuf, OutputError> {
         return Err(OutputError::NotAFolder { dir });
     }
     Ok(path)
+}
+
+/// Likewise refuses a folder that exists, which a command is to make at its end.
+///
+/// # Errors
+/// [`OutputError::Exists`].
+pub fn new_dir(path: &Path) -> Result<(), OutputError> {
+    if path.symlink_metadata().is_ok() {
+        let path = path.to_owned();
+        return Err(OutputError::Exists { path });
+    }
+    Ok(())
 }
 
 /// Writes a whole new file at once, by way of [`Staged`], and its folder where

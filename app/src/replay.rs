@@ -1,6 +1,7 @@
 //! The one loop for replay and headset: poses in, simulation steps, pictures
 //! and samples out, on the simulation's own fixed clock.
 
+use vitriol_render::PassPicture;
 use vitriol_xr::{PoseFrame, PoseSource};
 
 use crate::failure::{Blame, Failure};
@@ -31,6 +32,13 @@ pub trait Experiment {
     /// # Errors
     /// What the device says.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
+
+    /// What each pass of a picture of the liquid leaves behind, now; nothing where
+    /// no pictures were asked for. Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn passes(&mut self) -> Result<Vec<PassPicture>, Failure>;
 
     /// What came of it, and on what device.
     ///

@@ -10,13 +10,13 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
-use crate::cli::PictureArgs;
+use crate::cli::{ColourName, PictureArgs};
 use crate::command::recorded::{head, own_solver, preset_of, scene_of};
 use crate::command::replay::Setup;
 use crate::command::track;
 use crate::console::{Format, emit};
 use crate::failure::{Blame, Failure};
-use crate::output;
+use crate::output::{self, OutDir};
 use crate::recorder::Recorder;
 use crate::replay::{self, Experiment, Span};
 
@@ -25,6 +25,9 @@ use crate::replay::{self, Experiment, Span};
 struct Pictured {
     /// The file.
     picture: PathBuf,
+    /// The folder of what each pass leaves behind, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    passes: Option<PathBuf>,
     /// Width and height of the file, pixels.
     size: [u32; 2],
     /// Simulated time, s.
@@ -46,6 +49,12 @@ pub fn run(
         return Err(format!("{} is no file name", args.output.display())).input();
     };
     let path = output::new_file(dir, file).map_err(output::blame)?;
+    if let Some(dir) = &args.passes {
+        if args.colour != ColourName::Liquid {
+            return Err("--passes: shows how liquid is drawn; leave --colour out").input();
+        }
+        output::new_dir(dir).map_err(output::blame)?;
+    }
     let mut track = track::load(&args.track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     own_solver((false, args.preset), &name, &mut track);
@@ -85,13 +94,19 @@ pub fn run(
     recorder.finish()?;
     let picture = experiment.picture(0)?;
     let size = [eyes * width, height];
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(picture, size[0], size[1], ExtendedColorType::Rgba8)
-        .other()?;
-    output::write_new(&path, &png).map_err(output::blame)?;
+    output::write_new(&path, &png(picture, size)?).map_err(output::blame)?;
+    if let Some(dir) = &args.passes {
+        let mut dir = OutDir::take(Some(dir), "passes").map_err(output::blame)?;
+        for (number, pass) in (1..).zip(experiment.passes()?) {
+            let name = format!("{number}-{}.png", pass.name.replace(' ', "-"));
+            let file = png(&pass.pixels, pass.extent)?;
+            dir.write(&name, &file).map_err(output::blame)?;
+        }
+        dir.complete();
+    }
     let pictured = Pictured {
         picture: path,
+        passes: args.passes.clone(),
         size,
         t_s: span.seconds(),
     };
@@ -104,4 +119,12 @@ pub fn run(
             done.t_s
         )
     })
+}
+
+fn png(pixels: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, Failure> {
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(pixels, width, height, ExtendedColorType::Rgba8)
+        .other()?;
+    Ok(png)
 }

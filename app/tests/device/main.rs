@@ -9,5 +9,6 @@ mod dam_break;
 mod extremes;
 mod fidelity;
 mod fig5;
+mod passes;
 mod reload;
 mod trade;
