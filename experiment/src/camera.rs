@@ -3,8 +3,8 @@
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
-    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, RenderDesc, RenderError, Renderer,
-    SteamSource, View,
+    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
+    Renderer, SteamSource, View,
 };
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -199,12 +199,28 @@ impl Camera {
         })
     }
 
-    fn with_frame(
+    /// What each pass of a picture of the liquid leaves behind, of the world as it
+    /// is now. Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn passes(&self, world: &World) -> Result<Vec<PassPicture>, Failure> {
+        let gpu = world.gpu();
+        let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        let passes = self.with_frame(world, Colour::Liquid, |frame| {
+            self.renderer.record(&mut rec, frame)?;
+            self.renderer.read_back_passes(&mut rec, frame)
+        })?;
+        gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
+        passes.pictures().other()
+    }
+
+    fn with_frame<T>(
         &self,
         world: &World,
         colour: Colour,
-        f: impl FnOnce(&FrameDesc<'_>) -> Result<(), RenderError>,
-    ) -> Result<(), Failure> {
+        f: impl FnOnce(&FrameDesc<'_>) -> Result<T, RenderError>,
+    ) -> Result<T, Failure> {
         let scale = &world.scene().scale;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
         let solver = world.solver();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use vitriol_render::PassPicture;
 use vitriol_xr::PoseFrame;
 
 use crate::device::DeviceStatement;
@@ -33,6 +34,13 @@ pub trait Experiment {
     /// # Errors
     /// What the device says.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
+
+    /// What each pass of a picture of the liquid leaves behind, now; nothing where
+    /// no pictures were asked for. Waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn passes(&mut self) -> Result<Vec<PassPicture>, Failure>;
 
     /// What came of it, and on what device.
     ///

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use vitriol_gpu::Gpu;
+use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
@@ -273,6 +274,11 @@ impl Experiment for Laboratory {
             self.picture = camera.shoot(&self.world, colour)?;
         }
         Ok(&self.picture)
+    }
+
+    fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
+        let passes = self.film.as_ref().map(|camera| camera.passes(&self.world));
+        passes.unwrap_or_else(|| Ok(Vec::new()))
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {

@@ -40,10 +40,10 @@ enum OutputError {
         /// The path asked for.
         dir: PathBuf,
     },
-    /// The file exists already.
-    #[error("{path}: exists and is not overwritten; name another file or take that one away")]
+    /// The file or folder exists already.
+    #[error("{path}: exists and is not overwritten; name another or take that one away")]
     Exists {
-        /// The file's path.
+        /// Its path.
         path: PathBuf,
     },
     /// The system refused.
@@ -165,6 +165,18 @@ pub fn new_files<const N: usize>(
         new_file(dir, name)?;
     }
     Ok(Some(names.map(|name| dir.join(name))))
+}
+
+/// Likewise refuses a folder that exists, which a command is to make at its end.
+///
+/// # Errors
+/// [`Failure::Input`] where it exists.
+pub fn new_dir(path: &Path) -> Result<(), Failure> {
+    if path.symlink_metadata().is_ok() {
+        let path = path.to_owned();
+        return Err(OutputError::Exists { path }.into());
+    }
+    Ok(())
 }
 
 /// Writes a whole new file at once, by way of [`Staged`], and its folder where

@@ -39,24 +39,31 @@
 mod barrier;
 mod device;
 mod error;
+mod gpu;
 mod memory;
 mod pipeline;
+mod queue;
 mod recorder;
+mod submission;
+mod ticket;
 
 pub use ash;
 pub use ash::vk;
 
 pub use device::{
-    BindingLimits, Candidate, DeviceHandles, DeviceInfo, DeviceRequest, DeviceSummary,
-    EnabledFeatures, Gpu, InstanceRequest, Options, PlainLoader, Provider, QueueKind, QueueRequest,
-    Ticket, Timestamps, list_devices,
+    BindingLimits, Candidate, Core, DeviceInfo, DeviceRequest, DeviceSummary, EnabledFeatures,
+    InstanceRequest, Options, PlainLoader, Provider, QueueRequest, Timestamps, list_devices,
 };
 pub use error::GpuError;
+pub use gpu::{DeviceHandles, Gpu};
 pub use memory::{
     Address, Buffer, Filter, Image, ImageDesc, Sampler, SamplerDesc, bytes_of_elements,
 };
 pub use pipeline::{Blend, ColourFormat, ComputePipeline, DepthFormat, RasterDesc, RasterPipeline};
+pub use queue::QueueKind;
 pub use recorder::{
-    ColourTarget, CopyRegion, DepthTarget, Draw, Load, Pass, PassTiming, Raster, RasterTarget,
-    Readback, Recorder,
+    ColourTarget, CopyRegion, DepthTarget, Draw, Load, Pass, Raster, RasterTarget, Readback,
+    Recorder,
 };
+pub use submission::PassTiming;
+pub use ticket::Ticket;

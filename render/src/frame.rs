@@ -1,48 +1,20 @@
 //! What changes from frame to frame, and its uniforms.
 
 use glam::{Affine3A, Mat4, Vec3};
-use vitriol_gpu::Buffer;
 use vitriol_shaders::layout;
 
 use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
-use crate::fluid::LiquidSource;
-use crate::renderer::RenderDesc;
+use crate::desc::RenderDesc;
 use crate::scene::Scene;
+use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.
 const VESSEL_OPACITY: f32 = 0.55;
-
-/// Particles in the solver's own buffers.
-#[derive(Clone, Copy)]
-pub struct ParticleSource<'a> {
-    /// `array<vec4<f32>>`: xyz in the stage, in the scene's unit; w < 0 marks
-    /// a particle that was taken out.
-    pub positions: &'a Buffer,
-    /// `array<vec4<f32>>` in the same order, that [`FrameDesc::colour_by`] reads:
-    /// velocities (xyz, the scene's unit per second), or temperature (°C) and
-    /// acid fraction in x and y.
-    pub attributes: &'a Buffer,
-    /// How many of them are drawn.
-    pub count: u32,
-    /// Radius of a sphere, in the scene's unit. 0.6 of the particle spacing
-    /// closes the gaps between them.
-    pub radius: f32,
-}
-
-/// Puffs of steam.
-#[derive(Clone, Copy)]
-pub struct SteamSource<'a> {
-    /// `array<Puff>` ([`layout::Puff`]): centre, radius (m) and optical depth.
-    /// A radius of 0 draws nothing.
-    pub puffs: &'a Buffer,
-    /// How many of them are drawn.
-    pub count: u32,
-}
 
 /// What a particle's colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,28 +27,32 @@
 
 pub mod camera;
 pub mod colour_map;
+mod desc;
 mod error;
 mod fluid;
 mod frame;
 mod hidden;
 mod lanes;
 mod outline;
+mod pass_pictures;
 mod pipelines;
 mod readback;
 pub mod reference;
 mod renderer;
 mod scene;
+mod source;
 mod spheres;
 mod tiles;
 pub mod tints;
 
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;
+pub use desc::{LiquidDesc, RenderDesc, SurfaceFilter};
 pub use error::RenderError;
-pub use fluid::{
-    LiquidDesc, LiquidSource, Neighbours, Surface, SurfaceFilter, SurfaceReadback, VesselTables,
-};
-pub use frame::{ColourBy, FrameDesc, ParticleSource, SteamSource};
+pub use fluid::{Surface, SurfaceReadback};
+pub use frame::{ColourBy, FrameDesc};
+pub use pass_pictures::{PassPicture, PassesReadback};
 pub use readback::PictureReadback;
-pub use renderer::{RenderDesc, Renderer};
+pub use renderer::Renderer;
 pub use scene::{BoxDesc, SceneDesc, VesselDesc};
+pub use source::{LiquidSource, Neighbours, ParticleSource, SteamSource, VesselTables};

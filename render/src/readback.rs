@@ -31,15 +31,20 @@ impl PictureReadback {
     /// [`RenderError::Gpu`] before the submission has finished.
     pub fn side_by_side(&self) -> Result<Vec<u8>, RenderError> {
         let bytes = self.readback.get::<u8>()?;
-        if self.views == 1 {
-            return Ok(bytes);
-        }
-        let view = bytes.len() / self.views;
-        let rows = (0..view).step_by(self.row_bytes);
-        let parts = rows.flat_map(|row| (0..self.views).map(move |index| index * view + row));
-        Ok(parts
-            .flat_map(|start| &bytes[start..start + self.row_bytes])
-            .copied()
-            .collect())
+        Ok(side_by_side(bytes, self.views, self.row_bytes))
     }
+}
+
+/// Views that lie one after the other, of rows of `row_bytes`, as one picture.
+pub(crate) fn side_by_side(bytes: Vec<u8>, views: usize, row_bytes: usize) -> Vec<u8> {
+    if views == 1 {
+        return bytes;
+    }
+    let view = bytes.len() / views;
+    let rows = (0..view).step_by(row_bytes);
+    let starts = rows.flat_map(|row| (0..views).map(move |index| index * view + row));
+    starts
+        .flat_map(|start| &bytes[start..start + row_bytes])
+        .copied()
+        .collect()
 }

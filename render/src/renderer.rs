@@ -1,4 +1,4 @@
-//! Draws a frame: the liquid's surface, then the picture with the glass over it, then its edges and steam.
+//! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
 use vitriol_gpu::{
     Buffer, Filter, Gpu, Image, ImageDesc, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
@@ -6,40 +6,21 @@ use vitriol_gpu::{
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
-use crate::fluid::{Fluid, LiquidDesc, LiquidSource, SurfaceReadback, zeros};
+use crate::desc::RenderDesc;
+use crate::fluid::{Fluid, SurfaceReadback, zeros};
 use crate::frame::FrameDesc;
 use crate::hidden::hidden_words;
+use crate::pass_pictures::PassesReadback;
 use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
+use crate::source::LiquidSource;
 use crate::spheres::Spheres;
 use crate::tiles::Tiles;
 
-/// Format of the picture. Its values are sRGB's all the same: shaders write it, and they cannot write
-/// an image that encodes. Copied to one of the same bits that does, it is what it shall be.
+/// Format of the picture. Shaders cannot write an image of an sRGB format, so they encode the colours
+/// themselves; the bits can be copied to an sRGB image.
 const PICTURE_FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
-
-/// Size, views and format of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RenderDesc {
-    /// Width and height of each view's image, pixels.
-    pub extent: [u32; 2],
-    /// 1 (a film) or 2 (a headset's eyes).
-    pub views: u32,
-    /// The liquid surface that frames may ask for; `None` for none.
-    pub liquid: Option<LiquidDesc>,
-}
-
-impl RenderDesc {
-    /// One view of `extent` in 8-bit sRGB, without a liquid surface: a film.
-    pub const fn film(extent: [u32; 2]) -> Self {
-        Self {
-            extent,
-            views: 1,
-            liquid: None,
-        }
-    }
-}
 
 /// Draws frames into its own layered image, a layer a view, and depths.
 ///
@@ -53,10 +34,10 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
-    /// What the lenses hide, a bit a pixel.
+    /// Which pixels the lenses hide, a bit each.
     hidden: Option<Buffer>,
     tiles: Tiles,
-    /// Bound where there is nothing to bind.
+    /// Bound in place of what a frame lacks.
     nothing: Buffer,
     spheres: Spheres,
     /// The picture before its edges are smoothed.
@@ -114,7 +95,7 @@ impl Renderer {
         })
     }
 
-    /// Takes up what changed of this crate's shaders; `changed` is what
+    /// Rebuilds the pipelines whose shaders changed; `changed` is what
     /// [`Library::changed`] returned. On an error the old pipelines stay.
     ///
     /// # Errors
@@ -385,8 +366,16 @@ impl Renderer {
     /// [`RenderError::Gpu`] out of memory, or for a format that cannot be read
     /// back.
     pub fn read_back(&self, rec: &mut Recorder) -> Result<PictureReadback, RenderError> {
+        self.copy_image(rec, &self.picture)
+    }
+
+    fn copy_image(
+        &self,
+        rec: &mut Recorder,
+        image: &Image,
+    ) -> Result<PictureReadback, RenderError> {
         Ok(PictureReadback {
-            readback: rec.read_back_image(&self.picture)?,
+            readback: rec.read_back_image(image)?,
             views: self.desc.views as usize,
             row_bytes: 4 * self.desc.extent[0] as usize,
         })
@@ -403,8 +392,43 @@ impl Renderer {
         rec: &mut Recorder,
         frame: &FrameDesc<'_>,
     ) -> Result<SurfaceReadback, RenderError> {
+        self.copy_surface(rec, frame, Fluid::surface)
+    }
+
+    fn copy_surface(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+        depth: fn(&Fluid) -> &Buffer,
+    ) -> Result<SurfaceReadback, RenderError> {
         let fluid = self.fluid.as_ref().ok_or(RenderError::NoLiquid)?;
         let spacing = frame.liquid.map_or(0.0, |liquid| liquid.spacing);
-        fluid.read_back(rec, frame.nears(), spacing)
+        fluid.read_back(rec, depth(fluid), frame.nears(), spacing)
+    }
+
+    /// Records the copies of what each pass left behind to the host, after
+    /// [`Renderer::record`] of that frame, which is as large as the renderer's images.
+    ///
+    /// # Errors
+    /// [`RenderError::Extent`] for a smaller frame; as for [`Renderer::read_back_surface`].
+    pub fn read_back_passes(
+        &self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'_>,
+    ) -> Result<PassesReadback, RenderError> {
+        let held = self.desc.extent;
+        let extent = frame.extent(held);
+        if extent != held {
+            return Err(RenderError::Extent { extent, held });
+        }
+        Ok(PassesReadback {
+            tiles: rec.read_back(self.tiles.marks())?,
+            splatted: self.copy_surface(rec, frame, Fluid::splatted)?,
+            filtered: self.copy_surface(rec, frame, Fluid::surface)?,
+            drawn: self.copy_image(rec, &self.drawn)?,
+            finished: self.copy_image(rec, &self.picture)?,
+            views: frame.views.to_vec(),
+            extent,
+        })
     }
 }

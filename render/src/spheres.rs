@@ -4,8 +4,9 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::{Library, ShaderId, layout, spheres};
 
 use crate::RenderError;
-use crate::frame::{ColourBy, ParticleSource};
+use crate::frame::ColourBy;
 use crate::lanes::workgroups;
+use crate::source::ParticleSource;
 use crate::tiles::{Class, Tiles};
 
 /// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and of few

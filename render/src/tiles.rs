@@ -1,13 +1,21 @@
-//! Which tiles of the picture have what, and lists of them for the passes over their pixels.
+//! Marks what each tile of the picture contains, and lists the tiles by it for the passes over their pixels.
 
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Library, ShaderId, layout, render};
 
 use crate::RenderError;
-use crate::frame::SteamSource;
+use crate::source::SteamSource;
 
 /// Pixels along a tile's edge, as in `common/marks.wgsl`.
-const TILE: u32 = 32;
+pub(crate) const TILE: u32 = 32;
+
+/// What a tile has in it, as in `common/marks.wgsl`.
+pub(crate) const LIQUID_MARK: u32 = 1 << 31;
+/// An edge that is neither the liquid's nor a vessel's.
+pub(crate) const EDGE_MARK: u32 = 1 << 30;
+pub(crate) const STEAM_MARK: u32 = 1 << 29;
+/// A bit for each vessel.
+pub(crate) const VESSEL_MARKS: u32 = 0xff;
 
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;
@@ -22,7 +30,8 @@ pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// What a list has the tiles of; the numbers are `common/tile.wgsl`'s. The first three have each tile once.
+/// The kinds of tiles that are listed, numbered as in `common/tile.wgsl`. Each tile is in one of the first
+/// three lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Class {

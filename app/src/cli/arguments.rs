@@ -107,6 +107,9 @@ pub struct PictureArgs {
     /// PNG file to be made
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// New folder for what each pass of the liquid's picture leaves behind, a PNG file each
+    #[arg(long, value_name = "DIR")]
+    pub passes: Option<PathBuf>,
     /// Width and height of a view, pixels
     #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair)]
     pub size: [u32; 2],

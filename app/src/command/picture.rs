@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use image::ExtendedColorType;
 use serde::Serialize;
-use vitriol_experiment::{
-    Blame, Experiment, Failure, Format, Observer, Setup, Span, emit, output, track,
-};
+use vitriol_experiment::output::{self, OutDir};
+use vitriol_experiment::{Blame, Experiment, Failure, Format, Observer, Setup, Span, emit, track};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
-use crate::cli::PictureArgs;
+use crate::cli::{ColourName, PictureArgs};
 use crate::command::recorded::{head, own_solver, preset_of, scene_of};
 
 /// What `vitriol picture` prints.
@@ -20,6 +19,9 @@ use crate::command::recorded::{head, own_solver, preset_of, scene_of};
 struct Pictured {
     /// The file.
     picture: PathBuf,
+    /// The folder of what each pass leaves behind, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    passes: Option<PathBuf>,
     /// Width and height of the file, pixels.
     size: [u32; 2],
     /// Simulated time, s.
@@ -41,6 +43,12 @@ pub fn run(
         return Err(format!("{} is no file name", args.output.display())).input();
     };
     let path = output::new_file(dir, file)?;
+    if let Some(dir) = &args.passes {
+        if args.colour != ColourName::Liquid {
+            return Err("--passes: shows how liquid is drawn; leave --colour out").input();
+        }
+        output::new_dir(dir)?;
+    }
     let mut track = track::load(&args.track)?;
     let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
     own_solver((false, args.preset), &name, &mut track);
@@ -84,8 +92,18 @@ pub fn run(
         &path,
         &output::png(picture, size, ExtendedColorType::Rgba8)?,
     )?;
+    if let Some(dir) = &args.passes {
+        let mut dir = OutDir::take(Some(dir), "passes")?;
+        for (number, pass) in (1..).zip(experiment.passes()?) {
+            let name = format!("{number}-{}.png", pass.name.replace(' ', "-"));
+            let file = output::png(&pass.pixels, pass.extent, ExtendedColorType::Rgba8)?;
+            dir.write(&name, &file)?;
+        }
+        dir.complete();
+    }
     let pictured = Pictured {
         picture: path,
+        passes: args.passes.clone(),
         size,
         t_s: span.seconds(),
     };
@@ -98,4 +116,12 @@ pub fn run(
             done.t_s
         )
     })
+}
+
+fn png(pixels: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, Failure> {
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(pixels, width, height, ExtendedColorType::Rgba8)
+        .other()?;
+    Ok(png)
 }

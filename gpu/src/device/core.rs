@@ -1,7 +1,7 @@
 //! The device as its resources hold it: alive until the last of them is gone.
 
 use std::mem::ManuallyDrop;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use ash::vk;
 use gpu_allocator::vulkan::Allocator;
@@ -9,13 +9,9 @@ use gpu_allocator::vulkan::Allocator;
 use super::info::DeviceInfo;
 use super::validation::Messages;
 
-/// Locks, ignoring poison: every guarded value is valid between statements.
-pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Instance, device and what every resource needs of them.
-pub(crate) struct Core {
+/// The open device without its queues: what buffers, images, samplers and
+/// pipelines are made from. A [`Gpu`](crate::Gpu) dereferences to it.
+pub struct Core {
     /// Keeps the loader's library open.
     pub(crate) _entry: ash::Entry,
     pub(crate) instance: ash::Instance,

@@ -1,12 +1,12 @@
 //! What instance and device are asked to have, and their creation from that.
 
-use std::ffi::{CStr, CString};
+use std::ffi::{CStr, CString, c_char};
 
 use ash::vk;
 
-use super::info::Properties;
-use super::open::Options;
-use super::provider::{DeviceRequest, InstanceRequest, Provider, QueueRequest, has, pointers};
+use super::info::{Properties, has};
+use super::options::Options;
+use super::provider::{DeviceRequest, InstanceRequest, Provider, QueueRequest};
 use super::validation::{self, Messages};
 use crate::GpuError;
 
@@ -171,4 +171,9 @@ pub(crate) fn create_device(
         create = create.push_next(&mut conditional);
     }
     provider.create_device(instance, physical, &create)
+}
+
+/// Null-terminated pointers to `names`, which must outlive them.
+fn pointers(names: &[CString]) -> Vec<*const c_char> {
+    names.iter().map(|name| name.as_ptr()).collect()
 }

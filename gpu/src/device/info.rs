@@ -4,8 +4,6 @@ use std::ffi::{CStr, CString};
 
 use ash::vk;
 
-use super::provider::has;
-
 /// Properties of the opened device.
 #[derive(Clone, Debug)]
 pub struct DeviceInfo {
@@ -223,4 +221,9 @@ fn query_features(
                 .contains(vk::ShaderStageFlags::COMPUTE),
     };
     (enabled, missing)
+}
+
+/// Whether `list` names `extension`.
+pub(crate) fn has(list: &[CString], extension: &CStr) -> bool {
+    list.iter().any(|name| name.as_c_str() == extension)
 }

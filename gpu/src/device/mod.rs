@@ -1,20 +1,23 @@
-//! Instance, device and queues: how they are made and what they offer.
+//! Instance and device: how they are chosen, opened and described.
 
 mod core;
 mod create;
 mod info;
+mod list;
+mod lock;
 mod open;
+mod options;
+mod plan;
 mod provider;
-mod queue;
 mod select;
-mod ticket;
 mod validation;
 
-pub(crate) use self::core::{Core, lock};
+pub use self::core::Core;
 pub use info::{BindingLimits, DeviceInfo, EnabledFeatures};
-pub use open::{DeviceHandles, Gpu, Options, Timestamps};
+pub use list::{DeviceSummary, list_devices};
+pub(crate) use lock::lock;
+pub(crate) use open::open;
+pub use options::{Options, Timestamps};
+pub(crate) use plan::{Place, QueuePlan};
 pub use provider::{DeviceRequest, InstanceRequest, PlainLoader, Provider, QueueRequest};
-pub use queue::QueueKind;
-pub use select::{Candidate, DeviceSummary, list_devices};
-pub(crate) use ticket::Submission;
-pub use ticket::Ticket;
+pub use select::Candidate;

@@ -4,13 +4,14 @@
 //! add its own needs, and has it create instance and device from the finished
 //! create infos. That is the shape of XR_KHR_vulkan_enable2, where the OpenXR
 //! runtime wraps `vkCreateInstance` and `vkCreateDevice` and names the physical
-//! device; the plain loader fits in it without a detour.
+//! device; the plain loader fits it too.
 
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 
 use ash::vk;
 
-use super::select::Candidate;
+use super::info::EnabledFeatures;
+use super::select::{self, Candidate};
 use crate::GpuError;
 
 /// What the instance is to have.
@@ -39,7 +40,7 @@ pub struct DeviceRequest {
     /// Device extensions.
     pub extensions: Vec<CString>,
     /// Optional features to switch on; the required ones always are.
-    pub features: super::EnabledFeatures,
+    pub features: EnabledFeatures,
     /// Queues.
     pub queues: Vec<QueueRequest>,
 }
@@ -88,7 +89,7 @@ pub unsafe trait Provider {
         wanted: Option<&str>,
     ) -> Result<vk::PhysicalDevice, GpuError> {
         let _ = instance;
-        super::select::choose(candidates, wanted)
+        select::choose(candidates, wanted)
     }
 
     /// Adds what the provider itself needs, such as `VK_KHR_swapchain`.
@@ -168,14 +169,4 @@ fn add_missing(list: &mut Vec<CString>, more: &[CString]) {
             list.push(name.clone());
         }
     }
-}
-
-/// Null-terminated pointers to `names`, which must outlive them.
-pub(crate) fn pointers(names: &[CString]) -> Vec<*const std::ffi::c_char> {
-    names.iter().map(|name| name.as_ptr()).collect()
-}
-
-/// Whether `list` names `extension`.
-pub(crate) fn has(list: &[CString], extension: &CStr) -> bool {
-    list.iter().any(|name| name.as_c_str() == extension)
 }

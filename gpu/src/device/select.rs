@@ -1,9 +1,8 @@
-//! Which physical device is taken, and a list of all for `vitriol doctor`.
+//! Which physical device is taken.
 
 use ash::vk;
 
-use super::info::{self, Properties, version_text};
-use super::provider::load_entry;
+use super::info::{self, Properties};
 use crate::GpuError;
 
 /// A physical device and whether it can be used.
@@ -17,79 +16,6 @@ pub struct Candidate {
     pub kind: vk::PhysicalDeviceType,
     /// Required things that it lacks; empty when it can be used.
     pub missing: Vec<String>,
-}
-
-/// One device as `vitriol doctor` shows it.
-#[derive(Clone, Debug)]
-pub struct DeviceSummary {
-    /// Index for `Options::device`.
-    pub index: usize,
-    /// Device name.
-    pub name: String,
-    /// Driver name and version.
-    pub driver: String,
-    /// Vulkan version.
-    pub api: String,
-    /// Discrete, integrated, CPU and so on.
-    pub kind: vk::PhysicalDeviceType,
-    /// Names of its extensions.
-    pub extensions: Vec<String>,
-    /// Required things that it lacks; empty when it can be used.
-    pub missing: Vec<String>,
-    /// Optional things that it lacks, with what is done instead.
-    pub missing_optional: Vec<String>,
-}
-
-/// All devices, best first, without opening one.
-///
-/// # Errors
-/// [`GpuError::NoLoader`], [`GpuError::NoInstance`] or [`GpuError::NoDevice`],
-/// each with its remedy.
-pub fn list_devices() -> Result<Vec<DeviceSummary>, GpuError> {
-    let entry = load_entry()?;
-    let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
-    let create = vk::InstanceCreateInfo::default().application_info(&application);
-    // SAFETY: `create` lives through the call; the instance is destroyed below.
-    let instance = unsafe { entry.create_instance(&create, None) }
-        .map_err(|result| GpuError::NoInstance { result })?;
-    let list = ranked(&instance).map(|devices| {
-        devices
-            .into_iter()
-            .enumerate()
-            .map(|(index, (_, properties))| summary(index, properties))
-            .collect()
-    });
-    // SAFETY: nothing made from the instance is left.
-    unsafe { instance.destroy_instance(None) };
-    list
-}
-
-fn summary(index: usize, properties: Properties) -> DeviceSummary {
-    let mut missing_optional = Vec::new();
-    if !properties.features.conditional {
-        missing_optional
-            .push("VK_EXT_conditional_rendering (indirect dispatches are used instead)".to_owned());
-    }
-    if properties.timestamp_period == 0.0 {
-        missing_optional.push("timestamps (no times per pass)".to_owned());
-    }
-    if !properties.features.subgroups {
-        missing_optional.push("subgroup operations in compute".to_owned());
-    }
-    DeviceSummary {
-        index,
-        name: properties.name,
-        driver: properties.driver,
-        api: version_text(properties.api_version),
-        kind: properties.kind,
-        extensions: properties
-            .extensions
-            .iter()
-            .map(|name| name.to_string_lossy().into_owned())
-            .collect(),
-        missing: properties.missing,
-        missing_optional,
-    }
 }
 
 /// Devices of an instance: usable before unusable, discrete first, CPU last,

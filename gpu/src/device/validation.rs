@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 
-use super::core::lock;
+use super::lock::lock;
 
 /// Name of the Khronos layer.
 pub(crate) const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";

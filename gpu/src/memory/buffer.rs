@@ -9,8 +9,8 @@ use gpu_allocator::vulkan::Allocation;
 use vitriol_shaders::{TexelFormat, TexelKind};
 
 use super::{allocate, free, next_id};
-use crate::device::Core;
-use crate::{Gpu, GpuError};
+use crate::GpuError;
+use crate::device::{Core, lock};
 
 /// A buffer on the device; cheap to clone.
 ///
@@ -28,8 +28,8 @@ pub(crate) struct BufferInner {
     pub(crate) label: String,
     pub(crate) bytes: u64,
     pub(crate) usage: vk::BufferUsageFlags,
-    /// Made for the host's eyes; what the driver maps besides is not offered,
-    /// lest a program work on one device only.
+    /// Whether the host may read or write it. Some drivers map other buffers too;
+    /// those stay closed, so that a program which works on one device works on all.
     pub(crate) is_host: bool,
     /// Views as texels, each made when it is first asked for.
     views: Mutex<Vec<(TexelFormat, vk::BufferView)>>,
@@ -51,8 +51,7 @@ impl Buffer {
     /// # Errors
     /// [`GpuError::BufferTooLarge`] over `maxStorageBufferRange`,
     /// [`GpuError::OutOfMemory`].
-    pub fn storage(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
-        let core = &gpu.inner.core;
+    pub fn storage(core: &Arc<Core>, label: &str, bytes: u64) -> Result<Self, GpuError> {
         let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
@@ -63,7 +62,7 @@ impl Buffer {
             usage |= vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         }
         let limit = core.info.limits.storage_bytes;
-        Self::checked(gpu, label, bytes, usage, limit)
+        Self::checked(core, label, bytes, usage, limit)
     }
 
     /// A device-local uniform buffer.
@@ -71,10 +70,10 @@ impl Buffer {
     /// # Errors
     /// [`GpuError::BufferTooLarge`] over `maxUniformBufferRange`,
     /// [`GpuError::OutOfMemory`].
-    pub fn uniform(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
-        let limit = gpu.inner.core.info.limits.uniform_bytes;
+    pub fn uniform(core: &Arc<Core>, label: &str, bytes: u64) -> Result<Self, GpuError> {
+        let limit = core.info.limits.uniform_bytes;
         Self::checked(
-            gpu,
+            core,
             label,
             bytes,
             vk::BufferUsageFlags::UNIFORM_BUFFER,
@@ -88,9 +87,9 @@ impl Buffer {
     ///
     /// # Errors
     /// [`GpuError::OutOfMemory`].
-    pub fn staging(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+    pub fn staging(core: &Arc<Core>, label: &str, bytes: u64) -> Result<Self, GpuError> {
         Self::new(
-            &gpu.inner.core,
+            core,
             label,
             bytes,
             vk::BufferUsageFlags::empty(),
@@ -104,9 +103,9 @@ impl Buffer {
     ///
     /// # Errors
     /// [`GpuError::OutOfMemory`].
-    pub fn readback(gpu: &Gpu, label: &str, bytes: u64) -> Result<Self, GpuError> {
+    pub fn readback(core: &Arc<Core>, label: &str, bytes: u64) -> Result<Self, GpuError> {
         Self::new(
-            &gpu.inner.core,
+            core,
             label,
             bytes,
             vk::BufferUsageFlags::empty(),
@@ -115,7 +114,7 @@ impl Buffer {
     }
 
     fn checked(
-        gpu: &Gpu,
+        core: &Arc<Core>,
         label: &str,
         bytes: u64,
         usage: vk::BufferUsageFlags,
@@ -128,13 +127,7 @@ impl Buffer {
                 limit,
             });
         }
-        Self::new(
-            &gpu.inner.core,
-            label,
-            bytes,
-            usage,
-            MemoryLocation::GpuOnly,
-        )
+        Self::new(core, label, bytes, usage, MemoryLocation::GpuOnly)
     }
 
     pub(crate) fn new(
@@ -259,7 +252,7 @@ impl BufferInner {
 
     /// The whole buffer as texels.
     pub(crate) fn texels(&self, format: TexelFormat) -> Result<vk::BufferView, GpuError> {
-        let mut views = self.views.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut views = lock(&self.views);
         if let Some((_, view)) = views.iter().find(|(known, _)| *known == format) {
             return Ok(*view);
         }

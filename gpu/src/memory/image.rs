@@ -7,8 +7,8 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
 
 use super::{allocate, free, next_id};
+use crate::GpuError;
 use crate::device::Core;
-use crate::{Gpu, GpuError};
 
 /// Size, format and use of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,13 +83,12 @@ pub(crate) struct ImageInner {
 }
 
 impl Image {
-    /// An image with undefined contents.
-    ///
-    /// # Errors
-    /// [`GpuError::ImageUnsupported`] where size, format or usage is not
-    /// possible on the device, [`GpuError::OutOfMemory`].
-    pub fn new(gpu: &Gpu, label: &str, desc: ImageDesc) -> Result<Self, GpuError> {
-        let core = &gpu.inner.core;
+    /// An image that is in no layout yet; `Image::new` brings it into one.
+    pub(crate) fn without_layout(
+        core: &Arc<Core>,
+        label: &str,
+        desc: ImageDesc,
+    ) -> Result<Self, GpuError> {
         let desc = ImageDesc {
             usage: desc.usage
                 | vk::ImageUsageFlags::TRANSFER_SRC
@@ -139,9 +138,7 @@ impl Image {
                 return Err(error);
             }
         };
-        let image = Self::wrap(core, label, desc, handle, desc.home(), Some(allocation))?;
-        gpu.bring_home(&image)?;
-        Ok(image)
+        Self::wrap(core, label, desc, handle, desc.home(), Some(allocation))
     }
 
     /// An image that someone else made and will destroy, such as one of an XR
@@ -156,13 +153,13 @@ impl Image {
     /// `handle` is an image of this device with the properties in `desc`, and
     /// it outlives this [`Image`], its clones and all submissions that use it.
     pub unsafe fn import(
-        gpu: &Gpu,
+        core: &Arc<Core>,
         label: &str,
         handle: vk::Image,
         desc: ImageDesc,
         layout: vk::ImageLayout,
     ) -> Result<Self, GpuError> {
-        Self::wrap(&gpu.inner.core, label, desc, handle, layout, None)
+        Self::wrap(core, label, desc, handle, layout, None)
     }
 
     fn wrap(

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use crate::GpuError;
 use crate::device::Core;
-use crate::{Gpu, GpuError};
 
 /// Between texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,8 +53,7 @@ pub(crate) struct SamplerInner {
 impl Sampler {
     /// # Errors
     /// Out of memory.
-    pub fn new(gpu: &Gpu, desc: SamplerDesc) -> Result<Self, GpuError> {
-        let core = &gpu.inner.core;
+    pub fn new(core: &Arc<Core>, desc: SamplerDesc) -> Result<Self, GpuError> {
         let filter = match desc.filter {
             Filter::Nearest => vk::Filter::NEAREST,
             Filter::Linear => vk::Filter::LINEAR,

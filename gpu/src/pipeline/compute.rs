@@ -7,8 +7,8 @@ use ash::vk;
 use vitriol_shaders::{Compiled, Stage};
 
 use super::{Layout, Module, c_string, wrong_stage};
+use crate::GpuError;
 use crate::device::Core;
-use crate::{Gpu, GpuError};
 
 /// A compute pipeline; cheap to clone.
 #[derive(Clone)]
@@ -28,11 +28,10 @@ impl ComputePipeline {
     /// # Errors
     /// [`GpuError::Shader`] where the shader is of another stage or declares
     /// what cannot be bound; what the driver says otherwise.
-    pub fn new(gpu: &Gpu, compiled: &Compiled) -> Result<Self, GpuError> {
+    pub fn new(core: &Arc<Core>, compiled: &Compiled) -> Result<Self, GpuError> {
         if compiled.stage != Stage::Compute {
             return Err(wrong_stage(compiled, "compute"));
         }
-        let core = &gpu.inner.core;
         let compiled = if core.info.fetches_texels {
             &compiled.with_texels()
         } else {

@@ -9,8 +9,8 @@ use ash::vk;
 use vitriol_shaders::{Compiled, Stage};
 
 use super::{Layout, Module, c_string, wrong_stage};
+use crate::GpuError;
 use crate::device::Core;
-use crate::{Gpu, GpuError};
 
 /// How a fragment's colour meets what is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,8 +79,7 @@ impl RasterPipeline {
     /// [`GpuError::Shader`] where a shader is of another stage, declares what
     /// cannot be bound, or the stages contradict each other;
     /// [`GpuError::Unsupported`] for more views than the device has.
-    pub fn new(gpu: &Gpu, desc: &RasterDesc<'_>) -> Result<Self, GpuError> {
-        let core = &gpu.inner.core;
+    pub fn new(core: &Arc<Core>, desc: &RasterDesc<'_>) -> Result<Self, GpuError> {
         if desc.vertex.stage != Stage::Vertex {
             return Err(wrong_stage(desc.vertex, "vertex"));
         }

@@ -4,9 +4,9 @@ use ash::vk;
 use bytemuck::NoUninit;
 use vitriol_shaders::{BindingKind, ImageDimension};
 
-use super::storage::{ImageUse, Storage};
-use crate::barrier::{Scope, Use};
+use crate::barrier::Use;
 use crate::pipeline::{DescriptorData, Layout, Slot};
+use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
 
 /// How a buffer or image was given.
@@ -326,34 +326,4 @@ fn wrong_kind(kind: &BindingKind) -> String {
         BindingKind::Sampler { .. } => ("a sampler", ".sampler"),
     };
     format!("the shader declares {what}; give it with {how}")
-}
-
-impl Storage {
-    /// Adds an image to the pass being recorded.
-    pub(crate) fn use_image(
-        &mut self,
-        image: &Image,
-        layout: vk::ImageLayout,
-        scope: Scope,
-        discard: bool,
-    ) -> Result<(), GpuError> {
-        let index = self.image_index(image);
-        if let Some(used) = self.image_uses.iter_mut().find(|used| used.index == index) {
-            if used.layout != layout {
-                return Err(GpuError::Raster {
-                    pass: image.inner.label.clone(),
-                    cause: "one pass uses the image in two ways that exclude each other; use two passes or two images".to_owned(),
-                });
-            }
-            used.scope = used.scope.union(scope);
-            return Ok(());
-        }
-        self.image_uses.push(ImageUse {
-            index,
-            layout,
-            scope,
-            discard,
-        });
-        Ok(())
-    }
 }

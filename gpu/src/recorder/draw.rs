@@ -1,4 +1,4 @@
-//! A draw as one expression, and its commands once the scope is open.
+//! A draw as one expression.
 
 use std::sync::Arc;
 
@@ -6,37 +6,10 @@ use ash::vk;
 use bytemuck::NoUninit;
 
 use super::binder::{Asked, Binder};
-use super::storage::Storage;
 use crate::barrier::{Scope, Use};
-use crate::pipeline::{LayoutPush, RasterInner};
+use crate::pipeline::RasterInner;
+use crate::submission::{DrawCommand, DrawCount, Storage};
 use crate::{Buffer, GpuError, Image, Sampler};
-
-/// How many vertices a draw has, and from where.
-#[derive(Clone, Copy)]
-enum Count {
-    Vertices {
-        vertices: u32,
-        instances: u32,
-    },
-    Indexed {
-        indices: vk::Buffer,
-        count: u32,
-        instances: u32,
-    },
-    Indirect {
-        arguments: vk::Buffer,
-        offset: u64,
-    },
-}
-
-/// A draw, kept until the scope's barrier is known.
-pub(crate) struct DrawCommand {
-    pipeline: vk::Pipeline,
-    push: LayoutPush,
-    descriptors: usize,
-    constants: usize,
-    count: Count,
-}
 
 /// A draw in the making; as [`crate::Pass`], and ends with its vertices.
 #[must_use = "a draw is recorded by its size: vertices, instances, indexed or indirect"]
@@ -115,7 +88,7 @@ impl<'d> Draw<'d> {
     /// # Errors
     /// As [`Draw::vertices`].
     pub fn instances(self, vertices: u32, instances: u32) -> Result<(), GpuError> {
-        self.record(Count::Vertices {
+        self.record(DrawCount::Vertices {
             vertices,
             instances,
         })
@@ -135,7 +108,7 @@ impl<'d> Draw<'d> {
             slot,
             scope: Scope::INDEX,
         });
-        self.record(Count::Indexed {
+        self.record(DrawCount::Indexed {
             indices: indices.inner.handle,
             count,
             instances,
@@ -154,13 +127,13 @@ impl<'d> Draw<'d> {
             slot,
             scope: Scope::INDIRECT,
         });
-        self.record(Count::Indirect {
+        self.record(DrawCount::Indirect {
             arguments: arguments.inner.handle,
             offset,
         })
     }
 
-    fn record(mut self, count: Count) -> Result<(), GpuError> {
+    fn record(mut self, count: DrawCount) -> Result<(), GpuError> {
         self.binder.check(self.storage)?;
         self.storage.retain(self.pipeline.clone());
         self.storage.draws.push(DrawCommand {
@@ -171,49 +144,5 @@ impl<'d> Draw<'d> {
             count,
         });
         Ok(())
-    }
-}
-
-impl Storage {
-    /// The draws of the open scope.
-    pub(crate) fn replay_draws(&mut self) {
-        self.bound = vk::Pipeline::null();
-        let mut bound = vk::Pipeline::null();
-        for draw in &self.draws {
-            let device = &self.core.device;
-            if bound != draw.pipeline {
-                bound = draw.pipeline;
-                // SAFETY: the buffer is recording; the pipeline is held.
-                unsafe {
-                    device.cmd_bind_pipeline(
-                        self.cmd,
-                        vk::PipelineBindPoint::GRAPHICS,
-                        draw.pipeline,
-                    );
-                }
-            }
-            self.bind(&draw.push, draw.descriptors, draw.constants);
-            // SAFETY: pipeline, descriptors and immediates are bound; buffers
-            // are held, and their ranges were checked when the draw was made.
-            unsafe {
-                match draw.count {
-                    Count::Vertices {
-                        vertices,
-                        instances,
-                    } => device.cmd_draw(self.cmd, vertices, instances, 0, 0),
-                    Count::Indexed {
-                        indices,
-                        count,
-                        instances,
-                    } => {
-                        device.cmd_bind_index_buffer(self.cmd, indices, 0, vk::IndexType::UINT32);
-                        device.cmd_draw_indexed(self.cmd, count, instances, 0, 0, 0);
-                    }
-                    Count::Indirect { arguments, offset } => {
-                        device.cmd_draw_indirect(self.cmd, arguments, offset, 1, 16);
-                    }
-                }
-            }
-        }
     }
 }

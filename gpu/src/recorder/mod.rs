@@ -1,14 +1,11 @@
 //! Recording of one submission, pass by pass.
 
-mod arena;
 mod binder;
 mod copy_image;
 mod draw;
-mod encode;
 mod pass;
 mod raster;
-mod storage;
-mod timing;
+mod submit;
 mod transfer;
 
 use ash::vk;
@@ -16,13 +13,11 @@ use ash::vk;
 pub use draw::Draw;
 pub use pass::Pass;
 pub use raster::{ColourTarget, DepthTarget, Load, Raster, RasterTarget};
-pub(crate) use storage::Storage;
-pub use timing::PassTiming;
 pub use transfer::{CopyRegion, Readback};
 
 use crate::barrier::{Scope, Use};
-use crate::device::Submission;
-use crate::{Buffer, ComputePipeline, Gpu, GpuError, QueueKind};
+use crate::submission::Storage;
+use crate::{Buffer, ComputePipeline, Gpu, GpuError};
 
 /// Records one submission. What it uses lives until the device has finished;
 /// dropped without submission, nothing happens on the device.
@@ -35,36 +30,6 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    pub(crate) fn begin(
-        gpu: &Gpu,
-        kind: QueueKind,
-        recycled: Option<Box<Storage>>,
-    ) -> Result<Self, GpuError> {
-        let inner = &gpu.inner;
-        let queue = inner.queues.index(kind);
-        let mut storage = match recycled {
-            Some(storage) => storage,
-            None => {
-                let family = inner.queues.at(queue).family;
-                Box::new(Storage::new(&inner.core, family, &inner.options)?)
-            }
-        };
-        storage.begin(Submission::new(queue))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            queue,
-            graphics: kind == QueueKind::Main,
-            storage,
-        })
-    }
-
-    /// Ends the commands; gives the queue's index and what is to be kept until
-    /// the device has finished.
-    pub(crate) fn finish(mut self) -> Result<(usize, Box<Storage>), GpuError> {
-        self.storage.end()?;
-        Ok((self.queue, self.storage))
-    }
-
     /// A compute pass: name what it reads and writes, then its size.
     pub fn pass<'r>(&'r mut self, pipeline: &'r ComputePipeline) -> Pass<'r> {
         Pass::new(&mut self.storage, &pipeline.inner)
@@ -98,7 +63,7 @@ impl Recorder {
         offset: u64,
         f: impl FnOnce(&mut Self) -> Result<T, GpuError>,
     ) -> Result<T, GpuError> {
-        let Some(functions) = self.gpu.inner.core.conditional.clone() else {
+        let Some(functions) = self.gpu.conditional.clone() else {
             return Err(GpuError::Unsupported {
                 feature: "VK_EXT_conditional_rendering",
                 remedy: "use indirect dispatches whose size a pass sets to zero",

@@ -6,9 +6,9 @@ use ash::vk;
 use bytemuck::NoUninit;
 
 use super::binder::{Asked, Binder};
-use super::storage::Storage;
 use crate::barrier::{Scope, Use};
 use crate::pipeline::ComputeInner;
+use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
 
 /// A compute pass in the making: name every binding of the shader once, give

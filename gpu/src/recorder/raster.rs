@@ -5,8 +5,8 @@ use ash::vk;
 use super::Recorder;
 use super::binder::Binder;
 use super::draw::Draw;
-use super::storage::Storage;
 use crate::barrier::{Scope, Use};
+use crate::submission::Storage;
 use crate::{GpuError, Image, RasterPipeline};
 
 /// What a target holds when the scope begins.

@@ -6,9 +6,8 @@ use ash::vk;
 use bytemuck::{AnyBitPattern, NoUninit};
 
 use super::Recorder;
-use super::storage::Storage;
-use crate::barrier::{Scope, Use};
-use crate::device::Submission;
+use crate::barrier::Scope;
+use crate::submission::{Storage, Submission};
 use crate::{Buffer, Gpu, GpuError, Image, ImageDesc, QueueKind};
 
 /// A piece of a copy, in bytes; all multiples of 4.
@@ -31,13 +30,13 @@ pub struct Readback {
 }
 
 impl Readback {
-    /// The bytes as whole elements; those at the end that are none are left
-    /// out.
+    /// The bytes as elements; bytes at the end that make no whole element are
+    /// left out.
     ///
     /// # Errors
     /// [`GpuError::NotDone`] before the submission has finished.
     pub fn get<T: AnyBitPattern>(&self) -> Result<Vec<T>, GpuError> {
-        if !self.submission.is_done(&self.gpu)? {
+        if !self.gpu.inner.has_finished(&self.submission)? {
             return Err(GpuError::NotDone);
         }
         let count = self.bytes.checked_div(size_of::<T>() as u64).unwrap_or(0);
@@ -205,11 +204,6 @@ impl Recorder {
 }
 
 impl Storage {
-    pub(super) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
-        let slot = self.buffer_slot(buffer);
-        self.uses.push(Use { slot, scope });
-    }
-
     fn copy_pass(
         &mut self,
         label: &[u8],
@@ -249,13 +243,22 @@ impl Gpu {
         rec.upload(buffer, data)?;
         self.submit(rec)?.wait()
     }
+}
 
-    /// Brings a new image into the layout in which recorders find it.
-    pub(crate) fn bring_home(&self, image: &Image) -> Result<(), GpuError> {
-        let mut rec = self.recorder(QueueKind::Main)?;
-        let index = rec.storage.image_index(image);
+impl Image {
+    /// An image with undefined contents, brought into the layout in which
+    /// recorders find it.
+    ///
+    /// # Errors
+    /// [`GpuError::ImageUnsupported`] where size, format or usage is not
+    /// possible on the device, [`GpuError::OutOfMemory`].
+    pub fn new(gpu: &Gpu, label: &str, desc: ImageDesc) -> Result<Self, GpuError> {
+        let image = Self::without_layout(gpu, label, desc)?;
+        let mut rec = gpu.recorder(QueueKind::Main)?;
+        let index = rec.storage.image_index(&image);
         rec.storage.images[index].layout = vk::ImageLayout::UNDEFINED;
-        self.submit(rec)?.wait()
+        gpu.submit(rec)?.wait()?;
+        Ok(image)
     }
 }
 

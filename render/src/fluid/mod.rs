@@ -1,22 +1,22 @@
-//! The liquid's surface in the picture: ellipsoids, depth and thickness,
-//! filter, light. `docs/rendering.md` tells it pass by pass.
+//! The liquid's surface in the picture: ellipsoids, depth, thickness and the
+//! filter. `docs/rendering.md` explains it pass by pass.
 
 mod passes;
 mod readback;
-mod source;
 
 use glam::{Affine3A, Quat};
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
+use crate::desc::LiquidDesc;
 use crate::frame::FrameDesc;
 use crate::lanes::workgroups;
 use crate::scene::MOST_VESSELS;
+use crate::source::{LiquidSource, Neighbours};
 use crate::tiles::{Class, Tiles};
 use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
-pub use source::{LiquidDesc, LiquidSource, Neighbours, SurfaceFilter, VesselTables};
 
 /// Frames whose ellipsoids are kept at a time.
 pub(crate) const SLOTS: usize = 2;
@@ -30,7 +30,7 @@ pub(crate) struct Fluid {
     /// One for the picture that is drawn, one for the frame that is solved.
     ellipsoids: [Buffer; SLOTS],
     poses: Buffer,
-    /// Bound where a source has nothing to give.
+    /// Bound in place of what a source lacks.
     nothing: Buffer,
     /// Reversed depth as splatted, each view's pixels row by row.
     depth: Buffer,
@@ -181,7 +181,7 @@ impl Fluid {
     ) -> Result<(), RenderError> {
         let last = self.passes.filter.len() - 1;
         rec.group("liquid filter", |rec| {
-            // Tiles that are not listed have no liquid, and are read at others' borders.
+            // The passes skip tiles without liquid, and read their pixels at the borders of others.
             for to in &self.filtered[..=last.min(1)] {
                 rec.fill(to, 0)?;
             }
@@ -212,15 +212,21 @@ impl Fluid {
         &self.sums
     }
 
-    /// Records the copy of the surface to the host.
+    /// Reversed depth as splatted, before the filter.
+    pub(crate) fn splatted(&self) -> &Buffer {
+        &self.depth
+    }
+
+    /// Records the copy of the surface to the host, with its depth from there.
     pub(crate) fn read_back(
         &self,
         rec: &mut Recorder,
+        depth: &Buffer,
         nears: Vec<f32>,
         spacing: f32,
     ) -> Result<SurfaceReadback, RenderError> {
         Ok(SurfaceReadback {
-            depth: rec.read_back(self.surface())?,
+            depth: rec.read_back(depth)?,
             sums: rec.read_back(&self.sums)?,
             nears,
             extent: self.extent,
@@ -243,7 +249,7 @@ fn pose(stage_from_vessel: &Affine3A) -> layout::FlaskPose {
     }
 }
 
-/// Sixteen bytes of zero: what is bound where a frame has nothing to give.
+/// Sixteen bytes of zero, bound in place of what a frame lacks.
 pub(crate) fn zeros(gpu: &Gpu) -> Result<Buffer, GpuError> {
     let buffer = Buffer::storage(gpu, "nothing", 16)?;
     gpu.write(&buffer, &[0_u32; 4])?;

@@ -3,8 +3,8 @@
 use vitriol_gpu::{ComputePipeline, Gpu, vk};
 use vitriol_shaders::{Library, ShaderId, fluid};
 
-use super::source::SurfaceFilter;
 use crate::RenderError;
+use crate::desc::SurfaceFilter;
 use crate::tiles::Class;
 
 /// Invocations that share a particle's neighbours on a GPU: the latency of

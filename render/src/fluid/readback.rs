@@ -9,7 +9,7 @@ use crate::RenderError;
 pub struct Surface {
     /// Width and height, pixels.
     pub extent: [u32; 2],
-    /// Depth along the view's axis after the filter, in the scene's unit, row
+    /// Depth along the view's axis, in the scene's unit, row
     /// by row from the top; 0 where there is no liquid.
     pub depth: Vec<f32>,
     /// Width and height of `thickness` and `acid`, pixels: half of those of the view,
@@ -37,6 +37,11 @@ pub struct SurfaceReadback {
 const PARTS: f32 = 1_048_576.0;
 
 impl SurfaceReadback {
+    /// Particle spacing, in the scene's unit.
+    pub(crate) fn spacing(&self) -> f32 {
+        self.spacing
+    }
+
     /// Each view's surface.
     ///
     /// # Errors

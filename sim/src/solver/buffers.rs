@@ -1,9 +1,10 @@
 //! The particles' state and the solver's scratch memory. A particle's place in
 //! every array is the same; it changes when the list is rebuilt.
 
+use super::counters::Counters;
 use super::pipelines::Grid;
-use super::vessels::upload;
-use super::{Counters, SolverSpec};
+use super::spec::SolverSpec;
+use super::transfer::upload;
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};

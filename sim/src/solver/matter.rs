@@ -1,6 +1,6 @@
 //! What particles hold at the start, as the physical chemistry's buffers have it.
 
-use super::Particle;
+use super::spec::Particle;
 use crate::chemistry::ABSOLUTE_ZERO;
 use crate::chemistry::table::{Row, SolutionTable};
 use half::f16;

@@ -18,73 +18,31 @@ mod matter;
 mod pipelines;
 mod reading;
 mod search;
+mod snapshot;
 mod solids;
+mod spec;
 mod state;
 mod steam;
+mod transfer;
 mod vessels;
 
 pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
 pub use reading::{FlaskReading, ReadingRecord};
+pub use spec::{Ground, Particle, SolverSpec};
 pub use state::SolverState;
 pub use steam::PUFFS;
-pub use vessels::Ground;
 
 use crate::chemistry::Chemistry;
-use crate::flask::Profile;
-use crate::flask::particles::BoundaryParticle;
 use crate::parameters::Parameters;
 use buffers::Buffers;
-use glam::DVec3;
 use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
 use vessels::Vessels;
-use vitriol_gpu::{Buffer, Gpu, vk};
+use vitriol_gpu::{Buffer, Gpu, Recorder, vk};
 use vitriol_shaders::Library;
-
-/// A fluid particle at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Particle {
-    /// Position in the stage, metres.
-    pub position: DVec3,
-    /// Velocity, m/s.
-    pub velocity: DVec3,
-    /// Index of the flask it is in.
-    pub flask: Option<usize>,
-    /// Temperature, °C; unused where no heat is modelled.
-    pub temperature: f64,
-    /// Acid mass fraction; unused where no heat is modelled.
-    pub acid: f64,
-    /// Carried multiplier −p/ρ at the start, m²/s², at most 0; unused where
-    /// nothing is carried.
-    pub carried: f64,
-}
-
-/// What the solver is made of, beside its parameters.
-#[derive(Clone, Debug)]
-pub struct SolverSpec<'a> {
-    /// Parameters of Algorithm 1.
-    pub parameters: Parameters,
-    /// Shapes of the flasks, in the order of their poses.
-    pub flasks: &'a [Profile],
-    /// The paper's boundary particles of each flask, in its frame; `None` for
-    /// volume maps.
-    pub solids: Option<&'a [Vec<BoundaryParticle>]>,
-    /// Table and floor.
-    pub ground: Ground,
-    /// The fluid.
-    pub particles: &'a [Particle],
-    /// Whether the liquid's push on the flasks is summed up each frame.
-    pub loads: bool,
-    /// Whether the flask constraint of section 5 acts. Without it walls are
-    /// what they are to plain PBF: a density, and no more (Fig. 5).
-    pub constraint: bool,
-    /// Invocations that share a particle: 1, 2, 4 or 8; `None` lets the
-    /// device and the number of particles decide.
-    pub lanes: Option<u32>,
-}
 
 /// The particles of a scene on a device, and what moves them.
 pub struct Solver {
@@ -213,6 +171,20 @@ impl Solver {
     /// `common/glass_distance.wgsl` reads them.
     pub fn flask_tables(&self) -> (&Buffer, &Buffer) {
         (&self.vessels.flasks, &self.vessels.distances)
+    }
+
+    /// Puffs of steam, `array<Puff>` of `common/puff.wgsl`, [`PUFFS`] of them;
+    /// those of radius 0 are none. `None` where no steam leaves the liquid.
+    pub fn puffs(&self) -> Option<&Buffer> {
+        self.steam.as_ref().map(|steam| &steam.puffs)
+    }
+
+    /// Lets the puffs rise, and makes new ones of what left the liquid.
+    fn vent(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        if let Some(steam) = &self.steam {
+            steam.record(rec, &self.buffers)?;
+        }
+        Ok(())
     }
 
     /// Bytes of device memory that a particle takes.

@@ -1,7 +1,7 @@
 //! The paper's boundary particles (Akinci et al. 2012) as the shaders'
 //! buffers, sorted once, in each flask's frame.
 
-use super::vessels::upload;
+use super::transfer::upload;
 use crate::flask::particles::BoundaryParticle;
 use crate::kernel::Kernel;
 use glam::{DVec3, U64Vec3};

@@ -1,8 +1,9 @@
 //! Steam in the room's air, as passes after a frame's substeps.
 
+use super::buffers::Buffers;
+use super::error::SolverError;
 use super::pipelines::Constants;
-use super::state::{read, write};
-use super::{Solver, SolverError};
+use super::transfer::{read, write};
 use crate::chemistry::puff::Room;
 use crate::chemistry::{Chemistry, Physical};
 use crate::parameters::Parameters;
@@ -11,7 +12,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::layout::Puff;
 use vitriol_shaders::{Library, sim};
 
-/// Puffs of steam that are kept; of each vent the oldest gives way.
+/// Puffs of steam at most; a new one replaces its vent's oldest.
 pub const PUFFS: u32 = 1024;
 
 /// Puffs that a frame may bring.
@@ -122,33 +123,20 @@ impl Steam {
         write(gpu, &self.vented, &state.vented)?;
         write(gpu, &self.made, &state.made)
     }
-}
 
-impl Solver {
-    /// Puffs of steam, `array<Puff>` of `common/puff.wgsl`, [`PUFFS`] of them;
-    /// those of radius 0 are none. `None` where no steam leaves the liquid.
-    pub fn puffs(&self) -> Option<&Buffer> {
-        self.steam.as_ref().map(|steam| &steam.puffs)
-    }
-
-    /// Lets the puffs rise, and makes new ones of what left the liquid.
-    pub(super) fn vent(&self, rec: &mut Recorder) -> Result<(), SolverError> {
-        let Some(steam) = &self.steam else {
-            return Ok(());
-        };
-        let b = &self.buffers;
-        rec.pass(&steam.rise)
-            .write("puffs", &steam.puffs)
+    /// Records the rise of the puffs, and new ones of what left the liquid.
+    pub(super) fn record(&self, rec: &mut Recorder, b: &Buffers) -> Result<(), GpuError> {
+        rec.pass(&self.rise)
+            .write("puffs", &self.puffs)
             .invocations(PUFFS)?;
-        rec.pass(&steam.vent)
-            .write("puffs", &steam.puffs)
+        rec.pass(&self.vent)
+            .write("puffs", &self.puffs)
             .read("position", &b.position)
             .read("tags", &b.tags)
             .read("ledger", &b.ledger)
-            .write("vented", &steam.vented)
-            .write("made", &steam.made)
-            .workgroups([VENTS, 1, 1])?;
-        Ok(())
+            .write("vented", &self.vented)
+            .write("made", &self.made)
+            .workgroups([VENTS, 1, 1])
     }
 }
 

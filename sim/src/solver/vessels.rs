@@ -1,36 +1,17 @@
 //! Flasks, table and floor as the shaders' buffers.
 
-use super::SolverSpec;
 use super::solids::Solids;
+use super::spec::SolverSpec;
+use super::transfer::upload;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
 use crate::reference::forces::HalfSpacePull;
-use crate::scene::TableTop;
-use glam::DVec2;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout;
 
 /// Entries of the half-space table over one support radius; its error is
 /// then below 3e-5 of a density.
 pub const PLANE_ENTRIES: usize = 129;
-
-/// What is not a flask.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ground {
-    /// Height of the floor, metres.
-    pub floor: f64,
-    /// The table: height of its top, centre and full extent in (x, z), metres.
-    pub table: Option<(f64, DVec2, DVec2)>,
-    /// How much larger than real this world is.
-    pub scale: f64,
-}
-
-impl Ground {
-    /// Height of the table's underside, metres.
-    pub fn table_under(&self, top: f64) -> f64 {
-        top - TableTop::THICKNESS * self.scale
-    }
-}
 
 /// The buffers that `common/vessel.wgsl` and `common/ground.wgsl` read.
 pub struct Vessels {
@@ -99,18 +80,6 @@ impl Vessels {
             solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,
         })
     }
-}
-
-pub(super) fn upload<T: bytemuck::NoUninit>(
-    gpu: &Gpu,
-    label: &str,
-    data: &[T],
-) -> Result<Buffer, GpuError> {
-    let buffer = Buffer::storage(gpu, label, size_of_val(data) as u64)?;
-    if !data.is_empty() {
-        gpu.write(&buffer, data)?;
-    }
-    Ok(buffer)
 }
 
 /// A pose as the shaders have it.

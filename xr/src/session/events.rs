@@ -1,10 +1,11 @@
-//! What the runtime tells: states of the session, losses, moves of the stage.
+//! Events of the runtime: states of the session, losses, moves of the stage.
 
 use openxr as xr;
 
 use super::convert::{CallFailure, failed, state};
-use super::live::{Live, STEREO};
+use super::live::Live;
 use super::mask::Mask;
+use super::system::STEREO;
 
 impl Live {
     /// Takes all events that wait.

@@ -4,17 +4,15 @@ use openxr as xr;
 use vitriol_gpu::ash::vk::Handle as _;
 use vitriol_gpu::{Gpu, QueueKind, vk};
 
-use super::OpenXrOptions;
 use super::actions::Actions;
 use super::chain::Chain;
 use super::convert::{CallFailure, failed};
 use super::mask::Mask;
+use super::options::OpenXrOptions;
 use super::provider::Runtime;
 use super::stage::Stage;
 use super::system::{self, Headset};
 use crate::{HeadsetError, SessionState, Targets};
-
-pub(super) const STEREO: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
 
 /// The display rate that is asked for where the runtime offers a choice, Hz: the time of a step
 /// and of a picture is laid out for it (docs/performance.md).

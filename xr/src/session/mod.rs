@@ -11,20 +11,21 @@ mod events;
 mod layers;
 mod live;
 mod mask;
+mod options;
 mod pinch;
 mod provider;
 mod seek;
 mod stage;
 mod system;
 
-use std::ffi::CString;
-
 use openxr as xr;
 use vitriol_gpu::Gpu;
 
 use convert::{CallFailure, failed, fov, located, pose};
-use live::{Begun, Live, STEREO};
+use live::{Begun, Live};
+pub use options::OpenXrOptions;
 use seek::Seek;
+use system::STEREO;
 
 use crate::headset::{HeadsetFrame, Shown, Targets, Turn, View};
 use crate::{Fov, FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionState, Side};
@@ -32,38 +33,25 @@ use crate::{Fov, FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, Sessio
 /// Longest that a turn without a frame waits.
 const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
 
-/// What the session is opened with, and opened with again after a loss.
-#[derive(Clone, Debug)]
-pub struct OpenXrOptions {
-    /// How to open the device; which one it is says the runtime.
-    pub gpu: vitriol_gpu::Options,
-    /// Further instance extensions, such as those of a window's surface.
-    pub instance_extensions: Vec<CString>,
-    /// Further device extensions, such as `VK_KHR_swapchain`.
-    pub device_extensions: Vec<CString>,
-    /// Width and height of the panel, pixels.
-    pub panel: [u32; 2],
-}
-
 /// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and what else the runtime
 /// offers of local_floor, composition_layer_depth, visibility_mask, display_refresh_rate,
 /// hand_interaction, hand_tracking, user_presence and Pico's controllers.
 pub struct OpenXr {
     options: OpenXrOptions,
     entry: xr::Entry,
-    /// `None` while the runtime is sought.
+    /// `None` while there is no runtime.
     live: Option<Live>,
-    /// While it is sought.
+    /// When to look for the runtime again.
     seek: Seek,
     /// The program has asked for the end.
     leaving: bool,
-    /// Why the live session is lost, found out in the middle of a frame.
+    /// Why the session was lost in the middle of a frame.
     lost: Option<String>,
-    // What stays readable while there is no session.
+    // Readable without a session too.
     gpu: Gpu,
     extent: [u32; 2],
     name: String,
-    // What a new session goes on from.
+    // Continued by a new session.
     index: u64,
     head: Pose,
     views: [View; 2],
@@ -137,7 +125,7 @@ impl OpenXr {
         let Some(live) = &mut self.live else {
             return Ok(Turn::Paused);
         };
-        // A frame that the caller gave up on its way.
+        // The caller may not have ended the frame before.
         live.end_empty()?;
         live.take_events()?;
         if live.ended {
@@ -194,7 +182,7 @@ impl OpenXr {
         Ok(Turn::Frame(Box::new(frame)))
     }
 
-    /// Sorts a failure in the middle of a frame: a loss is the next turn's.
+    /// Keeps a loss in the middle of a frame for the next turn, which reports it.
     fn settle<T>(&mut self, result: Result<T, CallFailure>) -> Result<Option<T>, HeadsetError> {
         match result {
             Ok(value) => Ok(Some(value)),
@@ -206,7 +194,7 @@ impl OpenXr {
         }
     }
 
-    /// Lets go of the session and begins to seek.
+    /// Drops the session and begins to look for the runtime.
     fn lose(&mut self, cause: String) -> Turn {
         tracing::warn!(cause, "OpenXR session lost");
         self.live = None;

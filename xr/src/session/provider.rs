@@ -5,7 +5,7 @@ use vitriol_gpu::ash;
 use vitriol_gpu::ash::vk::Handle;
 use vitriol_gpu::{Candidate, DeviceRequest, GpuError, InstanceRequest, Provider, vk};
 
-use super::OpenXrOptions;
+use super::options::OpenXrOptions;
 
 /// The runtime of `instance`, for the headset `system`.
 pub(super) struct Runtime<'a> {

@@ -3,8 +3,9 @@
 use openxr as xr;
 
 use super::convert::{CallFailure, failed};
-use super::live::STEREO;
 use crate::{HeadsetError, probe};
+
+pub(super) const STEREO: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
 
 /// A headset that is connected.
 pub(super) struct Headset {

@@ -47,7 +47,7 @@ use toml::Spanned;
 
 use super::TrackError;
 use super::ease::Ease;
-use super::sample::{Key, Path as KeyPath};
+use super::path::{Key, Path as KeyPath};
 use crate::Switch;
 
 /// A track in keyframes, read and checked.

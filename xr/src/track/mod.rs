@@ -16,9 +16,10 @@ mod error;
 mod keyframes;
 mod lengths;
 mod message;
+mod path;
 mod read;
-mod replay;
 mod sample;
+mod source;
 mod write;
 
 use std::collections::BTreeMap;
@@ -28,7 +29,7 @@ use crate::{Pose, PoseFrame};
 pub use convert::{convert, load};
 pub use error::TrackError;
 pub use keyframes::Keyframes;
-pub use replay::TrackSource;
+pub use source::TrackSource;
 pub use write::{Existing, TrackWriter, Written};
 
 /// A whole pose track in memory.

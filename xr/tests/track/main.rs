@@ -6,9 +6,9 @@ mod damage;
 mod keyframes;
 mod kill;
 mod refuse;
-mod replay;
 mod round_trip;
 mod schema;
+mod source;
 
 use std::path::Path;
 use std::sync::Arc;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::storage::Storage;
+use super::Submission;
+use super::storage::{DrawCount, Storage};
 use crate::GpuError;
 use crate::barrier::{Barrier, Use};
-use crate::device::Submission;
 use crate::pipeline::LayoutPush;
 
 impl Storage {
@@ -180,6 +180,48 @@ impl Storage {
                     0,
                     &self.constants[constants..constants + layout.immediate_bytes],
                 );
+            }
+        }
+    }
+
+    /// The draws of the open scope.
+    pub(crate) fn replay_draws(&mut self) {
+        self.bound = vk::Pipeline::null();
+        let mut bound = vk::Pipeline::null();
+        for draw in &self.draws {
+            let device = &self.core.device;
+            if bound != draw.pipeline {
+                bound = draw.pipeline;
+                // SAFETY: the buffer is recording; the pipeline is held.
+                unsafe {
+                    device.cmd_bind_pipeline(
+                        self.cmd,
+                        vk::PipelineBindPoint::GRAPHICS,
+                        draw.pipeline,
+                    );
+                }
+            }
+            self.bind(&draw.push, draw.descriptors, draw.constants);
+            // SAFETY: pipeline, descriptors and immediates are bound; buffers
+            // are held, and their ranges were checked when the draw was made.
+            unsafe {
+                match draw.count {
+                    DrawCount::Vertices {
+                        vertices,
+                        instances,
+                    } => device.cmd_draw(self.cmd, vertices, instances, 0, 0),
+                    DrawCount::Indexed {
+                        indices,
+                        count,
+                        instances,
+                    } => {
+                        device.cmd_bind_index_buffer(self.cmd, indices, 0, vk::IndexType::UINT32);
+                        device.cmd_draw_indexed(self.cmd, count, instances, 0, 0, 0);
+                    }
+                    DrawCount::Indirect { arguments, offset } => {
+                        device.cmd_draw_indirect(self.cmd, arguments, offset, 1, 16);
+                    }
+                }
             }
         }
     }

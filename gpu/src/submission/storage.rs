@@ -7,15 +7,15 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::Submission;
 use super::arena::Arena;
-use super::draw::DrawCommand;
 use super::timing::{Markers, Names, Queries};
 use crate::GpuError;
 use crate::barrier::{Planner, Scope, Use};
-use crate::device::{Core, Options, Submission};
+use crate::device::{Core, Options, Timestamps};
 use crate::memory::{BufferInner, ImageInner};
-use crate::pipeline::DescriptorData;
-use crate::{Buffer, Image, Timestamps};
+use crate::pipeline::{DescriptorData, LayoutPush};
+use crate::{Buffer, Image};
 
 /// An image and the layout that it has at this point of the recording.
 pub(crate) struct ImageState {
@@ -35,6 +35,34 @@ pub(crate) struct ImageUse {
     pub(crate) discard: bool,
 }
 
+/// How many vertices a draw has, and from where.
+#[derive(Clone, Copy)]
+pub(crate) enum DrawCount {
+    Vertices {
+        vertices: u32,
+        instances: u32,
+    },
+    Indexed {
+        indices: vk::Buffer,
+        count: u32,
+        instances: u32,
+    },
+    Indirect {
+        arguments: vk::Buffer,
+        offset: u64,
+    },
+}
+
+/// A draw, kept until the scope's barrier is known.
+pub(crate) struct DrawCommand {
+    pub(crate) pipeline: vk::Pipeline,
+    pub(crate) push: LayoutPush,
+    pub(crate) descriptors: usize,
+    pub(crate) constants: usize,
+    pub(crate) count: DrawCount,
+}
+
+/// Everything that one submission needs on the host.
 pub(crate) struct Storage {
     pub(crate) core: Arc<Core>,
     pool: vk::CommandPool,
@@ -151,6 +179,40 @@ impl Storage {
         index
     }
 
+    /// Adds a buffer to the pass being recorded.
+    pub(crate) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
+        let slot = self.buffer_slot(buffer);
+        self.uses.push(Use { slot, scope });
+    }
+
+    /// Adds an image to the pass being recorded.
+    pub(crate) fn use_image(
+        &mut self,
+        image: &Image,
+        layout: vk::ImageLayout,
+        scope: Scope,
+        discard: bool,
+    ) -> Result<(), GpuError> {
+        let index = self.image_index(image);
+        if let Some(used) = self.image_uses.iter_mut().find(|used| used.index == index) {
+            if used.layout != layout {
+                return Err(GpuError::Raster {
+                    pass: image.inner.label.clone(),
+                    cause: "one pass uses the image in two ways that exclude each other; use two passes or two images".to_owned(),
+                });
+            }
+            used.scope = used.scope.union(scope);
+            return Ok(());
+        }
+        self.image_uses.push(ImageUse {
+            index,
+            layout,
+            scope,
+            discard,
+        });
+        Ok(())
+    }
+
     pub(crate) fn retain(&mut self, object: Arc<dyn Any + Send + Sync>) {
         self.retained.push(object);
     }
@@ -170,7 +232,7 @@ impl Storage {
     pub(crate) fn recycle(&mut self, timestamp_mask: u64) -> Result<(), GpuError> {
         if let Some(queries) = &mut self.queries {
             let timings = queries.read(&self.core, &self.names, timestamp_mask)?;
-            // A second reader finds the same; the first one stays.
+            // Set already only where they were read before, and then they are the same.
             let _ = self.submission.timings.set(timings);
         }
         if let Some(markers) = &mut self.markers {

@@ -1,42 +1,35 @@
-//! What the liquid is drawn from, and how.
+//! The solver's own buffers that a frame is drawn from.
 
 use vitriol_gpu::Buffer;
 
 use crate::RenderError;
 use crate::scene::BoxDesc;
 
-/// How the depth of the splatted ellipsoids becomes a surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SurfaceFilter {
-    /// Truong and Yuksel's narrow-range filter of 2018.
-    #[default]
-    NarrowRange,
-    /// Van der Laan's screen-space curvature flow of 2009, which the paper takes.
-    CurvatureFlow,
-    /// None: the ellipsoids as they are, to compare with.
-    None,
+/// Particles in the solver's own buffers.
+#[derive(Clone, Copy)]
+pub struct ParticleSource<'a> {
+    /// `array<vec4<f32>>`: xyz in the stage, in the scene's unit; w < 0 marks
+    /// a particle that was taken out.
+    pub positions: &'a Buffer,
+    /// `array<vec4<f32>>` in the same order, that [`FrameDesc::colour_by`](crate::FrameDesc) reads:
+    /// velocities (xyz, the scene's unit per second), or temperature (°C) and
+    /// acid fraction in x and y.
+    pub attributes: &'a Buffer,
+    /// How many of them are drawn.
+    pub count: u32,
+    /// Radius of a sphere, in the scene's unit. 0.6 of the particle spacing
+    /// closes the gaps between them.
+    pub radius: f32,
 }
 
-/// The liquid surface that a renderer is made for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LiquidDesc {
-    /// Particles at most.
-    pub particles: u32,
-    /// Filter of the depth.
-    pub filter: SurfaceFilter,
-    /// Whether particles are ellipsoids by their neighbours' places; else spheres.
-    pub anisotropic: bool,
-}
-
-impl LiquidDesc {
-    /// For `particles` of them, as the program draws by itself.
-    pub const fn new(particles: u32) -> Self {
-        Self {
-            particles,
-            filter: SurfaceFilter::NarrowRange,
-            anisotropic: true,
-        }
-    }
+/// Puffs of steam.
+#[derive(Clone, Copy)]
+pub struct SteamSource<'a> {
+    /// `array<Puff>` ([`Puff`](vitriol_shaders::layout::Puff)): centre, radius (m) and optical depth.
+    /// A radius of 0 draws nothing.
+    pub puffs: &'a Buffer,
+    /// How many of them are drawn.
+    pub count: u32,
 }
 
 /// The solver's neighbour list.
@@ -75,9 +68,9 @@ pub struct LiquidSource<'a> {
     pub count: u32,
     /// Particle spacing d: a particle at rest density is d³ of liquid.
     pub spacing: f32,
-    /// Who is next to whom; `None` draws spheres.
+    /// The neighbours; without them particles are drawn as spheres.
     pub neighbours: Option<Neighbours<'a>>,
-    /// What glass the liquid meets; `None` for none.
+    /// Glass that cuts the liquid; `None` for none.
     pub vessels: Option<VesselTables<'a>>,
     /// The table that it may lie on.
     pub table: Option<BoxDesc>,

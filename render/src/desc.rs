@@ -1,0 +1,57 @@
+//! What a renderer is made for.
+
+/// Size and views of the picture, and its liquid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderDesc {
+    /// Width and height of each view's image, pixels.
+    pub extent: [u32; 2],
+    /// 1 (a film) or 2 (a headset's eyes).
+    pub views: u32,
+    /// The liquid surface that frames may ask for; `None` for none.
+    pub liquid: Option<LiquidDesc>,
+}
+
+impl RenderDesc {
+    /// One view of `extent` in 8-bit sRGB, without a liquid surface: a film.
+    pub const fn film(extent: [u32; 2]) -> Self {
+        Self {
+            extent,
+            views: 1,
+            liquid: None,
+        }
+    }
+}
+
+/// How the depth of the splatted ellipsoids becomes a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SurfaceFilter {
+    /// Truong and Yuksel's narrow-range filter of 2018.
+    #[default]
+    NarrowRange,
+    /// Van der Laan's screen-space curvature flow of 2009, which the paper takes.
+    CurvatureFlow,
+    /// None: the ellipsoids as they are, to compare with.
+    None,
+}
+
+/// The liquid surface that a renderer is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LiquidDesc {
+    /// Particles at most.
+    pub particles: u32,
+    /// Filter of the depth.
+    pub filter: SurfaceFilter,
+    /// Whether particles are ellipsoids by their neighbours' places; else spheres.
+    pub anisotropic: bool,
+}
+
+impl LiquidDesc {
+    /// For `particles` of them, as the program draws by itself.
+    pub const fn new(particles: u32) -> Self {
+        Self {
+            particles,
+            filter: SurfaceFilter::NarrowRange,
+            anisotropic: true,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The solver's state, taken from a device and put on one again.
+
+use super::steam::{Steam, SteamState};
+use super::transfer::{read, write};
+use super::{Counters, Solver, SolverError, SolverState};
+use crate::chemistry::Chemistry;
+use std::sync::atomic::Ordering;
+
+impl Solver {
+    /// Reads the state to the host; waits for the device.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device fails.
+    pub fn snapshot(&self) -> Result<SolverState, SolverError> {
+        let (b, gpu) = (&self.buffers, &self.gpu);
+        let n = self.count as usize;
+        let Lengths { heat, matter } = self.lengths();
+        Ok(SolverState {
+            positions: read(gpu, &b.position, n)?,
+            velocities: read(gpu, &b.velocity, n)?,
+            tags: read(gpu, &b.tags, n)?,
+            heat: read(gpu, &b.heat, heat)?,
+            matter: read(gpu, &b.matter, matter)?,
+            ledger: read(gpu, &b.ledger, matter)?,
+            agitation: read(gpu, &b.agitation, matter)?,
+            bulk: read(gpu, &b.bulk, matter)?,
+            steam: match &self.steam {
+                Some(steam) => steam.snapshot(gpu, n)?,
+                None => SteamState::default(),
+            },
+            list_origin: read(gpu, &b.list_origin, n)?,
+            list_counts: read(gpu, &b.list_counts, n)?,
+            list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
+            counters: read(gpu, &b.counters, size_of::<Counters>() / 4)?,
+        })
+    }
+
+    /// Puts a state on this device, a new one perhaps; what follows has the
+    /// bits that it would have had without the interruption.
+    ///
+    /// # Errors
+    /// [`SolverError::OtherState`], or [`SolverError::Gpu`].
+    pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
+        let n = self.count as usize;
+        let listed = n * self.grid.list_capacity as usize;
+        let lengths = self.lengths();
+        let [puffs, vented, made] = Steam::start(&self.parameters, n).elements();
+        for (what, found, expected) in [
+            ("positions", state.positions.len(), n),
+            ("velocities", state.velocities.len(), n),
+            ("tags", state.tags.len(), n),
+            ("heat", state.heat.len(), lengths.heat),
+            ("contents", state.matter.len(), lengths.matter),
+            ("ledger", state.ledger.len(), lengths.matter),
+            ("agitation", state.agitation.len(), lengths.matter),
+            ("bulk", state.bulk.len(), lengths.matter),
+            ("list origins", state.list_origin.len(), n),
+            ("list counts", state.list_counts.len(), n),
+            ("list", state.list.len(), listed),
+            ("puffs", state.steam.elements()[0], puffs),
+            ("vented steam", state.steam.elements()[1], vented),
+            ("vents", state.steam.elements()[2], made),
+            ("counters", state.counters.len(), size_of::<Counters>() / 4),
+        ] {
+            if found != expected {
+                return Err(SolverError::OtherState {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let any = state.list_counts.iter().any(|&count| count > 0);
+        self.listed.store(any, Ordering::Relaxed);
+        let (b, gpu) = (&self.buffers, &self.gpu);
+        write(gpu, &b.position, &state.positions)?;
+        write(gpu, &b.velocity, &state.velocities)?;
+        write(gpu, &b.tags, &state.tags)?;
+        write(gpu, &b.heat, &state.heat)?;
+        write(gpu, &b.matter, &state.matter)?;
+        write(gpu, &b.ledger, &state.ledger)?;
+        write(gpu, &b.agitation, &state.agitation)?;
+        write(gpu, &b.bulk, &state.bulk)?;
+        if let Some(steam) = &self.steam {
+            steam.restore(gpu, &state.steam)?;
+        }
+        write(gpu, &b.list_origin, &state.list_origin)?;
+        write(gpu, &b.list_counts, &state.list_counts)?;
+        write(gpu, &b.list, &state.list)?;
+        write(gpu, &b.counters, &state.counters)?;
+        let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
+        rec.fill(&b.cell_counts, 0)?;
+        // Nothing is stale yet; y and z of the dispatch sizes are 1.
+        rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
+        gpu.submit(rec)?.wait()?;
+        Ok(())
+    }
+
+    /// How long the arrays are that only some scenes have.
+    fn lengths(&self) -> Lengths {
+        let of = |asked: bool| if asked { self.count as usize } else { 0 };
+        let chemistry = self.parameters.chemistry.as_ref();
+        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
+        Lengths {
+            heat: of(chemistry.is_some()),
+            matter: of(physical),
+        }
+    }
+
+    /// Reads the counters; waits for the device.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device fails.
+    pub fn counters(&self) -> Result<Counters, SolverError> {
+        let words = read::<Counters>(&self.gpu, &self.buffers.counters, 1)?;
+        Ok(words.first().copied().unwrap_or_default())
+    }
+}
+
+struct Lengths {
+    heat: usize,
+    matter: usize,
+}

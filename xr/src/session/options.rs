@@ -1,0 +1,16 @@
+//! What a session is opened with.
+
+use std::ffi::CString;
+
+/// What the session is opened with, and opened with again after a loss.
+#[derive(Clone, Debug)]
+pub struct OpenXrOptions {
+    /// How to open the device; which one it is says the runtime.
+    pub gpu: vitriol_gpu::Options,
+    /// Further instance extensions, such as those of a window's surface.
+    pub instance_extensions: Vec<CString>,
+    /// Further device extensions, such as `VK_KHR_swapchain`.
+    pub device_extensions: Vec<CString>,
+    /// Width and height of the panel, pixels.
+    pub panel: [u32; 2],
+}
