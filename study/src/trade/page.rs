@@ -39,7 +39,7 @@ pub fn page(trade: &Trade) -> String {
 /// What of a plot's colours the pages' own style sheet does not exchange.
 const OWN: &str = r##"
 .canvas svg [fill="#0072B2"] { fill: var(--c0); }
-.canvas svg [fill="#000000"] { fill: var(--ink); }
+.canvas svg [fill="#1D2326"] { fill: var(--ink); }
 .wide { overflow-x: auto; } .wide table { font-size: 14px; } .wide td, .wide th { padding-right: 14px; white-space: nowrap; }
 "##;
 

@@ -23,6 +23,8 @@ pub struct Dot {
 const LEAST: f64 = 1e-6;
 
 const SIZE: (u32, u32) = (640, 400);
+/// Of the presets' names; the page's style sheet exchanges it.
+const INK: RGBColor = RGBColor(0x1d, 0x23, 0x26);
 const TEXT: (&str, u32) = ("sans-serif", 16);
 
 /// Draws the settings, and a line along their front; `None` where there is
@@ -60,6 +62,7 @@ fn draw(
     };
     let mut chart = ChartBuilder::on(&area)
         .margin(12)
+        .margin_right(60)
         .x_label_area_size(52)
         .y_label_area_size(74)
         .build_cartesian_2d(axis(across), axis(up))?;
@@ -91,7 +94,7 @@ fn draw(
     };
     chart.draw_series(presets().map(|(_, at)| Circle::new(at, 8, of_preset.stroke_width(2))))?;
     chart.draw_series(presets().map(|(name, at)| {
-        EmptyElement::at(at) + Text::new(name, (11, -18), TEXT.into_font().color(&BLACK))
+        EmptyElement::at(at) + Text::new(name, (11, -18), TEXT.into_font().color(&INK))
     }))?;
     let places = values.iter().map(|at| chart.backend_coord(at)).collect();
     drop(chart);
