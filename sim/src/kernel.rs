@@ -91,6 +91,24 @@ mod tests {
         }
     }
 
+    #[test]
+    fn is_the_cubic_b_spline() {
+        // Schoenberg's M₄ by truncated powers, whose support is [−2, 2] and
+        // whose value at 0 is 2/3.
+        let m4 = |x: f64| {
+            let terms = [1.0, -4.0, 6.0, -4.0, 1.0];
+            let powers = (0..).map(|k| (x + 2.0 - f64::from(k)).max(0.0).powi(3));
+            let sum: f64 = terms.iter().zip(powers).map(|(a, b)| a * b).sum();
+            sum / 6.0
+        };
+        let kernel = Kernel::new(0.3);
+        for i in 0..=120 {
+            let q = f64::from(i) / 100.0;
+            let error = kernel.w(0.3 * q) / kernel.sigma() - 1.5 * m4(2.0 * q);
+            assert!(error.abs() < 1e-14, "{q}: {error}");
+        }
+    }
+
     /// Sum of m·W/ρ₀ over a lattice of unit cells with the given atoms.
     fn lattice_sum(atoms: &[[f64; 3]]) -> f64 {
         let d = 0.7;

@@ -11,4 +11,5 @@ pub mod pose;
 pub mod reference;
 pub mod scene;
 pub mod solver;
+pub mod surface_tension;
 pub mod world;

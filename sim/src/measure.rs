@@ -2,6 +2,7 @@
 
 mod departures;
 mod heat;
+mod percentile;
 
 pub use departures::{Departed, Departures};
 pub use heat::{HeatMeasurement, Ledger, Superheat, measure as measure_heat};
@@ -11,6 +12,7 @@ use crate::scene::Scene;
 use crate::solver::SolverState;
 use crate::world::{World, WorldError};
 use glam::{DVec3, Vec3};
+use percentile::percentile;
 use serde::Serialize;
 use vitriol_gpu::QueueKind;
 
@@ -160,12 +162,4 @@ fn kinetic_energy(state: &SolverState, mass: f64) -> f64 {
         state.mass_of(slot) * f64::from(Vec3::new(x, y, z).length_squared())
     });
     0.5 * mass * doubled.sum::<f64>()
-}
-
-/// Of sorted values, by nearest rank; 0 of none.
-fn percentile(sorted: &[f32], share: f64) -> f64 {
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted
-        .get(rank.saturating_sub(1))
-        .map_or(0.0, |&v| v.into())
 }

@@ -1,9 +1,11 @@
 //! What both solvers need to know about the liquid and about the time step.
 
 use crate::chemistry::Chemistry;
+use crate::chemistry::exchange::Exchange;
 use crate::kernel::Kernel;
-use crate::reference::forces::{adhesion_strength, cohesion_strength};
 use crate::scene::{RelaxationKind, Scene};
+use crate::surface_tension::{adhesion_strength, cohesion_strength};
+use std::f64::consts::PI;
 
 /// Time over which [`Parameters::viscosity`] is defined, seconds: the substep
 /// of the paper's setting, 60 Hz with 3 substeps.
@@ -143,6 +145,15 @@ const LIST_MARGIN: f64 = 0.15;
 /// rest keeps a rms speed of 0.05 m/s; from 5 on it is calm.
 const CHEBYSHEV_REDUCTION: f64 = 5.0;
 
+/// Neighbours that a list has room for, over those of an undisturbed lattice:
+/// the liquid may be a third too dense before a neighbour is left out.
+const LIST_HEADROOM: f64 = 1.35;
+
+/// Least volume of a particle over V₀ for which lists have room where density
+/// follows composition: equal volumes of water and acid contract by 8 %, and
+/// what boils loses water.
+const LEAST_VOLUME: f64 = 0.75;
+
 /// d_margin over h (section 5).
 const FLASK_MARGIN: f64 = 0.001;
 
@@ -195,6 +206,29 @@ impl Parameters {
         self.frame_time / f64::from(self.substeps)
     }
 
+    /// Neighbours that a list has room for.
+    pub fn list_capacity(&self) -> u32 {
+        let reach = self.support_radius * (1.0 + self.list_margin);
+        let sphere = 4.0 / 3.0 * PI * (reach / self.spacing).powi(3);
+        let contracts = match &self.chemistry {
+            Some(Chemistry::Physical(physical)) => physical.density,
+            _ => false,
+        };
+        let closer = if contracts { 1.0 / LEAST_VOLUME } else { 1.0 };
+        (sphere * LIST_HEADROOM * closer / 8.0).ceil() as u32 * 8
+    }
+
+    /// Diffusion in a substep with lists of at most `capacity` ≥ 1 neighbours.
+    pub fn exchange(&self, capacity: u32) -> Exchange {
+        let kernel = Kernel::new(self.support_radius);
+        Exchange::new(
+            kernel,
+            self.particle_volume(),
+            self.substep_time(),
+            capacity,
+        )
+    }
+
     /// a = Σ_j |V₀∇W_ij|² over a full neighbourhood of the cubic lattice,
     /// 1/m².
     ///
@@ -232,6 +266,7 @@ impl Parameters {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
     use super::*;
 
     /// The error of x ← x + … on A = diag(μ) after all iterations, per μ.
@@ -266,6 +301,40 @@ mod tests {
                 assert!((own - t / reduction).abs() < 1e-12, "{n} {mu} {own} {t}");
             }
         }
+    }
+
+    #[test]
+    fn a_scenes_numbers_arrive() {
+        let mut scene = Scene::load("water-into-acid").unwrap();
+        let solver = &mut scene.solver;
+        (solver.vorticity, solver.cohesion) = (Some(0.1), Some(0.2));
+        (solver.adhesion, solver.viscosity) = (Some(0.3), 0.4);
+        (solver.carry, solver.omega, solver.v_max) = (0.5, 0.25, 7.0);
+        (solver.substeps, solver.iterations) = (8, 9);
+        let p = Parameters::from_scene(&scene);
+        assert_eq!((p.vorticity, p.cohesion, p.adhesion), (0.1, 0.2, 0.3));
+        assert_eq!((p.viscosity, p.carry, p.max_speed), (0.4, 0.5, 7.0));
+        assert_eq!((p.substeps, p.iterations), (8, 9));
+        assert_eq!((p.spacing, p.support_radius), (0.0025, 0.005));
+        assert_eq!(p.gravity, [0.0, -9.81, 0.0]);
+        // Section 5's margin.
+        assert!((p.margin - 5e-6).abs() < 1e-18);
+        let Relaxation::Chebyshev { spectral_bound, .. } = p.relaxation else {
+            panic!("the scene asks for Chebyshev")
+        };
+        assert_eq!(spectral_bound, 8.0);
+    }
+
+    /// Eq. 16 in a linear shear flow's curvature: ν·Δt = ½ ∫ W·x² dV along one
+    /// axis, a third of ∫ W·r² dV.
+    #[test]
+    fn xsph_moment_is_the_kernels() {
+        let kernel = Kernel::new(1.0);
+        let n = 10_000;
+        let radii = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n));
+        let shells = radii.map(|r| 4.0 * PI * r.powi(4) * kernel.w(r));
+        let moment = shells.sum::<f64>() / f64::from(n) / 6.0;
+        assert!((moment / XSPH_MOMENT - 1.0).abs() < 1e-6, "{moment}");
     }
 
     #[test]

@@ -147,9 +147,11 @@ fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first:
         if (TABLE) {
             let p = result.position;
             let edge = beyond_table(p);
-            if (p.y < TABLE_TOP + MARGIN && p.y > TABLE_UNDER && edge < 0.0) {
-                // From above it stays above; from the side it stays beside.
-                if (before.y >= TABLE_TOP || beyond_table(before) < 0.0) {
+            if (p.y < TABLE_TOP + MARGIN && p.y > TABLE_UNDER - MARGIN && edge < 0.0) {
+                // From below it stays below, from above above; from the side it stays beside.
+                if (before.y <= TABLE_UNDER) {
+                    result.position.y = TABLE_UNDER - MARGIN;
+                } else if (before.y >= TABLE_TOP || beyond_table(before) < 0.0) {
                     result.position.y = TABLE_TOP + MARGIN;
                 } else {
                     result.position = vec3<f32>(before.x, p.y, before.z);

@@ -21,7 +21,7 @@
 use glam::Vec3;
 use rapier3d::prelude::MassProperties;
 
-use super::Load;
+use super::spec::Load;
 use crate::pose::Pose;
 
 /// Highest acceleration (m/s², at real size) of a flask that is given back,

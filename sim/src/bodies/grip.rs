@@ -3,7 +3,8 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Hand, reach};
+use super::reach;
+use super::spec::Hand;
 use crate::pose::Pose;
 
 /// Farthest distance (m, at real size) from the grip point to a flask's surface

@@ -1,6 +1,6 @@
 //! What a closed, insulated, well stirred vessel at one atmosphere ends at.
 
-use super::OutOfRange;
+use super::error::OutOfRange;
 use super::physical::Content;
 use super::table::SolutionTable;
 

@@ -1,6 +1,6 @@
 //! What comes in from a user is checked here; inside, all is within bounds.
 
-use super::ABSOLUTE_ZERO;
+use super::constants::ABSOLUTE_ZERO;
 use thiserror::Error;
 
 /// A composition or temperature that no liquid has.

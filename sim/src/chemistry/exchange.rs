@@ -1,17 +1,6 @@
 //! Diffusion between pairs of particles (Eq. 5), stable whatever D, Δt, h.
 
-use super::Chemistry;
 use crate::kernel::Kernel;
-use crate::parameters::Parameters;
-
-/// Neighbours that a list has room for, over those of an undisturbed lattice:
-/// the liquid may be a third too dense before a neighbour is left out.
-const LIST_HEADROOM: f64 = 1.35;
-
-/// Least volume of a particle over V₀ for which lists have room where density
-/// follows composition: equal volumes of water and acid contract by 8 %, and
-/// what boils loses water.
-const LEAST_VOLUME: f64 = 0.75;
 
 /// h²·∫ 2|x·∇W|/(x² + 0.01h²) dx′ over a solid, per V_b.
 ///
@@ -19,18 +8,6 @@ const LEAST_VOLUME: f64 = 0.75;
 /// a spacing (h/4) from it and 27 at 0.4 h, where V_b has fallen to 0.07; so
 /// one factor serves a wall as its boundary particles would, within 12 %.
 const WALL_FACTOR: f64 = 24.0;
-
-/// Neighbours that a list of `parameters` has room for.
-pub fn list_capacity(parameters: &Parameters) -> u32 {
-    let reach = parameters.support_radius * (1.0 + parameters.list_margin);
-    let sphere = 4.0 / 3.0 * std::f64::consts::PI * (reach / parameters.spacing).powi(3);
-    let contracts = match &parameters.chemistry {
-        Some(Chemistry::Physical(physical)) => physical.density,
-        _ => false,
-    };
-    let closer = if contracts { 1.0 / LEAST_VOLUME } else { 1.0 };
-    (sphere * LIST_HEADROOM * closer / 8.0).ceil() as u32 * 8
-}
 
 /// The exchange of a substep.
 ///
@@ -55,13 +32,13 @@ pub struct Exchange {
 }
 
 impl Exchange {
-    /// Exchange in a substep of `parameters` with lists of at most
-    /// `capacity` ≥ 1 neighbours.
-    pub fn new(parameters: &Parameters, capacity: u32) -> Self {
+    /// Exchange between particles of volume `volume` (m³) in a substep of
+    /// `time` s with lists of at most `capacity` ≥ 1 neighbours.
+    pub fn new(kernel: Kernel, volume: f64, time: f64, capacity: u32) -> Self {
         Self {
-            kernel: Kernel::new(parameters.support_radius),
-            volume: parameters.particle_volume(),
-            time: parameters.substep_time(),
+            kernel,
+            volume,
+            time,
             limit: 1.0 / f64::from(capacity.max(1)),
         }
     }

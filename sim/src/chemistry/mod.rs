@@ -10,6 +10,7 @@
 //! H₂SO₄, 0 to 1. An energy per mass is per mass of mixture.
 
 pub mod adiabatic;
+mod constants;
 pub mod curve;
 mod error;
 pub mod exchange;
@@ -25,17 +26,6 @@ pub mod transport;
 #[cfg(test)]
 mod tests;
 
+pub use constants::{ABSOLUTE_ZERO, ACID_MOLAR_MASS, GAS_CONSTANT, WATER_MOLAR_MASS};
 pub use error::{OutOfRange, check_content};
 pub use model::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
-
-/// Absolute zero, °C.
-pub const ABSOLUTE_ZERO: f64 = -273.15;
-
-/// Gas constant R, J/(mol K) (CODATA 2018, rounded).
-pub const GAS_CONSTANT: f64 = 8.314_463;
-
-/// Molar mass of H₂SO₄, kg/mol (IUPAC 2021 atomic weights).
-pub const ACID_MOLAR_MASS: f64 = 0.098_079;
-
-/// Molar mass of water, kg/mol (IUPAC 2021 atomic weights).
-pub const WATER_MOLAR_MASS: f64 = 0.018_015;

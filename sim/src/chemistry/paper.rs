@@ -1,8 +1,9 @@
 //! The paper's chemistry: heat of solution (Eqs 6 to 8 and 11 to 13) and
 //! anti-viscosity (Eq. 17).
 
+use super::constants::ABSOLUTE_ZERO;
+use super::error::OutOfRange;
 use super::thomsen::{self, JOULES_PER_CALORIE};
-use super::{ABSOLUTE_ZERO, OutOfRange};
 
 /// ε of Eqs 11 and 12, mass fraction.
 const EPSILON: f64 = 1e-6;

@@ -1,8 +1,9 @@
 //! The physical chemistry's state, its boiling and what boiling pays for.
 
+use super::constants::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
+use super::error::{OutOfRange, check_content};
 use super::properties::AZEOTROPE;
 use super::table::{Row, STEAM_CAPACITY, SolutionTable, steam_enthalpy};
-use super::{ABSOLUTE_ZERO, GAS_CONSTANT, OutOfRange, WATER_MOLAR_MASS, check_content};
 
 /// Newton's steps towards the equilibrium of liquid and vapour. From the
 /// vapour that is there they leave an error below 1e-4 in its mass fraction,

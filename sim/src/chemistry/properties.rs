@@ -1,7 +1,7 @@
 //! Properties of sulfuric acid over composition, from the tables in `data`.
 
+use super::constants::{ABSOLUTE_ZERO, ACID_MOLAR_MASS, WATER_MOLAR_MASS};
 use super::curve::Curve;
-use super::{ABSOLUTE_ZERO, ACID_MOLAR_MASS, WATER_MOLAR_MASS};
 
 const ACID_TABLE: &str = include_str!("../../data/sulfuric_acid.csv");
 const HEAT_TABLE: &str = include_str!("../../data/heat_of_mixing.csv");

@@ -10,6 +10,7 @@
 //! its sides may reach through a wall. It takes nothing from the liquid, whose
 //! ledger has seen it off.
 
+use super::constants::ABSOLUTE_ZERO;
 use super::table::{STEAM_CAPACITY, steam_enthalpy};
 use std::f64::consts::PI;
 
@@ -222,5 +223,5 @@ impl Puff {
 }
 
 fn kelvin(t: f64) -> f64 {
-    t - super::ABSOLUTE_ZERO
+    t - ABSOLUTE_ZERO
 }

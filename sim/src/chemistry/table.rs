@@ -1,7 +1,7 @@
 //! The properties as uniform tables with linear interpolation, the same ones
 //! for the CPU and the GPU, and the enthalpy that follows from them.
 
-use super::ABSOLUTE_ZERO;
+use super::constants::ABSOLUTE_ZERO;
 use super::properties::{CAPACITY_SLOPE, CAPACITY_SLOPE_FROM, COLUMN_TEMPERATURES, Properties};
 
 /// Intervals of the table from pure water to pure acid. Against the curves

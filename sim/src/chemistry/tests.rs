@@ -4,5 +4,6 @@
 
 mod air;
 mod enthalpy;
+mod model;
 mod pairs;
 mod phases;

@@ -56,7 +56,13 @@ pub struct VolumeMap {
 impl VolumeMap {
     /// Map of `profile` for a kernel of support radius `support` (metres).
     pub fn new(profile: &Profile, side: Side, support: f64) -> Self {
-        let spacing = support / NODES_PER_SUPPORT;
+        Self::refined(profile, side, support, 1)
+    }
+
+    /// The same with nodes `refinement` times as close: what a test takes to
+    /// tell the law from its interpolation.
+    pub(crate) fn refined(profile: &Profile, side: Side, support: f64, refinement: u32) -> Self {
+        let spacing = support / (NODES_PER_SUPPORT * f64::from(refinement));
         let count = |length: f64| (length / spacing).ceil() as usize + 1;
         let columns = count(profile.outer_radius() + support);
         let rows = count(profile.rim_height() + 2.0 * support);

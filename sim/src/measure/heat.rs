@@ -1,7 +1,7 @@
 //! What the particles of a scene with heat hold, all together and at their
 //! extremes.
 
-use super::percentile;
+use super::percentile::percentile;
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;

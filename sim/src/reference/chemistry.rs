@@ -3,7 +3,6 @@
 use super::boiling::Coefficients;
 use super::bubbles::{Bubbles, Rise};
 use super::dilution::{self, Pairs, Weight};
-use super::retain;
 use super::surroundings::WallSum;
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
@@ -322,4 +321,10 @@ pub fn surfaces(volume: f64, walls: &[WallSum], liquid: &[DVec3]) -> Vec<(f64, f
         )
     };
     walls.iter().zip(liquid).map(areas).collect()
+}
+
+/// Leaves out of `values` what is not to `keep`.
+pub(super) fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    values.retain(|_| keep.next().copied().unwrap_or(true));
 }

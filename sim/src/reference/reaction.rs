@@ -1,11 +1,10 @@
 //! Lines 26 and 27 of a liquid with a chemistry.
 
-use super::Reference;
+use super::algorithm::Reference;
 use super::boiling;
 use super::chemistry::{Chemistry, surfaces};
 use super::dilution::Pairs;
 use super::neighbours::Neighbours;
-use crate::chemistry::exchange::{Exchange, list_capacity};
 
 impl Reference {
     /// Line 26: diffusion, heat of solution and what else the chemistry does
@@ -17,8 +16,8 @@ impl Reference {
         let longest = (0..self.positions.len()).map(|i| neighbours.of(i).count());
         let capacity = longest.max().unwrap_or(0) as u32;
         // The GPU's lists have this capacity; these have no limit.
-        let capacity = capacity.max(list_capacity(&self.parameters));
-        let exchange = Exchange::new(&self.parameters, capacity);
+        let capacity = capacity.max(self.parameters.list_capacity());
+        let exchange = self.parameters.exchange(capacity);
         let pairs = Pairs {
             exchange: &exchange,
             positions: &self.positions,

@@ -1,6 +1,6 @@
 //! The reference solver of a scene.
 
-use super::Reference;
+use super::algorithm::Reference;
 use super::chemistry::{DilutionLaw, Paper};
 use super::surroundings::{Surroundings, Table, Vessel};
 use crate::chemistry::OutOfRange;

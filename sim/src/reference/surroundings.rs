@@ -1,11 +1,11 @@
 //! What is solid: flasks, table and floor, as terms of the density sum.
 
-use super::forces::HalfSpacePull;
 use super::neighbours::Cells;
 use super::placement::{Motion, Placement};
 use crate::flask::particles::BoundaryParticle;
 use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
 use crate::kernel::Kernel;
+use crate::surface_tension::HalfSpacePull;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// What the glass is made of for the density sum.
@@ -33,9 +33,15 @@ impl Vessel {
     /// Vessel whose glass is a pair of volume maps for support radius
     /// `support` (metres).
     pub fn with_maps(profile: Profile, support: f64) -> Self {
+        Self::with_refined_maps(profile, support, 1)
+    }
+
+    /// The same with nodes `refinement` times as close.
+    pub(super) fn with_refined_maps(profile: Profile, support: f64, refinement: u32) -> Self {
+        let map = |side| VolumeMap::refined(&profile, side, support, refinement);
         let glass = Glass::Maps {
-            inside: VolumeMap::new(&profile, Side::Inside, support),
-            outside: VolumeMap::new(&profile, Side::Outside, support),
+            inside: map(Side::Inside),
+            outside: map(Side::Outside),
         };
         Self { profile, glass }
     }

@@ -2,14 +2,13 @@
 
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
-use crate::chemistry::exchange::list_capacity;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::INTERVALS;
 use crate::chemistry::thomsen::JOULES_PER_CALORIE;
 use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
 use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
 use crate::parameters::Parameters;
-use crate::reference::forces::PULL_SAMPLES;
+use crate::surface_tension::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId, sim};
 
@@ -40,7 +39,7 @@ impl Grid {
         Self {
             cell,
             bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
-            list_capacity: list_capacity(parameters),
+            list_capacity: parameters.list_capacity(),
         }
     }
 

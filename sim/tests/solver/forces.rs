@@ -10,10 +10,11 @@ use vitriol_sim::bodies::Hand;
 use vitriol_sim::kernel::Kernel;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::reference::forces::{adhesion_kernel, vorticity};
+use vitriol_sim::reference::forces::vorticity;
 use vitriol_sim::reference::neighbours::find;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::Particle;
+use vitriol_sim::surface_tension::adhesion_kernel;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
 

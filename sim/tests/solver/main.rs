@@ -12,6 +12,7 @@ mod forces;
 mod leaning_glass;
 mod limits;
 mod loads;
+mod measured;
 mod neighbours;
 mod open_space;
 mod passes;

@@ -6,6 +6,7 @@ use vitriol_sim::flask::particles::sample;
 use vitriol_sim::flask::{PlaneMap, Profile, Side, VolumeMap};
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::TableTop;
 use vitriol_sim::solver::{Ground, Particle};
 use vitriol_tests::gpu;
 
@@ -182,8 +183,11 @@ const TABLE: Ground = Ground {
     scale: 0.2,
 };
 
+/// The table's underside, 8 mm below its top.
+const UNDER: f64 = -TableTop::THICKNESS * TABLE.scale;
+
 /// A block of water falls half on the table, half past its edge to the floor,
-/// 30 mm below; the table is 6 mm thick.
+/// 30 mm below.
 #[test]
 fn table_and_floor_hold() {
     let device = gpu::device();
@@ -202,7 +206,7 @@ fn table_and_floor_hold() {
     let in_table = |p: &Found| {
         let aside = (DVec2::new(p.position.x, p.position.z) - DVec2::new(-0.06, 0.0)).abs();
         let over = aside.x < 0.1 - 1e-5 && aside.y < 0.1 - 1e-5;
-        over && p.position.y < 0.0 && p.position.y > -0.006 + 1e-5
+        over && p.position.y < 0.0 && p.position.y > UNDER + 1e-5
     };
     for _ in 0..30 {
         frames(&device, &solver, &[], 1);
@@ -219,20 +223,23 @@ fn table_and_floor_hold() {
     }
     let found = particles(&solver.snapshot().unwrap());
     let on_table = found.iter().filter(|p| p.position.y > 0.0).count();
-    let on_floor = found.iter().filter(|p| p.position.y < -0.006).count();
+    let on_floor = found.iter().filter(|p| p.position.y < UNDER).count();
     assert!(on_table > 100 && on_floor > 100, "{on_table} {on_floor}");
 }
 
-/// Drops that fly at the table's edge from the side, at its top and from
-/// below it.
+/// Drops that fly at the table's edge from the side, over its top, and up at
+/// its underside.
 #[test]
 fn a_table_is_solid_from_all_sides() {
     let device = gpu::device();
     let flying = |y: f64, z: f64, velocity: DVec3| drop_at(DVec3::new(0.042, y, z), velocity);
+    let rising = |x: f64| drop_at(DVec3::new(x, UNDER - 0.004, 0.0), DVec3::Y * 3.0);
     let drops = [
         flying(-0.003, 0.00, DVec3::NEG_X * 3.0),
         flying(-0.001, 0.02, DVec3::NEG_X * 3.0),
         flying(0.001, 0.04, DVec3::NEG_X * 3.0),
+        rising(0.020),
+        rising(-0.060),
     ];
     let p = Parameters {
         gravity: [0.0; 3],
@@ -249,4 +256,9 @@ fn a_table_is_solid_from_all_sides() {
     assert!(found[0].position.x >= 0.04 - 1e-6, "{}", found[0].position);
     assert!(found[1].position.x >= 0.04 - 1e-6, "{}", found[1].position);
     assert!(found[2].position.x < 0.0, "{}", found[2].position);
+    // They start 4 mm below the underside, and fly 2.8 mm a substep.
+    for (drop, x) in found[3..].iter().zip([0.020, -0.060]) {
+        let off = drop.position.distance(DVec3::new(x, UNDER, 0.0));
+        assert!(drop.position.y <= UNDER && off < 1e-5, "{}", drop.position);
+    }
 }

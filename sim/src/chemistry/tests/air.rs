@@ -111,9 +111,13 @@ fn steam_turns_to_mist_and_the_mist_vanishes() {
     for _ in 0..2000 {
         puff.advance(&room, G, 1.0 / 360.0);
         most = most.max(puff.mist / 2e-5);
-        // 1/r of 5 µm droplets over the sphere's section.
-        let depth = 1.5 * puff.mist / (PI * 1000.0 * DROPLET_RADIUS * puff.radius().powi(2));
-        assert!((puff.optical_depth() - depth).abs() < 1e-12);
+        // Number of droplets over the sphere's volume, times twice the section
+        // of one, times the mean chord, 4r/3.
+        let (r, drop) = (puff.radius(), DROPLET_RADIUS);
+        let count = puff.mist / (1000.0 * 4.0 / 3.0 * PI * drop.powi(3));
+        let per_metre = count / puff.volume() * 2.0 * PI * drop * drop;
+        let depth = per_metre * 4.0 / 3.0 * r;
+        assert!((puff.optical_depth() - depth).abs() < 1e-12 * depth.max(1.0));
     }
     // Never more than a sixth: see the test below.
     assert!((0.08..0.17).contains(&most), "{most}");

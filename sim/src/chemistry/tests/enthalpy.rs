@@ -194,9 +194,17 @@ fn latent_heat_is_that_of_the_vapour_pressure() {
         assert!((own / known - 1.0).abs() < tolerance, "{acid}: {own}");
     }
     // Water (CoolProp), J/kg: cp is constant here, steam's too.
-    for (temperature, known) in [(25.0, 2.442e6), (60.0, 2.358e6), (100.0, 2.256e6)] {
+    for (temperature, known, tolerance) in [
+        (25.0, 2.442e6, 0.001),
+        (60.0, 2.358e6, 0.005),
+        (100.0, 2.256e6, 0.01),
+        (150.0, 2.114e6, 0.025),
+    ] {
         let own = table.latent_heat(0.0, temperature);
-        assert!((own / known - 1.0).abs() < 0.01, "{temperature}: {own}");
+        assert!(
+            (own / known - 1.0).abs() < tolerance,
+            "{temperature}: {own}"
+        );
     }
 }
 

@@ -1,18 +1,25 @@
 //! Exchange between pairs: sums that must hold whatever the arrangement.
 
-use super::super::exchange::{Exchange, list_capacity};
+use super::super::exchange::Exchange;
 use super::super::paper::{AntiViscosity, Dilution};
 use super::super::physical::Content;
 use super::super::table::SolutionTable;
 use super::super::thomsen;
 use super::super::transport::{Losses, Mixing, Potential, contact_area, flux};
+use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 use crate::scene::Scene;
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 /// The paper's world.
 fn world() -> Parameters {
     Parameters::from_scene(&Scene::load("single-dilution").unwrap())
+}
+
+/// The exchange of a substep with the lists that `world` has.
+fn exchange_in(world: &Parameters) -> Exchange {
+    world.exchange(world.list_capacity())
 }
 
 /// Points that may lie anywhere, close together too, with their acid
@@ -58,7 +65,7 @@ proptest! {
         points in cluster(),
         diffusivity in prop_oneof![Just(0.007), Just(1e9), 0.0..10.0],
     ) {
-        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let exchange = exchange_in(&world());
         let (after, _) = diffuse(&exchange, diffusivity, &points);
         let before: f64 = points.iter().map(|(_, acid)| acid).sum();
         // Rounding of 64 sums of 64 terms.
@@ -78,7 +85,7 @@ proptest! {
         points in cluster(),
         diffusivity in prop_oneof![Just(0.007), Just(1e9)],
     ) {
-        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let exchange = exchange_in(&world());
         let dilution = Dilution::new(0.017, world().particle_mass());
         let (after, changes) = diffuse(&exchange, diffusivity, &points);
         let secants: Vec<f64> = points
@@ -114,7 +121,7 @@ proptest! {
         speed in prop_oneof![Just(0.0), Just(1e9), 0.0..5.0],
     ) {
         let table = SolutionTable::new();
-        let exchange = Exchange::new(&world(), list_capacity(&world()));
+        let exchange = exchange_in(&world());
         let mut contents: Vec<Content> = points
             .iter()
             .zip(&temperatures)
@@ -148,7 +155,7 @@ proptest! {
 #[test]
 fn nearest_neighbours_of_the_papers_world_are_not_limited() {
     let world = world();
-    let exchange = Exchange::new(&world, list_capacity(&world));
+    let exchange = exchange_in(&world);
     // Table 1 on the lattice at 60 Hz × 3.
     let nearest = |diffusivity| exchange.unlimited(diffusivity, world.spacing);
     assert!((nearest(0.01) - 0.0102).abs() < 1e-4, "{}", nearest(0.01));
@@ -159,9 +166,41 @@ fn nearest_neighbours_of_the_papers_world_are_not_limited() {
     assert_eq!(exchange.limited(nearest(0.0)), 0.0);
 }
 
+/// Eq. 5 over a half space whose matter is spread evenly and keeps its
+/// temperature, by quadrature over spherical caps, against V_b by the same.
+#[test]
+fn a_wall_takes_what_the_integral_over_a_half_space_does() {
+    let world = world();
+    let exchange = exchange_in(&world);
+    let kernel = Kernel::new(world.support_radius);
+    let h = world.support_radius;
+    let over_caps = |from: f64, of: &dyn Fn(f64) -> f64| -> f64 {
+        let n = 4000;
+        let dr = (h - from) / f64::from(n);
+        let radii = (0..n).map(|i| from + (f64::from(i) + 0.5) * dr);
+        let cap = |r: f64| 2.0 * PI * r * r * (1.0 - from / r) * dr;
+        radii.map(|r| of(r) * cap(r)).sum()
+    };
+    let diffusivity = 1e-9;
+    for tenths in 0..=4 {
+        let distance = 0.1 * h * f64::from(tenths);
+        // 2V_j|x·∇W|/(x² + 0.01h²) with Σ V_j → ∫ dV.
+        let pair = |r: f64| 2.0 * r * -kernel.dw(r) / (r * r + 0.01 * h * h);
+        let rate = over_caps(distance, &pair);
+        let volume = over_caps(distance, &|r| kernel.w(r));
+        let share = exchange.wall_share(diffusivity, volume);
+        let by_integral = world.substep_time() * diffusivity * rate;
+        // One factor, 24, serves 22.2 at the wall to 27 at 0.4 h.
+        assert!(
+            (share / by_integral - 1.0).abs() < 0.12,
+            "{tenths}: {share} {by_integral}"
+        );
+    }
+}
+
 #[test]
 fn uniform_liquid_exchanges_nothing() {
-    let exchange = Exchange::new(&world(), list_capacity(&world()));
+    let exchange = exchange_in(&world());
     let table = SolutionTable::new();
     let content = Content::liquid(&table, 0.125, 0.3, 80.0).unwrap();
     let potential = Potential::of(&table, &content);
@@ -174,7 +213,10 @@ fn uniform_liquid_exchanges_nothing() {
 #[test]
 fn losses_stop_at_ambient() {
     let table = SolutionTable::new();
-    let losses = Losses::to_air(20.0);
+    let losses = Losses {
+        surface: 30.0,
+        ..Losses::to_air(20.0)
+    };
     for temperature in [-20.0, 20.0, 150.0, 1e6] {
         let content = Content::liquid(&table, 1.6e-5, 0.5, temperature).unwrap();
         let hot = Potential::of(&table, &content);
@@ -184,9 +226,9 @@ fn losses_stop_at_ambient() {
             (at_once - all).abs() <= 1e-9 * all.abs() + 1e-12,
             "{temperature}"
         );
-        // 12 W/(m² K) over a short time, by hand.
-        let soon = losses.gain(&hot, 6e-6, 0.0, 1e-3);
-        let by_hand = 12.0 * 6e-6 * (20.0 - temperature) * 1e-3;
+        // 12 W/(m² K) to glass and 30 at the surface over a short time, by hand.
+        let soon = losses.gain(&hot, 6e-6, 2e-6, 1e-3);
+        let by_hand = (12.0 * 6e-6 + 30.0 * 2e-6) * (20.0 - temperature) * 1e-3;
         assert!(
             (soon - by_hand).abs() <= 1e-4 * by_hand.abs() + 1e-15,
             "{soon} {by_hand}"

@@ -199,6 +199,35 @@ fn vapour_condenses_in_cold_liquid() {
     assert!(content.vapour < 1e-6 * vapour, "{content:?}");
 }
 
+/// The way to equilibrium shrinks by 1/e in the time constant, whatever the
+/// steps.
+#[test]
+fn superheat_decays_with_its_time_constant() {
+    let table = SolutionTable::new();
+    let start = Content::liquid(&table, 1.0, 0.5, 128.0).unwrap();
+    let end = start.equilibrium(&table, 100);
+    assert!(end > 1e-3);
+    for steps in [1, 40, 4000] {
+        let mut content = start;
+        for _ in 0..steps {
+            content.boil(&table, 0.4 / f64::from(steps), 0.4);
+        }
+        let left = 1.0 - content.vapour / end;
+        // Equilibrium itself is found to 1e-4 of 5e-3 at first.
+        let off = left / (-1.0f64).exp() - 1.0;
+        assert!(off.abs() < 0.02, "{steps}: {left}");
+    }
+}
+
+#[test]
+fn what_vapour_could_do_is_pressure_times_volume() {
+    // Saturated steam at 100 °C: 1.673 m³/kg (IAPWS) against 101,325 Pa. It is
+    // no ideal gas by 1.6 %.
+    let work = motion_budget(1.0, 1.0, 100.0);
+    assert!((work / (101_325.0 * 1.673) - 1.0).abs() < 0.02, "{work}");
+    assert_eq!(motion_budget(1.0, -0.1, 100.0), 0.0);
+}
+
 #[test]
 fn steam_of_ten_kelvin_throws_as_a_balance_says() {
     // Of 63 % acid, cp·S/L = 0.9 % (0.97 % with pure water's L); what evaporates also raises the boiling

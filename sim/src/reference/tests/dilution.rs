@@ -1,15 +1,14 @@
 //! Line 26 of the paper's chemistry.
 
+use super::contact::{Bar, LATTICE_SHARE, erf};
 use super::{Random, glass_of_water};
-use crate::chemistry::exchange::{Exchange, list_capacity};
 use crate::chemistry::paper::{Boiling, Diffusion, Dilution};
 use crate::chemistry::thomsen;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::reference::Reference;
 use crate::reference::chemistry::{Chemistry, DilutionLaw, Paper};
-use crate::reference::dilution::{Pairs, Weight, diffuse};
-use crate::reference::neighbours::find;
+use crate::reference::dilution::{Weight, diffuse};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -49,62 +48,21 @@ fn sum(values: &[f64]) -> f64 {
     values.iter().sum()
 }
 
-/// erf to 1e-12 by its series (|x| < 3).
-fn erf(x: f64) -> f64 {
-    let mut term = x;
-    let mut sum = x;
-    for n in 1..200 {
-        let n = f64::from(n);
-        term *= -x * x / n;
-        sum += term / (2.0 * n + 1.0);
-    }
-    sum * 2.0 / std::f64::consts::PI.sqrt()
-}
-
 /// Largest error of a step in c after D·t = 0.01 m², `layers` a metre, against
 /// ½ erfc(x/√(4D't)), where D' = `share`·D.
 fn step_error(layers: usize, share: f64) -> f64 {
-    let d = 1.0 / layers as f64;
-    let total = 0.01;
-    // Σ K = 0.3 on the lattice: Δt·D = 0.07 d².
-    let steps = (total / (0.07 * d * d)).ceil();
-    let mut parameters = world();
-    parameters.spacing = d;
-    parameters.support_radius = 2.0 * d;
-    parameters.substeps = 1;
-    parameters.frame_time = total / steps;
-    // A bar five particles wide, of which the middle is used: its neighbours
-    // stand for a slab without end.
-    let length = 2 * layers;
-    let mut positions = Vec::new();
-    for x in 0..length {
-        for y in -2..=2 {
-            for z in -2..=2 {
-                let at = DVec3::new(x as f64 + 0.5 - layers as f64, y.into(), z.into());
-                positions.push(at * d);
-            }
-        }
-    }
-    let exchange = Exchange::new(&parameters, 20);
-    let neighbours = find(&positions, 2.0 * d, |_, _| true);
-    let pairs = Pairs {
-        exchange: &exchange,
-        positions: &positions,
-        neighbours: &neighbours,
-    };
+    let bar = Bar::new(layers);
     let initial = |at: &DVec3| if at.x < 0.0 { 1.0 } else { 0.0 };
-    let mut acid: Vec<f64> = positions.iter().map(initial).collect();
-    for _ in 0..steps as usize {
-        let next = diffuse(&pairs, &Weight::Conservative(1.0), &acid);
+    let mut acid: Vec<f64> = bar.positions.iter().map(initial).collect();
+    for _ in 0..bar.steps {
+        let next = diffuse(&bar.pairs(), &Weight::Conservative(1.0), &acid);
         for (slab, next) in acid.chunks_mut(25).zip(next.chunks(25)) {
             slab.fill(next[12]);
         }
     }
-    positions
-        .iter()
-        .zip(&acid)
-        .filter(|(at, _)| at.x.abs() < 0.6)
-        .map(|(at, acid)| (acid - 0.5 * (1.0 - erf(at.x / (4.0 * share * total).sqrt()))).abs())
+    let exact = |x: f64| 0.5 * (1.0 - erf(x / (4.0 * share * 0.01).sqrt()));
+    let near = bar.middles().filter(|(x, _)| x.abs() < 0.6);
+    near.map(|(x, i)| (acid[i] - exact(x)).abs())
         .fold(0.0, f64::max)
 }
 
@@ -113,7 +71,7 @@ fn a_step_diffuses_as_erf() {
     let resolutions = [10, 20, 40];
     // To the lattice's own D' = 0.992 D the order is two: 0.0111, 0.0030,
     // 0.00073.
-    let own = resolutions.map(|layers| step_error(layers, 0.9915));
+    let own = resolutions.map(|layers| step_error(layers, LATTICE_SHARE));
     for pair in own.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((1.7..2.6).contains(&order), "{own:?}: {order}");
@@ -277,7 +235,7 @@ fn a_wall_of_the_map_cools_like_one_of_particles() {
     // Eq. 5 over a lattice of solid particles that fills the half space y < 0.
     let parameters = world();
     let (d, h) = (parameters.spacing, parameters.support_radius);
-    let exchange = Exchange::new(&parameters, list_capacity(&parameters));
+    let exchange = parameters.exchange(parameters.list_capacity());
     let map = crate::flask::PlaneMap::new(h);
     for (height, tolerance) in [(0.5, 0.2), (0.7, 0.25)] {
         let mut by_particles = 0.0;

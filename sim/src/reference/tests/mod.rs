@@ -4,6 +4,7 @@
 
 mod boiling;
 mod chaos;
+mod contact;
 mod dilution;
 mod mixing;
 mod passes;

@@ -3,7 +3,6 @@
 
 use super::setup::*;
 use crate::common::*;
-use vitriol_sim::chemistry::exchange::{Exchange, list_capacity};
 use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::chemistry::{Chemistry, PaperDilution};
 use vitriol_sim::parameters::Parameters;
@@ -66,6 +65,9 @@ fn acid_does_not_drift_where_the_liquid_is_stirred() {
             let drift = acid(&end) / acid(&start) - 1.0;
             assert!(drift.abs() < 1e-6, "{lanes}: {drift}");
             assert!(in_range(&end));
+            // It boiled on the way.
+            let steam = sum(&end.ledger, |[_, _, steam, _]| steam);
+            assert!(steam > 0.01 || end.matter.is_empty(), "{lanes}: {steam}");
         }
     }
 }
@@ -111,7 +113,7 @@ fn no_diffusivity_makes_new_extremes() {
         substeps: 4,
         ..parameters()
     };
-    let exchange = Exchange::new(&p, list_capacity(&p));
+    let exchange = p.exchange(p.list_capacity());
     let lattice: f64 = (0..125)
         .map(|i| [i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2].map(|k: i32| (k * k) as f64))
         .map(|[x, y, z]| exchange.coefficient(D * (x + y + z).sqrt()))

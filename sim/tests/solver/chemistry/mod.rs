@@ -9,5 +9,5 @@ mod paper;
 mod physical;
 mod repeat;
 mod scenes;
-mod setup;
+pub mod setup;
 mod steam;

@@ -5,12 +5,13 @@ use crate::leaning_glass;
 use glam::DVec3;
 use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
-use vitriol_sim::chemistry::transport::{Losses, Mixing};
+use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::Reference;
 use vitriol_sim::reference::chemistry as reference;
+use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Particle, Solver, SolverState};
 
 /// Table 1 at real size: a pair's share of a substep and the heat of a
@@ -36,39 +37,46 @@ pub fn paper(dilution: Option<PaperDilution>, boiling: Option<PaperBoiling>) -> 
     Chemistry::Paper(Paper { dilution, boiling })
 }
 
+/// The physical chemistry of the built-in scene `water-into-acid`.
+pub fn built_in() -> Physical {
+    let scene = Scene::load("water-into-acid").unwrap();
+    match Chemistry::from_scene(&scene) {
+        Some(Chemistry::Physical(physical)) => physical,
+        other => panic!("has the physical chemistry, not {other:?}"),
+    }
+}
+
 /// Nothing but mixing: an insulated vessel whose liquid does not boil.
 pub fn mixing_alone() -> Physical {
     Physical {
-        mixing: Mixing::default(),
         density: false,
         viscosity: false,
         superheat_time: None,
         bubble_speed: None,
         work_share: None,
         losses: None,
+        ..built_in()
     }
 }
 
-/// All of it, as the built-in scenes have it, but insulated.
+/// All of it, as the built-in scene has it, but insulated.
 pub fn boiling() -> Physical {
     Physical {
-        density: true,
-        viscosity: true,
-        superheat_time: Some(0.01),
-        bubble_speed: Some(0.25),
-        work_share: Some(0.003),
-        ..mixing_alone()
+        losses: None,
+        ..built_in()
     }
 }
 
-/// All of it, and losses a hundred times those to air, so that they are seen.
+/// All of it, with losses some hundred times the scene's, so that they are seen, and
+/// not alike, so that they are told apart.
 pub fn everything() -> Physical {
+    let losses = |to_air: Losses| Losses {
+        glass: 150.0 * to_air.glass,
+        surface: 70.0 * to_air.surface,
+        ..to_air
+    };
     Physical {
-        losses: Some(Losses {
-            ambient: 20.0,
-            glass: 1200.0,
-            surface: 1200.0,
-        }),
+        losses: built_in().losses.map(losses),
         ..boiling()
     }
 }

@@ -1,0 +1,85 @@
+//! Each number of a scene arrives where it belongs.
+
+use super::super::paper::Boiling;
+use super::super::transport::{Losses, Mixing};
+use super::super::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
+use crate::scene::{Feature, Scene};
+
+#[test]
+fn table_1_arrives() {
+    let of = |name: &str| Chemistry::from_scene(&Scene::load(name).unwrap());
+    let boiling = PaperBoiling {
+        boiling_point: 100.0,
+        intensity: 1.0,
+        law: Boiling::Power,
+    };
+    let dilution = PaperDilution {
+        ambient: 20.0,
+        heat_diffusivity: 0.01,
+        acid_diffusivity: 0.007,
+        heat_generation: 0.017,
+    };
+    let expected = Paper {
+        dilution: Some(dilution),
+        boiling: Some(boiling),
+    };
+    assert_eq!(of("single-dilution"), Some(Chemistry::Paper(expected)));
+    let Some(Chemistry::Paper(soup)) = of("tomato-soup") else {
+        panic!("has the paper's chemistry")
+    };
+    assert!(soup.dilution.is_none() && soup.boiling.is_some());
+    assert_eq!(of("beaker"), None);
+}
+
+#[test]
+fn the_physical_chemistrys_numbers_arrive() {
+    let mut scene = Scene::load("water-into-acid").unwrap();
+    let physical = scene.physical.as_mut().unwrap();
+    // No two alike.
+    physical.ambient = Some(1.0);
+    physical.mixing = Some(2.0);
+    physical.lewis = Some(0.3);
+    physical.superheat_time = Some(4.0);
+    physical.bubble_speed = Some(5.0);
+    physical.agitation = Some(6.0);
+    physical.glass_loss = Some(7.0);
+    physical.surface_loss = Some(8.0);
+    let all = Physical {
+        mixing: Mixing {
+            turbulence: 2.0,
+            lewis: 0.3,
+        },
+        density: true,
+        viscosity: true,
+        superheat_time: Some(4.0),
+        bubble_speed: Some(5.0),
+        work_share: Some(6.0),
+        losses: Some(Losses {
+            ambient: 1.0,
+            glass: 7.0,
+            surface: 8.0,
+        }),
+    };
+    let of = |scene: &Scene| match Chemistry::from_scene(scene) {
+        Some(Chemistry::Physical(physical)) => physical,
+        other => panic!("has the physical chemistry, not {other:?}"),
+    };
+    assert_eq!(of(&scene), all);
+    // What a scene does not model is off, and nothing else.
+    type Off = fn(&mut Physical);
+    let features: [(Feature, Off); 6] = [
+        (Feature::Density, |law| law.density = false),
+        (Feature::Viscosity, |law| law.viscosity = false),
+        (Feature::Evaporation, |law| law.superheat_time = None),
+        (Feature::Steam, |law| law.bubble_speed = None),
+        (Feature::Boiling, |law| law.work_share = None),
+        (Feature::Losses, |law| law.losses = None),
+    ];
+    for (feature, off) in features {
+        let mut without = scene.clone();
+        without.model.retain(|modelled| *modelled != feature);
+        let mut expected = all;
+        off(&mut expected);
+        assert_eq!(of(&without), expected, "{feature:?}");
+    }
+}

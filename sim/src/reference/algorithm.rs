@@ -1,0 +1,362 @@
+//! Algorithm 1 itself: the state, and a frame of it line by line.
+
+use super::chemistry::{Chemistry, retain};
+use super::measure::{DensityError, Masses};
+use super::neighbours::{self, Neighbours};
+use super::placement::{Motion, Placement};
+use super::surroundings::Surroundings;
+use super::visibility::see_each_other;
+use super::{density, forces, motion, viscosity};
+use crate::flask::Region;
+use crate::kernel::Kernel;
+use crate::parameters::Parameters;
+use crate::pose::Pose;
+use glam::DVec3;
+
+/// The liquid and what surrounds it. All per-particle vectors have one
+/// length; the solids' order is [`Surroundings::vessels`]'.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Parameters of Algorithm 1.
+    pub parameters: Parameters,
+    /// What is solid.
+    pub surroundings: Surroundings,
+    /// Number by which a particle is known however many are taken out.
+    pub ids: Vec<u32>,
+    /// x_i, stage, metres.
+    pub positions: Vec<DVec3>,
+    /// v_i, m/s.
+    pub velocities: Vec<DVec3>,
+    /// λ_i/Δt² of past substeps, low-passed: −p/ρ, m²/s².
+    pub carried: Vec<f64>,
+    /// Index of the flask that the particle is in.
+    pub membership: Vec<Option<usize>>,
+    /// Particles that turned non-finite and were taken out.
+    pub removed: usize,
+    /// Heat, acid and boiling, where they are modelled.
+    pub chemistry: Option<Chemistry>,
+    pub(super) motion: Vec<Motion>,
+}
+
+impl Reference {
+    /// Liquid at rest at `positions` (stage, metres) among flasks at `poses`
+    /// (`stage_from_flask`, one per vessel).
+    pub fn new(
+        parameters: Parameters,
+        surroundings: Surroundings,
+        positions: Vec<DVec3>,
+        poses: &[Pose],
+    ) -> Self {
+        let time = parameters.substep_time();
+        let motion: Vec<_> = poses
+            .iter()
+            .map(|&pose| Motion::of_substep(pose, pose, 0, 1, time))
+            .collect();
+        let membership = positions
+            .iter()
+            .map(|&position| flask_around(&surroundings, &motion, position))
+            .collect();
+        Self {
+            parameters,
+            surroundings,
+            ids: (0..positions.len() as u32).collect(),
+            velocities: vec![DVec3::ZERO; positions.len()],
+            carried: vec![0.0; positions.len()],
+            positions,
+            membership,
+            removed: 0,
+            chemistry: None,
+            motion,
+        }
+    }
+
+    /// A frame of Δt_f in which the flasks go from the poses `before` to
+    /// `after` (`stage_from_flask`, one per vessel each).
+    pub fn step(&mut self, before: &[Pose], after: &[Pose]) {
+        let count = self.parameters.substeps;
+        let time = self.parameters.substep_time(); // line 13
+        for substep in 0..count {
+            // line 14; lines 1–5 belong in here, see Motion::of_substep
+            self.motion = before
+                .iter()
+                .zip(after)
+                .map(|(&from, &to)| Motion::of_substep(from, to, substep, count, time))
+                .collect();
+            self.substep();
+        }
+    }
+
+    fn substep(&mut self) {
+        let predicted = self.predict(); // lines 15–17
+        let neighbours = self.neighbours(&predicted); // lines 9–12
+        let solved = self.solve(predicted, &neighbours); // lines 18–21
+        self.commit(&solved); // lines 22–25
+        self.dilute(&neighbours); // line 26
+        let accelerations = self.internal_forces(&neighbours); // line 28
+        self.smooth(&neighbours); // line 27
+        self.push(&accelerations);
+        self.take_out_non_finite();
+    }
+
+    /// Lines 15–17: x* of all particles.
+    pub fn predict(&self) -> Vec<DVec3> {
+        let gravity = DVec3::from_array(self.parameters.gravity);
+        motion::predict(
+            &self.surroundings,
+            &self.motion,
+            self.parameters.margin,
+            (self.parameters.substep_time(), gravity),
+            &self.positions,
+            &self.velocities,
+            &self.membership,
+        )
+    }
+
+    /// Line 10 at `positions`: everything within h and the list's margin,
+    /// since the iterations bring particles together.
+    pub fn neighbours(&self, positions: &[DVec3]) -> Neighbours {
+        let radius = self.parameters.support_radius * (1.0 + self.parameters.list_margin);
+        neighbours::find(positions, radius, |i, j| {
+            see_each_other(
+                &self.surroundings,
+                &self.motion,
+                (positions[i], self.membership[i]),
+                (positions[j], self.membership[j]),
+            )
+        })
+    }
+
+    /// Lines 18–21 from the prediction to the corrected x*.
+    fn solve(&mut self, predicted: Vec<DVec3>, neighbours: &Neighbours) -> Vec<DVec3> {
+        let per_area = self.parameters.substep_time().powi(2);
+        let mut at = predicted;
+        let mut lambda = vec![0.0; at.len()];
+        let mut change = vec![0.0; at.len()];
+        if self.parameters.carry > 0.0 {
+            lambda = self
+                .carried
+                .iter()
+                .map(|p| (p * per_area).min(0.0))
+                .collect();
+            change.clone_from(&lambda);
+            self.displace(&mut at, neighbours, &change);
+        }
+        let iterations = self.parameters.iterations;
+        for coefficients in self.parameters.relaxation.coefficients(iterations) {
+            let densities = self.densities(&at, neighbours);
+            let a = self.parameters.gradient_sum();
+            density::multipliers(&densities, a, coefficients, &mut lambda, &mut change); // line 19
+            self.displace(&mut at, neighbours, &change); // line 20
+        }
+        for (carried, lambda) in self.carried.iter_mut().zip(lambda) {
+            *carried += self.parameters.carry * (lambda / per_area - *carried);
+        }
+        at
+    }
+
+    /// ρ/ρ₀ at `positions`.
+    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
+        let walls = self
+            .surroundings
+            .sums(positions, &self.membership, &self.motion);
+        let (volumes, _) = self.bulk();
+        density::densities(&self.kernel(), &volumes, positions, neighbours, &walls)
+    }
+
+    /// V_i, m³, and ρ₀/ρ_i of every particle: V₀ and 1 where density does not
+    /// follow composition.
+    fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
+        match &self.chemistry {
+            Some(Chemistry::Physical(physical)) if physical.law.density => {
+                physical.bulk(self.parameters.rest_density)
+            }
+            _ => {
+                let count = self.positions.len();
+                (
+                    vec![self.parameters.particle_volume(); count],
+                    vec![1.0; count],
+                )
+            }
+        }
+    }
+
+    /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask.
+    pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
+        let walls = self.surroundings.sums(at, &self.membership, &self.motion);
+        let (volumes, lightness) = self.bulk();
+        let displacements = density::displacements(
+            &self.kernel(),
+            (&volumes, &lightness),
+            at,
+            &self.ids,
+            neighbours,
+            &walls,
+            change,
+        );
+        for (at, displacement) in at.iter_mut().zip(displacements) {
+            *at += displacement;
+        }
+    }
+
+    /// Lines 22–25: flask constraint, velocity and position from the
+    /// corrected x*.
+    pub fn commit(&mut self, solved: &[DVec3]) {
+        let limits = (self.parameters.substep_time(), self.parameters.max_speed);
+        for (i, &solved) in solved.iter().enumerate() {
+            let place = (self.positions[i], self.membership[i]);
+            let (place, velocity) = motion::commit(
+                &self.surroundings,
+                &self.motion,
+                self.parameters.margin,
+                limits,
+                place,
+                solved,
+            );
+            (self.positions[i], self.membership[i]) = place;
+            self.velocities[i] = velocity;
+        }
+    }
+
+    /// Line 27: XSPH, and anti-viscosity where something boils.
+    pub fn smooth(&mut self, neighbours: &Neighbours) {
+        if let Some(mut chemistry) = self.chemistry.take() {
+            self.stir(&mut chemistry, neighbours);
+            self.chemistry = Some(chemistry);
+            return;
+        }
+        if self.parameters.viscosity == 0.0 {
+            return;
+        }
+        self.velocities = viscosity::xsph(
+            &self.surroundings,
+            &self.motion,
+            &self.kernel(),
+            (
+                self.parameters.particle_volume(),
+                self.parameters.substep_viscosity(),
+                self.parameters.max_speed,
+            ),
+            &self.positions,
+            &self.membership,
+            neighbours,
+            &self.velocities,
+        );
+    }
+
+    /// Line 28: accelerations by internal forces, m/s², of each force that is
+    /// not zero.
+    ///
+    /// By the velocities that line 24 left, as those of line 27 are: a vorticity
+    /// of smoothed velocities would take the GPU a second pass over the
+    /// neighbours, and lines 27 and 28 stand in one loop over the particles
+    /// in the paper, so that neither order is the listing's.
+    pub fn internal_forces(&self, neighbours: &Neighbours) -> Vec<Vec<DVec3>> {
+        let parameters = &self.parameters;
+        let mut accelerations = Vec::new();
+        if parameters.vorticity > 0.0 {
+            let volume = parameters.particle_volume();
+            let kernel = self.kernel();
+            let (positions, velocities) = (&self.positions, &self.velocities);
+            let vorticities = forces::vorticity(&kernel, volume, positions, velocities, neighbours);
+            let strength = (volume, parameters.vorticity);
+            let confinement =
+                forces::confinement(&kernel, strength, positions, &vorticities, neighbours);
+            accelerations.push(confinement);
+        }
+        if parameters.cohesion > 0.0 {
+            let (support, strength) = (parameters.support_radius, parameters.cohesion_scale());
+            let cohesion = forces::cohesion(support, strength, &self.positions, neighbours);
+            accelerations.push(cohesion);
+        }
+        if parameters.adhesion > 0.0 {
+            let adhesion = forces::adhesion(
+                &self.surroundings,
+                &self.motion,
+                parameters.adhesion_scale(),
+                &self.positions,
+                &self.membership,
+            );
+            accelerations.push(adhesion);
+        }
+        accelerations
+    }
+
+    /// v ← v + Δt·a for each of `accelerations` (m/s²), at most v_max: line 24
+    /// again, since these and what boils come after it.
+    pub fn push(&mut self, accelerations: &[Vec<DVec3>]) {
+        let time = self.parameters.substep_time();
+        for acceleration in accelerations {
+            for (velocity, acceleration) in self.velocities.iter_mut().zip(acceleration) {
+                *velocity += *acceleration * time;
+            }
+        }
+        for velocity in &mut self.velocities {
+            *velocity = velocity.clamp_length_max(self.parameters.max_speed);
+        }
+    }
+
+    /// A particle that is no longer a number is taken out and counted. It
+    /// had no neighbours, so it has not spread.
+    fn take_out_non_finite(&mut self) {
+        let finite = |(x, v): (&DVec3, &DVec3)| x.is_finite() && v.is_finite();
+        let keep: Vec<bool> = self
+            .positions
+            .iter()
+            .zip(&self.velocities)
+            .map(finite)
+            .collect();
+        self.removed += keep.iter().filter(|&&keep| !keep).count();
+        retain(&mut self.ids, &keep);
+        retain(&mut self.positions, &keep);
+        retain(&mut self.velocities, &keep);
+        retain(&mut self.carried, &keep);
+        retain(&mut self.membership, &keep);
+        if let Some(chemistry) = &mut self.chemistry {
+            chemistry.retain(&keep);
+        }
+    }
+
+    /// The kernel W of Eq. 1.
+    pub fn kernel(&self) -> Kernel {
+        Kernel::new(self.parameters.support_radius)
+    }
+
+    /// max(0, ρ/ρ₀ − 1) of the state.
+    pub fn density_error(&self) -> DensityError {
+        let neighbours = self.neighbours(&self.positions);
+        DensityError::of(&self.densities(&self.positions, &neighbours))
+    }
+
+    /// Σ ½mv², J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let squares: f64 = self.velocities.iter().map(|v| v.length_squared()).sum();
+        0.5 * self.parameters.particle_mass() * squares
+    }
+
+    /// Σ mv, kg·m/s.
+    pub fn momentum(&self) -> DVec3 {
+        self.velocities.iter().sum::<DVec3>() * self.parameters.particle_mass()
+    }
+
+    /// Mass in each flask and elsewhere.
+    pub fn masses(&self) -> Masses {
+        let flasks = self.surroundings.vessels.len();
+        Masses::of(&self.membership, flasks, self.parameters.particle_mass())
+    }
+
+    /// Where the flasks are.
+    pub fn placements(&self) -> Vec<Placement> {
+        self.motion.iter().map(|motion| motion.after).collect()
+    }
+}
+
+fn flask_around(surroundings: &Surroundings, motion: &[Motion], position: DVec3) -> Option<usize> {
+    surroundings
+        .vessels
+        .iter()
+        .zip(motion)
+        .position(|(vessel, motion)| {
+            let local = motion.after.to_flask(position);
+            Region::of(&vessel.profile, local) == Region::Inside
+        })
+}
