@@ -6,13 +6,13 @@ use vitriol_shaders::{Library, ShaderId, layout, render};
 use crate::RenderError;
 use crate::frame::SteamSource;
 
-/// Pixels along a tile's edge, as in `common/marks.wgsl`.
+/// Pixels along a tile's edge, as in `common/picture/tile_marks.wgsl`.
 const TILE: u32 = 32;
 
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;
 
-/// Words of a bit a puff, as in `common/puff_words.wgsl`.
+/// Words of a bit a puff, as in `common/picture/tile_marks.wgsl`.
 const PUFF_WORDS: u32 = 32;
 /// Puffs of steam that a frame has at most.
 pub(crate) const MOST_PUFFS: u32 = 32 * PUFF_WORDS;
@@ -22,7 +22,7 @@ pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// What a list has the tiles of; the numbers are `common/tile.wgsl`'s. The first three have each tile once.
+/// What a list has the tiles of; the numbers are `common/picture/tile_pixels.wgsl`'s. The first three have each tile once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Class {

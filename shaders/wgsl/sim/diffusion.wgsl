@@ -2,15 +2,15 @@
 // this substep to those after it; line 27's coefficient (Eq. 17) follows from
 // the temperature that comes of it. The second half, the heat of solution,
 // needs the neighbours' changes, and waits for the pass of line 27.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/counters.wgsl
-//!include common/diffusion.wgsl
-//!include common/thomsen.wgsl
-//!include common/boiling.wgsl
-//!include common/compensated.wgsl
-//!include common/full_list.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/chemistry/pair_share.wgsl
+//!include common/chemistry/thomsen.wgsl
+//!include common/chemistry/boiling.wgsl
+//!include common/maths/compensated.wgsl
+//!include common/liquid/full_list.wgsl
 
 /// Whether heat and acid diffuse; else this pass has no neighbours.
 override DILUTION: bool = false;

@@ -4,13 +4,13 @@
 // The wall's gradient counts once, not mirrored as in Akinci et al. 2012: the
 // single form is the gradient of the constraint, and the mirrored one pumps
 // energy into a resting column.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/vessel.wgsl
-//!include common/ground.wgsl
-//!include common/constraint.wgsl
-//!include common/counters.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/glass/vessel.wgsl
+//!include common/glass/ground.wgsl
+//!include common/glass/constraint.wgsl
+//!include common/liquid/counters.wgsl
 
 override COMMIT: bool = false;
 override CARRY: bool = false;

@@ -1,15 +1,15 @@
 // Line 26 of the physical chemistry: acid and enthalpy between particles, heat
 // to what is around, boiling and condensing, and what boiling may spend on
 // motion. `chemistry/transport.rs` and `chemistry/physical.rs` are the same in f64.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/counters.wgsl
-//!include common/diffusion.wgsl
-//!include common/potential.wgsl
-//!include common/boiling.wgsl
-//!include common/compensated.wgsl
-//!include common/full_list.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/chemistry/pair_share.wgsl
+//!include common/chemistry/potential.wgsl
+//!include common/chemistry/boiling.wgsl
+//!include common/maths/compensated.wgsl
+//!include common/liquid/full_list.wgsl
 
 override BOILING: bool = false;
 override EVAPORATION: bool = false;
@@ -43,7 +43,7 @@ override AMBIENT: f32 = 20.0;
 @group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 /// (∇V, V) of the walls.
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
-/// Potentials, see `common/potential.wgsl`.
+/// Potentials, see `common/chemistry/potential.wgsl`.
 @group(0) @binding(5) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> new_velocity: array<vec4<f32>>;
 /// (c, h in J/kg, y, mass over V0·ρ0) of what a particle holds.

@@ -1,12 +1,12 @@
 // Line 10: the neighbours within support radius plus margin, by ascending
 // index, in fours strided so that neighbouring invocations read side by side.
 // Pairs that glass separates are left out here, once, and not in each pass.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/grid.wgsl
-//!include common/vessel.wgsl
-//!include common/counters.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/cells.wgsl
+//!include common/glass/vessel.wgsl
+//!include common/liquid/counters.wgsl
 
 override LOADS: bool = false;
 /// Whether particles have a temperature.
@@ -190,7 +190,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         found = listed;
         if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
         if (overflowed) {
-            // It still counts as full: see `common/full_list.wgsl`.
+            // It still counts as full: see `common/liquid/full_list.wgsl`.
             for (var k = found; k < LIST_CAPACITY; k++) { list[place(k, i)] = i; }
             found = LIST_CAPACITY;
         }

@@ -1,10 +1,10 @@
 // What the liquid did to each flask in a frame: impulse and angular impulse
 // about the flask's origin, and how it stirs at the wall, by workgroup; the host adds
 // the workgroups up.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/vessel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/glass/vessel.wgsl
 
 /// Mass of a particle, kg.
 override MASS: f32 = 1.0;

@@ -10,10 +10,10 @@
 // Where density follows composition, Σ V_j W is the share of space that is
 // filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
 // density: that of a neighbour of another liquid is its equal.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/boundary.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/glass/boundary.wgsl
 
 /// Whether this is a substep's first iteration.
 override FIRST: bool = false;

@@ -1,6 +1,6 @@
 // Puffs of steam rise through a frame, take in air and condense
 // (`Puff::advance` of `chemistry/puff.rs`).
-//!include common/condensation.wgsl
+//!include common/chemistry/condensation.wgsl
 
 /// Δt of a step (s) and how many a frame has.
 override STEP_TIME: f32 = 0.0028;

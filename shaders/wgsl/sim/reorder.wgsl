@@ -1,7 +1,7 @@
 // Line 11: all of a particle's state to its place by cell, and within a cell
 // by its former index, so that the order (and so every sum) repeats.
-//!include common/particle.wgsl
-//!include common/grid.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/cells.wgsl
 
 override LOADS: bool = false;
 /// Whether particles have a temperature.

@@ -5,17 +5,17 @@
 //
 // Where acid is diluted, line 26 ends here as well: the heat of solution
 // (Eqs 6 to 8 and 11 to 13) needs what the neighbours became.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/contact.wgsl
-//!include common/forces.wgsl
-//!include common/diffusion.wgsl
-//!include common/potential.wgsl
-//!include common/predict.wgsl
-//!include common/compensated.wgsl
-//!include common/counters.wgsl
-//!include common/full_list.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/step.wgsl
+//!include common/glass/contact.wgsl
+//!include common/liquid/internal_forces.wgsl
+//!include common/chemistry/pair_share.wgsl
+//!include common/chemistry/potential.wgsl
+//!include common/liquid/prediction.wgsl
+//!include common/maths/compensated.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/full_list.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;

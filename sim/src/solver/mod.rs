@@ -210,7 +210,7 @@ impl Solver {
     }
 
     /// The flasks' shapes and their distances to the glass over (r, y), as
-    /// `common/glass_distance.wgsl` reads them.
+    /// `common/glass/glass_distance.wgsl` reads them.
     pub fn flask_tables(&self) -> (&Buffer, &Buffer) {
         (&self.vessels.flasks, &self.vessels.distances)
     }

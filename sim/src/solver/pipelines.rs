@@ -13,7 +13,7 @@ use crate::reference::forces::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId, sim};
 
-/// Cells that one workgroup scans, as in `common/grid.wgsl`.
+/// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
 
 /// Part of the list's margin that a prediction may use up; the rest is left

@@ -125,7 +125,7 @@ impl Steam {
 }
 
 impl Solver {
-    /// Puffs of steam, `array<Puff>` of `common/puff.wgsl`, [`PUFFS`] of them;
+    /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(|steam| &steam.puffs)

@@ -32,7 +32,7 @@ impl Ground {
     }
 }
 
-/// The buffers that `common/vessel.wgsl` and `common/ground.wgsl` read.
+/// The buffers that `common/glass/vessel.wgsl` and `common/glass/ground.wgsl` read.
 pub struct Vessels {
     pub(super) flasks: Buffer,
     pub(super) radii: Buffer,

@@ -18,9 +18,9 @@
 //! A particle with few neighbours fades to a sphere of its own volume, at its own place: drops
 //! in flight are drops.
 
-//!include common/glass_distance.wgsl
-//!include common/ellipsoid.wgsl
-//!include common/eigen.wgsl
+//!include common/glass/glass_distance.wgsl
+//!include common/picture/ellipsoid.wgsl
+//!include common/maths/eigen.wgsl
 
 /// Invocations that share one particle's neighbours.
 override LANES: u32 = 1u;

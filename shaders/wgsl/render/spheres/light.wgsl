@@ -1,9 +1,9 @@
 //! The light of the coloured spheres, once the nearest at each pixel is known: their attribute's colour,
 //! lit by the window and the room.
 
-//!include common/tile.wgsl
-//!include common/daylight.wgsl
-//!include common/packed_light.wgsl
+//!include common/picture/tile_pixels.wgsl
+//!include common/picture/daylight.wgsl
+//!include common/picture/packed_light.wgsl
 
 struct SphereLight {
     /// Radius as drawn, in the scene's unit.

@@ -2,9 +2,9 @@
 //! depth, whose bits are ordered as the numbers are, the second its number. One pipeline does both, so
 //! that both find the same bits.
 
-//!include common/silhouette.wgsl
-//!include common/marks.wgsl
-//!include common/lanes.wgsl
+//!include common/picture/silhouette.wgsl
+//!include common/picture/tile_marks.wgsl
+//!include common/picture/lanes.wgsl
 
 struct SphereRun {
     /// Number of particles.

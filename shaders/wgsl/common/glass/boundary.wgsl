@@ -1,7 +1,7 @@
 // What is solid, as the density sum and the adhesion have it.
-//!include common/vessel.wgsl
-//!include common/ground.wgsl
-//!include common/solids.wgsl
+//!include common/glass/vessel.wgsl
+//!include common/glass/ground.wgsl
+//!include common/glass/solids.wgsl
 
 /// Whether glass is made of boundary particles; else of volume maps.
 override SOLIDS: bool = false;

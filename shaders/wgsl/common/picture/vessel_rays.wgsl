@@ -1,6 +1,6 @@
 //! Rays in a vessel's liquid: where they meet the glass.
 
-//!include common/frame.wgsl
+//!include common/picture/frame.wgsl
 
 /// Inner radius of a vessel at a height of its frame.
 fn vessel_radius(index: u32, y: f32) -> f32 {

@@ -2,10 +2,10 @@
 //! premultiplied by their opacity, and that is low, so their order hardly shows; where one meets
 //! glass or liquid it fades, over its own radius, and is not cut off.
 
-//!include common/frame.wgsl
-//!include common/daylight.wgsl
-//!include common/puff.wgsl
-//!include common/puff_words.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/daylight.wgsl
+//!include common/chemistry/puff.wgsl
+//!include common/picture/tile_marks.wgsl
 
 @group(0) @binding(4) var<storage, read> puffs: array<Puff>;
 /// For each tile a bit a puff, as `tile_puffs.wgsl` writes them.

@@ -1,7 +1,7 @@
 // Line 16, with line 23 applied to the prediction, so that the list is built
 // around positions that the flasks allow.
-//!include common/constraint.wgsl
-//!include common/list_check.wgsl
+//!include common/glass/constraint.wgsl
+//!include common/liquid/list_check.wgsl
 
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = -9.81;

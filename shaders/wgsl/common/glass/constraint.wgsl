@@ -1,7 +1,7 @@
 // The flask constraint (section 5, Eqs 18–23, Fig. 4), two-sided: inside
 // before means inside after, but for the open top; and what is outside does
 // not pass in. `flask/region.rs` is the same in f64.
-//!include common/glass_distance.wgsl
+//!include common/glass/glass_distance.wgsl
 
 /// d_margin, metres: 0.001 h.
 override MARGIN: f32 = 5e-6;

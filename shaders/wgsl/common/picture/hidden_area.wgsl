@@ -1,6 +1,6 @@
 //! The part of the picture that the headset's lenses hide.
 
-//!include common/frame.wgsl
+//!include common/picture/frame.wgsl
 
 /// A bit a pixel of the largest picture, row by row, each row in whole words; bits past a row's end are
 /// set. One word of zero where nothing is hidden.

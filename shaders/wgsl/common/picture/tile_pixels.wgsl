@@ -2,8 +2,8 @@
 //! tiles are listed, and the dispatch is as long as the list: a test in each pixel would cost the
 //! software driver, which walks both sides of every branch, what it was to save.
 
-//!include common/frame.wgsl
-//!include common/marks.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/tile_marks.wgsl
 
 /// Whose list: 0 liquid, 1 glass without liquid, 2 neither; 3 edges to be smoothed, 4 those with
 /// steam over them; 5 coloured spheres.

@@ -1,6 +1,6 @@
 //! Blocks of four pixels that hold a thickness: it is smooth.
 
-//!include common/frame.wgsl
+//!include common/picture/frame.wgsl
 
 /// Parts of a spacing that thickness is counted in: 4096 spacings fit.
 const PARTS = 1048576.0;

@@ -1,5 +1,5 @@
 // Steam in the room's air: `chemistry/puff.rs` in f32.
-//!include common/puff.wgsl
+//!include common/chemistry/puff.wgsl
 
 @group(0) @binding(0) var<storage, read_write> puffs: array<Puff>;
 

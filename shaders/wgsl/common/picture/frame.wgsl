@@ -48,7 +48,7 @@ struct Vessel {
     outer: f32,
     /// Thickness of the glass.
     wall: f32,
-    /// The first of its outline's segments in `common/glass.wgsl`'s table, and the one after its last.
+    /// The first of its outline's segments in `common/picture/glass_light.wgsl`'s table, and the one after its last.
     segments: vec2<u32>,
     /// Likewise its graduation marks.
     marks: vec2<u32>,

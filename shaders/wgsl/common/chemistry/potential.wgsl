@@ -1,7 +1,7 @@
 // What neighbours need to know of a particle of the physical chemistry, in one
 // vector. Mass and heat capacity are only coefficients of the exchange, so 11
 // bits of each are enough; both sides of a pair unpack the same ones.
-//!include common/solution.wgsl
+//!include common/chemistry/solution.wgsl
 
 /// T (°C), acid fraction of the liquid, its mass and heat capacity (in units of V0·ρ0 and of
 /// that of 4 kJ/K), ∂h/∂c (J/kg).

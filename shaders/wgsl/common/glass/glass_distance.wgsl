@@ -1,5 +1,5 @@
 // The distance to a vessel's glass, from a table over (r, y).
-//!include common/vessel.wgsl
+//!include common/glass/vessel.wgsl
 
 /// Signed distances to the glass, of the maps for particles outside.
 @group(0) @binding(25) var<storage, read> distances: array<f32>;

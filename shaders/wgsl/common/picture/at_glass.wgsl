@@ -3,7 +3,7 @@
 //! What lies at a wall is drawn reaching a little into it, and cut here by the vessel's own inner
 //! surface. So wetted glass is as smooth as glass is, and so is the liquid's outline in it.
 
-//!include common/vessel_rays.wgsl
+//!include common/picture/vessel_rays.wgsl
 
 /// Reversed depth of the surface that is at `reversed` on a pixel's ray, once cut; 0 where
 /// nothing is left.

@@ -2,9 +2,9 @@
 //! cones, and graduation marks printed on them. Walls bend no light that passes: their sides are
 //! parallel.
 
-//!include common/frame.wgsl
-//!include common/marks.wgsl
-//!include common/daylight.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/tile_marks.wgsl
+//!include common/picture/daylight.wgsl
 
 /// Two a segment of an outline: (r, y) of its ends, and the outward normals (r, y) there. A closed outline goes
 /// up outside, over the rim, and down inside. Then a mark each: height, half its angle about +Z, half its

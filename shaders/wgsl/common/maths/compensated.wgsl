@@ -2,7 +2,7 @@
 // the next one: acid that diffuses through liquid at rest comes by 1e-8 of a
 // substep, which is gone beside c = 0.9 (its last bit is 6e-8) and not beside
 // c = 0, so that the liquid would gain acid.
-//!include common/step.wgsl
+//!include common/liquid/step.wgsl
 
 /// A sum as it was rounded. Compilers may take (x + w) − x for w, and Mesa's
 /// does; they do not know that no scene has 2³¹ poses.

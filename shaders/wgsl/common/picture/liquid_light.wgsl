@@ -2,9 +2,9 @@
 //! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
 //! eyes see the same things in the same places.
 
-//!include common/bench.wgsl
-//!include common/vessel_rays.wgsl
-//!include common/held.wgsl
+//!include common/picture/room.wgsl
+//!include common/picture/vessel_rays.wgsl
+//!include common/picture/pixel_blocks.wgsl
 
 /// Filtered reversed depth, 0 where there is no liquid.
 @group(0) @binding(2) var<storage, read> surface: array<f32>;

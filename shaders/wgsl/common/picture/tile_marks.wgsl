@@ -11,3 +11,6 @@ const MARK_STEAM = 0x20000000u;
 /// Particles as coloured spheres.
 const MARK_SPHERES = 0x10000000u;
 const MARK_VESSELS = 0xffu;
+
+/// Words of a tile's bits for puffs of steam, a bit a puff: for 1024 puffs, as many as the solver keeps.
+const PUFF_WORDS = 32u;

@@ -1,7 +1,7 @@
 // What walls do to a particle's velocity, at the place and with the membership
 // that it has after lines 22 to 25: they drag it along (line 27) and attract it
 // (line 28).
-//!include common/boundary.wgsl
+//!include common/glass/boundary.wgsl
 
 /// v_max, m/s: the glass drags no faster than the liquid may be.
 override MAX_SPEED: f32 = 10.0;
