@@ -1,13 +1,12 @@
 // Line 11: all of a particle's state to its place by cell, and within a cell
 // by its former index, so that the order (and so every sum) repeats.
+//!include common/chemistry/features.wgsl
 //!include common/liquid/particle.wgsl
+//!include common/liquid/trial.wgsl
 //!include common/liquid/cells.wgsl
 
+/// Whether what pushes on walls is summed up for the rigid bodies.
 override LOADS: bool = false;
-/// Whether particles have a temperature.
-override HEAT: bool = false;
-/// Whether the chemistry is the physical one.
-override PHYSICAL: bool = false;
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
@@ -49,7 +48,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let tag = tags[i];
     // The list pass reads both of every candidate: one fetch in place of two.
-    sorted_trial[to] = vec4<f32>(x.xyz, bitcast<f32>(tag.x));
+    sorted_trial[to] = pack_sorted_trial(x.xyz, tag.x);
     sorted_position[to] = position[i];
     sorted_velocity[to] = velocity[i];
     sorted_tags[to] = tag;

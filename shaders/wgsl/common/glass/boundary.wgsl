@@ -2,6 +2,7 @@
 //!include common/glass/vessel.wgsl
 //!include common/glass/ground.wgsl
 //!include common/glass/solids.wgsl
+//!include common/glass/wall.wgsl
 
 /// Whether glass is made of boundary particles; else of volume maps.
 override SOLIDS: bool = false;
@@ -64,7 +65,7 @@ fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>, lane: u32) ->
     return wall;
 }
 
-/// (∇V, V) at `x` of all walls that act on a particle with `membership`; for
+/// The record (∇V, V) at `x` of all walls that act on a particle with `membership`; for
 /// lane 0, but all lanes must ask. One loop for particles inside and outside:
 /// two would both be walked on a software driver.
 fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32, lane: u32) -> vec4<f32> {

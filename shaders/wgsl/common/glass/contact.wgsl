@@ -2,9 +2,7 @@
 // that it has after lines 22 to 25: they drag it along (line 27) and attract it
 // (line 28).
 //!include common/glass/boundary.wgsl
-
-/// v_max, m/s: the glass drags no faster than the liquid may be.
-override MAX_SPEED: f32 = 10.0;
+//!include common/liquid/max_speed.wgsl
 
 struct Contact {
     /// Σ V·(v_wall − v), m/s.
@@ -13,7 +11,7 @@ struct Contact {
     pull: vec3<f32>,
 }
 
-/// Velocity of flask k's glass at `x`: line 3's, divided by the time.
+/// Line 3: velocity of flask k's glass at `x`, its displacement over the time; no faster than the liquid may be.
 fn wall_velocity(k: u32, x: vec3<f32>) -> vec3<f32> {
     let local = flask_from_stage(poses[step.after + k], x);
     let velocity = (x - stage_from_flask(poses[step.before + k], local)) / step.time;

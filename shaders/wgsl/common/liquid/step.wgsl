@@ -19,3 +19,8 @@ struct Step {
 }
 
 var<immediate> step: Step;
+
+/// 0, as no compiler knows: no scene has 2³¹ poses.
+fn unknown_zero() -> u32 {
+    return step.next >> 31u;
+}
