@@ -1,8 +1,8 @@
 //! Which puffs of steam are in which tile.
 
+//!include common/chemistry/puff.wgsl
 //!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
-//!include common/chemistry/puff.wgsl
 
 struct PuffCount {
     /// Number of puffs.

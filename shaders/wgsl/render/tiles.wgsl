@@ -1,8 +1,8 @@
 //! Marks what each tile of each eye's picture has in it, so that passes over pixels have those
 //! of their kind and no other.
 
-//!include common/picture/frame.wgsl
 //!include common/picture/ellipsoid.wgsl
+//!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
 
 struct TileCount {

@@ -1,10 +1,10 @@
 // The density of each particle as a fraction of the rest density, for reports.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
-//!include common/liquid/particle.wgsl
-//!include common/liquid/kernel.wgsl
-//!include common/liquid/step.wgsl
 //!include common/glass/boundary.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;

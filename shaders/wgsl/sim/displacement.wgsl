@@ -7,8 +7,6 @@
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/glass/constraint.wgsl
-//!include common/glass/ground.wgsl
-//!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
@@ -23,8 +21,6 @@
 override COMMIT: bool = false;
 /// Whether multipliers are carried from one substep to the next.
 override CARRY: bool = false;
-/// Whether what pushes on walls is summed up for the rigid bodies.
-override LOADS: bool = false;
 /// Half of the list's margin, metres: a particle that went further might miss neighbours.
 override LIST_REACH: f32 = 0.000375;
 

@@ -3,16 +3,13 @@
 // Pairs that glass separates are left out here, once, and not in each pass.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
-//!include common/liquid/particle.wgsl
-//!include common/liquid/trial.wgsl
-//!include common/liquid/kernel.wgsl
-//!include common/liquid/step.wgsl
-//!include common/liquid/cells.wgsl
 //!include common/glass/vessel.wgsl
+//!include common/liquid/cell_starts.wgsl
 //!include common/liquid/counters.wgsl
-
-/// Whether what pushes on walls is summed up for the rigid bodies.
-override LOADS: bool = false;
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/trial.wgsl
 
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> sorted_position: array<vec4<f32>>;
@@ -36,11 +33,6 @@ override LOADS: bool = false;
 @group(0) @binding(19) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(27) var<storage, read> sorted_bulk: array<vec4<f32>>;
 @group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
-
-fn start_of(cell: u32) -> u32 {
-    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
-    return block_sums[cell / SCAN_BLOCK] + cell_starts[cell];
-}
 
 /// Whether two particles of different membership see each other past the glass.
 fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {

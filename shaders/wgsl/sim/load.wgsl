@@ -3,10 +3,9 @@
 // the workgroups up.
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/matter.wgsl
-//!include common/liquid/particle.wgsl
-//!include common/liquid/kernel.wgsl
-//!include common/liquid/step.wgsl
 //!include common/glass/vessel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
 
 /// Mass of a particle, kg.
 override MASS: f32 = 1.0;

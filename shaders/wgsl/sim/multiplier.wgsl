@@ -10,13 +10,13 @@
 // Where density follows composition, Σ V_j W is the share of space that is
 // filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
 // density: that of a neighbour of another liquid is its equal.
+//!include common/glass/boundary.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/list_args.wgsl
 //!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
 //!include common/liquid/velocity.wgsl
-//!include common/liquid/kernel.wgsl
-//!include common/liquid/step.wgsl
-//!include common/glass/boundary.wgsl
-//!include common/liquid/list_args.wgsl
 
 /// Whether this is a substep's first iteration.
 override FIRST: bool = false;

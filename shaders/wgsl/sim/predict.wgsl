@@ -1,12 +1,9 @@
-// Line 16 at a frame's start; within a frame the viscosity pass ends with it.
+// Line 16 at a frame's start; within a frame the forces end with it.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/liquid/particle.wgsl
-//!include common/liquid/kernel.wgsl
-//!include common/liquid/step.wgsl
-//!include common/glass/vessel.wgsl
-//!include common/glass/ground.wgsl
 //!include common/liquid/prediction.wgsl
+//!include common/liquid/step.wgsl
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> velocity: array<vec4<f32>>;

@@ -1,9 +1,9 @@
 // What steam left the liquid becomes puffs. Each workgroup gathers the steam
 // of a share of the particles, and lets it rise from one of them: that with
 // the most, by lot, so that the puffs come from all over the surface.
+//!include common/chemistry/condensation.wgsl
 //!include common/chemistry/ledger.wgsl
 //!include common/liquid/particle.wgsl
-//!include common/chemistry/condensation.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;

@@ -92,7 +92,7 @@ impl Steam {
             puffs: buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
             vented: buffer("vented", bytes_of_elements::<[f32; 2]>(n))?,
             made: buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
-            rise: make(sim::PUFFS)?,
+            rise: make(sim::RISE)?,
             vent: make(sim::VENT)?,
         }))
     }
@@ -125,7 +125,7 @@ impl Steam {
 }
 
 impl Solver {
-    /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
+    /// Puffs of steam, `array<Puff>` of `common/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(|steam| &steam.puffs)

@@ -4,6 +4,7 @@
 // Each particle has one signed coefficient, as a multiple of the substep's
 // XSPH coefficient: 1 is ordinary viscosity, negative is anti-viscosity. A
 // pair takes the mean of its two, or momentum would drift.
+//!include common/liquid/step.wgsl
 
 /// T_B, °C.
 override BOILING_POINT: f32 = 100.0;

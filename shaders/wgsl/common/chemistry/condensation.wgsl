@@ -42,8 +42,8 @@ fn saturation_ratio(pressure: f32) -> f32 {
 }
 
 /// The puff with the mist, radius and optical depth of what it holds.
-fn condensed(held: Puff) -> Puff {
-    var puff = held;
+fn condensed(before: Puff) -> Puff {
+    var puff = before;
     let gaseous = puff.air * AIR_CAPACITY + puff.water * VAPOUR_CAPACITY;
     var t = (puff.enthalpy - puff.water * VAPORISATION) / gaseous;
     puff.mist = 0.0;

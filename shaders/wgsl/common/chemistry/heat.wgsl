@@ -1,6 +1,15 @@
 // The record `heat`: a particle's temperature and acid fraction, and what else its neighbours must know to
 // exchange them. Each chemistry has its own; both begin with T (°C) and c, which the picture draws.
 
+/// T (°C) and c of a record of either chemistry.
+fn temperature_in(heat: vec4<f32>) -> f32 {
+    return heat.x;
+}
+
+fn acid_in(heat: vec4<f32>) -> f32 {
+    return heat.y;
+}
+
 /// Of the paper's chemistry.
 struct PaperHeat {
     /// °C.

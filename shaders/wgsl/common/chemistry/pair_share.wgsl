@@ -3,6 +3,8 @@
 // gets. The printed m_j/ρ_j·4ρ_i/(ρ_i + ρ_j) is not. `chemistry/exchange.rs`
 // is the same in f64, and says why no D, Δt or h makes it unstable.
 
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
 //!include common/maths/decay.wgsl
 
 /// −x·∇W/(|x|² + 0.01 h²)·h²/σ at q = |x|/h, never negative.

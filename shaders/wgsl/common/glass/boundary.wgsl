@@ -1,8 +1,9 @@
 // What is solid, as the density sum and the adhesion have it.
-//!include common/glass/vessel.wgsl
 //!include common/glass/ground.wgsl
 //!include common/glass/solids.wgsl
+//!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/particle.wgsl
 
 /// Whether glass is made of boundary particles; else of volume maps.
 override SOLIDS: bool = false;
@@ -45,13 +46,13 @@ fn wall_of_map(k: u32, membership: u32, p: vec3<f32>) -> Wall {
     let first = select(flasks[k].outside_first, flasks[k].inside_first, membership == k + 1u);
     let map = sample_map(k, first, r, p.y);
     let out = p.xz / max(r, 1e-9);
-    let gradient = vec3<f32>(out.x * map.z, map.w, out.y * map.z);
+    let gradient = vec3<f32>(out.x * map.slope.x, map.slope.y, out.y * map.slope.x);
     var pull = vec3<f32>(0.0);
     if (PULL) {
         // No wall in reach has no gradient and no direction either.
-        pull = gradient * (half_space_pull(map.x) / max(length(gradient), 1e-9));
+        pull = gradient * (half_space_pull(map.distance) / max(length(gradient), 1e-9));
     }
-    return Wall(gradient, map.y, pull);
+    return Wall(gradient, map.volume, pull);
 }
 
 /// This lane's part of flask k's wall at `x`, in the stage's frame. The lanes

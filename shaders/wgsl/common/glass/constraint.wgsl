@@ -2,6 +2,8 @@
 // before means inside after, but for the open top; and what is outside does
 // not pass in. `flask/region.rs` is the same in f64.
 //!include common/glass/glass_distance.wgsl
+//!include common/glass/ground.wgsl
+//!include common/liquid/particle.wgsl
 
 /// d_margin, metres: 0.001 h.
 override MARGIN: f32 = 5e-6;

@@ -3,6 +3,7 @@
 // (line 28).
 //!include common/glass/boundary.wgsl
 //!include common/liquid/max_speed.wgsl
+//!include common/liquid/step.wgsl
 
 struct Contact {
     /// Σ V·(v_wall − v), m/s.

@@ -1,4 +1,5 @@
 // Table and floor.
+//!include common/liquid/kernel.wgsl
 
 /// Whether there is a table.
 override TABLE: bool = false;

@@ -111,17 +111,26 @@ fn map_place(k: u32, r: f32, y: f32) -> MapPlace {
     return MapPlace(j * columns + i, edge.x - f32(i), edge.y - f32(j), away);
 }
 
-/// [signed distance, V, ∂V/∂r, ∂V/∂y] at (r, y) by bilinear interpolation.
-/// Outside of the map V is 0 and the distance a lower bound.
-fn sample_map(k: u32, first: u32, r: f32, y: f32) -> vec4<f32> {
+/// What a flask's volume map says of a place.
+struct MapSample {
+    /// Signed distance to the glass, metres.
+    distance: f32,
+    /// V.
+    volume: f32,
+    /// ∂V/∂r and ∂V/∂y, 1/m.
+    slope: vec2<f32>,
+}
+
+/// The map at (r, y) by bilinear interpolation. Outside of it V is 0 and the distance a lower bound.
+fn sample_map(k: u32, first: u32, r: f32, y: f32) -> MapSample {
     let place = map_place(k, r, y);
     let node = first + place.node;
     let above = node + flasks[k].map_columns;
     let low = mix(maps[node], maps[node + 1u], place.s);
     let high = mix(maps[above], maps[above + 1u], place.s);
     let value = mix(low, high, place.t);
-    if (place.away > 0.0) { return vec4<f32>(max(abs(value.x), place.away), 0.0, 0.0, 0.0); }
-    return value;
+    if (place.away > 0.0) { return MapSample(max(abs(value.x), place.away), 0.0, vec2<f32>(0.0)); }
+    return MapSample(value.x, value.y, value.zw);
 }
 
 /// Whether what is at `from` in flask k's liquid space can act on what is at

@@ -1,6 +1,7 @@
 // Pairs of which one list was full. It may lack the other, which has it: what
 // such a pair exchanges would come from nowhere. So particles whose list is
 // full exchange nothing, and their neighbours nothing with them.
+//!include common/liquid/particle.wgsl
 
 /// Number of neighbours from which on a list counts as full: none does as long
 /// as nothing overflowed.

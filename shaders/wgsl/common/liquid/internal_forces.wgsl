@@ -1,5 +1,6 @@
 // Line 28: vorticity confinement (Macklin & Müller 2013) and cohesion (Akinci
 // et al. 2013) between particles. A strength of 0 leaves a force out.
+//!include common/liquid/kernel.wgsl
 
 /// ε of vorticity confinement, m/s.
 override CONFINEMENT: f32 = 0.0;

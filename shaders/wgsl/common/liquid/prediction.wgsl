@@ -2,13 +2,12 @@
 // around positions that the flasks allow.
 //!include common/glass/constraint.wgsl
 //!include common/liquid/list_check.wgsl
+//!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
 
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = -9.81;
 override GRAVITY_Z: f32 = 0.0;
-/// Whether what pushes on walls is summed up for the rigid bodies.
-override LOADS: bool = false;
 
 /// Displacement (m) that walls gave to each particle since the frame's start.
 @group(0) @binding(32) var<storage, read_write> wall_push: array<vec4<f32>>;

@@ -2,13 +2,12 @@
 //! cones, and graduation marks printed on them. Walls bend no light that passes: their sides are
 //! parallel.
 
+//!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
-//!include common/picture/daylight.wgsl
 
 /// Two a segment of an outline: (r, y) of its ends, and the outward normals (r, y) there. A closed outline goes
-/// up outside, over the rim, and down inside. Then a mark each: height, half its angle about +Z, half its
-/// strip's width (twice half the line's), and whether it is one.
+/// up outside, over the rim, and down inside. Then a mark each, see `Mark`.
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
@@ -114,6 +113,19 @@ fn wall(to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
     return Cover(display(light / opacity) * opacity, 1.0 - opacity);
 }
 
+/// A graduation mark.
+struct Mark {
+    height: f32,
+    /// Half of its angle about +Z.
+    half_angle: f32,
+    /// Half of its strip's width; half of the strip is the line.
+    half_width: f32,
+}
+
+fn unpack_mark(words: vec4<f32>) -> Mark {
+    return Mark(words.x, words.y, words.z);
+}
+
 /// Half the angle that the longest mark takes up, at most.
 const WIDEST_MARK = 0.25;
 
@@ -125,12 +137,12 @@ fn marks_at(vessel: u32, p: vec3<f32>, outside: bool, width: f32, normal: vec3<f
     let range = frame.vessels[vessel].marks;
     let end = select(range.x, range.y, outside && angle < WIDEST_MARK);
     for (var index = range.x; index < end; index++) {
-        let mark = outlines[index];
-        let across = abs(p.y - mark.x) / mark.z;
-        // Half of the strip is the line; a pixel wider than that has its share of it.
-        let pixel = max(width / mark.z, 1e-6);
+        let mark = unpack_mark(outlines[index]);
+        let across = abs(p.y - mark.height) / mark.half_width;
+        // A pixel wider than the line has its share of it.
+        let pixel = max(width / mark.half_width, 1e-6);
         let share = saturate((0.5 - across) / pixel + 0.5) * min(1.0, 1.0 / pixel);
-        covered = max(covered, select(0.0, share, across <= 1.0 && angle < mark.y));
+        covered = max(covered, select(0.0, share, across <= 1.0 && angle < mark.half_angle));
     }
     let key = key_light(stage * frame.metres_per_unit);
     let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);

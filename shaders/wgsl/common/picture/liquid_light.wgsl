@@ -2,9 +2,9 @@
 //! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
 //! eyes see the same things in the same places.
 
+//!include common/picture/pixel_blocks.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/vessel_rays.wgsl
-//!include common/picture/pixel_blocks.wgsl
 
 /// Filtered reversed depth, 0 where there is no liquid.
 @group(0) @binding(2) var<storage, read> surface: array<f32>;
@@ -47,9 +47,9 @@ fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
     return select(facing, normalize(towards), dot(n, n) > 0.0);
 }
 
-/// Thickness (in the scene's unit) and acid, over some four by four blocks between which it is
+/// Thickness (in the scene's unit) and its part that is acid, over some four by four blocks between which it is
 /// interpolated: finer than that is the grain of particles.
-fn held_at(place: vec2<f32>, eye: u32) -> vec2<f32> {
+fn thickness_at(place: vec2<f32>, eye: u32) -> vec2<f32> {
     let at = 0.5 * place - 0.5;
     let first = vec2<i32>(floor(at)) - 1;
     let share = fract(at);
@@ -81,9 +81,9 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     let slant = length(here.xyz) / here.w;
     let ray = here.xyz / (slant * here.w);
     let point = frame.views[eye].eye + here.xyz;
-    let held = held_at(vec2<f32>(pixel) + 0.5, eye);
-    let acid = saturate(held.y / max(held.x, 1e-9));
-    let path = slant * held.x;
+    let thickness = thickness_at(vec2<f32>(pixel) + 0.5, eye);
+    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
+    let path = slant * thickness.x;
     var normal = normal_at(pixel, eye, here);
 
     let vessel = vessel_around(point);

@@ -1,7 +1,7 @@
 //! Bench, floor and walls: their light, and what of them a ray meets.
 
-//!include common/picture/frame.wgsl
 //!include common/picture/daylight.wgsl
+//!include common/picture/frame.wgsl
 
 const MATERIAL_TABLE = 0u;
 const MATERIAL_FLOOR = 1u;

@@ -6,8 +6,8 @@
 //! three dot products and a root. (The discriminant as (o·w)² − w²(o² − 1) would lose all its digits: o is
 //! hundreds of radii.)
 
-//!include common/picture/frame.wgsl
 //!include common/picture/ellipsoid.wgsl
+//!include common/picture/frame.wgsl
 
 struct Silhouette {
     /// The pixels that it may cover: from the first to before the second.

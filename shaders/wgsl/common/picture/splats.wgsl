@@ -1,8 +1,8 @@
 //! Passes over ellipsoids, each of which some invocations share: its pixels are looped over in blocks of
 //! eight by `LANES` over eight.
 
-//!include common/picture/silhouette.wgsl
 //!include common/picture/lanes.wgsl
+//!include common/picture/silhouette.wgsl
 
 @group(0) @binding(1) var<storage, read> ellipsoids: array<Ellipsoid>;
 

@@ -2,9 +2,9 @@
 //! premultiplied by their opacity, and that is low, so their order hardly shows; where one meets
 //! glass or liquid it fades, over its own radius, and is not cut off.
 
-//!include common/picture/frame.wgsl
-//!include common/picture/daylight.wgsl
 //!include common/chemistry/puff.wgsl
+//!include common/picture/daylight.wgsl
+//!include common/picture/frame.wgsl
 //!include common/picture/tile_marks.wgsl
 
 @group(0) @binding(4) var<storage, read> puffs: array<Puff>;

@@ -58,7 +58,7 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(10) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(11) var<storage, read_write> ledger: array<vec4<f32>>;
 /// By identity: ½ Σ w|v_ij|², J/kg.
-@group(0) @binding(12) var<storage, read_write> agitations: array<f32>;
+@group(0) @binding(12) var<storage, read_write> agitation: array<f32>;
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> counters: Counters;
 
@@ -178,7 +178,7 @@ fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
         rests = pack_rests(Rests(lacking.acid, enthalpy.lacking));
         matter[i] = pack_content(content);
         ledger[identity][KINETIC] += content.mass * paid;
-        agitations[identity] = 0.5 * sums.agitation;
+        agitation[identity] = 0.5 * sums.agitation;
     }
     let potential = potential_of(content);
     heat[i] = pack_potential(potential);
