@@ -1,6 +1,6 @@
 //! Dispatches of passes in which some invocations share a particle.
 
-/// Workgroups in a row along x, which every device takes; as in `common/lanes.wgsl`.
+/// Workgroups in a row along x, which every device takes; as in `common/picture/lanes.wgsl`.
 const ROW: u32 = 65_535;
 
 /// Workgroups of 64 for `count` particles of `lanes` invocations each, for every view.

@@ -1,4 +1,4 @@
-//! Outlines of glass as the rays of `common/glass.wgsl` meet them: segments with the normals at their
+//! Outlines of glass as the rays of `common/picture/glass_light.wgsl` meet them: segments with the normals at their
 //! ends, each two `vec4`.
 
 use glam::Vec2;

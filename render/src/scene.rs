@@ -33,7 +33,7 @@ const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
 const MARK_WIDTH: f32 = 0.02;
 
 impl VesselDesc {
-    /// Its marks for `common/glass.wgsl`: height, half the angle, half the strip's width, which is twice the line's.
+    /// Its marks for `common/picture/glass_light.wgsl`: height, half the angle, half the strip's width, which is twice the line's.
     fn marks(&self) -> Vec<[f32; 4]> {
         let mark = |(&height, length): (&f64, &f32)| {
             let radius = radius_at(&self.outer, height) as f32;

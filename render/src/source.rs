@@ -46,7 +46,7 @@ pub struct Neighbours<'a> {
 /// The solver's tables of the vessels' shapes, in the order of the frame's poses.
 #[derive(Clone, Copy)]
 pub struct VesselTables<'a> {
-    /// `array<Flask>` of `common/vessel.wgsl`.
+    /// `array<Flask>` of `common/glass/vessel.wgsl`.
     pub flasks: &'a Buffer,
     /// `array<f32>`: signed distances to the glass over (r, y).
     pub distances: &'a Buffer,

@@ -6,10 +6,10 @@ use vitriol_shaders::{Library, ShaderId, layout, render};
 use crate::RenderError;
 use crate::source::SteamSource;
 
-/// Pixels along a tile's edge, as in `common/marks.wgsl`.
+/// Pixels along a tile's edge, as in `common/picture/tile_marks.wgsl`.
 pub(crate) const TILE: u32 = 32;
 
-/// What a tile has in it, as in `common/marks.wgsl`.
+/// What a tile has in it, as in `common/picture/tile_marks.wgsl`.
 pub(crate) const LIQUID_MARK: u32 = 1 << 31;
 /// An edge that is neither the liquid's nor a vessel's.
 pub(crate) const EDGE_MARK: u32 = 1 << 30;
@@ -20,7 +20,7 @@ pub(crate) const VESSEL_MARKS: u32 = 0xff;
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;
 
-/// Words of a bit a puff, as in `common/puff_words.wgsl`.
+/// Words of a bit a puff, as in `common/picture/tile_marks.wgsl`.
 const PUFF_WORDS: u32 = 32;
 /// Puffs of steam that a frame has at most.
 pub(crate) const MOST_PUFFS: u32 = 32 * PUFF_WORDS;
@@ -30,8 +30,7 @@ pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// The kinds of tiles that are listed, numbered as in `common/tile.wgsl`. Each tile is in one of the first
-/// three lists.
+/// What a list has the tiles of; the numbers are `common/picture/tile_pixels.wgsl`'s. The first three have each tile once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Class {

@@ -3,10 +3,13 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The folders under `wgsl`: what is only included, the solver's shaders, the renderer's, those of
-/// its liquid surface and of its coloured spheres, the panel's and the mirror window's.
-pub const FOLDERS: [&str; 7] = [
-    "common",
+/// The folders under `wgsl`: those of `common` are only included, the others hold a shader a file.
+pub const FOLDERS: [&str; 11] = [
+    "common/maths",
+    "common/liquid",
+    "common/chemistry",
+    "common/glass",
+    "common/picture",
     "sim",
     "render",
     "render/fluid",

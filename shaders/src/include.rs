@@ -1,4 +1,4 @@
-//! WGSL has no include: a line `//!include common/kernel.wgsl` is replaced by that file.
+//! WGSL has no include: a line `//!include common/liquid/kernel.wgsl` is replaced by that file.
 //!
 //! Each file enters at most once, so that two included files may both include a third. The
 //! origin of every line is kept, so that an error points at the file that a person wrote.
@@ -101,7 +101,7 @@ impl Expansion<'_, '_> {
     fn include(&mut self, target: &str) -> Result<(), Fault> {
         if target.is_empty() {
             return Err(Fault::Here(format!(
-                "an include names a file: {DIRECTIVE} common/kernel.wgsl"
+                "an include names a file: {DIRECTIVE} common/liquid/kernel.wgsl"
             )));
         }
         if self.open.iter().any(|open| open == target) {

@@ -1,10 +1,21 @@
 //! The WGSL files of Vitriol, the Rust structs reflected from them, and their compilation to
 //! SPIR-V. There is no Vulkan here.
 //!
-//! The files lie in `wgsl/common` (only included, by a line `//!include common/name.wgsl`),
-//! `wgsl/sim`, `wgsl/render`, its `fluid` and `spheres`, and `wgsl/panel`. `build.rs` checks them all: a shader error is a cargo error with
-//! its line. For `wgsl/sim/density.wgsl` there is [`ShaderId`] `sim::DENSITY`; for each struct of
-//! a buffer or of `var<immediate>` there is one in [`layout`].
+//! A folder of `wgsl` mirrors one of Rust: `sim` has the passes of `sim/src/solver`, `render` with
+//! its `fluid` and `spheres` those of `render/src`, `panel` and `mirror` one pass each. What several
+//! passes share lies in `wgsl/common` and enters by a line `//!include common/folder/name.wgsl`:
+//! - `maths`: no more than mathematics, for both;
+//! - `liquid`: the particles, their records and Algorithm 1 (`sim/src/solver`);
+//! - `chemistry`: what particles hold and exchange, and steam (`sim/src/chemistry`);
+//! - `glass`: flasks, table and floor as the solver meets them (`sim/src/flask`);
+//! - `picture`: everything that only the renderer needs.
+//!
+//! A buffer whose vectors hold several things is a record: the file of its name has the functions
+//! that pack and unpack it.
+//!
+//! `build.rs` checks all files: a shader error is a cargo error with its line. For
+//! `wgsl/sim/density.wgsl` there is [`ShaderId`] `sim::DENSITY`; for each struct of a buffer or of
+//! `var<immediate>` there is one in [`layout`].
 //!
 //! A [`Library`] compiles: [`Library::compile`] takes an entry point and values for override
 //! constants, drops the branches that those rule out, and tells with the SPIR-V which bindings

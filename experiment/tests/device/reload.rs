@@ -169,7 +169,7 @@ fn a_changed_solver_goes_on_from_where_it_was() {
     }
     let hash = |laboratory: &mut dyn Experiment| laboratory.outcome().unwrap().state_hash;
     // Other text, same mathematics: the exchange itself leaves no trace.
-    let file = "common/predict.wgsl";
+    let file = "common/liquid/prediction.wgsl";
     folder.edit(file, "let gravity = vec3", "let gravity = 1.0 * vec3");
     for _ in 0..4 {
         step(changing.as_mut());

@@ -33,7 +33,7 @@ pub struct SurfaceReadback {
     pub(super) spacing: f32,
 }
 
-/// Parts of a spacing that thickness is counted in, as in `common/held.wgsl`.
+/// Parts of a spacing that thickness is counted in, as in `common/picture/pixel_blocks.wgsl`.
 const PARTS: f32 = 1_048_576.0;
 
 impl SurfaceReadback {

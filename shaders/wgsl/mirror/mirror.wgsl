@@ -1,6 +1,6 @@
 //! The left eye's picture as large as a window wants it: each pixel is the mean light of what it covers.
 
-//!include common/encode.wgsl
+//!include common/picture/encode.wgsl
 
 struct MirrorDraw {
     /// Width and height of the eye's picture, in the upper left corner of its image, pixels.

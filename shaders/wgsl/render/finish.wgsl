@@ -2,9 +2,9 @@
 //! (2009, the short form): rims, silhouettes and the bench's edge, whatever they are of; and lays steam
 //! over that, which has no edges.
 
-//!include common/tile.wgsl
-//!include common/encode.wgsl
-//!include common/steam.wgsl
+//!include common/picture/encode.wgsl
+//!include common/picture/steam_light.wgsl
+//!include common/picture/tile_pixels.wgsl
 
 /// Whether the class's tiles have steam.
 override STEAM: bool = false;

@@ -3,12 +3,12 @@
 //!
 //! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are.
 
-//!include common/tile.wgsl
-//!include common/hidden.wgsl
-//!include common/liquid.wgsl
-//!include common/glass.wgsl
-//!include common/encode.wgsl
-//!include common/packed_light.wgsl
+//!include common/picture/encode.wgsl
+//!include common/picture/glass_light.wgsl
+//!include common/picture/hidden_area.wgsl
+//!include common/picture/liquid_light.wgsl
+//!include common/picture/packed_light.wgsl
+//!include common/picture/tile_pixels.wgsl
 
 /// Whether the class's tiles have glass, and liquid.
 override GLASS: bool = false;

@@ -1,8 +1,8 @@
 //! Lists the tiles of each class, from their marks, and writes the sizes of the dispatches over them.
 
-//!include common/frame.wgsl
-//!include common/marks.wgsl
-//!include common/hidden.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/hidden_area.wgsl
+//!include common/picture/tile_marks.wgsl
 
 @group(0) @binding(1) var<storage, read> tiles: array<u32>;
 @group(0) @binding(2) var<storage, read_write> tile_lists: array<u32>;

@@ -1,9 +1,8 @@
 //! Which puffs of steam are in which tile.
 
-//!include common/frame.wgsl
-//!include common/marks.wgsl
-//!include common/puff.wgsl
-//!include common/puff_words.wgsl
+//!include common/chemistry/puff.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/tile_marks.wgsl
 
 struct PuffCount {
     /// Number of puffs.

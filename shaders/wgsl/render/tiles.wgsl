@@ -1,9 +1,9 @@
 //! Marks what each tile of each eye's picture has in it, so that passes over pixels have those
 //! of their kind and no other.
 
-//!include common/frame.wgsl
-//!include common/ellipsoid.wgsl
-//!include common/marks.wgsl
+//!include common/picture/ellipsoid.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/tile_marks.wgsl
 
 struct TileCount {
     /// Number of particles.

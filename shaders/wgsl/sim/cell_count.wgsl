@@ -1,6 +1,6 @@
 // Line 10, counting sort: particles per cell.
-//!include common/particle.wgsl
-//!include common/grid.wgsl
+//!include common/liquid/cells.wgsl
+//!include common/liquid/particle.wgsl
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read_write> cell_counts: array<atomic<u32>>;

@@ -1,6 +1,6 @@
 // Line 10, counting sort: exclusive sums of the counts within a block of
 // cells, and the block's total.
-//!include common/grid.wgsl
+//!include common/liquid/cells.wgsl
 
 @group(0) @binding(0) var<storage, read> cell_counts: array<u32>;
 @group(0) @binding(1) var<storage, read_write> cell_starts: array<u32>;

@@ -1,7 +1,7 @@
 // Line 10, counting sort: each cell's particles, in an order that differs
 // from run to run; `reorder` ranks them. Counts return to zero.
-//!include common/particle.wgsl
-//!include common/grid.wgsl
+//!include common/liquid/cells.wgsl
+//!include common/liquid/particle.wgsl
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> cell_starts: array<u32>;

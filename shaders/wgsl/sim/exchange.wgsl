@@ -1,22 +1,25 @@
 // Line 26 of the physical chemistry: acid and enthalpy between particles, heat
 // to what is around, boiling and condensing, and what boiling may spend on
 // motion. `chemistry/transport.rs` and `chemistry/physical.rs` are the same in f64.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/counters.wgsl
-//!include common/diffusion.wgsl
-//!include common/potential.wgsl
-//!include common/boiling.wgsl
-//!include common/compensated.wgsl
-//!include common/full_list.wgsl
+//!include common/chemistry/boiling.wgsl
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/chemistry/heat.wgsl
+//!include common/chemistry/ledger.wgsl
+//!include common/chemistry/matter.wgsl
+//!include common/chemistry/mixing.wgsl
+//!include common/chemistry/rests.wgsl
+//!include common/chemistry/solution.wgsl
+//!include common/glass/wall.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/full_list.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/position.wgsl
+//!include common/liquid/step.wgsl
+//!include common/maths/compensated.wgsl
+//!include common/maths/decay.wgsl
 
-override BOILING: bool = false;
-override EVAPORATION: bool = false;
-override VISCOSITY: bool = false;
-/// Whether volume and density follow composition and temperature.
-override DENSITY: bool = false;
-override LOSSES: bool = false;
 /// C_t: diffusivity of the eddies over h·|v_ij|; Le of their mixing.
 override MIXING: f32 = 0.0;
 override LEWIS: f32 = 1.0;
@@ -36,28 +39,21 @@ override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
 override AMBIENT: f32 = 20.0;
 
-/// (x, vapour over V0·ρ0)
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+/// (membership, identity)
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
-/// (∇V, V) of the walls.
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
-/// Potentials, see `common/potential.wgsl`.
 @group(0) @binding(5) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> new_velocity: array<vec4<f32>>;
-/// (c, h in J/kg, y, mass over V0·ρ0) of what a particle holds.
 @group(0) @binding(7) var<storage, read_write> matter: array<vec4<f32>>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack)
-@group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
-/// (α, XSPH coefficient over the substep's, mass, what c and h lack)
 @group(0) @binding(8) var<storage, read_write> mixing: array<vec4<f32>>;
-/// By identity: (kinetic energy paid for, heat exchanged, steam's mass and enthalpy), in J and kg
-/// per V0·ρ0.
 @group(0) @binding(9) var<storage, read_write> ledger: array<vec4<f32>>;
 /// By identity: e_i of the substep before, J/kg.
 @group(0) @binding(10) var<storage, read> agitation: array<f32>;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
+@group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
 
 /// What a pair exchanges of acid and of heat per difference, for `rates` = Δt·D (m²), where one
 /// particle holds `a` and the other `b`; and how many of the two were cut short. The kernel's part
@@ -89,22 +85,21 @@ fn towards(up: f32, weight: f32) -> f32 {
 /// Where fewer neighbours than this are above, over a full neighbourhood's, vapour leaves.
 const COVERED: f32 = 0.7;
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x / LANES;
-    let lane = id.x % LANES;
-    if (i >= COUNT) { return; }
+/// What a particle's neighbours bring it, and where they are.
+struct Sums {
+    /// Acid (V0·ρ0), enthalpy (J per V0·ρ0), pairs that were cut short.
+    flux: vec3<f32>,
+    /// Σ ∇W: where there is liquid, and by its lack the surface.
+    open: vec3<f32>,
+    /// Vapour that came from below, its enthalpy, and what covers this particle.
+    bubbles: vec3<f32>,
+}
+
+/// For lane 0, but all lanes must ask. A particle whose list is full exchanges nothing.
+fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Sums {
     let x = position[i].xyz;
-    let own = heat[i];
-    let own_held = held(own);
     let v = new_velocity[i].xyz;
-    // Acid (V0·ρ0), enthalpy (J per V0·ρ0), pairs that were cut short.
-    var flux = vec3<f32>(0.0);
-    var open = vec3<f32>(0.0);
-    // Vapour that came from below, its enthalpy, and what covers this particle.
-    var bubbles = vec3<f32>(0.0);
-    let full = full_from(atomicLoad(&counters.list_overflows));
-    let listed = list_counts[i];
+    var sums: Sums;
     let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
         let four = list[g * COUNT + i];
@@ -115,89 +110,117 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
             let per_distance = inverseSqrt(square);
             let q = square * per_distance * INVERSE_SUPPORT;
-            let other = heat[j];
+            let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
-            let other_held = held(other) * whole;
             let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
             let rates = step.time * vec2<f32>(ACID_DIFFUSIVITY + eddies, THERMAL_DIFFUSIVITY + LEWIS * eddies);
-            let share = conductances(rates, q, own_held, other_held);
-            let acid = share.x * (other.y - own.y);
-            flux += vec3<f32>(acid, acid * (0.5 * (own.w + other.w)) + share.y * (other.x - own.x), share.z);
-            if (LOSSES) { open += offset * (per_distance * spline_slope(q)); }
+            let share = conductances(rates, q, own.capacities, other.capacities * whole);
+            let acid = share.x * (other.acid - own.acid);
+            let carried = acid * (0.5 * (own.enthalpy_slope + other.enthalpy_slope));
+            sums.flux += vec3<f32>(acid, carried + share.y * (other.temperature - own.temperature), share.z);
+            if (LOSSES) { sums.open += offset * (per_distance * spline_slope(q)); }
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
                 let kernel = spline(q);
-                let come = near.w * towards(up, kernel) * whole;
-                bubbles += vec3<f32>(come, come * steam_enthalpy(other.x), towards(-up, kernel) * whole);
+                let come = vapour_in(near) * towards(up, kernel) * whole;
+                sums.bubbles += vec3<f32>(
+                    come, come * steam_enthalpy(other.temperature), towards(-up, kernel) * whole);
             }
         }
     }
-    flux = lane_sum3(flux);
-    if (BUBBLE_SPEED > 0.0) { bubbles = lane_sum3(bubbles) * vec3<f32>(rising(), rising(), 1.0); }
-    if (LOSSES) { open = lane_sum3(open) * (weight_scale() / SUPPORT); }
+    sums.flux = lane_sum3(sums.flux);
+    if (BUBBLE_SPEED > 0.0) { sums.bubbles = lane_sum3(sums.bubbles) * vec3<f32>(rising(), rising(), 1.0); }
+    if (LOSSES) { sums.open = lane_sum3(sums.open) * (weight_scale() / SUPPORT); }
+    return sums;
+}
+
+/// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0.
+fn heat_from_around(own: Potential, glass: vec3<f32>, open: vec3<f32>) -> f32 {
+    let capacity = own.capacities.y;
+    let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(capacity, 1e-3);
+    return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
+}
+
+/// XSPH coefficient over the substep's with the liquid's own viscosity.
+fn coefficient_of(own: Potential) -> f32 {
+    var coefficient = CALM;
+    if (VISCOSITY) {
+        let diffusivity = viscosity_of(own.acid, own.temperature) / density_of(own.acid, own.temperature);
+        let real = decayed(diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
+        coefficient = (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
+    }
+    return coefficient;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
+    if (i >= COUNT) { return; }
+    let own = unpack_potential(heat[i]);
+    let full = full_from(atomicLoad(&counters.list_overflows));
+    let listed = list_counts[i];
+    let sums = sum_neighbours(i, lane, own, listed, full);
     if (lane != 0u) { return; }
     let tag = tags[i];
     if (tag.x == REMOVED) { return; }
-    if (flux.z > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
+    if (sums.flux.z > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
 
-    var content = matter[i];
-    var account = ledger[tag.y];
+    var content = unpack_content(matter[i]);
+    var account = unpack_account(ledger[tag.y]);
+    let extent = unpack_bulk(bulk[i]);
+    var taken = sums.flux.y;
     if (LOSSES) {
-        let glass = boundary[i].xyz;
-        let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(own_held.y, 1e-3);
-        let gained = (AMBIENT - own.x) * own_held.y * decayed(rate * step.time);
-        flux.y += gained;
-        account.y += gained;
+        let gained = heat_from_around(own, wall_gradient(boundary[i]), sums.open);
+        taken += gained;
+        account.heat += gained;
     }
-    let lacking = unpack_rests(bulk[i].w);
-    var acid = compensated(content.x, lacking.x, flux.x / content.w);
-    var enthalpy = compensated(content.y, lacking.y, flux.y / content.w);
+    let lacking = unpack_rests(extent.rests);
+    var acid = compensated(Compensated(content.acid, lacking.acid), sums.flux.x / content.mass);
+    var enthalpy = compensated(Compensated(content.enthalpy, lacking.enthalpy), taken / content.mass);
 
     var budget = 0.0;
     if (BUBBLE_SPEED > 0.0) {
         // Bubbles rise to the particles above, and leave where there are none: only there does
         // their vapour push the liquid out of the air's way.
-        let held_vapour = bulk[i].z;
-        let specific = steam_enthalpy(own.x);
-        let passed = held_vapour * rising() * bubbles.z;
-        var gone = held_vapour * rising() * max(1.0 - bubbles.z / COVERED, 0.0);
+        let specific = steam_enthalpy(own.temperature);
+        let passed = extent.vapour * rising() * sums.bubbles.z;
+        var gone = extent.vapour * rising() * max(1.0 - sums.bubbles.z / COVERED, 0.0);
         // What is above it is not looked for.
         if (listed >= full) { gone = 0.0; }
-        let gained = bubbles.x - passed - gone;
-        let mass = rounded(content.w + gained);
+        let gained = sums.bubbles.x - passed - gone;
+        let mass = rounded(content.mass + gained);
         // What the rounded mass became, and increments: where none rises, c and h keep their bits.
-        let change = mass - content.w;
-        acid = compensated(acid.x, acid.y, -acid.x * change / mass);
-        let carried = bubbles.y - (passed + gone) * specific;
-        enthalpy = compensated(enthalpy.x, enthalpy.y, (carried - enthalpy.x * change) / mass);
-        account.z += gone;
-        account.w += gone * specific;
-        if (BOILING) { budget = AGITATION * (gone / content.w) * (own.x - ABSOLUTE_ZERO); }
-        content.z = max((content.z * content.w + gained) / mass, 0.0);
-        content.w = mass;
+        let change = mass - content.mass;
+        acid = compensated(acid, -acid.value * change / mass);
+        let carried = sums.bubbles.y - (passed + gone) * specific;
+        enthalpy = compensated(enthalpy, (carried - enthalpy.value * change) / mass);
+        account.steam += vec2<f32>(gone, gone * specific);
+        if (BOILING) { budget = AGITATION * (gone / content.mass) * (own.temperature - ABSOLUTE_ZERO); }
+        content.vapour = max((content.vapour * content.mass + gained) / mass, 0.0);
+        content.mass = mass;
     }
-    let bounded = clamp(acid.x, 0.0, 1.0);
-    content.x = bounded;
-    content.y = enthalpy.x;
+    content.acid = clamp(acid.value, 0.0, 1.0);
+    content.enthalpy = enthalpy.value;
     if (EVAPORATION) {
-        content.z += (equilibrium(content.x, content.y, content.z) - content.z)
+        content.vapour += (equilibrium(content.acid, content.enthalpy, content.vapour) - content.vapour)
             * (1.0 - exp(-step.time / SUPERHEAT_TIME));
     }
-    matter[i] = content;
-    ledger[tag.y] = account;
-    let rests = pack_rests(acid.x - bounded + acid.y, enthalpy.y);
+    matter[i] = pack_content(content);
+    ledger[tag.y] = pack_account(account);
 
-    var growth = 0.0;
-    if (BOILING) { if (budget > 0.0) { growth = bounded_growth(budget, agitation[tag.y]); } }
-    if (growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
     if (DENSITY || VISCOSITY) {
-        if (own.x < TABLES_FROM || own.x > TABLES_TO) { atomicAdd(&counters.table_ends, 1u); }
+        if (own.temperature < TABLES_FROM || own.temperature > TABLES_TO) {
+            atomicAdd(&counters.table_ends, 1u);
+        }
     }
-    var coefficient = CALM;
-    if (VISCOSITY) {
-        let diffusivity = viscosity_of(own.y, own.x) / density_of(own.y, own.x);
-        let real = decayed(diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
-        coefficient = (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
+    var mixed: Mixing;
+    if (BOILING) {
+        if (budget > 0.0) { mixed.growth = bounded_growth(budget, agitation[tag.y]); }
+        if (mixed.growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
     }
-    mixing[i] = vec4<f32>(growth, select(coefficient, 0.0, growth > 0.0), content.w, rests);
+    mixed.coefficient = select(coefficient_of(own), 0.0, mixed.growth > 0.0);
+    mixed.mass = content.mass;
+    mixed.rests = pack_rests(Rests(acid.value - content.acid + acid.lacking, enthalpy.lacking));
+    mixing[i] = pack_mixing(mixed);
 }

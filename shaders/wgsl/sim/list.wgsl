@@ -1,20 +1,16 @@
 // Line 10: the neighbours within support radius plus margin, by ascending
 // index, in fours strided so that neighbouring invocations read side by side.
 // Pairs that glass separates are left out here, once, and not in each pass.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/grid.wgsl
-//!include common/vessel.wgsl
-//!include common/counters.wgsl
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/glass/vessel.wgsl
+//!include common/liquid/cell_starts.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/trial.wgsl
 
-override LOADS: bool = false;
-/// Whether particles have a temperature.
-override HEAT: bool = false;
-/// Whether the chemistry is the physical one.
-override PHYSICAL: bool = false;
-
-/// (x*, bits of the membership)
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> sorted_position: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> sorted_velocity: array<vec4<f32>>;
@@ -37,11 +33,6 @@ override PHYSICAL: bool = false;
 @group(0) @binding(19) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(27) var<storage, read> sorted_bulk: array<vec4<f32>>;
 @group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
-
-fn start_of(cell: u32) -> u32 {
-    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
-    return block_sums[cell / SCAN_BLOCK] + cell_starts[cell];
-}
 
 /// Whether two particles of different membership see each other past the glass.
 fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
@@ -91,7 +82,7 @@ fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, count: u32, second:
             let distance = dot(offset, offset);
             let hit = distance < CELL * CELL && j != i;
             near |= select(0u, 1u << n, hit);
-            mixed = mixed || (hit && bitcast<u32>(other.w) != membership);
+            mixed = mixed || (hit && membership_in(other) != membership);
             coincident = coincident || (hit && distance < 1e-8 * SUPPORT * SUPPORT);
         }
         while (near != 0u) {
@@ -103,7 +94,7 @@ fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, count: u32, second:
             if (LANES > 1u) {
                 if (mixed) {
                     let other = sorted_trial[j];
-                    let theirs = bitcast<u32>(other.w);
+                    let theirs = membership_in(other);
                     if (theirs != membership) { seen = visible(membership, x, theirs, other.xyz); }
                 }
             }
@@ -140,7 +131,7 @@ fn drop_unseen(i: u32, x: vec3<f32>, membership: u32, listed: u32) {
     for (var k = 0u; k < listed; k++) {
         let j = list[place(k, i)];
         let other = sorted_trial[j];
-        let theirs = bitcast<u32>(other.w);
+        let theirs = membership_in(other);
         if (theirs == membership || visible(membership, x, theirs, other.xyz)) {
             list[place(kept, i)] = j;
             kept++;
@@ -190,7 +181,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         found = listed;
         if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
         if (overflowed) {
-            // It still counts as full: see `common/full_list.wgsl`.
+            // It still counts as full: see `common/liquid/full_list.wgsl`.
             for (var k = found; k < LIST_CAPACITY; k++) { list[place(k, i)] = i; }
             found = LIST_CAPACITY;
         }
@@ -204,8 +195,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // Sums take four at a time; the particle itself adds nothing to differences.
     for (var k = listed; (k & 3u) != 0u; k++) { list[place(k, i)] = i; }
     var volume = 1.0;
-    if (PHYSICAL) { volume = sorted_bulk[i].x; }
-    trial[i] = vec4<f32>(x, volume);
+    if (PHYSICAL) { volume = unpack_bulk(sorted_bulk[i]).volume; }
+    trial[i] = pack_trial(x, volume);
     list_origin[i] = vec4<f32>(x, 0.0);
     position[i] = sorted_position[i];
     velocity[i] = sorted_velocity[i];

@@ -1,15 +1,14 @@
 // What the liquid did to each flask in a frame: impulse and angular impulse
 // about the flask's origin, and how it stirs at the wall, by workgroup; the host adds
 // the workgroups up.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/vessel.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/chemistry/matter.wgsl
+//!include common/glass/vessel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
 
 /// Mass of a particle, kg.
 override MASS: f32 = 1.0;
-/// Whether particles differ in mass.
-override PHYSICAL: bool = false;
 
 struct LiquidLoad {
     /// Impulse, N s; w: mass in the flask, in particles of rest density.
@@ -25,7 +24,6 @@ struct LiquidLoad {
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> wall_push: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> loads: array<LiquidLoad>;
-/// (c, h, y, mass over V0·ρ0).
 @group(0) @binding(4) var<storage, read> matter: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> velocity: array<vec4<f32>>;
 
@@ -50,7 +48,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
     var energy = 0.0;
     if (i < COUNT) {
         tag = tags[i].x;
-        if (PHYSICAL) { mass = matter[i].w; }
+        if (PHYSICAL) { mass = unpack_content(matter[i]).mass; }
         impulse = wall_push[i].xyz * (-MASS * mass / step.time);
         x = position[i].xyz;
         if (tag > NOBODYS && tag <= FLASKS && any(wall_push[i].xyz != vec3<f32>(0.0))) {

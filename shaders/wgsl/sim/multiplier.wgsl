@@ -10,10 +10,13 @@
 // Where density follows composition, Σ V_j W is the share of space that is
 // filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
 // density: that of a neighbour of another liquid is its equal.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/boundary.wgsl
+//!include common/glass/boundary.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/list_args.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/trial.wgsl
+//!include common/liquid/velocity.wgsl
 
 /// Whether this is a substep's first iteration.
 override FIRST: bool = false;
@@ -24,18 +27,40 @@ override APPLY_CARRIED: bool = false;
 /// Whether the rebuild's dispatch sizes return to zero here.
 override CLEAR_LIST_ARGS: bool = false;
 
-/// (x*, volume over V0)
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
+/// (membership, identity)
 @group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(4) var<storage, read> velocity: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> multiplier: array<f32>;
-/// (x*, this iteration's dλ)
 @group(0) @binding(6) var<storage, read_write> solved: array<vec4<f32>>;
-/// (∇V, V) of the walls at x*.
+/// At x*.
 @group(0) @binding(7) var<storage, read_write> boundary: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> list_args: array<u32>;
+
+/// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
+fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
+    var sum = 0.0;
+    let count = list_counts[i];
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let other = trial[j];
+            let offset = x - other.xyz;
+            let weight = volume_in(other) * spline(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
+            // What fills up the last four is the particle itself.
+            sum += select(weight, 0.0, j == i);
+        }
+    }
+    return lane_sum(sum);
+}
+
+/// Line 19, Eqs 1 and 2: C = ρ/ρ0 − 1 of a particle at x*.
+fn density_constraint(sum: f32, volume: f32, wall: f32) -> f32 {
+    return (sum + volume * spline(0.0)) * weight_scale() + wall - 1.0;
+}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -43,57 +68,43 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let lane = id.x % LANES;
     if (CLEAR_LIST_ARGS) {
         if (id.x == 0u) {
-            list_args[0] = 0u;
-            list_args[4] = 0u;
-            list_args[8] = 0u;
-            list_args[12] = 0u;
+            list_args[PARTICLE_ARGS] = 0u;
+            list_args[CELL_ARGS] = 0u;
+            list_args[LIST_ARGS] = 0u;
+            list_args[BLOCK_ARGS] = 0u;
         }
     }
     if (i >= COUNT) { return; }
     let own = trial[i];
     let x = own.xyz;
     var sum = 0.0;
-    if (!APPLY_CARRIED) {
-        let count = list_counts[i];
-        for (var g = lane; g * 4u < count; g += LANES) {
-            let four = list[g * COUNT + i];
-            for (var n = 0u; n < 4u; n++) {
-                let j = four[n];
-                let other = trial[j];
-                let offset = x - other.xyz;
-                let weight = other.w * spline(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
-                // What fills up the last four is the particle itself.
-                sum += select(weight, 0.0, j == i);
-            }
-        }
-        sum = lane_sum(sum);
-    }
-    let tag = tags[i].x;
-    let wall = boundary_volume(tag, x, step.after, lane);
+    if (!APPLY_CARRIED) { sum = sum_weights(i, lane, x); }
+    let membership = tags[i].x;
+    let wall = boundary_volume(membership, x, step.after, lane);
     if (lane != 0u) { return; }
-    if (tag == REMOVED) {
-        solved[i] = vec4<f32>(x, 0.0);
+    if (membership == REMOVED) {
+        solved[i] = pack_solved(x, 0.0);
         boundary[i] = vec4<f32>(0.0);
         multiplier[i] = 0.0;
         return;
     }
     boundary[i] = wall;
     if (APPLY_CARRIED) {
-        let carried = velocity[i].w * step.time * step.time;
+        let carried = carried_by(velocity[i]) * step.time * step.time;
         multiplier[i] = carried;
-        solved[i] = vec4<f32>(x, carried);
+        solved[i] = pack_solved(x, carried);
         return;
     }
-    let constraint = (sum + own.w * spline(0.0)) * weight_scale() + wall.w - 1.0;
+    let constraint = density_constraint(sum, volume_in(own), wall_volume(wall));
     var before = 0.0;
     var momentum = 0.0;
     if (FIRST) {
         if (CARRY) { before = multiplier[i]; }
     } else {
         before = multiplier[i];
-        momentum = step.momentum * solved[i].w;
+        momentum = step.momentum * change_in(solved[i]);
     }
     let after = min(before - step.residual * constraint + momentum, 0.0);
     multiplier[i] = after;
-    solved[i] = vec4<f32>(x, after - before);
+    solved[i] = pack_solved(x, after - before);
 }

@@ -1,18 +1,15 @@
-// Line 16 at a frame's start; within a frame the viscosity pass ends with it.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
-//!include common/step.wgsl
-//!include common/vessel.wgsl
-//!include common/ground.wgsl
-//!include common/predict.wgsl
+// Line 16 at a frame's start; within a frame the forces end with it.
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/prediction.wgsl
+//!include common/liquid/step.wgsl
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> velocity: array<vec4<f32>>;
+/// (membership, identity)
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
-/// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack).
 @group(0) @binding(3) var<storage, read> bulk: array<vec4<f32>>;
-/// Whether particles differ in volume and density.
-override DENSITY: bool = false;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -20,6 +17,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
     var volume = 1.0;
-    if (DENSITY) { volume = bulk[i].x; }
+    if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
     predict(i, position[i].xyz, velocity[i].xyz, volume, tags[i].x, step.before, step.after);
 }

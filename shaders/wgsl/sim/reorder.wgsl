@@ -1,13 +1,9 @@
 // Line 11: all of a particle's state to its place by cell, and within a cell
 // by its former index, so that the order (and so every sum) repeats.
-//!include common/particle.wgsl
-//!include common/grid.wgsl
-
-override LOADS: bool = false;
-/// Whether particles have a temperature.
-override HEAT: bool = false;
-/// Whether the chemistry is the physical one.
-override PHYSICAL: bool = false;
+//!include common/chemistry/features.wgsl
+//!include common/liquid/cell_starts.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/trial.wgsl
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
@@ -29,12 +25,6 @@ override PHYSICAL: bool = false;
 @group(0) @binding(17) var<storage, read> bulk: array<vec4<f32>>;
 @group(0) @binding(18) var<storage, read_write> sorted_bulk: array<vec4<f32>>;
 
-/// Index of the first particle of a cell; of the end of the table after the last.
-fn start_of(cell: u32) -> u32 {
-    if (cell >= 1u << (CELL_BITS_X + CELL_BITS_Y + CELL_BITS_Z)) { return COUNT; }
-    return block_sums[cell / SCAN_BLOCK] + cell_starts[cell];
-}
-
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x;
@@ -49,7 +39,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let tag = tags[i];
     // The list pass reads both of every candidate: one fetch in place of two.
-    sorted_trial[to] = vec4<f32>(x.xyz, bitcast<f32>(tag.x));
+    sorted_trial[to] = pack_sorted_trial(x.xyz, tag.x);
     sorted_position[to] = position[i];
     sorted_velocity[to] = velocity[i];
     sorted_tags[to] = tag;

@@ -1,8 +1,9 @@
 // What steam left the liquid becomes puffs. Each workgroup gathers the steam
 // of a share of the particles, and lets it rise from one of them: that with
 // the most, by lot, so that the puffs come from all over the surface.
-//!include common/particle.wgsl
-//!include common/condensation.wgsl
+//!include common/chemistry/condensation.wgsl
+//!include common/chemistry/ledger.wgsl
+//!include common/liquid/particle.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;
@@ -13,8 +14,6 @@ override LEAST_PUFF: f32 = 5e-7;
 
 @group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
-/// By identity: (kinetic energy paid for, heat exchanged, steam's mass and enthalpy), in J and kg
-/// per V0·ρ0.
 @group(0) @binding(3) var<storage, read> ledger: array<vec4<f32>>;
 /// By identity: steam's mass and enthalpy of which puffs were made.
 @group(0) @binding(4) var<storage, read_write> vented: array<vec2<f32>>;
@@ -44,7 +43,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     var drawer = 0u;
     for (var i = first; i < COUNT; i += VENTS * THREADS) {
         let identity = tags[i].y;
-        let gone = ledger[identity].zw - vented[identity];
+        let gone = unpack_account(ledger[identity]).steam - vented[identity];
         sum += gone;
         let drawn = gone.x * lot(identity, number);
         if (drawn > best) {
@@ -70,7 +69,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     if (steam.x < LEAST_PUFF) { return; }
     for (var i = first; i < COUNT; i += VENTS * THREADS) {
         let identity = tags[i].y;
-        vented[identity] = ledger[identity].zw;
+        vented[identity] = unpack_account(ledger[identity]).steam;
     }
     if (local.x != 0u) { return; }
     let source = position[drawers[0]].xyz;

@@ -1,8 +1,8 @@
 // Line 28, first half: ω = ∇ × v of each particle (Macklin & Müller 2013,
 // Eq. 15), of the velocities before viscosity. A pass of its own: confinement
 // needs the neighbours' ω.
-//!include common/particle.wgsl
-//!include common/kernel.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;

@@ -1,4 +1,5 @@
-//! The simulation loop, Algorithm 1, as passes.
+//! The simulation loop, Algorithm 1, as passes. A pass's method, its pipeline and its shader in `sim/` bear one
+//! name; in the shader each line of the algorithm is a function that names it.
 
 use super::buffers::LOAD_GROUP;
 use super::vessels::flask_pose;
@@ -63,12 +64,13 @@ impl Solver {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
-            self.dilute(rec, &step)?; // 26
-            self.find_vorticity(rec)?; // 28, what of it takes a pass of its own
-            self.apply_forces(rec, &step, n + 1 == substeps)?; // 27 and 28; 16 of the next
+            self.diffusion(rec, &step)?; // 26 of the paper's chemistry,
+            self.exchange(rec, &step)?; // or of the physical one
+            self.vorticity(rec)?; // 28, what of it takes a pass of its own
+            self.forces(rec, &step, n + 1 == substeps)?; // end of 26, 27 and 28; 16 of the next
         }
         self.vent(rec)?;
-        self.sum_loads(rec)
+        self.load(rec)
     }
 
     /// Records a pass that writes each particle's density over the rest
@@ -112,6 +114,7 @@ impl Solver {
         Ok(rec.upload(&self.buffers.poses, &poses)?)
     }
 
+    /// Line 16 at a frame's start; within a frame [`Self::forces`] ends with it.
     fn predict(&self, rec: &mut Recorder) -> Result<(), SolverError> {
         let b = &self.buffers;
         self.prediction(rec.pass(&self.pipelines.predict))
@@ -124,12 +127,12 @@ impl Solver {
         Ok(())
     }
 
-    /// Lines 18 to 21; the last displacement commits (lines 22 to 25).
+    /// Lines 18 to 21; the last displacement goes on to lines 22 to 25.
     fn solve_density(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
         let p = &self.pipelines;
         if self.parameters.carry > 0.0 {
-            self.find_multipliers(rec, &p.carried, step)?;
-            self.displace(rec, &p.displacement, step)?;
+            self.multiplier(rec, &p.carried_multiplier, step)?;
+            self.displacement(rec, &p.displacement, step)?;
         }
         let gradient_sum = self.parameters.gradient_sum();
         let last = self.coefficients.len() - 1;
@@ -144,18 +147,19 @@ impl Solver {
             } else {
                 &p.multiplier
             };
-            self.find_multipliers(rec, multiplier, &step)?;
+            self.multiplier(rec, multiplier, &step)?;
             let displacement = if iteration == last {
-                &p.commit
+                &p.last_displacement
             } else {
                 &p.displacement
             };
-            self.displace(rec, displacement, &step)?;
+            self.displacement(rec, displacement, &step)?;
         }
         Ok(())
     }
 
-    fn find_multipliers(
+    /// Line 19.
+    fn multiplier(
         &self,
         rec: &mut Recorder,
         pass: &ComputePipeline,
@@ -177,7 +181,8 @@ impl Solver {
         Ok(())
     }
 
-    fn displace(
+    /// Line 20, and lines 22 to 25 in a substep's last iteration.
+    fn displacement(
         &self,
         rec: &mut Recorder,
         pass: &ComputePipeline,
@@ -206,40 +211,52 @@ impl Solver {
         Ok(())
     }
 
-    /// Line 26; of the paper's chemistry but for the heat of solution, which
-    /// [`Self::apply_forces`] adds.
-    fn dilute(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
-        let (Some(pass), Some(chemistry)) = (&self.pipelines.dilution, &self.parameters.chemistry)
-        else {
+    /// Line 26 of the paper's chemistry, but for the heat of solution, which
+    /// [`Self::forces`] adds.
+    fn diffusion(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.diffusion else {
+            return Ok(());
+        };
+        self.mixing(rec.pass(pass))
+            .write("diffused", &self.buffers.diffused)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    /// Line 26 of the physical chemistry, but for what boiling costs, which
+    /// [`Self::forces`] takes.
+    fn exchange(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.exchange else {
             return Ok(());
         };
         let b = &self.buffers;
-        let pass = rec
-            .pass(pass)
-            .read("position", &b.position)
+        self.mixing(rec.pass(pass))
+            .read("new_velocity", &b.new_velocity)
+            .read("tags", &b.tags)
+            .read("agitation", &b.agitation)
+            .read("bulk", &b.bulk)
+            .read("solution", &b.solution)
+            .write("matter", &b.matter)
+            .write("ledger", &b.ledger)
+            .constants(step)
+            .invocations(self.count * self.lanes)?;
+        Ok(())
+    }
+
+    fn mixing<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
+        let b = &self.buffers;
+        pass.read("position", &b.position)
             .read("list_counts", &b.list_counts)
             .read("list", &b.list)
             .read("boundary", &b.boundary)
             .read("heat", &b.heat)
             .write("mixing", &b.mixing)
             .write("counters", &b.counters)
-            .constants(step);
-        let pass = match chemistry {
-            Chemistry::Paper(_) => pass.write("diffused", &b.diffused),
-            Chemistry::Physical(_) => pass
-                .read("new_velocity", &b.new_velocity)
-                .read("tags", &b.tags)
-                .read("agitation", &b.agitation)
-                .read("bulk", &b.bulk)
-                .read("solution", &b.solution)
-                .write("matter", &b.matter)
-                .write("ledger", &b.ledger),
-        };
-        pass.invocations(self.count * self.lanes)?;
-        Ok(())
     }
 
-    fn find_vorticity(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+    /// Line 28's vorticity, which its confinement needs of the neighbours.
+    fn vorticity(&self, rec: &mut Recorder) -> Result<(), SolverError> {
         let Some(pass) = &self.pipelines.vorticity else {
             return Ok(());
         };
@@ -254,13 +271,10 @@ impl Solver {
         Ok(())
     }
 
-    fn apply_forces(&self, rec: &mut Recorder, step: &Step, last: bool) -> Result<(), SolverError> {
+    /// Lines 26 (its end), 27 and 28, and line 16 of the next substep: one pass over the neighbours.
+    fn forces(&self, rec: &mut Recorder, step: &Step, last: bool) -> Result<(), SolverError> {
         let (b, p) = (&self.buffers, &self.pipelines);
-        let pass = if last {
-            &p.last_viscosity
-        } else {
-            &p.viscosity
-        };
+        let pass = if last { &p.last_forces } else { &p.forces };
         self.walls(self.prediction(rec.pass(pass)))
             .read("position", &b.position)
             .read("new_velocity", &b.new_velocity)
@@ -274,7 +288,7 @@ impl Solver {
             .write("heat", &b.heat)
             .write("matter", &b.matter)
             .write("ledger", &b.ledger)
-            .write("agitations", &b.agitation)
+            .write("agitation", &b.agitation)
             .write("bulk", &b.bulk)
             .write("velocity", &b.velocity)
             .write("counters", &b.counters)
@@ -283,7 +297,7 @@ impl Solver {
         Ok(())
     }
 
-    fn sum_loads(&self, rec: &mut Recorder) -> Result<FrameRecord, SolverError> {
+    fn load(&self, rec: &mut Recorder) -> Result<FrameRecord, SolverError> {
         if !self.loads || self.flasks == 0 {
             return Ok(self.nothing());
         }

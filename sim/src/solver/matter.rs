@@ -6,7 +6,7 @@ use crate::chemistry::table::{Row, SolutionTable};
 use half::f16;
 
 /// Unit of the heat capacity in a potential, J/(kg K), as in
-/// `common/potential.wgsl`.
+/// `common/chemistry/heat.wgsl`.
 const CAPACITY_UNIT: f64 = 4000.0;
 
 /// A particle's part of the state.

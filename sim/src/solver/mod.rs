@@ -4,10 +4,10 @@
 //! shaders' folder `sim/`; `reference/` is the same mathematics in f64.
 //!
 //! Few passes, since a dispatch with its barrier costs as much as the work of
-//! a small scene: two over neighbours per iteration (multipliers,
-//! displacements), one for viscosity. The last displacement pass also commits
-//! (lines 23 to 25), the viscosity pass also applies the internal forces
-//! (line 28) and predicts the next substep (line 16). The neighbour list is rebuilt when a particle has used up its
+//! a small scene: two over neighbours per iteration (`multiplier`,
+//! `displacement`), and `forces`. The last displacement also commits (lines 22
+//! to 25); `forces` has lines 26 to 28 and the next substep's prediction (line
+//! 16). The neighbour list is rebuilt when a particle has used up its
 //! margin; the GPU decides, by the sizes of six indirect dispatches.
 
 mod buffers;
@@ -168,7 +168,7 @@ impl Solver {
     }
 
     /// The flasks' shapes and their distances to the glass over (r, y), as
-    /// `common/glass_distance.wgsl` reads them.
+    /// `common/glass/glass_distance.wgsl` reads them.
     pub fn flask_tables(&self) -> (&Buffer, &Buffer) {
         (&self.vessels.flasks, &self.vessels.distances)
     }

@@ -12,7 +12,7 @@ use crate::surface_tension::PULL_SAMPLES;
 use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId, sim};
 
-/// Cells that one workgroup scans, as in `common/grid.wgsl`.
+/// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
 
 /// Part of the list's margin that a prediction may use up; the rest is left
@@ -54,7 +54,7 @@ impl Grid {
     }
 }
 
-/// Compiled passes; names as in `frame`.
+/// Compiled passes, named as their shaders and as the methods that record them.
 pub(super) struct Pipelines {
     pub(super) predict: ComputePipeline,
     pub(super) cell_count: ComputePipeline,
@@ -63,17 +63,22 @@ pub(super) struct Pipelines {
     pub(super) cell_scatter: ComputePipeline,
     pub(super) reorder: ComputePipeline,
     pub(super) list: ComputePipeline,
-    pub(super) carried: ComputePipeline,
+    /// Applies what was carried.
+    pub(super) carried_multiplier: ComputePipeline,
     pub(super) first_multiplier: ComputePipeline,
     pub(super) multiplier: ComputePipeline,
     pub(super) displacement: ComputePipeline,
-    pub(super) commit: ComputePipeline,
-    /// Where particles have a temperature.
-    pub(super) dilution: Option<ComputePipeline>,
+    /// Of a substep's last iteration: goes on to lines 22 to 25.
+    pub(super) last_displacement: ComputePipeline,
+    /// Of the paper's chemistry.
+    pub(super) diffusion: Option<ComputePipeline>,
+    /// Of the physical chemistry.
+    pub(super) exchange: Option<ComputePipeline>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<ComputePipeline>,
-    pub(super) viscosity: ComputePipeline,
-    pub(super) last_viscosity: ComputePipeline,
+    pub(super) forces: ComputePipeline,
+    /// Of a frame's last substep: predicts none.
+    pub(super) last_forces: ComputePipeline,
     pub(super) load: ComputePipeline,
     pub(super) density: ComputePipeline,
 }
@@ -98,10 +103,10 @@ impl Pipelines {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
         };
-        let dilution = match spec.parameters.chemistry {
-            None => None,
-            Some(Chemistry::Paper(_)) => Some(make(sim::DIFFUSION, &[])?),
-            Some(Chemistry::Physical(_)) => Some(make(sim::EXCHANGE, &[])?),
+        let (diffusion, exchange) = match spec.parameters.chemistry {
+            None => (None, None),
+            Some(Chemistry::Paper(_)) => (Some(make(sim::DIFFUSION, &[])?), None),
+            Some(Chemistry::Physical(_)) => (None, Some(make(sim::EXCHANGE, &[])?)),
         };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
@@ -111,7 +116,7 @@ impl Pipelines {
             cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
-            carried: make(
+            carried_multiplier: make(
                 sim::MULTIPLIER,
                 &[("APPLY_CARRIED", 1.0), ("CLEAR_LIST_ARGS", 1.0)],
             )?,
@@ -121,11 +126,12 @@ impl Pipelines {
             )?,
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
-            commit: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
-            dilution,
+            last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
+            diffusion,
+            exchange,
             vorticity,
-            viscosity: make(sim::VISCOSITY, &[pull, ("PREDICT", 1.0)])?,
-            last_viscosity: make(sim::VISCOSITY, &[pull])?,
+            forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
+            last_forces: make(sim::FORCES, &[pull])?,
             load: make(sim::LOAD, &[])?,
             density: make(sim::DENSITY, &[])?,
         })

@@ -8,7 +8,7 @@ use glam::{DVec3, U64Vec3};
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout::SolidCells;
 
-/// The buffers that `common/solids.wgsl` reads; empty where the boundary is of maps.
+/// The buffers that `common/glass/solids.wgsl` reads; empty where the boundary is of maps.
 pub struct Solids {
     pub(super) cells: Buffer,
     pub(super) starts: Buffer,

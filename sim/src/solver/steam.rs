@@ -93,7 +93,7 @@ impl Steam {
             puffs: buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
             vented: buffer("vented", bytes_of_elements::<[f32; 2]>(n))?,
             made: buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
-            rise: make(sim::PUFFS)?,
+            rise: make(sim::RISE)?,
             vent: make(sim::VENT)?,
         }))
     }

@@ -15,7 +15,7 @@ use vitriol_shaders::layout;
 /// then below 3e-5 of a density.
 pub const PLANE_ENTRIES: usize = 129;
 
-/// The buffers that `common/vessel.wgsl` and `common/ground.wgsl` read.
+/// The buffers that `common/glass/vessel.wgsl` and `common/glass/ground.wgsl` read.
 pub struct Vessels {
     pub(super) flasks: Buffer,
     pub(super) radii: Buffer,

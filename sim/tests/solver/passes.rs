@@ -18,7 +18,7 @@ pub const PASSES: [ShaderId; 13] = [
     sim::MULTIPLIER,
     sim::DISPLACEMENT,
     sim::VORTICITY,
-    sim::VISCOSITY,
+    sim::FORCES,
     sim::DENSITY,
     sim::LOAD,
 ];
@@ -59,20 +59,20 @@ fn shaders_bind_what_the_scene_has() {
         seen_flasks += usize::from(holds(&full, &of_flasks));
         seen_loads += usize::from(holds(&full, &of_loads));
         // The floor is always there, for those that ask for walls at all.
-        let of_walls = [sim::MULTIPLIER, sim::VISCOSITY, sim::DENSITY].map(|s| s.path());
+        let of_walls = [sim::MULTIPLIER, sim::FORCES, sim::DENSITY].map(|s| s.path());
         assert_eq!(holds(&full, &of_table), of_walls.contains(&shader.path()));
     }
     // Names that are in none would have proved nothing.
     assert_eq!((seen_flasks, seen_loads), (7, 6));
     let forces = |constants: &[(&str, f64)]| {
-        let bound = bindings(sim::VISCOSITY, constants);
+        let bound = bindings(sim::FORCES, constants);
         ["vorticity", "pulls"].map(|name| bound.contains(&name.to_owned()))
     };
     assert_eq!(forces(&[("COHESION", 1.0)]), [false, false]);
     assert_eq!(forces(&[("CONFINEMENT", 1.0)]), [true, false]);
     assert_eq!(forces(&[("ADHESION", 1.0), ("PULL", 1.0)]), [false, true]);
     // A wall is of maps or of solids, never of both.
-    for (shader, solids) in [sim::MULTIPLIER, sim::VISCOSITY, sim::DENSITY]
+    for (shader, solids) in [sim::MULTIPLIER, sim::FORCES, sim::DENSITY]
         .into_iter()
         .flat_map(|shader| [(shader, 0.0), (shader, 1.0)])
     {
@@ -87,7 +87,7 @@ fn shaders_bind_what_the_scene_has() {
         );
     }
     // Without viscosity and forces, no neighbour is looked at and no wall.
-    let idle = bindings(sim::VISCOSITY, &[("VISCOUS", 0.0), ("FLASKS", 1.0)]);
+    let idle = bindings(sim::FORCES, &[("VISCOUS", 0.0), ("FLASKS", 1.0)]);
     let looks_at = |name: &&str| idle.contains(&(*name).to_owned());
     let any = ["list", "list_counts", "maps", "plane"];
     assert_eq!(any.iter().find(|name| looks_at(name)), None, "{idle:?}");
@@ -130,8 +130,8 @@ fn frames_dispatch_what_the_scene_has() {
     let own = passes(&bare, &[]);
     let count = |labels: &[String], name: &str| labels.iter().filter(|l| l.contains(name)).count();
     assert_eq!(count(&own, "sim/load"), 0, "{own:?}");
-    // Two over neighbours an iteration, one for viscosity: 3 × (2 × 2 + 1).
-    let over_neighbours = ["multiplier", "displacement", "viscosity"];
+    // Two over neighbours an iteration, one for the forces: 3 × (2 × 2 + 1).
+    let over_neighbours = ["multiplier", "displacement", "forces"];
     let sum = |labels: &[String]| -> usize {
         over_neighbours.iter().map(|name| count(labels, name)).sum()
     };

@@ -18,12 +18,13 @@
 //! A particle with few neighbours fades to a sphere of its own volume, at its own place: drops
 //! in flight are drops.
 
-//!include common/glass_distance.wgsl
-//!include common/ellipsoid.wgsl
-//!include common/eigen.wgsl
-
-/// Invocations that share one particle's neighbours.
-override LANES: u32 = 1u;
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/heat.wgsl
+//!include common/glass/glass_distance.wgsl
+//!include common/liquid/lane_sums.wgsl
+//!include common/liquid/position.wgsl
+//!include common/maths/eigen.wgsl
+//!include common/picture/ellipsoid.wgsl
 
 struct Neighbourhood {
     /// Number of particles.
@@ -55,10 +56,9 @@ var<immediate> around: Neighbourhood;
 @group(0) @binding(0) var<storage, read> positions: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(2) var<storage, read> list: array<vec4<u32>>;
-/// Temperature and acid fraction in x and y.
 @group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> ellipsoids: array<Ellipsoid>;
-/// Volume over d³ in x.
+/// The record `bulk`.
 @group(0) @binding(9) var<storage, read> volumes: array<vec4<f32>>;
 
 /// Yu and Turk's λ: how far a centre goes to its neighbours' mean.
@@ -94,15 +94,6 @@ struct Moments {
     products: vec3<f32>,
 }
 
-/// Sum over the lanes of one particle, in a fixed order.
-fn lane_sum(value: vec3<f32>) -> vec3<f32> {
-    var sum = value;
-    if (LANES >= 2u) { sum += subgroupShuffleXor(sum, 1u); }
-    if (LANES >= 4u) { sum += subgroupShuffleXor(sum, 2u); }
-    if (LANES >= 8u) { sum += subgroupShuffleXor(sum, 4u); }
-    return sum;
-}
-
 fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
     var sum = Moments(0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0));
     let number = list_counts[i];
@@ -121,10 +112,10 @@ fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
         }
     }
     if (LANES > 1u) {
-        sum.weight = lane_sum(vec3<f32>(sum.weight)).x;
-        sum.first = lane_sum(sum.first);
-        sum.squares = lane_sum(sum.squares);
-        sum.products = lane_sum(sum.products);
+        sum.weight = lane_sum(sum.weight);
+        sum.first = lane_sum3(sum.first);
+        sum.squares = lane_sum3(sum.squares);
+        sum.products = lane_sum3(sum.products);
     }
     return sum;
 }
@@ -180,10 +171,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let particle = positions[i];
     let x = particle.xyz;
     let d = around.spacing;
-    let acid = heat[around.heated * i].y;
+    let acid = acid_in(heat[around.heated * i]);
     // Liquid that contracts as it mixes is drawn as small as it is.
     var own = d;
-    if (around.swelling != 0u) { own = d * pow(max(volumes[i].x, 1e-3), 1.0 / 3.0); }
+    if (around.swelling != 0u) { own = d * pow(max(unpack_bulk(volumes[i]).volume, 1e-3), 1.0 / 3.0); }
     var out = Ellipsoid(x, acid, vec3<f32>(LONE_RADIUS * own), 1.0, vec3<f32>(0.0));
     if (around.anisotropic != 0u) {
         var sum = neighbours(i, x, lane);
@@ -222,6 +213,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let deep = length(mean) < 0.05 && weight > 0.85 * full && wall.w > 1.25 * d;
         out.visible = select(1.0, 0.0, deep);
     }
-    if (particle.w < 0.0) { out.visible = -1.0; }
+    if (is_taken_out(particle)) { out.visible = -1.0; }
     if (lane == 0u) { ellipsoids[i] = out; }
 }

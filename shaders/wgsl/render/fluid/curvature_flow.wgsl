@@ -6,8 +6,8 @@
 //! that faces the eye then diffuses by `rate` a step, stable below a quarter, and as many steps
 //! smooth over a length of the world and not of the picture.
 
-//!include common/tile.wgsl
-//!include common/at_glass.wgsl
+//!include common/picture/at_glass.wgsl
+//!include common/picture/tile_pixels.wgsl
 
 /// Whether this is the last step.
 override LAST: bool = false;

@@ -7,8 +7,8 @@
 //! as its distance is not; so a plane that slants keeps its place exactly. And a pair of pixels,
 //! right and left, counts only if both have liquid, so that silhouettes do not pull.
 
-//!include common/tile.wgsl
-//!include common/at_glass.wgsl
+//!include common/picture/at_glass.wgsl
+//!include common/picture/tile_pixels.wgsl
 
 /// 0: along rows; 1: along columns; 2: over a square; 3: no filter.
 override PASS: u32 = 0u;

@@ -1,6 +1,6 @@
 //! The nearest ellipsoid at each pixel, as reversed depth: its bits are ordered as the numbers are.
 
-//!include common/splats.wgsl
+//!include common/picture/splats.wgsl
 
 /// Zero where there is none.
 @group(0) @binding(2) var<storage, read_write> depth: array<atomic<u32>>;

@@ -5,8 +5,8 @@
 //! sees where one begins. (Chords of the ellipsoids would count each overlap twice.) Sums are of
 //! whole numbers, so that their order does not show.
 
-//!include common/splats.wgsl
-//!include common/held.wgsl
+//!include common/picture/pixel_blocks.wgsl
+//!include common/picture/splats.wgsl
 
 /// Thickness, and its part that is acid, of each block of four pixels, in parts of a spacing.
 @group(0) @binding(2) var<storage, read_write> sums: array<atomic<u32>>;

@@ -1,9 +1,10 @@
 //! The light of the coloured spheres, once the nearest at each pixel is known: their attribute's colour,
 //! lit by the window and the room.
 
-//!include common/tile.wgsl
-//!include common/daylight.wgsl
-//!include common/packed_light.wgsl
+//!include common/chemistry/heat.wgsl
+//!include common/picture/daylight.wgsl
+//!include common/picture/packed_light.wgsl
+//!include common/picture/tile_pixels.wgsl
 
 struct SphereLight {
     /// Radius as drawn, in the scene's unit.
@@ -18,7 +19,7 @@ struct SphereLight {
 var<immediate> spheres: SphereLight;
 
 @group(0) @binding(2) var<storage, read> positions: array<vec4<f32>>;
-/// Velocity, in the scene's unit per second; or temperature (°C) and acid fraction in x and y.
+/// The record `velocity`, in the scene's unit per second, or `heat`.
 @group(0) @binding(3) var<storage, read> attributes: array<vec4<f32>>;
 /// Reversed depth of the nearest sphere.
 @group(0) @binding(4) var<storage, read> depths: array<f32>;
@@ -27,9 +28,9 @@ var<immediate> spheres: SphereLight;
 
 fn colour_of(particle: u32) -> vec3<f32> {
     let values = attributes[particle];
-    var value = values.x;
+    var value = temperature_in(values);
     if (spheres.colour_by == 0u) { value = length(values.xyz); }
-    if (spheres.colour_by == 2u) { value = values.y; }
+    if (spheres.colour_by == 2u) { value = acid_in(values); }
     let place = saturate((value - spheres.start) * spheres.inverse_range) * 16.0;
     let entry = min(u32(place), 15u);
     return mix(frame.colour_map[entry].rgb, frame.colour_map[entry + 1u].rgb, place - f32(entry));

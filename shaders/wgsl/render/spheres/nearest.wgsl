@@ -2,9 +2,10 @@
 //! depth, whose bits are ordered as the numbers are, the second its number. One pipeline does both, so
 //! that both find the same bits.
 
-//!include common/silhouette.wgsl
-//!include common/marks.wgsl
-//!include common/lanes.wgsl
+//!include common/liquid/position.wgsl
+//!include common/picture/lanes.wgsl
+//!include common/picture/silhouette.wgsl
+//!include common/picture/tile_marks.wgsl
 
 struct SphereRun {
     /// Number of particles.
@@ -19,7 +20,6 @@ struct SphereRun {
 
 var<immediate> run: SphereRun;
 
-/// Position in the stage; w < 0 marks a particle that was taken out.
 @group(0) @binding(1) var<storage, read> positions: array<vec4<f32>>;
 /// Zero where there is none.
 @group(0) @binding(2) var<storage, read_write> depths: array<atomic<u32>>;
@@ -48,7 +48,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let eye = id.y;
     if (particle >= run.count) { return; }
     let place = positions[particle];
-    if (place.w < 0.0) { return; }
+    if (is_taken_out(place)) { return; }
     let ball = Ellipsoid(place.xyz, 0.0, vec3<f32>(run.radius), 1.0, vec3<f32>(0.0));
     let s = silhouette_of(ball, eye);
     if (lane == 0u && run.numbers == 0u) { mark_tiles(eye, s); }

@@ -42,14 +42,14 @@ fn expected(p: &Parameters, loads: bool, line_26: Option<&str>) -> Vec<String> {
         all.extend(["multiplier", "displacement"].repeat(solves));
         all.extend(line_26);
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
-        all.push("viscosity");
+        all.push("forces");
     }
     if let Some(Chemistry::Physical(physical)) = &p.chemistry {
         all.extend(
             physical
                 .bubble_speed
                 .into_iter()
-                .flat_map(|_| ["puffs", "vent"]),
+                .flat_map(|_| ["rise", "vent"]),
         );
     }
     all.extend(loads.then_some("load"));
@@ -123,7 +123,7 @@ fn passes_bind_the_chemistry_of_their_scene() {
         "bulk",
         "sorted_bulk",
         "ledger",
-        "agitations",
+        "agitation",
         "solution",
     ];
     let all = [&of_any[..], &of_paper, &of_physical].concat();

@@ -45,7 +45,7 @@ fn puffs_rise_and_condense_as_in_f64() {
         ("ROOM_DENSITY", room.density),
     ];
     let library = Library::watching();
-    let compiled = library.compile(&sim::PUFFS, "main", &constants).unwrap();
+    let compiled = library.compile(&sim::RISE, "main", &constants).unwrap();
     let pass = ComputePipeline::new(&device, &compiled).unwrap();
     for frame in 1..=60 {
         let mut rec = device.recorder(QueueKind::Main).unwrap();

@@ -1,0 +1,57 @@
+// The record `heat`: a particle's temperature and acid fraction, and what else its neighbours must know to
+// exchange them. Each chemistry has its own; both begin with T (°C) and c, which the picture draws.
+
+/// T (°C) and c of a record of either chemistry.
+fn temperature_in(heat: vec4<f32>) -> f32 {
+    return heat.x;
+}
+
+fn acid_in(heat: vec4<f32>) -> f32 {
+    return heat.y;
+}
+
+/// Of the paper's chemistry.
+struct PaperHeat {
+    /// °C.
+    temperature: f32,
+    acid: f32,
+    /// e_i = ½ Σ w|v_ij|² of the substep before, J/kg.
+    agitation: f32,
+    /// What `acid` lacks by rounding.
+    acid_lacking: f32,
+}
+
+fn pack_paper_heat(heat: PaperHeat) -> vec4<f32> {
+    return vec4<f32>(heat.temperature, heat.acid, heat.agitation, heat.acid_lacking);
+}
+
+fn unpack_paper_heat(words: vec4<f32>) -> PaperHeat {
+    return PaperHeat(words.x, words.y, words.z, words.w);
+}
+
+/// Of the physical chemistry.
+struct Potential {
+    /// °C.
+    temperature: f32,
+    /// Of the liquid, without its vapour.
+    acid: f32,
+    /// For acid and for heat: mass of the liquid (V0·ρ0) and its heat capacity (J/K per V0·ρ0). They
+    /// are only coefficients of the exchange, so 11 bits of each are enough; both sides of a pair
+    /// unpack the same ones.
+    capacities: vec2<f32>,
+    /// ∂h/∂c, J/kg.
+    enthalpy_slope: f32,
+}
+
+/// Units of the packed capacities; `solver/matter.rs` has the second too.
+const CAPACITY_UNITS: vec2<f32> = vec2<f32>(1.0, 4000.0);
+
+fn pack_potential(potential: Potential) -> vec4<f32> {
+    let capacities = bitcast<f32>(pack2x16float(potential.capacities / CAPACITY_UNITS));
+    return vec4<f32>(potential.temperature, potential.acid, capacities, potential.enthalpy_slope);
+}
+
+fn unpack_potential(words: vec4<f32>) -> Potential {
+    let capacities = unpack2x16float(bitcast<u32>(words.z)) * CAPACITY_UNITS;
+    return Potential(words.x, words.y, capacities, words.w);
+}

@@ -1,0 +1,15 @@
+// Line 24's bound, of the magnitude: "min(vector, scalar)" is none.
+
+/// v_max, m/s.
+override MAX_SPEED: f32 = 10.0;
+
+/// A velocity as it may be. What is cut is counted in the including shader's `counters`.
+fn clamp_speed(v: vec3<f32>) -> vec3<f32> {
+    var clamped = v;
+    let speed = length(v);
+    if (speed > MAX_SPEED) {
+        clamped *= MAX_SPEED / speed;
+        atomicAdd(&counters.speed_limited, 1u);
+    }
+    return clamped;
+}

@@ -1,0 +1,26 @@
+/// What changes from pass to pass of one substep.
+struct Step {
+    /// Δt_s, seconds.
+    time: f32,
+    /// Residual coefficient of this iteration, divided by the constraint gradient sum.
+    residual: f32,
+    /// Momentum coefficient of this iteration.
+    momentum: f32,
+    /// XSPH coefficient μ for one substep.
+    viscosity: f32,
+    /// Low-pass weight of the carried multiplier.
+    carry: f32,
+    /// First pose of the substep's start.
+    before: u32,
+    /// First pose of the substep's end.
+    after: u32,
+    /// First pose of the next substep's end.
+    next: u32,
+}
+
+var<immediate> step: Step;
+
+/// 0, as no compiler knows: no scene has 2³¹ poses.
+fn unknown_zero() -> u32 {
+    return step.next >> 31u;
+}

@@ -1,0 +1,234 @@
+//! The vessels' glass, traced: surfaces of revolution whose outlines are segments, so that a ray meets
+//! cones, and graduation marks printed on them. Walls bend no light that passes: their sides are
+//! parallel.
+
+//!include common/picture/daylight.wgsl
+//!include common/picture/frame.wgsl
+//!include common/picture/tile_marks.wgsl
+
+/// Two a segment of an outline: (r, y) of its ends, and the outward normals (r, y) there. A closed outline goes
+/// up outside, over the rim, and down inside. Then a mark each, see `Mark`.
+@group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
+
+/// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
+const GLASS_REFLECTANCE = 0.036;
+/// What one wall seen at right angles takes from the light; a slanting path takes more.
+const WALL_ABSORPTION = 0.05;
+/// Light that the wall's inside scatters to the eye: the greenish edge of clear glass.
+const EDGE_LIGHT = vec3<f32>(0.06, 0.095, 0.09);
+/// Reflectance of white enamel.
+const ENAMEL = 0.8;
+
+/// What lies over something: its colour as displayed, and the share of what is behind that is still seen.
+struct Cover {
+    colour: vec3<f32>,
+    open: f32,
+}
+
+fn over(above: Cover, below: Cover) -> Cover {
+    return Cover(above.colour + above.open * below.colour, above.open * below.open);
+}
+
+/// A ray in a vessel's frame, from where it is nearest to the vessel's middle, so that roots keep their digits.
+struct GlassRay {
+    origin: vec3<f32>,
+    direction: vec3<f32>,
+    /// View depth of the origin; a way of one along the direction is a view depth of one.
+    depth: f32,
+    /// View depth, in front of which glass is seen.
+    end: f32,
+}
+
+/// Where a ray meets a vessel's glass, the first to be dealt with in front: eight at most, through two walls and a
+/// base, twice each. Shifted and not indexed, so that they stay in registers.
+struct Meetings {
+    count: u32,
+    ways: array<vec4<f32>, 2>,
+    segments: array<vec4<f32>, 2>,
+}
+
+fn put_in_front(before: Meetings, way: f32, segment: u32) -> Meetings {
+    let w = before.ways;
+    let s = before.segments;
+    return Meetings(
+        min(before.count + 1u, 8u),
+        array<vec4<f32>, 2>(vec4<f32>(way, w[0].xyz), vec4<f32>(w[0].w, w[1].xyz)),
+        array<vec4<f32>, 2>(vec4<f32>(f32(segment), s[0].xyz), vec4<f32>(s[0].w, s[1].xyz)),
+    );
+}
+
+fn without_front(before: Meetings) -> Meetings {
+    let w = before.ways;
+    let s = before.segments;
+    return Meetings(
+        before.count - 1u,
+        array<vec4<f32>, 2>(vec4<f32>(w[0].yzw, w[1].x), vec4<f32>(w[1].yzw, 0.0)),
+        array<vec4<f32>, 2>(vec4<f32>(s[0].yzw, s[1].x), vec4<f32>(s[1].yzw, 0.0)),
+    );
+}
+
+/// The ways along the ray at which it meets a segment of an outline; 1e9 for none.
+fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> vec2<f32> {
+    let o = ray.origin;
+    let d = ray.direction;
+    let rise = ends.w - ends.y;
+    let flat_ = abs(rise) < 1e-6 * (abs(ends.w) + abs(ends.x - ends.z));
+    // r = radius + slope · way along the segment's cone.
+    let lean = (ends.z - ends.x) / select(rise, 1.0, flat_);
+    let radius = ends.x + lean * (o.y - ends.y);
+    let slope = lean * d.y;
+    let a = dot(d.xz, d.xz) - slope * slope;
+    let b = dot(o.xz, d.xz) - radius * slope;
+    let c = dot(o.xz, o.xz) - radius * radius;
+    let discriminant = b * b - a * c;
+    let q = -(b + select(-1.0, 1.0, b >= 0.0) * sqrt(max(discriminant, 0.0)));
+    var ways = vec2<f32>(q / a, c / q);
+    if (flat_) { ways = vec2<f32>((ends.y - o.y) / d.y, 1e9); }
+    let y = o.y + ways * d.y;
+    let x = o.x + ways * d.x;
+    let z = o.z + ways * d.z;
+    let r = select(radius + ways * slope, sqrt(x * x + z * z), flat_);
+    let place = select(y, r, flat_);
+    let limits = select(ends.yw, ends.xz, flat_);
+    let fits = (place >= vec2<f32>(min(limits.x, limits.y))) & (place < vec2<f32>(max(limits.x, limits.y)))
+        & (r >= vec2<f32>(0.0));
+    let depth = ray.depth + ways;
+    let seen = (depth > vec2<f32>(0.0)) & (depth < vec2<f32>(ray.end)) & (vec2<bool>(discriminant >= 0.0) | vec2<bool>(flat_));
+    return select(vec2<f32>(1e9), ways, fits & seen);
+}
+
+/// One wall's light. `cosine` is between its normal and the way to the eye, `grain` the least that a pixel can
+/// show.
+fn wall(to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
+    // A silhouette thinner than a pixel would break into dots.
+    let facing = max(max(dot(normal, to_eye), grain), 0.18);
+    let rest = 1.0 - facing;
+    let rest_squared = rest * rest;
+    let reflectance = GLASS_REFLECTANCE + (1.0 - GLASS_REFLECTANCE) * rest_squared * rest_squared * rest;
+    let absorbed = 1.0 - exp(-WALL_ABSORPTION / facing);
+    // The rays that miss the eye are missing mostly at the edges, which look dark.
+    let opacity = reflectance + (1.0 - reflectance) * absorbed;
+    let light = reflectance * surroundings(reflect(-to_eye, normal)) + (1.0 - reflectance) * absorbed * EDGE_LIGHT;
+    // Tone mapping bends, so it is for the colour as if opaque; the opacity goes on after.
+    return Cover(display(light / opacity) * opacity, 1.0 - opacity);
+}
+
+/// A graduation mark.
+struct Mark {
+    height: f32,
+    /// Half of its angle about +Z.
+    half_angle: f32,
+    /// Half of its strip's width; half of the strip is the line.
+    half_width: f32,
+}
+
+fn unpack_mark(words: vec4<f32>) -> Mark {
+    return Mark(words.x, words.y, words.z);
+}
+
+/// Half the angle that the longest mark takes up, at most.
+const WIDEST_MARK = 0.25;
+
+/// The marks at p on a vessel's glass, if that is its outside, whose normal (stage) faces the eye; `width` is a
+/// pixel's height there.
+fn marks_at(vessel: u32, p: vec3<f32>, outside: bool, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Cover {
+    let angle = abs(atan2(p.x, p.z));
+    var covered = 0.0;
+    let range = frame.vessels[vessel].marks;
+    let end = select(range.x, range.y, outside && angle < WIDEST_MARK);
+    for (var index = range.x; index < end; index++) {
+        let mark = unpack_mark(outlines[index]);
+        let across = abs(p.y - mark.height) / mark.half_width;
+        // A pixel wider than the line has its share of it.
+        let pixel = max(width / mark.half_width, 1e-6);
+        let share = saturate((0.5 - across) / pixel + 0.5) * min(1.0, 1.0 / pixel);
+        covered = max(covered, select(0.0, share, across <= 1.0 && angle < mark.half_angle));
+    }
+    let key = key_light(stage * frame.metres_per_unit);
+    let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
+    return Cover(display(lit) * covered, 1.0 - covered);
+}
+
+/// How many of `RAYS` are traced.
+override GLASS_RAYS: u32 = 4u;
+
+/// Places in a pixel, that a rim thinner than it does not break into dots: a grid, turned.
+const RAYS = array<vec2<f32>, 4>(
+    vec2<f32>(0.125, 0.375),
+    vec2<f32>(-0.375, 0.125),
+    vec2<f32>(-0.125, -0.375),
+    vec2<f32>(0.375, -0.125),
+);
+
+/// All glass of the vessels in `bits` that is nearer to an eye than view depth `end`, over the pixel with its
+/// middle at `place`.
+fn glass_over(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
+    if (GLASS_RAYS == 1u) { return glass_along(bits, eye, place, end); }
+    var sum = Cover(vec3<f32>(0.0), 0.0);
+    for (var n = 0u; n < GLASS_RAYS; n++) {
+        let cover = glass_along(bits, eye, place + RAYS[n], end);
+        sum = Cover(sum.colour + cover.colour, sum.open + cover.open);
+    }
+    return Cover(sum.colour / f32(GLASS_RAYS), sum.open / f32(GLASS_RAYS));
+}
+
+/// The same along one ray: first the walls that look away from the eye, over them those that look at it.
+fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
+    var far = Cover(vec3<f32>(0.0), 1.0);
+    var near = far;
+    let view = &frame.views[eye];
+    let seen = seen_along(eye, place);
+    let to_eye = -normalize(seen);
+    for (var rest = bits & MARK_VESSELS; rest != 0u; rest &= rest - 1u) {
+        let index = firstTrailingBit(rest);
+        let m = frame.vessels[index].vessel_from_stage;
+        let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
+        let eye_place = (m * vec4<f32>((*view).eye, 1.0)).xyz;
+        let direction = (m * vec4<f32>(seen, 0.0)).xyz;
+        let middle = vec3<f32>(0.0, 0.5 * frame.vessels[index].rim, 0.0);
+        let nearest = dot(middle - eye_place, direction) / dot(direction, direction);
+        let ray = GlassRay(eye_place + nearest * direction, direction, nearest, end);
+        // Most rays of a tile pass beside the vessel.
+        let outer = frame.vessels[index].outer;
+        let a = dot(direction.xz, direction.xz);
+        let b = dot(ray.origin.xz, direction.xz);
+        let passes = b * b < a * (dot(ray.origin.xz, ray.origin.xz) - outer * outer);
+        let segments = select(frame.vessels[index].segments, vec2<u32>(0u), passes);
+
+        // From the last segment, so that the outside comes first.
+        var met: Meetings;
+        for (var segment = segments.y; segment > segments.x; ) {
+            segment -= 2u;
+            let ways = meets_segment(ray, outlines[segment]);
+            if (ways.y < 1e8) { met = put_in_front(met, ways.y, segment); }
+            if (ways.x < 1e8) { met = put_in_front(met, ways.x, segment); }
+        }
+        let across = (m * vec4<f32>((*view).across, 0.0)).xyz;
+        let down = (m * vec4<f32>((*view).down, 0.0)).xyz;
+        for (; met.count > 0u; met = without_front(met)) {
+            let way = met.ways[0].x;
+            let segment = u32(met.segments[0].x);
+            let p = ray.origin + way * direction;
+            let r = max(length(p.xz), 1e-9);
+            let ends = outlines[segment];
+            let normals = outlines[segment + 1u];
+            let span = ends.zw - ends.xy;
+            let along = saturate(dot(vec2<f32>(r, p.y) - ends.xy, span) / dot(span, span));
+            let profile = normalize(mix(normals.xy, normals.zw, along));
+            let outward = vec3<f32>(profile.x * p.x / r, profile.y, profile.x * p.z / r);
+            let cosine = dot(outward, direction);
+            let depth = nearest + way;
+            // At a silhouette the cosine grows as the root of the way from it, over the radius.
+            let grain = sqrt(depth / ((*view).focal * r));
+            let normal = stage_from_vessel * (outward * select(1.0, -1.0, cosine > 0.0));
+            var layer = wall(to_eye, normal, grain);
+            // How far up the wall it is to the next pixel: the step in the picture, moved along the ray on to the wall.
+            let height = abs(across.y - direction.y * dot(outward, across) / cosine)
+                + abs(down.y - direction.y * dot(outward, down) / cosine);
+            let stage = (*view).eye + depth * seen;
+            layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
+            if (cosine > 0.0) { far = over(layer, far); } else { near = over(layer, near); }
+        }
+    }
+    return over(near, far);
+}

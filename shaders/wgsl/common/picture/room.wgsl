@@ -1,0 +1,97 @@
+//! Bench, floor and walls: their light, and what of them a ray meets.
+
+//!include common/picture/daylight.wgsl
+//!include common/picture/frame.wgsl
+
+const MATERIAL_TABLE = 0u;
+const MATERIAL_FLOOR = 1u;
+const MATERIAL_WALL = 2u;
+
+/// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`.
+fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>) -> vec2<f32> {
+    var share = vec2<f32>(1.0);
+    for (var index = 0u; index < frame.blocker_count; index++) {
+        let blocker = frame.blockers[index];
+        let axis = blocker.top - blocker.foot;
+        let from_foot = position - blocker.foot;
+        let axis_squared = max(dot(axis, axis), 1e-12);
+        let along_axis = dot(from_foot, axis);
+
+        // Ambient: the nearest sphere of the capsule hides cosθ·(r/l)² of the hemisphere.
+        let to_sphere = axis * saturate(along_axis / axis_squared) - from_foot;
+        let gap = max(length(to_sphere), blocker.radius);
+        let ratio = blocker.radius / gap;
+        let hidden = saturate(dot(to_sphere, normal) / gap) * ratio * ratio;
+        share.x *= 1.0 - 0.9 * hidden;
+
+        // Window: the nearest approach of the ray to the axis, as an angle seen from here,
+        // against a window about 0.2 rad across.
+        let ray_foot = dot(from_foot, to_window);
+        let ray_axis = dot(to_window, axis);
+        let across = max(axis_squared - ray_axis * ray_axis, 1e-12);
+        let on_axis = saturate((along_axis - ray_foot * ray_axis) / across);
+        let on_ray = max(dot(blocker.foot + axis * on_axis - position, to_window), 1e-6);
+        let miss = length(blocker.foot + axis * on_axis - position - to_window * on_ray);
+        let open = smoothstep(-0.10, 0.10, (miss - blocker.radius) / on_ray);
+        share.y *= 1.0 - blocker.opacity * (1.0 - open);
+    }
+    return share;
+}
+
+/// Light that the bench, the floor or a wall sends back from `position`.
+fn bench_light(position: vec3<f32>, normal: vec3<f32>, material: u32) -> vec3<f32> {
+    let key = key_light(position * frame.metres_per_unit);
+    var ambient = ambient_light(normal.y);
+    var window = max(dot(normal, key.direction), 0.0) * key.light;
+    var albedo = vec3<f32>(0.62, 0.60, 0.56);
+    if material == MATERIAL_TABLE || material == MATERIAL_FLOOR {
+        albedo = select(
+            vec3<f32>(0.20, 0.19, 0.18),
+            vec3<f32>(0.30, 0.33, 0.35),
+            material == MATERIAL_TABLE,
+        );
+        let share = shadow(position, normal, key.direction);
+        ambient *= share.x;
+        window *= share.y;
+    }
+    return albedo * (ambient + window);
+}
+
+/// Where a ray meets the room.
+struct Meeting {
+    /// In lengths of the ray's direction; 0 for nowhere.
+    way: f32,
+    normal: vec3<f32>,
+    material: u32,
+}
+
+/// What a ray from `origin` within the room meets first: table, floor, walls or ceiling.
+fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
+    let steep = select(vec3<f32>(-1e-6), vec3<f32>(1e-6), direction >= vec3<f32>(0.0));
+    let inverse = 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-6));
+    let walls = (select(frame.room_min, frame.room_max, inverse > vec3<f32>(0.0)) - origin) * inverse;
+    var way = max(min(walls.x, min(walls.y, walls.z)), 0.0);
+    var normal = -sign(inverse) * select(vec3<f32>(0.0), vec3<f32>(1.0), walls <= vec3<f32>(way));
+    var material = select(MATERIAL_WALL, MATERIAL_FLOOR, normal.y > 0.5);
+    if !(frame.room_max.y > frame.room_min.y) { way = 0.0; }
+
+    let low = (frame.table_min - origin) * inverse;
+    let high = (frame.table_max - origin) * inverse;
+    let enter = min(low, high);
+    let leave = max(low, high);
+    let near = max(enter.x, max(enter.y, enter.z));
+    let far = min(leave.x, min(leave.y, leave.z));
+    if near > 0.0 && near < far && (near < way || way == 0.0) {
+        way = near;
+        normal = -sign(inverse) * select(vec3<f32>(0.0), vec3<f32>(1.0), enter >= vec3<f32>(near));
+        material = MATERIAL_TABLE;
+    }
+    return Meeting(way, normal, material);
+}
+
+/// The light along a ray back from what it meets; the sky's where it meets nothing.
+fn room_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let met = room_meets(origin, direction);
+    if met.way == 0.0 { return ambient_light(direction.y); }
+    return bench_light(origin + met.way * direction, met.normal, met.material);
+}

@@ -1,0 +1,234 @@
+// Algorithm 1 from line 26's end to 28, and line 16 of the next substep. All of them read the state that
+// lines 22 to 25 left, so that one pass over the neighbours serves them:
+//
+// 26: heat of solution (Eqs 6 to 8 and 11 to 13), which needs what the neighbours became in line 26's own
+//     pass; of the physical chemistry, what boiling costs.
+// 27: XSPH viscosity (Eq. 16) as a velocity update, between particles and with walls, and anti-viscosity.
+// 28: internal forces. Then line 24 once more, since they may pass v_max.
+// 16: within a frame, the next substep's prediction, which saves a pass.
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/ledger.wgsl
+//!include common/chemistry/mixing.wgsl
+//!include common/chemistry/pair_share.wgsl
+//!include common/chemistry/potential.wgsl
+//!include common/chemistry/rests.wgsl
+//!include common/glass/contact.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/full_list.wgsl
+//!include common/liquid/internal_forces.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/prediction.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/velocity.wgsl
+//!include common/maths/compensated.wgsl
+
+/// Whether the next substep is predicted here.
+override PREDICT: bool = false;
+/// Whether the liquid has any viscosity of its own.
+override VISCOUS: bool = true;
+/// ρ0, kg/m³.
+override REST_DENSITY: f32 = 1000.0;
+/// D_c, m²/s.
+override ACID_DIFFUSION: f32 = 0.0;
+/// k_d of Eq. 13 for a particle's mass, K per J/kg.
+override HEATING: f32 = 0.0;
+/// ε of Eqs 11 and 12.
+const EPSILON: f32 = 1e-6;
+
+/// Whether line 27 has anything to do; whether line 28 has.
+override DRAGS: bool = VISCOUS || BOILING || PHYSICAL;
+override FORCES: bool = CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0;
+/// Whether line 26 left something to be read.
+override MIXES: bool = DILUTION || BOILING || PHYSICAL;
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;
+/// (membership, identity)
+@group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> list_counts: array<u32>;
+@group(0) @binding(4) var<storage, read> list: array<vec4<u32>>;
+@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+/// (ω, |ω|), 1/s.
+@group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
+/// (T, c) after diffusion.
+@group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
+@group(0) @binding(8) var<storage, read> mixing: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> heat: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> matter: array<vec4<f32>>;
+@group(0) @binding(11) var<storage, read_write> ledger: array<vec4<f32>>;
+/// By identity: ½ Σ w|v_ij|², J/kg.
+@group(0) @binding(12) var<storage, read_write> agitation: array<f32>;
+@group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> counters: Counters;
+
+/// What the neighbours add up to.
+struct Sums {
+    /// Line 26: heat of solution, J/kg.
+    warmed: f32,
+    /// Line 27: Σ w (v_j − v_i), m/s, and the same with boiling's share.
+    drag: vec3<f32>,
+    push: vec3<f32>,
+    /// Line 27 of the next substep: Σ w |v_j − v_i|², J/kg.
+    agitation: f32,
+    /// Line 28: ∇|ω|, and cohesion in m/s².
+    eta: vec3<f32>,
+    attraction: vec3<f32>,
+}
+
+/// Line 26, Eqs 8 and 11: the heat that i gets of a pair, J/kg.
+fn heat_of_solution(own: Mixing, other: Mixing, q: f32) -> f32 {
+    let gained = (other.acid_before - own.acid_before)
+        * pair_share(step.time * ACID_DIFFUSION, diffusion_weight(q));
+    return (own.heat_slope - other.heat_slope) * gained * (other.acid_before + 0.5 * EPSILON)
+        / (own.acid_before + other.acid_before + EPSILON);
+}
+
+/// Line 27: W of a pair; where particles differ in mass, so that both get the same impulse.
+fn pair_weight(own: Mixing, other: Mixing, q: f32) -> f32 {
+    var weight = spline(q);
+    if (PHYSICAL) { weight *= 2.0 * other.mass / (own.mass + other.mass); }
+    return weight;
+}
+
+/// Line 27, Eq. 16: the share of its relative velocity that a pair of this weight loses. A coefficient of 1
+/// throughout leaves the bits as they are without one.
+fn xsph_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
+    var share = weight;
+    if (BOILING || PHYSICAL) { share *= 0.5 * (own.coefficient + other.coefficient); }
+    // Of a pair that is not whole, drag only ever slows down, whoever else knows of it.
+    if (BOILING && !PHYSICAL) { share = select(max(share, 0.0), share, whole > 0.0); }
+    return share;
+}
+
+/// Line 27, of the physical chemistry: the share that boiling adds.
+fn anti_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
+    return whole * weight * (0.5 * (own.growth + other.growth));
+}
+
+/// Line 27: what walls drag, which slow down only.
+fn wall_viscosity(own: Mixing, drag: vec3<f32>) -> vec3<f32> {
+    if (PHYSICAL) { return drag * own.coefficient; }
+    if (BOILING) { return drag * max(own.coefficient, 0.0); }
+    return drag;
+}
+
+/// All that particle i's neighbours do to it; for lane 0, but all lanes must ask.
+fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, omega: vec4<f32>) -> Sums {
+    var sums: Sums;
+    let count = list_counts[i];
+    var full = 0xffffffffu;
+    if (BOILING || DILUTION) { full = full_from(atomicLoad(&counters.list_overflows)); }
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let offset = x - position[j].xyz;
+            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+            let distance = sqrt(square);
+            let q = distance * INVERSE_SUPPORT;
+            var other: Mixing;
+            if (MIXES) { other = unpack_mixing(mixing[j]); }
+            var whole = 1.0;
+            if (BOILING || DILUTION) {
+                whole = has_whole_list(j, i, full) * select(1.0, 0.0, count >= full);
+            }
+            if (DRAGS) {
+                let relative = new_velocity[j].xyz - v;
+                let weight = pair_weight(own, other, q);
+                sums.drag += relative * xsph_viscosity(own, other, weight, whole);
+                if (BOILING) { sums.agitation += weight * dot(relative, relative); }
+                if (BOILING && PHYSICAL) { sums.push -= relative * anti_viscosity(own, other, weight, whole); }
+            }
+            if (DILUTION) { sums.warmed += whole * heat_of_solution(own, other, q); }
+            if (CONFINEMENT > 0.0) {
+                sums.eta += offset * ((vorticity[j].w - omega.w) / distance * spline_slope(q));
+            }
+            if (COHESION > 0.0) { sums.attraction -= offset * (cohesion(q) / distance); }
+        }
+    }
+    if (DRAGS) { sums.drag = lane_sum3(sums.drag) * weight_scale(); }
+    if (PHYSICAL && BOILING) { sums.push = lane_sum3(sums.push) * weight_scale(); }
+    if (BOILING) { sums.agitation = lane_sum(sums.agitation) * weight_scale(); }
+    if (DILUTION) { sums.warmed = lane_sum(sums.warmed); }
+    if (CONFINEMENT > 0.0) { sums.eta = lane_sum3(sums.eta) * (weight_scale() / SUPPORT); }
+    if (COHESION > 0.0) { sums.attraction = lane_sum3(sums.attraction); }
+    return sums;
+}
+
+/// Line 26's end, of the paper's chemistry.
+fn warm(i: u32, own: Mixing, sums: Sums) {
+    let after = diffused[i];
+    let warmed = PaperHeat(after.x + HEATING * sums.warmed, after.y, 0.5 * sums.agitation, own.acid_lacking);
+    heat[i] = pack_paper_heat(warmed);
+}
+
+/// Line 26's end, of the physical chemistry: kinetic energy is paid for, and the state follows from what the
+/// particle now holds. Its volume over V0.
+fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
+    var content = unpack_content(matter[i]);
+    var rests = own.rests;
+    if (BOILING) {
+        // What the impulses gave in kinetic energy is taken from the enthalpy: over a
+        // pair, and so over the liquid, it is what they added.
+        let paid = dot(sums.push, v) + 0.5 * dot(sums.push, sums.push);
+        let lacking = unpack_rests(rests);
+        let enthalpy = compensated(Compensated(content.enthalpy, lacking.enthalpy), -paid);
+        content.enthalpy = enthalpy.value;
+        rests = pack_rests(Rests(lacking.acid, enthalpy.lacking));
+        matter[i] = pack_content(content);
+        ledger[identity][KINETIC] += content.mass * paid;
+        agitation[identity] = 0.5 * sums.agitation;
+    }
+    let potential = potential_of(content);
+    heat[i] = pack_potential(potential);
+    var extent = Bulk(1.0, 1.0, content.mass * content.vapour, rests);
+    if (DENSITY) {
+        let density = density_of(potential.acid, potential.temperature) / REST_DENSITY;
+        extent.volume = content.mass * (1.0 - content.vapour) / density;
+        extent.lightness = 1.0 / density;
+    }
+    bulk[i] = pack_bulk(extent);
+    return extent.volume;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
+    if (i >= COUNT) { return; }
+    let x = position[i].xyz;
+    let before = new_velocity[i];
+    var omega = vec4<f32>(0.0);
+    if (CONFINEMENT > 0.0) { omega = vorticity[i]; }
+    var own: Mixing;
+    if (MIXES) { own = unpack_mixing(mixing[i]); }
+    var sums: Sums;
+    if (DRAGS || DILUTION || CONFINEMENT > 0.0 || COHESION > 0.0) {
+        sums = sum_neighbours(i, lane, x, before.xyz, own, omega);
+    }
+    let tag = tags[i].x;
+    var drag = sums.drag;
+    var acceleration = sums.attraction;
+    if (VISCOUS || PHYSICAL || ADHESION > 0.0) {
+        let walls = contact(tag, x, before.xyz, lane);
+        if (DRAGS) { drag += wall_viscosity(own, walls.drag); } // 27
+        if (ADHESION > 0.0) { acceleration += ADHESION * walls.pull; } // 28
+    }
+    if (lane != 0u) { return; }
+
+    if (CONFINEMENT > 0.0) { acceleration += confinement(sums.eta, omega); } // 28
+    var v = before.xyz;
+    if (DRAGS) { v += step.viscosity * drag; } // 27
+    if (PHYSICAL && BOILING) { v += sums.push; } // 27
+    if (FORCES) { v += step.time * acceleration; } // 28
+    v = clamp_speed(v); // 24
+    velocity[i] = pack_velocity(v, carried_by(before));
+    var volume = 1.0;
+    if (PHYSICAL) {
+        if (tag != REMOVED) { volume = renew(i, tags[i].y, before.xyz, own, sums); } // 26
+    } else if (HEAT) {
+        warm(i, own, sums); // 26
+    }
+    if (PREDICT) { predict(i, x, v, volume, tag, step.after, step.next); } // 16
+}
