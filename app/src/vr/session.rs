@@ -34,6 +34,9 @@ pub use pace::{Kept, SWITCH_FILTER, SWITCH_RESOLUTION, With};
 /// Key of the switch that keeps where the bench stands in the room, see [`placement`](super::placement).
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
 
+/// Target of the log's lines on what was made beside the frames and is used from now on.
+pub const TAKEN_UP: &str = "vitriol::vr::taken_up";
+
 /// Width and height of the panel, pixels.
 pub const PANEL: [u32; 2] = [1024, 640];
 

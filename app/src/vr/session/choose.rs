@@ -4,7 +4,7 @@ use glam::Vec3;
 use vitriol_sim::scene::Flask;
 use vitriol_xr::{Hand, Headset, PoseFrame, Side, Switch};
 
-use super::{Coming, Decision, SWITCH_PLACEMENT, Session, blame};
+use super::{Coming, Decision, SWITCH_PLACEMENT, Session, TAKEN_UP, blame};
 use crate::experiment::{SWITCH_SCENE, SWITCH_START};
 use crate::failure::Failure;
 use crate::vr::bench::{Builder, Plan};
@@ -92,6 +92,7 @@ impl Session {
                 // What the lenses hide may have changed since; it is taken up after the frame.
                 self.eyes = eyes;
                 let same = coming.switch.key == SWITCH_START;
+                tracing::info!(target: TAKEN_UP, "set up: {}", coming.switch.value);
                 self.switches.push(coming.switch);
                 self.pace_bench(same, resolution)?;
                 // Of the bench that was.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use vitriol_gpu::{Gpu, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 
-use super::Session;
+use super::{Session, TAKEN_UP};
 use crate::experiment::SWITCH_SOLVER;
 use crate::failure::{Blame, Failure};
 use crate::vr::bench::Bench;
@@ -280,6 +280,7 @@ impl Session {
                     PictureFilter::NarrowRange => "narrow-range",
                     PictureFilter::CurvatureFlow => "curvature-flow",
                 };
+                tracing::info!(target: TAKEN_UP, "to keep pace: filter {name}");
                 self.switch(SWITCH_FILTER, name.into());
             }
             Err(failure) => {
