@@ -9,11 +9,9 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// Longest that a page may take: a cold browser on two busy cores needs some
-/// seconds, a page of ours none.
-const PATIENCE: Duration = Duration::from_secs(60);
+use crate::wait::PATIENCE;
 
 /// Names under which Chromium is installed, first found first taken.
 const NAMES: [&str; 4] = [
@@ -49,7 +47,7 @@ pub enum Look {
 ///
 /// # Panics
 /// Where no browser is installed and `CI=true`, the browser fails, or the page
-/// says nothing within a minute.
+/// says nothing within [`PATIENCE`].
 #[must_use]
 pub fn visit(page: &Path) -> Option<Visit> {
     let browser = Browser::start(page, Look::Light, &[])?;

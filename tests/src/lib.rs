@@ -9,3 +9,4 @@ pub mod monado;
 pub mod random;
 #[cfg(target_os = "linux")]
 pub mod screen;
+pub mod wait;

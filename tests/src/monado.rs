@@ -13,16 +13,14 @@ use std::fs::File;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 
+use crate::wait::until;
 pub use remote::{Controller, Remote};
 
 /// Where the rig's folder is told to the test that runs in it.
 const FOLDER: &str = "VITRIOL_RIG";
 /// Port of the remote driver; the network namespace has no other.
 const PORT: u16 = 4242;
-/// Longest that the service may take to start on two busy cores; it takes a second.
-const PATIENCE: Duration = Duration::from_secs(60);
 /// Monado's manifest, of the system or laid over it.
 const MANIFEST: &str = "/usr/share/openxr/1/openxr_monado.json";
 /// The software driver's manifest.
@@ -214,12 +212,10 @@ impl Rig {
             .spawn()
             .expect("monado-service starts");
         self.service = Some(service);
-        let begun = Instant::now();
         // Its socket is there before it listens; its word that it has started comes after.
-        while self.starts() == before {
-            assert!(begun.elapsed() < PATIENCE, "monado-service does not listen");
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        until("monado-service listens", || {
+            (self.starts() > before).then_some(())
+        });
     }
 
     /// How often a service has said that it has started.

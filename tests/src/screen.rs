@@ -3,20 +3,20 @@
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 
 use x11rb::connection::Connection;
+use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    AtomEnum, ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, ImageFormat,
-    InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT,
+    AtomEnum, ChangeWindowAttributesAux, ClientMessageEvent, ConfigureWindowAux,
+    ConnectionExt as _, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
+use crate::wait::until;
+
 /// Tells the test that it runs on the screen.
 const INSIDE: &str = "VITRIOL_SCREEN";
-/// Longest wait for a window: a program in the making on two busy cores.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The screen from within.
 pub struct Screen {
@@ -127,18 +127,29 @@ impl Screen {
     }
 
     /// Waits for a window whose title has `part`.
-    ///
-    /// # Panics
-    /// Where none comes within a minute.
     pub fn wait_for(&self, part: &str) -> Window {
-        let begun = Instant::now();
-        loop {
-            if let Some(window) = self.find(part) {
-                return window;
-            }
-            assert!(begun.elapsed() < PATIENCE, "no window of {part}");
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        until(&format!("a window of {part}"), || self.find(part))
+    }
+
+    /// Notes from now on each window that is opened, see [`Screen::opened`].
+    pub fn watch(&self) {
+        let events = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
+        self.checked(self.connection.change_window_attributes(self.root, &events));
+    }
+
+    /// Windows that were opened since [`Screen::watch`] or the last call.
+    pub fn opened(&self) -> usize {
+        // An answer comes behind the events of what was before the question.
+        let asked = self.connection.get_input_focus().expect("a question");
+        asked.reply().expect("an answer");
+        let event = || {
+            self.connection
+                .poll_for_event()
+                .expect("the screen's events")
+        };
+        std::iter::from_fn(event)
+            .filter(|event| matches!(event, Event::CreateNotify(_)))
+            .count()
     }
 
     /// A window's title; `None` of one without, or that is gone.

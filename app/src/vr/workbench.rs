@@ -13,6 +13,9 @@ use super::ladder::Ladder;
 use super::picture::{Eyes, Picture, Subject};
 use crate::budget;
 
+/// Target of the log's lines on what was made beside the frames and is used from now on.
+pub const TAKEN_UP: &str = "vitriol::vr::taken_up";
+
 /// What a bench is made of.
 #[derive(Clone, Debug)]
 pub struct Plan {

@@ -1,17 +1,18 @@
-//! A keyframed track as Monado's head and hands.
+//! A keyframed track as Monado's head and hands, at the pace of the program that it drives.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use vitriol_tests::monado::{Controller, Remote, Rig};
+use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::track::Keyframes;
-use vitriol_xr::{Hand, PoseFrame, Side};
+use vitriol_xr::{Hand, Pose, PoseFrame, Side};
 
-/// Time between packets: an eighth of the runtime's display period.
-const TICK: Duration = Duration::from_millis(6);
+use crate::program::{Program, Seen};
+
+/// Track time from one pose to the next, s. A frame simulates as much or little more, so that liquid
+/// and hand go equally fast, however long a frame takes.
+const TICK: f64 = 0.05;
 
 /// The pour that is driven.
 pub fn track() -> Keyframes {
@@ -19,126 +20,101 @@ pub fn track() -> Keyframes {
     Keyframes::parse(text, Path::new("two-flasks.toml")).unwrap()
 }
 
-/// A thread that sends a track's poses at some of its speed. It stands at the start until it is
-/// let go, and at the end when it is through.
+/// Sends a track's poses, each when a frame has shown the one before: on a busy machine all goes
+/// slower, and nothing leaps.
 pub struct Driver {
-    shared: Arc<Shared>,
-    thread: Option<JoinHandle<()>>,
-}
-
-struct Shared {
     track: Keyframes,
-    speed: f64,
-    clock: Mutex<Clock>,
-    remote: Mutex<Option<Remote>>,
-    /// The controllers are switched off.
-    asleep: AtomicBool,
-    stop: AtomicBool,
-}
-
-/// Where the track is.
-#[derive(Default)]
-struct Clock {
-    /// Track time until it was last halted, s.
-    before: f64,
-    /// Since when it runs.
-    since: Option<Instant>,
-}
-
-impl Shared {
-    fn time(&self) -> f64 {
-        let clock = self.clock.lock().unwrap();
-        let since = clock
-            .since
-            .map_or(0.0, |since| since.elapsed().as_secs_f64());
-        (clock.before + self.speed * since).min(self.track.duration)
-    }
+    remote: Remote,
+    /// How many ticks the track has gone.
+    tick: u32,
+    /// What was sent; it holds until the next.
+    pub sent: Vec<PoseFrame>,
 }
 
 impl Driver {
-    pub fn start(rig: &Rig, track: Keyframes, speed: f64) -> Self {
-        let shared = Arc::new(Shared {
+    /// At the track's start.
+    pub fn start(rig: &Rig, track: Keyframes) -> Self {
+        let mut driver = Self {
             track,
-            speed,
-            clock: Mutex::default(),
-            remote: Mutex::new(Some(rig.remote())),
-            asleep: AtomicBool::new(false),
-            stop: AtomicBool::new(false),
-        });
-        let of = Arc::clone(&shared);
-        let thread = std::thread::spawn(move || {
-            while !of.stop.load(Ordering::Relaxed) {
-                let mut frame = of.track.sample(0, of.time());
-                if of.asleep.load(Ordering::Relaxed) {
-                    frame.hands = [Hand::default(), Hand::default()];
-                }
-                let mut remote = of.remote.lock().unwrap();
-                // Without an answer the service was killed.
-                if remote.as_mut().is_some_and(|it| send(it, &frame).is_err()) {
-                    *remote = None;
-                }
-                drop(remote);
-                std::thread::sleep(TICK);
-            }
-        });
-        Self {
-            shared,
-            thread: Some(thread),
+            remote: rig.remote(),
+            tick: 0,
+            sent: Vec::new(),
+        };
+        driver.send(true);
+        driver
+    }
+
+    /// Track time, s.
+    fn time(&self) -> f64 {
+        (TICK * f64::from(self.tick)).min(self.track.duration)
+    }
+
+    fn send(&mut self, awake: bool) {
+        let mut frame = self.track.sample(0, self.time());
+        if !awake {
+            frame.hands = [Hand::default(), Hand::default()];
+        }
+        send(&mut self.remote, &frame).unwrap();
+        self.sent.push(frame);
+    }
+
+    /// Goes on until the track is there, s.
+    pub fn reach(&mut self, program: &mut Program, time: f64) {
+        while self.time() < time {
+            self.tick += 1;
+            self.send(true);
+            self.arrive(program);
         }
     }
 
-    /// Lets the track run.
-    pub fn go(&self) {
-        self.shared.clock.lock().unwrap().since = Some(Instant::now());
+    /// Goes on until the track is through.
+    pub fn finish(&mut self, program: &mut Program) {
+        self.reach(program, self.track.duration);
     }
 
-    /// Stops it where it is.
-    pub fn halt(&self) {
-        let before = self.shared.time();
-        *self.shared.clock.lock().unwrap() = Clock {
-            before,
-            since: None,
-        };
-    }
-
-    /// Lets it run from its start.
-    pub fn restart(&self) {
-        *self.shared.clock.lock().unwrap() = Clock {
-            before: 0.0,
-            since: Some(Instant::now()),
-        };
+    /// Begins the track anew.
+    pub fn restart(&mut self, program: &mut Program) {
+        self.tick = 0;
+        self.send(true);
+        self.arrive(program);
     }
 
     /// Switches the controllers off, or on again.
-    pub fn sleep(&self, asleep: bool) {
-        self.shared.asleep.store(asleep, Ordering::Relaxed);
+    pub fn sleep(&mut self, program: &mut Program, asleep: bool) {
+        self.send(!asleep);
+        self.arrive(program);
     }
 
-    /// Waits until the track is there, s.
-    pub fn reach(&self, time: f64) {
-        while self.shared.time() < time {
-            std::thread::sleep(TICK);
+    /// Takes hold of a service that was started again, where the track is.
+    pub fn connect(&mut self, rig: &Rig) {
+        self.remote = rig.remote();
+        self.send(true);
+    }
+
+    /// Waits for a frame that shows what was sent last.
+    pub fn arrive(&self, program: &mut Program) {
+        let begun = Instant::now();
+        let last = &self.sent[self.sent.len() - 1];
+        while !shows(program.frame(), last) {
+            assert!(begun.elapsed() < PATIENCE, "{last:?} is not seen");
         }
-    }
-
-    /// Waits until the track is through.
-    pub fn wait(&self) {
-        self.reach(self.shared.track.duration);
-    }
-
-    /// Takes hold of a service that was started again.
-    pub fn connect(&self, rig: &Rig) {
-        *self.shared.remote.lock().unwrap() = Some(rig.remote());
     }
 }
 
-impl Drop for Driver {
-    fn drop(&mut self) {
-        self.shared.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+/// Whether a frame shows these poses, to the rounding of a quaternion's normalisation.
+pub fn shows(seen: &Seen, sent: &PoseFrame) -> bool {
+    let same = |a: &Pose, b: &Pose| {
+        a.position.distance(b.position) < 1e-5
+            && a.orientation.dot(b.orientation).abs() > 1.0 - 1e-5
+    };
+    let hand = sent.hand(Side::Right);
+    let right = match &seen.right {
+        Some((grip, squeeze)) => {
+            hand.active && same(grip, &hand.stage_from_grip) && *squeeze == hand.squeeze
         }
-    }
+        None => !hand.active,
+    };
+    right && same(&seen.head, &sent.stage_from_view)
 }
 
 fn send(remote: &mut Remote, frame: &PoseFrame) -> std::io::Result<()> {

@@ -1,13 +1,12 @@
 //! Long sessions, and controllers that fall asleep.
 
-use std::time::{Duration, Instant};
-
+use vitriol::vr::session::WARM_UP;
 use vitriol_tests::monado;
 use vitriol_xr::Side;
 use vitriol_xr::track::load;
 
 use crate::drive::{self, Driver};
-use crate::pour::{SPEED, begin};
+use crate::pour::begin;
 use crate::program::{self, Program};
 
 #[test]
@@ -16,16 +15,15 @@ fn a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask() {
     let Some(rig) = monado::enter(name) else {
         return;
     };
-    let (driver, program, recording) = begin(&rig);
+    let (mut driver, mut program, recording) = begin(&rig);
     // The flask is in the air, upright.
-    driver.reach(2.0);
-    driver.halt();
-    std::thread::sleep(Duration::from_secs(1));
-    driver.sleep(true);
-    std::thread::sleep(Duration::from_secs(2));
-    driver.sleep(false);
-    std::thread::sleep(Duration::from_secs(1));
-    let report = program.end();
+    driver.reach(&mut program, 2.0);
+    program.frames(10);
+    driver.sleep(&mut program, true);
+    program.frames(20);
+    driver.sleep(&mut program, false);
+    program.frames(10);
+    let (report, _) = program.end();
     assert_eq!(report["lost_particles"], 0);
 
     let track = load(recording.to_str().unwrap()).unwrap();
@@ -62,19 +60,18 @@ fn nothing_grows_in_a_long_session() {
     };
     let scene = program::scene(rig.folder());
     let recording = rig.folder().join("long.mcap");
-    let length = match std::env::var_os("VITRIOL_LONG") {
-        Some(_) => Duration::from_secs(600),
-        None => Duration::from_secs(120),
-    };
-    let driver = Driver::start(&rig, drive::track(), SPEED);
-    let program = Program::start_unwatched(&scene, &recording);
-    program.says("Focused");
-    let begun = Instant::now();
-    while begun.elapsed() < length {
-        driver.restart();
-        driver.wait();
+    let frames = WARM_UP as usize
+        + match std::env::var_os("VITRIOL_LONG") {
+            Some(_) => 10_000,
+            None => 2_000,
+        };
+    let mut driver = Driver::start(&rig, drive::track());
+    let mut program = Program::start_unwatched(&scene, &recording);
+    while program.seen.len() < frames {
+        driver.restart(&mut program);
+        driver.finish(&mut program);
     }
-    let report = program.end();
+    let (report, _) = program.end();
     eprintln!("{:#}", report["holdings"]);
     assert_eq!(report["lost_particles"], 0);
     assert_eq!(report["recording"]["unwritten"], 0);

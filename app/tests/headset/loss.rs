@@ -1,34 +1,34 @@
 //! The runtime dies in mid-pour, and comes back.
 
-use std::time::Duration;
-
 use vitriol_tests::monado;
 use vitriol_xr::Side;
 use vitriol_xr::track::load;
 
 use crate::drive;
-use crate::pour::{begin, follows, replay, whole};
+use crate::pour::{begin, follows, keeps_time, replay, whole};
 
 #[test]
 fn a_pour_goes_on_when_the_runtime_is_killed() {
     let Some(mut rig) = monado::enter("loss::a_pour_goes_on_when_the_runtime_is_killed") else {
         return;
     };
-    let (driver, program, recording) = begin(&rig);
+    let (mut driver, mut program, recording) = begin(&rig);
     // The flask is tilted, and pours.
-    driver.reach(4.8);
-    driver.halt();
+    driver.reach(&mut program, 4.8);
     rig.kill();
     program.says("session lost");
-    std::thread::sleep(Duration::from_secs(1));
+    // It goes on seeking.
+    for _ in 0..3 {
+        program.says("no runtime yet");
+    }
     rig.start();
     driver.connect(&rig);
     program.says("Focused");
-    std::thread::sleep(Duration::from_secs(1));
-    driver.go();
-    driver.wait();
-    std::thread::sleep(Duration::from_secs(2));
-    let report = program.end();
+    driver.arrive(&mut program);
+    program.frames(10);
+    driver.finish(&mut program);
+    program.frames(20);
+    let (report, seen) = program.end();
     assert_eq!(report["renewals"], 1);
     assert_eq!(report["lost_particles"], 0);
     assert_eq!(report["nan_particles"], 0);
@@ -37,6 +37,7 @@ fn a_pour_goes_on_when_the_runtime_is_killed() {
     let track = load(recording.to_str().unwrap()).unwrap();
     whole(&track, report["steps"].as_u64().unwrap());
     follows(&track, &drive::track());
+    keeps_time(&track, &seen, &driver.sent);
     // The flask did not leave the hand: in the air it is nowhere else from one step to the next.
     let flasks: Vec<_> = track
         .stage_from_flasks

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 
 use vitriol_experiment::stage;
 use vitriol_experiment::switches::SWITCH_SOLVER;
@@ -14,21 +13,17 @@ use vitriol_tests::monado::{self, Rig};
 use vitriol_xr::track::{Keyframes, Track, load};
 use vitriol_xr::{PoseFrame, Side};
 
-use crate::drive::{self, Driver};
-use crate::program::{self, Program};
+use crate::drive::{self, Driver, shows};
+use crate::program::{self, Program, Seen};
 
-/// Share of its speed at which the track is driven: so much slower is the software driver.
-pub const SPEED: f64 = 0.5;
-
-/// The program, seen to have the runtime's focus, and the track that is driven from now on; and where it is recorded.
+/// The program, which has seen the track's start for some frames, and the track; and where it is recorded.
 pub fn begin(rig: &Rig) -> (Driver, Program, PathBuf) {
     let scene = program::scene(rig.folder());
     let recording = rig.folder().join("session.mcap");
-    let driver = Driver::start(rig, drive::track(), SPEED);
-    let program = Program::start(&scene, &recording);
-    program.says("Focused");
-    std::thread::sleep(Duration::from_secs(1));
-    driver.go();
+    let driver = Driver::start(rig, drive::track());
+    let mut program = Program::start(&scene, &recording);
+    driver.arrive(&mut program);
+    program.frames(10);
     (driver, program, recording)
 }
 
@@ -37,17 +32,18 @@ fn a_driven_pour_is_seen_recorded_and_replayed() {
     let Some(rig) = monado::enter("pour::a_driven_pour_is_seen_recorded_and_replayed") else {
         return;
     };
-    let (driver, program, recording) = begin(&rig);
-    driver.wait();
-    std::thread::sleep(Duration::from_secs(2));
-    let report = program.end();
+    let (mut driver, mut program, recording) = begin(&rig);
+    driver.finish(&mut program);
+    program.frames(20);
+    let (report, seen) = program.end();
     assert_eq!(report["lost_particles"], 0);
     assert_eq!(report["nan_particles"], 0);
     assert_eq!(report["recording"]["unwritten"], 0);
 
     let track = load(recording.to_str().unwrap()).unwrap();
     whole(&track, report["steps"].as_u64().unwrap());
-    keeps_pace(follows(&track, &drive::track()));
+    follows(&track, &drive::track());
+    keeps_time(&track, &seen, &driver.sent);
     let replayed = replay(&track);
     assert_eq!(report["state_hash"], replayed.hash.as_str());
     assert!(replayed.lifted > 0.82, "lifted to {}", replayed.lifted);
@@ -77,20 +73,17 @@ fn apart(frame: &PoseFrame, driven: &PoseFrame) -> f32 {
         + 0.1 * (is.squeeze - was.squeeze).abs()
 }
 
-/// The recorded hand goes the driven hand's way, in its order. Gives for each step at which the
-/// hand moves where the track's time is 0 on the runtime's clock, s.
+/// The recorded hand goes the driven hand's way, in its order.
 ///
 /// Between two display frames it goes straight. At 2.5 m/s², the most on this track, that leaves
-/// out a Δt²/8 = 3 mm in Δt = 0.1 s of the track, which is 4 frames of 20 Hz at half speed: more
-/// than any two frames lay apart on two busy cores. The rest is for the turn.
-pub fn follows(recorded: &Track, driven: &Keyframes) -> Vec<f64> {
+/// out a Δt²/8 = 0.8 mm in a tick of the track. The rest is for the turn.
+pub fn follows(recorded: &Track, driven: &Keyframes) {
     const STEP: f64 = 0.002;
     const WINDOW: usize = 200;
     let samples: Vec<PoseFrame> = (0..=(driven.duration / STEP) as u32)
         .map(|n| driven.sample(0, f64::from(n) * STEP))
         .collect();
     let (mut at, mut worst) = (0, 0.0_f32);
-    let mut zeros = Vec::new();
     for frame in &recorded.frames {
         let hand = frame.hand(Side::Right);
         // The runtime's first frames know of no controller.
@@ -104,25 +97,48 @@ pub fn follows(recorded: &Track, driven: &Keyframes) -> Vec<f64> {
         let least = distances.iter().copied().fold(f32::INFINITY, f32::min);
         worst = worst.max(least);
         at += distances.iter().rposition(|d| *d <= least + 1e-5).unwrap();
-        let sample = &samples[at];
-        let next = &samples[(at + 1).min(samples.len() - 1)];
-        if f64::from(apart(sample, next)) > 0.1 * STEP {
-            zeros.push(1e-9 * frame.info.xr_time as f64 - at as f64 * STEP / SPEED);
-        }
     }
+    eprintln!("off the track by {worst}");
     assert!(worst < 0.01, "off by {worst}");
     assert!(at + 100 > samples.len(), "the end was not seen");
-    zeros
 }
 
-/// It goes at the driven hand's pace. The runtime does not predict what it is driven by, and its
-/// frames come in whole periods: the hand is as late as the frame, two periods more or less. A step
-/// that took its pose from another time would drift away.
-fn keeps_pace(mut zeros: Vec<f64>) {
-    zeros.sort_by(f64::total_cmp);
-    let middle = zeros[zeros.len() / 2];
-    let near = zeros.iter().filter(|zero| (*zero - middle).abs() < 0.1);
-    assert!(near.count() * 10 > zeros.len() * 9, "{zeros:?}");
+/// Each step has the pose of its own time: as far from what was driven into the display frame before
+/// it to what was driven into the one after as its time lies between theirs.
+pub fn keeps_time(recorded: &Track, seen: &[Seen], sent: &[PoseFrame]) {
+    let mut at = 0;
+    let mut shown = |frame: &Seen| {
+        frame.right.as_ref()?;
+        // What it showed before, or what was sent next.
+        let next = sent[at..].iter().position(|sent| shows(frame, sent));
+        at += next.expect("a frame shows what was not sent");
+        Some(&sent[at])
+    };
+    let frames: Vec<_> = seen
+        .iter()
+        .map(|frame| (frame.time, shown(frame)))
+        .collect();
+    let mut around = frames.windows(2).peekable();
+    let mut worst = 0.0_f32;
+    for frame in &recorded.frames {
+        let hand = frame.hand(Side::Right);
+        if !(hand.active && hand.valid) {
+            continue;
+        }
+        let time = frame.info.xr_time;
+        // Times of a runtime that was started again may begin anew.
+        while around
+            .next_if(|pair| !(pair[0].0 < time && time <= pair[1].0))
+            .is_some()
+        {}
+        let Some([(before, Some(from)), (after, Some(to))]) = around.peek() else {
+            panic!("step {}: no frames around {time} ns", frame.step);
+        };
+        let s = (time - before) as f64 / (after - before) as f64;
+        worst = worst.max(apart(frame, &from.between(to, s as f32)));
+    }
+    // An angle from the cosine of its half has 5e-4 rad of 32 bits; a frame is some 10 mm.
+    assert!(worst < 2e-4, "off by {worst}");
 }
 
 /// What a replay came to.

@@ -5,7 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Instant;
+
+use glam::{Quat, Vec3};
+use vitriol_tests::wait::PATIENCE;
+use vitriol_xr::Pose;
 
 /// A pour with 1,760 particles, in the places of `two-flasks`.
 pub fn scene(folder: &Path) -> PathBuf {
@@ -29,9 +33,42 @@ const NOT_OURS: &str = "VUID-VkDeviceCreateInfo-pNext-02830";
 
 fn vr(scene: &Path, recording: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
-    command.args(["-v", "vr", "--json", "--scene"]).arg(scene);
+    command.args(["-vv", "vr", "--json", "--scene"]).arg(scene);
     command.arg("--record").arg(recording);
     command
+}
+
+/// What the runtime gave the program with a frame, by the program's log.
+#[derive(Debug)]
+pub struct Seen {
+    /// The frame's display time on the runtime's clock, ns.
+    pub time: i64,
+    pub head: Pose,
+    /// Grip and squeeze of the right hand; `None` while its controller sleeps.
+    pub right: Option<(Pose, f32)>,
+}
+
+impl Seen {
+    /// Of a line such as `frame for 3 ns: head ([x, y, z], [x, y, z, w]), left None, right
+    /// Some((([x, y, z], [x, y, z, w]), squeeze))`.
+    fn of(line: &str) -> Option<Self> {
+        let (_, line) = line.split_once("frame for ")?;
+        let (time, line) = line.split_once(" ns: head ")?;
+        let (head, line) = line.split_once(", left ")?;
+        let (_, right) = line.split_once(", right ")?;
+        let pose = |n: &[f32]| Pose::new(Vec3::from_slice(n), Quat::from_slice(&n[3..]));
+        let hand = numbers(right);
+        Some(Self {
+            time: time.parse().unwrap(),
+            head: pose(&numbers(head)),
+            right: (!hand.is_empty()).then(|| (pose(&hand), hand[7])),
+        })
+    }
+}
+
+fn numbers(text: &str) -> Vec<f32> {
+    let parts = text.split(['(', ')', '[', ']', ',', ' ']);
+    parts.filter_map(|part| part.parse().ok()).collect()
 }
 
 /// `vitriol vr` at work.
@@ -39,6 +76,8 @@ pub struct Program {
     child: Child,
     /// Its log's lines.
     log: Receiver<String>,
+    /// Its frames as far as its log was read.
+    pub seen: Vec<Seen>,
     /// Whether Vulkan's validation layer watches it.
     watched: bool,
     /// What that layer says among the lines, at their end.
@@ -88,29 +127,47 @@ impl Program {
         Self {
             child,
             log,
+            seen: Vec::new(),
             watched,
             layer: Some(layer),
         }
     }
 
+    /// Waits for the log's next line.
+    fn line(&mut self) -> String {
+        let line = self.log.recv_timeout(PATIENCE);
+        let line = line.unwrap_or_else(|error| panic!("the program says nothing: {error}"));
+        self.seen.extend(Seen::of(&line));
+        line
+    }
+
     /// Waits for a line of the log that has `part`.
-    pub fn says(&self, part: &str) {
-        let deadline = Instant::now() + Duration::from_secs(60);
-        loop {
-            let left = deadline.saturating_duration_since(Instant::now());
-            let line = self.log.recv_timeout(left);
-            if line
-                .unwrap_or_else(|error| panic!("no word of {part}: {error}"))
-                .contains(part)
-            {
-                return;
-            }
+    pub fn says(&mut self, part: &str) {
+        let begun = Instant::now();
+        while !self.line().contains(part) {
+            assert!(begun.elapsed() < PATIENCE, "no word of {part}");
         }
     }
 
-    /// Asks it to end, as the system does, and gives what it printed. Vulkan's layer must have greeted
-    /// each of its instances, and else have said nothing.
-    pub fn end(mut self) -> serde_json::Value {
+    /// Waits for the next frame.
+    pub fn frame(&mut self) -> &Seen {
+        let before = self.seen.len();
+        while self.seen.len() == before {
+            self.line();
+        }
+        &self.seen[before]
+    }
+
+    /// Waits for so many more.
+    pub fn frames(&mut self, count: usize) {
+        for _ in 0..count {
+            self.frame();
+        }
+    }
+
+    /// Asks it to end, as the system does, and gives what it printed, and all its frames. Vulkan's
+    /// layer must have greeted each of its instances, and else have said nothing.
+    pub fn end(mut self) -> (serde_json::Value, Vec<Seen>) {
         // The shell's own kill: the rig has no other.
         let asked = Command::new("sh")
             .args(["-c", &format!("kill {}", self.child.id())])
@@ -135,7 +192,9 @@ impl Program {
         let report: serde_json::Value = json.next().unwrap().unwrap();
         let instances = u64::from(self.watched) * (1 + report["renewals"].as_u64().unwrap());
         assert_eq!(greetings.len() as u64, instances, "{greetings:#?}");
-        report
+        let rest = self.log.try_iter();
+        self.seen.extend(rest.filter_map(|line| Seen::of(&line)));
+        (report, std::mem::take(&mut self.seen))
     }
 }
 

@@ -1,8 +1,13 @@
 //! A small session, its headset, and the replay of what it recorded.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
 
+use tracing::span::{Attributes, Id, Record};
+use tracing::{Event, Metadata, Subscriber};
 use vitriol::vr::decision::Decision;
 use vitriol::vr::placement::Posture;
 use vitriol::vr::session::{Options, Session, SessionOutcome};
@@ -10,6 +15,7 @@ use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
 use vitriol::vr::workbench::Plan;
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::Preset;
+use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::track::{Keyframes, Track};
 use vitriol_xr::{Headset, HeadsetError, HeadsetFrame, Pose, Shown, Side, Targets, Turn, View};
 
@@ -31,29 +37,63 @@ pub fn scene(folder: &Path) -> PathBuf {
     file
 }
 
+thread_local! {
+    static HEARD: RefCell<BTreeMap<String, u64>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// How many lines with that target the sessions of this thread have logged.
+pub fn heard(target: &str) -> u64 {
+    HEARD.with_borrow(|heard| heard.get(target).copied().unwrap_or(0))
+}
+
+/// Hears what a session logs on its own thread.
+struct Ear;
+
+impl Subscriber for Ear {
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        metadata.target().starts_with("vitriol")
+    }
+    fn event(&self, event: &Event<'_>) {
+        let target = event.metadata().target().to_owned();
+        HEARD.with_borrow_mut(|heard| *heard.entry(target).or_default() += 1);
+    }
+    fn new_span(&self, _: &Attributes<'_>) -> Id {
+        Id::from_u64(1)
+    }
+    fn record(&self, _: &Id, _: &Record<'_>) {}
+    fn record_follows_from(&self, _: &Id, _: &Id) {}
+    fn enter(&self, _: &Id) {}
+    fn exit(&self, _: &Id) {}
+}
+
 /// What goes wrong, or is pressed, in a session.
 pub trait Trouble {
-    /// Before a turn: `Some` in its place.
-    fn turn(&mut self, headset: &mut StandIn) -> Option<Turn>;
-    /// In a frame that has begun.
-    fn frame(&mut self, frame: &mut HeadsetFrame);
+    /// Before a turn, after so many frames: `Some` in its place.
+    fn turn(&mut self, _headset: &mut StandIn, _after: u64) -> Option<Turn> {
+        None
+    }
+    /// In a frame that has begun, after so many before it.
+    fn frame(&mut self, _frame: &mut HeadsetFrame, _after: u64) {}
+    /// Whether something has still to come after so many frames: until it does, frames do not count.
+    fn awaits(&self, _after: u64) -> bool {
+        false
+    }
 }
 
 /// None.
 pub struct Calm;
 
-impl Trouble for Calm {
-    fn turn(&mut self, _: &mut StandIn) -> Option<Turn> {
-        None
-    }
-    fn frame(&mut self, _: &mut HeadsetFrame) {}
-}
+impl Trouble for Calm {}
 
 /// A stand-in with trouble, taken off after some frames.
 pub struct Worn<T> {
     pub inner: StandIn,
     pub trouble: T,
-    pub frames: u64,
+    /// Frames after which it is taken off.
+    frames: u64,
+    /// Frames so far, without those in which something was awaited.
+    after: u64,
+    awaiting: Option<Instant>,
     /// What was shown with each frame.
     pub shown: Vec<Shown>,
     /// What the left and the right hand felt in each.
@@ -71,6 +111,8 @@ impl<T: Trouble> Worn<T> {
             inner: StandIn::new(gpu, track, spec).unwrap(),
             trouble,
             frames,
+            after: 0,
+            awaiting: None,
             shown: Vec::new(),
             felt: Vec::new(),
         }
@@ -93,16 +135,25 @@ impl<T: Trouble> Headset for Worn<T> {
         self.inner.name()
     }
     fn next(&mut self) -> Result<Turn, HeadsetError> {
-        if let Some(turn) = self.trouble.turn(&mut self.inner) {
+        if let Some(turn) = self.trouble.turn(&mut self.inner, self.after) {
             return Ok(turn);
         }
-        if self.frames == 0 {
+        let awaits = self.trouble.awaits(self.after);
+        if self.after == self.frames && !awaits {
             self.inner.request_exit()?;
         }
         let mut turn = self.inner.next()?;
         if let Turn::Frame(frame) = &mut turn {
-            self.frames -= 1;
-            self.trouble.frame(frame);
+            self.trouble.frame(frame, self.after);
+            if awaits {
+                let since = self.awaiting.get_or_insert_with(Instant::now);
+                assert!(since.elapsed() < PATIENCE, "what is awaited does not come");
+                // The processor is for what is made beside the frames.
+                std::thread::sleep(Duration::from_millis(50));
+            } else {
+                self.awaiting = None;
+                self.after += 1;
+            }
         }
         Ok(turn)
     }
@@ -164,10 +215,10 @@ pub fn session_with(
     decisions: Receiver<Decision>,
 ) -> (SessionOutcome, Track) {
     let file = options.record.clone().unwrap();
-    let outcome = Session::new(headset, options, decisions)
-        .unwrap()
-        .run(headset)
-        .unwrap();
+    // Of a session before it on this thread.
+    HEARD.take();
+    let session = Session::new(headset, options, decisions).unwrap();
+    let outcome = tracing::subscriber::with_default(Ear, || session.run(headset)).unwrap();
     let recorded = outcome.recorded.as_ref().unwrap();
     assert_eq!((recorded.steps, recorded.unwritten), (outcome.steps, 0));
     let track = Track::open(&file).unwrap();

@@ -42,14 +42,13 @@ pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
 /// Gone before some frame, for three turns.
 struct Gone {
     before: u64,
-    frames: u64,
     turns: u32,
     then: Gpu,
 }
 
 impl Trouble for Gone {
-    fn turn(&mut self, headset: &mut StandIn) -> Option<Turn> {
-        if self.frames != self.before || self.turns == 4 {
+    fn turn(&mut self, headset: &mut StandIn, after: u64) -> Option<Turn> {
+        if after != self.before || self.turns == 4 {
             return None;
         }
         self.turns += 1;
@@ -61,10 +60,6 @@ impl Trouble for Gone {
         headset.move_to(&self.then).unwrap();
         Some(Turn::Renewed)
     }
-
-    fn frame(&mut self, _: &mut HeadsetFrame) {
-        self.frames += 1;
-    }
 }
 
 #[test]
@@ -74,7 +69,6 @@ fn a_loss_in_mid_pour_loses_no_particle() {
     let trouble = Gone {
         // 4.7 s: the stream runs.
         before: 140,
-        frames: 0,
         turns: 0,
         then: Gpu::clone(&second),
     };
@@ -97,13 +91,13 @@ fn a_loss_in_mid_pour_loses_no_particle() {
 struct Off(u32);
 
 impl Trouble for Off {
-    fn turn(&mut self, _: &mut StandIn) -> Option<Turn> {
+    fn turn(&mut self, _: &mut StandIn, _: u64) -> Option<Turn> {
         let off = (20..30).contains(&self.0);
         self.0 += 1;
         off.then_some(Turn::Paused)
     }
 
-    fn frame(&mut self, frame: &mut HeadsetFrame) {
+    fn frame(&mut self, frame: &mut HeadsetFrame, _: u64) {
         // A second passes meanwhile.
         if self.0 > 30 {
             frame.poses.info.xr_time += 1_000_000_000;

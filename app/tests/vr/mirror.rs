@@ -14,8 +14,9 @@ use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::QueueKind;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
+use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::track::{Track, load};
-use vitriol_xr::{Headset, HeadsetFrame, Turn};
+use vitriol_xr::{Headset, Turn};
 
 /// Size of an eye's picture, see `common`.
 const EYE: [usize; 2] = [96, 64];
@@ -71,8 +72,10 @@ const ODD_SIZE: [usize; 2] = [61, 41];
 struct Onlooker {
     screen: Screen,
     window: Option<Window>,
-    frames: u32,
-    looked: [bool; 3],
+    /// Since when it looks without having seen what it should.
+    looking: Option<Instant>,
+    paused: bool,
+    seen: [bool; 3],
 }
 
 impl Onlooker {
@@ -122,48 +125,61 @@ impl Onlooker {
         Ok(())
     }
 
-    /// Waits until the window shows it.
-    fn look(&self, headset: &StandIn, window: Window) {
-        let begun = Instant::now();
-        while let Err(why) = self.sees(headset, window) {
-            assert!(begun.elapsed() < Duration::from_secs(10), "{why}");
-            std::thread::sleep(Duration::from_millis(50));
+    /// Whether the window shows it soon, with a title that says so.
+    fn look(&self, headset: &StandIn, window: Window) -> Result<(), String> {
+        let mut outcome = Ok(());
+        for _ in 0..SOON {
+            let title = self.screen.title(window).unwrap();
+            outcome = match title.contains("small.toml") && title.contains("headset is off") {
+                true => self.sees(headset, window),
+                false => Err(title),
+            };
+            if outcome.is_ok() {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(20));
         }
+        outcome
     }
 }
 
 /// Frames after which there is a look, each preceded by a pause, in which the device gets done.
-const LOOKS: [u32; 3] = [10, 20, 30];
+const LOOKS: [u64; 3] = [10, 20, 30];
+/// Looks before there is another frame: the session may not have known the window's size in the last
+/// one, or the window not have been done with the pictures before.
+const SOON: usize = 25;
 
 impl Trouble for Onlooker {
-    fn turn(&mut self, headset: &mut StandIn) -> Option<Turn> {
-        let at = LOOKS.iter().position(|frames| *frames == self.frames)?;
+    fn turn(&mut self, headset: &mut StandIn, after: u64) -> Option<Turn> {
+        let at = LOOKS.iter().position(|frames| *frames == after)?;
+        if self.seen[at] {
+            return None;
+        }
         let window = *self
             .window
             .get_or_insert_with(|| self.screen.wait_for("Vitriol: "));
-        if !std::mem::replace(&mut self.looked[at], true) {
-            // Twice: what is done is handed over after the turn.
+        self.paused = !self.paused;
+        if self.paused {
+            // What is done is handed over after the turn.
             gpu_done(headset);
             return Some(Turn::Paused);
         }
-        self.look(headset, window);
-        let title = self.screen.title(window).unwrap();
-        assert!(
-            title.contains("small.toml") && title.contains("headset is off"),
-            "{title}"
-        );
-        if let Some(extent) = [SMALL, ODD].get(at) {
-            self.screen.resize(window, *extent);
-            // The session learns of it from the window.
-            std::thread::sleep(Duration::from_millis(500));
+        let since = *self.looking.get_or_insert_with(Instant::now);
+        match self.look(headset, window) {
+            Ok(()) => {
+                (self.looking, self.seen[at]) = (None, true);
+                if let Some(extent) = [SMALL, ODD].get(at) {
+                    self.screen.resize(window, *extent);
+                }
+            }
+            Err(why) => assert!(since.elapsed() < PATIENCE, "{why}"),
         }
         None
     }
 
-    fn frame(&mut self, _: &mut HeadsetFrame) {
-        self.frames += 1;
-        // The window's thread keeps up.
-        std::thread::sleep(Duration::from_millis(100));
+    fn awaits(&self, after: u64) -> bool {
+        let at = LOOKS.iter().position(|frames| *frames == after);
+        at.is_some_and(|at| !self.seen[at])
     }
 }
 
@@ -181,8 +197,9 @@ fn the_window_shows_what_the_left_eye_sees() {
     let onlooker = Onlooker {
         screen,
         window: None,
-        frames: 0,
-        looked: [false; 3],
+        looking: None,
+        paused: false,
+        seen: [false; 3],
     };
     // 30 frames a second: each is shown.
     let mut headset = Worn::new(&gpu, pour().sample_track(), 30.0, 31, onlooker);
@@ -191,8 +208,9 @@ fn the_window_shows_what_the_left_eye_sees() {
     let window = mirror::Window::open(headset.extent(), channel().0).unwrap();
     let session = Session::new(&headset, options, nobody()).unwrap();
     let outcome = session.mirrored(window).unwrap().run(&mut headset).unwrap();
-    assert_eq!(outcome.frames, 31);
-    assert_eq!(headset.trouble.looked, [true; 3]);
+    // Each of them was shown.
+    assert_eq!(outcome.frames, headset.shown.len() as u64);
+    assert_eq!(headset.trouble.seen, [true; 3]);
     assert_eq!(
         headset.trouble.screen.find("Vitriol: "),
         None,
@@ -255,6 +273,16 @@ impl Drop for Program {
     }
 }
 
+/// Waits until steps are recorded that have not been yet: the session goes on.
+fn records(recording: &Path) {
+    let length = || std::fs::metadata(recording).map_or(0, |file| file.len());
+    // What was taken before may be written yet.
+    for _ in 0..2 {
+        let before = length();
+        until("more is recorded", || (length() > before).then_some(()));
+    }
+}
+
 #[test]
 fn keys_and_closing_are_heard() {
     let Some(screen) = screen::enter("mirror::keys_and_closing_are_heard") else {
@@ -270,15 +298,16 @@ fn keys_and_closing_are_heard() {
     let window = screen.wait_for("small.toml");
     screen.press(window, 'b');
     screen.wait_for("setting up");
-    while screen.title(window).unwrap().contains("setting up") {
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    until("the scene is set up", || {
+        let title = screen.title(window).unwrap();
+        (!title.contains("setting up")).then_some(())
+    });
     // Closed, it is gone, and the session goes on until it is asked to end.
     screen.close(window);
-    while screen.find("Vitriol").is_some() {
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    std::thread::sleep(Duration::from_secs(1));
+    until("the window goes", || {
+        screen.find("Vitriol").is_none().then_some(())
+    });
+    records(&recording);
     assert!(program.runs());
     program.ask();
     let (report, log) = program.end();
@@ -305,15 +334,12 @@ fn there_is_a_session_without_a_window() {
     let scene = scene(folder.path());
     let recording = folder.path().join("alone.mcap");
     let keep = ["--no-mirror", "--record", recording.to_str().unwrap()];
+    screen.watch();
     let program = Program::start(&scene, &keep);
-    // The window would come next.
-    while !recording.exists() {
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    std::thread::sleep(Duration::from_secs(2));
-    assert_eq!(screen.find("Vitriol"), None);
+    records(&recording);
     program.ask();
     let (report, log) = program.end();
+    assert_eq!(screen.opened(), 0);
     assert!(
         report["steps"].as_u64() > Some(0) && log.is_empty(),
         "{log}"

@@ -2,18 +2,18 @@
 
 use std::sync::mpsc::channel;
 
-use crate::common::{Trouble, Worn, pour, session};
+use crate::common::{Trouble, Worn, heard, pour, session};
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
 use vitriol::vr::info::{Effort, FlaskLine, Info};
 use vitriol::vr::menu::CHOICES;
 use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
-use vitriol::vr::stand_in::StandIn;
+use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
 use vitriol_tests::gpu;
-use vitriol_xr::{Hand, HeadsetFrame, Pose, Turn};
+use vitriol_xr::{Hand, HeadsetFrame, Pose};
 
 fn info() -> Info {
     let flask = |name: &str, temperature, acid| FlaskLine {
@@ -139,26 +139,17 @@ fn the_panel_is_legible() {
 
 /// Points at a button of the panel, and presses it.
 struct Points {
-    frames: u32,
     at: [f32; 2],
 }
 
 impl Trouble for Points {
-    fn turn(&mut self, _: &mut StandIn) -> Option<Turn> {
-        if self.frames == 20 {
-            std::thread::sleep(std::time::Duration::from_secs(6));
-        }
-        None
+    fn awaits(&self, after: u64) -> bool {
+        after == 20 && heard(TAKEN_UP) == 0
     }
 
-    fn frame(&mut self, frame: &mut HeadsetFrame) {
-        let trigger = if (8..12).contains(&self.frames) {
-            1.0
-        } else {
-            0.0
-        };
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
+        let trigger = if (8..12).contains(&after) { 1.0 } else { 0.0 };
         frame.poses.hands[0] = pointing(self.at[0], self.at[1], trigger);
-        self.frames += 1;
     }
 }
 
@@ -173,7 +164,6 @@ fn a_hand_presses_the_panel_in_a_session() {
     let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);
     let y = rows.find(|&y| press(&mut panel, x, y) == Some(Decision::Start));
     let trouble = Points {
-        frames: 0,
         // Within the button, not at its edge.
         at: [x, y.unwrap() + 15.0],
     };

@@ -2,14 +2,17 @@
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use vitriol::vr::record::{Sink, TrackRecording};
+use vitriol_tests::wait::standing;
 use vitriol_xr::track::TrackError;
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
 
 /// A disk that writes a step when it is told to.
 struct Disk {
+    /// Told of each step that is to be written.
+    asked: Sender<()>,
     allowed: Receiver<()>,
     written: Arc<Mutex<Vec<PoseFrame>>>,
     full_after: usize,
@@ -17,6 +20,7 @@ struct Disk {
 
 impl Sink for Disk {
     fn write(&mut self, frame: &PoseFrame, _: &[Pose]) -> Result<(), TrackError> {
+        let _ = self.asked.send(());
         // At the end, whose sender is gone, it writes what it has.
         let _ = self.allowed.recv();
         let mut written = self.written.lock().unwrap();
@@ -36,15 +40,28 @@ impl Sink for Disk {
     }
 }
 
-fn disk(full_after: usize) -> (Box<Disk>, Sender<()>, Arc<Mutex<Vec<PoseFrame>>>) {
-    let (allow, allowed) = channel();
+/// A disk, and the test's hold on it.
+fn disk(full_after: usize) -> (Box<Disk>, Hold) {
+    let ((ask, asked), (allow, allowed)) = (channel(), channel());
     let written = Arc::<Mutex<Vec<PoseFrame>>>::default();
     let disk = Disk {
+        asked: ask,
         allowed,
         written: Arc::clone(&written),
         full_after,
     };
-    (Box::new(disk), allow, written)
+    let hold = Hold {
+        asked,
+        allow,
+        written,
+    };
+    (Box::new(disk), hold)
+}
+
+struct Hold {
+    asked: Receiver<()>,
+    allow: Sender<()>,
+    written: Arc<Mutex<Vec<PoseFrame>>>,
 }
 
 fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
@@ -66,24 +83,24 @@ fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
 
 #[test]
 fn a_full_queue_delays_nobody_and_is_counted() {
-    let (disk, allow, written) = disk(usize::MAX);
+    let (disk, hold) = disk(usize::MAX);
     let mut recording = TrackRecording::into_sink(disk, 4);
-    let begun = Instant::now();
-    for step in 0..20 {
-        recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
-        // The first is taken off the queue, and waits for the disk.
-        if step == 0 {
-            std::thread::sleep(Duration::from_millis(50));
+    // The first is taken off the queue, and waits for the disk.
+    recording.push(&frame(0, None), Vec::new());
+    hold.asked.recv().unwrap();
+    let ((), stood) = standing(|| {
+        for step in 1..20 {
+            recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
         }
-    }
-    assert!(begun.elapsed() < Duration::from_secs(1));
+    });
+    assert!(stood < Duration::from_secs(1), "it stood for {stood:?}");
     let state = recording.state();
     assert_eq!((state.steps, state.unwritten), (0, 15));
     assert!(state.cause.unwrap().contains("did not keep up"));
-    drop(allow);
+    drop(hold.allow);
     let state = recording.finish(20, 20);
     assert_eq!((state.steps, state.unwritten), (5, 15));
-    let written = written.lock().unwrap();
+    let written = hold.written.lock().unwrap();
     let steps: Vec<u64> = written.iter().map(|frame| frame.step).collect();
     assert_eq!(steps, [0, 1, 2, 3, 4, 20]);
     // What was switched in a step that is missing is not: a replay would be another scene's.
@@ -92,8 +109,8 @@ fn a_full_queue_delays_nobody_and_is_counted() {
 
 #[test]
 fn a_full_disk_is_counted_and_said() {
-    let (disk, allow, _) = disk(3);
-    drop(allow);
+    let (disk, hold) = disk(3);
+    drop(hold.allow);
     let mut recording = TrackRecording::into_sink(disk, 64);
     for step in 0..10 {
         recording.push(&frame(step, None), Vec::new());

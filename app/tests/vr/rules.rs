@@ -2,19 +2,14 @@
 //! and its end nothing waits for the device, and a picture is submitted with the pose that it was
 //! drawn with. (That it is submitted for the time that the runtime named is the session's, in `xr`.)
 
-use std::cell::Cell;
-use std::rc::Rc;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::channel;
-use std::time::Duration;
+use std::sync::mpsc::{Sender, channel};
 
-use crate::common::{Calm, Worn, nobody, pour, session};
+use crate::common::{Calm, Trouble, Worn, heard, nobody, pour, session};
 use glam::{Quat, Vec3};
-use tracing::span::{Attributes, Id, Record};
-use tracing::{Event, Metadata, Subscriber};
 use vitriol::vr::decision::Decision;
 use vitriol::vr::panel::scene_from_panel;
+use vitriol::vr::stand_in::StandIn;
+use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::SceneDesc;
@@ -22,35 +17,9 @@ use vitriol_sim::scene::Scene;
 use vitriol_tests::gpu;
 use vitriol_xr::{Headset, HeadsetError, Pose, Shown, Side, Targets, Turn, View};
 
-/// Whether a frame is open, and what waited for the device meanwhile and else.
-#[derive(Default)]
-struct Book {
-    open: AtomicBool,
-    within: AtomicU64,
-    without: AtomicU64,
-}
-
-/// Hears of waits on the thread on which it is the subscriber.
-struct Ear(Arc<Book>);
-
-impl Subscriber for Ear {
-    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        metadata.target() == "vitriol_gpu::wait"
-    }
-    fn event(&self, _: &Event<'_>) {
-        let count = match self.0.open.load(Ordering::Relaxed) {
-            true => &self.0.within,
-            false => &self.0.without,
-        };
-        count.fetch_add(1, Ordering::Relaxed);
-    }
-    fn new_span(&self, _: &Attributes<'_>) -> Id {
-        Id::from_u64(1)
-    }
-    fn record(&self, _: &Id, _: &Record<'_>) {}
-    fn record_follows_from(&self, _: &Id, _: &Id) {}
-    fn enter(&self, _: &Id) {}
-    fn exit(&self, _: &Id) {}
+/// Waits for the device so far.
+fn waits() -> u64 {
+    heard("vitriol_gpu::wait")
 }
 
 /// Another pose in each frame than the one that the frame began with, turned so far that a wall at
@@ -65,27 +34,45 @@ fn disturbed(frame: u64) -> Pose {
 }
 
 /// A stand-in that keeps a book of its frames.
-struct Strict {
-    inner: Worn<Calm>,
-    book: Arc<Book>,
+struct Strict<T> {
+    inner: Worn<T>,
     frames: u64,
     located: Option<[View; 2]>,
-    before: Box<dyn Fn(u64)>,
+    /// Waits when the frame that is open began.
+    begun: Option<u64>,
+    /// Waits while a frame was open.
+    within: u64,
 }
 
-impl Strict {
-    fn new(gpu: &Gpu, frames: u64, before: impl Fn(u64) + 'static) -> Self {
+impl<T: Trouble> Strict<T> {
+    fn new(gpu: &Gpu, frames: u64, trouble: T) -> Self {
         Self {
-            inner: Worn::new(gpu, pour().sample_track(), 90.0, frames, Calm),
-            book: Arc::default(),
+            inner: Worn::new(gpu, pour().sample_track(), 90.0, frames, trouble),
             frames: 0,
             located: None,
-            before: Box::new(before),
+            begun: None,
+            within: 0,
         }
     }
 }
 
-impl Headset for Strict {
+/// Begins the scene anew on the way.
+struct Starts(Sender<Decision>);
+
+impl Trouble for Starts {
+    fn turn(&mut self, _: &mut StandIn, after: u64) -> Option<Turn> {
+        if after == 10 {
+            self.0.send(Decision::Start).unwrap();
+        }
+        None
+    }
+
+    fn awaits(&self, after: u64) -> bool {
+        after == 12 && heard(TAKEN_UP) == 0
+    }
+}
+
+impl<T: Trouble> Headset for Strict<T> {
     fn gpu(&self) -> &Gpu {
         self.inner.gpu()
     }
@@ -99,11 +86,10 @@ impl Headset for Strict {
         self.inner.name()
     }
     fn next(&mut self) -> Result<Turn, HeadsetError> {
-        (self.before)(self.frames);
         let turn = self.inner.next()?;
         self.frames += 1;
-        let begins = matches!(turn, Turn::Frame(_));
-        self.book.open.store(begins, Ordering::Relaxed);
+        assert_eq!(self.begun, None, "a frame was not ended");
+        self.begun = matches!(turn, Turn::Frame(_)).then(waits);
         Ok(turn)
     }
     fn acquire(&mut self) -> Result<Targets, HeadsetError> {
@@ -119,7 +105,7 @@ impl Headset for Strict {
         Ok(views)
     }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
-        self.book.open.store(false, Ordering::Relaxed);
+        self.within += waits() - self.begun.take().unwrap();
         // What is submitted is what was located, this frame.
         let located = self.located.take();
         assert_eq!(shown.map(|shown| shown.views), located);
@@ -138,34 +124,22 @@ fn nothing_waits_for_the_device_within_a_frame() {
     let gpu = gpu::device();
     let folder = tempfile::tempdir().unwrap();
     let (sender, decisions) = channel();
-    let asked = Rc::new(Cell::new(false));
     // A bench is built and taken up on the way.
-    let before = move |frame: u64| {
-        if frame == 10 && !asked.replace(true) {
-            sender.send(Decision::Start).unwrap();
-        }
-        if frame == 12 {
-            std::thread::sleep(Duration::from_secs(8));
-        }
-    };
-    let mut headset = Strict::new(&gpu, 60, before);
-    let book = Arc::clone(&headset.book);
-    let (_, track) = tracing::subscriber::with_default(Ear(Arc::clone(&book)), || {
-        session(&mut headset, folder.path(), decisions)
-    });
+    let mut headset = Strict::new(&gpu, 60, Starts(sender));
+    let (_, track) = session(&mut headset, folder.path(), decisions);
     let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
     assert!(switches.any(|switch| switch.key == SWITCH_START));
     // Between frames it waits for the picture before the last, in all frames but the first ones.
-    let waited = book.without.load(Ordering::Relaxed);
+    let waited = waits() - headset.within;
     assert!(waited > 50, "{waited} waits were heard of");
-    assert_eq!(book.within.load(Ordering::Relaxed), 0);
+    assert_eq!(headset.within, 0);
 }
 
 #[test]
 fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     let gpu = gpu::device();
     let folder = tempfile::tempdir().unwrap();
-    let mut headset = Strict::new(&gpu, 5, |_| {});
+    let mut headset = Strict::new(&gpu, 5, Calm);
     session(&mut headset, folder.path(), nobody());
     let shown = *headset.inner.shown.last().unwrap();
     let depth = headset.inner.inner.targets().depth.clone().unwrap();

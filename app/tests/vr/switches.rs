@@ -2,48 +2,43 @@
 
 use std::sync::mpsc::{Sender, channel};
 
-use crate::common::{Trouble, Worn, hash, pour, session};
+use crate::common::{Trouble, Worn, hash, heard, pour, session};
 use crate::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
 use vitriol::vr::placement::SWITCH_PLACEMENT;
-use vitriol::vr::stand_in::StandIn;
+use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_tests::gpu;
-use vitriol_xr::{HeadsetFrame, Pose, Turn};
+use vitriol_xr::{HeadsetFrame, Pose};
 
-/// Presses B, moves the stage and presses A, then chooses a scene; each once and in time for the
-/// next to be built.
+/// Presses B, moves the stage and presses A, then chooses a scene; each once, when what came before
+/// has been built.
 struct Restless {
-    frames: u32,
     decisions: Sender<Decision>,
     scene: String,
     moved: bool,
 }
 
-const B: u32 = 15;
-const A: u32 = 40;
-const SCENE: u32 = 60;
+const B: u64 = 15;
+const A: u64 = 40;
+const SCENE: u64 = 60;
 
 impl Trouble for Restless {
-    fn turn(&mut self, _: &mut StandIn) -> Option<Turn> {
-        // Time to build a bench, whatever else the machine does.
-        if [B + 1, SCENE + 1].contains(&self.frames) {
-            std::thread::sleep(std::time::Duration::from_secs(8));
-        }
-        None
+    fn awaits(&self, after: u64) -> bool {
+        (after == B + 1 && heard(TAKEN_UP) < 1) || (after == SCENE + 1 && heard(TAKEN_UP) < 2)
     }
 
-    fn frame(&mut self, frame: &mut HeadsetFrame) {
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
         frame.poses.hands[0].active = true;
-        frame.poses.hands[0].button_b = self.frames == B;
-        frame.poses.hands[0].button_a = self.frames == A;
-        if self.frames == SCENE {
+        frame.poses.hands[0].button_b = after == B;
+        frame.poses.hands[0].button_a = after == A;
+        if after == SCENE {
             self.decisions
                 .send(Decision::Scene(self.scene.clone()))
                 .unwrap();
         }
-        self.moved |= self.frames == A;
+        self.moved |= after == A;
         if self.moved {
             let there = Pose::new(Vec3::new(2.0, 0.3, 1.0), Quat::from_rotation_y(1.0));
             let poses = &mut frame.poses;
@@ -53,7 +48,6 @@ impl Trouble for Restless {
                 hand.stage_from_aim = there.compose(&hand.stage_from_aim);
             }
         }
-        self.frames += 1;
     }
 }
 
@@ -70,7 +64,6 @@ fn start_placement_and_scene_replay() {
     std::fs::write(&other_file, other).unwrap();
     let (sender, decisions) = channel();
     let trouble = Restless {
-        frames: 0,
         decisions: sender,
         scene: other_file.to_str().unwrap().into(),
         moved: false,

@@ -86,9 +86,16 @@ fn a_submission_is_timed_as_a_whole() {
         assert_eq!(whole.label, "total");
         whole.nanoseconds
     };
-    // The best of several, since other tests share the processor; recorders are recycled.
-    let best = |passes| (0..8).map(|_| time(passes)).fold(f64::INFINITY, f64::min);
-    let (one, six) = (best(1), best(6));
+    // The best of several, taken in turns, since others share the processor; of more where it is busy.
+    // Recorders are recycled.
+    let (mut one, mut six) = (f64::INFINITY, f64::INFINITY);
+    for round in 0..64 {
+        one = one.min(time(1));
+        six = six.min(time(6));
+        if round >= 8 && six > 3.0 * one {
+            break;
+        }
+    }
     assert!(one > 0.0 && six > 3.0 * one, "{one} ns and {six} ns");
     assert_silent(&gpu);
 }

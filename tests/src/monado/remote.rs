@@ -3,9 +3,10 @@
 
 use std::io::{Read, Result, Write};
 use std::net::{Ipv4Addr, TcpStream};
-use std::time::Duration;
 
 use glam::{Quat, Vec3};
+
+use crate::wait::PATIENCE;
 
 const BYTES: usize = 376;
 const MAGIC: &[u8; 8] = b"mndrmt3\0";
@@ -59,7 +60,7 @@ impl Remote {
     /// Connects, and takes over the state that the driver sends first.
     pub(super) fn try_open(port: u16) -> Result<Self> {
         let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, port))?;
-        stream.set_read_timeout(Some(Duration::from_secs(5)))?;
+        stream.set_read_timeout(Some(PATIENCE))?;
         stream.set_nodelay(true)?;
         let mut packet = [0; BYTES];
         // It is sent twice.

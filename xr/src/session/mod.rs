@@ -114,9 +114,15 @@ impl OpenXr {
                 self.live = Some(live);
                 Ok(Turn::Renewed)
             }
-            Err(CallFailure::Lost(cause)) => again(cause),
             Err(CallFailure::Fatal(error @ HeadsetError::Gpu(_))) => Err(error),
-            Err(CallFailure::Fatal(error)) => again(error.to_string()),
+            Err(CallFailure::Lost(cause)) => {
+                tracing::debug!(cause, "no runtime yet");
+                again(cause)
+            }
+            Err(CallFailure::Fatal(error)) => {
+                tracing::debug!(%error, "no runtime yet");
+                again(error.to_string())
+            }
         }
     }
 
@@ -179,6 +185,19 @@ impl OpenXr {
             recentred,
         };
         self.index += 1;
+        let told = |pose: &Pose| (pose.position.to_array(), pose.orientation.to_array());
+        let hand = |hand: &Hand| {
+            let is_known = hand.active && hand.valid;
+            is_known.then(|| (told(&hand.stage_from_grip), hand.squeeze))
+        };
+        let [left, right] = &self.hands;
+        tracing::debug!(
+            "frame for {} ns: head {:?}, left {:?}, right {:?}",
+            begun.time.as_nanos(),
+            told(&self.head),
+            hand(left),
+            hand(right)
+        );
         Ok(Turn::Frame(Box::new(frame)))
     }
 

@@ -26,15 +26,20 @@ impl Seek {
     /// Waits for the next try, `longest` at most. Whether it is due; then the one after it is
     /// due twice as late.
     pub(super) fn wait(&mut self, longest: Duration) -> bool {
-        let left = self.due.saturating_duration_since(Instant::now());
+        let (time, due) = self.plan(Instant::now(), longest);
+        std::thread::sleep(time);
+        due
+    }
+
+    /// How long to wait from `now` on, and whether the try is due then.
+    fn plan(&mut self, now: Instant, longest: Duration) -> (Duration, bool) {
+        let left = self.due.saturating_duration_since(now);
         if left > longest {
-            std::thread::sleep(longest);
-            return false;
+            return (longest, false);
         }
-        std::thread::sleep(left);
-        self.due = Instant::now() + self.wait;
+        self.due = now + left + self.wait;
         self.wait = (2 * self.wait).min(LONGEST);
-        true
+        (left, true)
     }
 }
 
@@ -45,25 +50,26 @@ mod tests {
 
     #[test]
     fn the_wait_doubles_to_its_end() {
+        let milliseconds = Duration::from_millis;
         let mut seek = Seek::begin();
-        let mut waits = Vec::new();
-        for _ in 0..9 {
-            // As if the time had come.
-            seek.due = Instant::now();
-            assert!(seek.wait(Duration::ZERO));
-            waits.push(
-                seek.due
-                    .saturating_duration_since(Instant::now())
-                    .as_secs_f64(),
-            );
+        // By a clock that goes only as the seeker waits, in turns of 300 ms at most.
+        let mut now = seek.due;
+        let (mut last, mut waits) = (now, Vec::new());
+        while waits.len() < 10 {
+            let (time, due) = seek.plan(now, milliseconds(300));
+            assert!(due || time == milliseconds(300));
+            now += time;
+            if due {
+                waits.push((now - last).as_millis());
+                last = now;
+            }
         }
-        let wanted = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 5.0, 5.0, 5.0];
-        for (got, wanted) in waits.iter().zip(wanted) {
-            // A busy machine may take some time between the two looks at the clock.
-            assert!(*got <= wanted && *got > wanted - 0.05, "{waits:?}");
-        }
+        let wanted = [0, 100, 200, 400, 800, 1600, 3200, 5000, 5000, 5000];
+        assert_eq!(waits, wanted);
+        // And by the real one.
+        seek.due = Instant::now() + LONGEST;
         let begun = Instant::now();
-        assert!(!seek.wait(Duration::from_millis(10)));
-        assert!(begun.elapsed() >= Duration::from_millis(10));
+        assert!(!seek.wait(milliseconds(10)));
+        assert!(begun.elapsed() >= milliseconds(10));
     }
 }

@@ -1,17 +1,15 @@
 //! The least that a program does with a headset.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use glam::{Quat, Vec3};
 use vitriol_gpu::{
     ColourTarget, DepthTarget, Image, ImageDesc, Load, Options, QueueKind, RasterTarget, vk,
 };
+use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::{
-    Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn,
+    Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn, View,
 };
-
-/// Longest wait for a frame: the runtime's slowest answer on two busy cores.
-const PATIENCE: Duration = Duration::from_secs(30);
 
 const PANEL: [u32; 2] = [64, 32];
 
@@ -77,6 +75,16 @@ impl Client {
             }
         }
         panic!("no focus came");
+    }
+
+    /// The eyes, in an open frame, as soon as the runtime has taken in a packet that has the head at
+    /// `head`, and so all else in that packet.
+    pub fn hear(&mut self, head: Vec3) -> [View; 2] {
+        until("the runtime hears", || {
+            let views = self.xr.locate_views().unwrap();
+            let [left, right] = views.map(|view| view.stage_from_eye.position);
+            (left.midpoint(right).distance(head) < 1e-4).then_some(views)
+        })
     }
 
     /// Draws the frame and ends it; gives the colour target.

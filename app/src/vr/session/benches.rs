@@ -10,7 +10,7 @@ use vitriol_xr::{Headset, Switch};
 
 use super::ended::NoFrameOpen;
 use crate::vr::picture::Eyes;
-use crate::vr::workbench::{Builder, Plan, Workbench};
+use crate::vr::workbench::{Builder, Plan, TAKEN_UP, Workbench};
 
 /// The bench in use, what it and its like are made with, and the next one.
 pub(super) struct Benches {
@@ -77,6 +77,7 @@ impl Benches {
                 // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
                 // these.
                 self.eyes = eyes;
+                tracing::info!(target: TAKEN_UP, "set up: {}", coming.switch.value);
                 Some(coming.switch)
             }
             Err(failure) => {

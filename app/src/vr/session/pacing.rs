@@ -16,7 +16,7 @@ use crate::vr::governor::{FrameTimes, Governor, Level};
 use crate::vr::info::Effort;
 use crate::vr::ladder::Setting;
 use crate::vr::tally::FrameLoad;
-use crate::vr::workbench::Workbench;
+use crate::vr::workbench::{TAKEN_UP, Workbench};
 
 /// Key of the switch to a picture of another resolution, its value each side over the display's.
 pub const SWITCH_RESOLUTION: &str = "resolution";
@@ -172,6 +172,7 @@ impl Pacing {
                 PictureFilter::NarrowRange => "narrow-range",
                 PictureFilter::CurvatureFlow => "curvature-flow",
             };
+            tracing::info!(target: TAKEN_UP, "to keep pace: filter {name}");
             track.switch(switch(SWITCH_FILTER, name.into()));
         }
         let wanted = benches.current.ladder.setting(self.level).filter;
