@@ -173,7 +173,7 @@ impl Solver {
         (&self.vessels.flasks, &self.vessels.distances)
     }
 
-    /// Puffs of steam, `array<Puff>` of `common/puff.wgsl`, [`PUFFS`] of them;
+    /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(|steam| &steam.puffs)
