@@ -134,6 +134,39 @@ fn tests_that_are_named_are_there() {
     }
 }
 
+/// In a cell of the paper's map a name that follows a file is in that file.
+#[test]
+fn functions_of_the_papers_map_are_in_their_files() {
+    let files = repository();
+    let sources = texts(&files, &["rs", "wgsl"]);
+    let map = fs::read_to_string(root().join("docs/paper-map.md")).unwrap();
+    let mut names = 0;
+    for cell in map.lines().flat_map(|line| line.split('|')) {
+        let mut file = None;
+        for span in code(cell.trim()) {
+            if is_path(&span) {
+                file = Some(span);
+            } else if let (Some(file), Some(name)) = (&file, name_in(&span)) {
+                let end = format!("/{file}");
+                let mut of_file = sources.iter().filter(|(path, _)| path.ends_with(&end));
+                assert!(
+                    of_file.any(|(_, text)| text.contains(name)),
+                    "{file}: {span}"
+                );
+                names += 1;
+            }
+        }
+    }
+    assert!(names > 20, "{names} names were found");
+}
+
+/// The last part of a name of code.
+fn name_in(span: &str) -> Option<&str> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_:".contains(c);
+    let last = span.rsplit("::").next();
+    last.filter(|_| span.chars().all(plain))
+}
+
 /// Flags of a command, with those of all.
 fn flags(command: &clap::Command) -> BTreeSet<String> {
     let long = |arg: &clap::Arg| arg.get_long().map(|name| format!("--{name}"));

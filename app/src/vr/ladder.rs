@@ -11,10 +11,10 @@ use crate::budget;
 const RESOLUTIONS: [f64; 4] = [1.0, 0.85, 0.7, 0.6];
 
 /// Share of a picture's time that does not go with its pixels: ellipsoids, tiles, dispatches and barriers
-/// (docs/rendering.md, half the pixels).
+/// (docs/measurements/rendering.md, half the pixels).
 const FIXED: f64 = 0.3;
 
-/// What forty passes of curvature flow take beside the rest of a picture (docs/rendering.md).
+/// What forty passes of curvature flow take beside the rest of a picture (docs/measurements/rendering.md).
 const CURVATURE_FLOW: f64 = 0.3;
 
 /// What a level comes to.
