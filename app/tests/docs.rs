@@ -85,19 +85,20 @@ fn is_path(span: &str) -> bool {
 #[test]
 fn links_and_paths_are_there() {
     let files = repository();
+    let mut missing = Vec::new();
     for (page, text) in texts(&files, &["md"]) {
         let folder = Path::new(&page).parent().unwrap();
         for link in text.split("](").skip(1) {
             let link = link.split([')', '#']).next().unwrap();
-            if !link.is_empty() && !link.contains("://") {
-                let path = root().join(folder).join(link);
-                assert!(path.exists(), "{page}: a link to {link}");
+            if !link.contains("://") && !root().join(folder).join(link).exists() {
+                missing.push(format!("{page}: a link to {link}"));
             }
         }
-        for span in code(&text).iter().filter(|span| is_path(span)) {
-            assert!(is_there(&files, span), "{page}: {span}");
-        }
+        let paths = code(&text).into_iter().filter(|span| is_path(span));
+        let unknown = paths.filter(|path| !is_there(&files, path));
+        missing.extend(unknown.map(|path| format!("{page}: {path}")));
     }
+    assert!(missing.is_empty(), "{missing:#?}");
 }
 
 #[test]
@@ -120,6 +121,7 @@ fn code_names_pages_that_are_there() {
 fn tests_that_are_named_are_there() {
     let files = repository();
     let sources = texts(&files, &["rs"]);
+    let mut missing = Vec::new();
     for (page, text) in texts(&files, &["md"]) {
         for span in code(&text) {
             let name = span
@@ -127,11 +129,13 @@ fn tests_that_are_named_are_there() {
                 .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
             if name && span.matches('_').count() >= 3 {
                 let function = format!("fn {span}(");
-                let known = sources.iter().any(|(_, text)| text.contains(&function));
-                assert!(known, "{page}: {span}");
+                if !sources.iter().any(|(_, text)| text.contains(&function)) {
+                    missing.push(format!("{page}: {span}"));
+                }
             }
         }
     }
+    assert!(missing.is_empty(), "{missing:#?}");
 }
 
 /// In a cell of the paper's map a name that follows a file is in that file.
@@ -140,7 +144,7 @@ fn functions_of_the_papers_map_are_in_their_files() {
     let files = repository();
     let sources = texts(&files, &["rs", "wgsl"]);
     let map = fs::read_to_string(root().join("docs/paper-map.md")).unwrap();
-    let mut names = 0;
+    let (mut names, mut missing) = (0, Vec::new());
     for cell in map.lines().flat_map(|line| line.split('|')) {
         let mut file = None;
         for span in code(cell.trim()) {
@@ -149,14 +153,14 @@ fn functions_of_the_papers_map_are_in_their_files() {
             } else if let (Some(file), Some(name)) = (&file, name_in(&span)) {
                 let end = format!("/{file}");
                 let mut of_file = sources.iter().filter(|(path, _)| path.ends_with(&end));
-                assert!(
-                    of_file.any(|(_, text)| text.contains(name)),
-                    "{file}: {span}"
-                );
+                if !of_file.any(|(_, text)| text.contains(name)) {
+                    missing.push(format!("{file}: {span}"));
+                }
                 names += 1;
             }
         }
     }
+    assert!(missing.is_empty(), "{missing:#?}");
     assert!(names > 20, "{names} names were found");
 }
 
