@@ -12,7 +12,7 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};
 
 /// Substeps and iterations on the front that `vitriol trade` found at real size,
-/// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/accuracy.md, 2026-11-22), the most accurate first: 99th
+/// 13,894 particles, 90 Hz and a start carried at 0.005 (docs/measurements/accuracy.md, 2026-11-22), the most accurate first: 99th
 /// percentile of the density error 0.037, 0.049, 0.081, 0.12, 0.24, 0.45, 1.8 and, as the end for devices that
 /// can do no more, 3.2 %.
 const FRONT: [[u32; 2]; 8] = [

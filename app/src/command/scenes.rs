@@ -61,7 +61,7 @@ struct SceneCost {
     fluid_particles: usize,
     /// What is modelled beyond incompressible flow.
     models: Vec<String>,
-    /// What is not; the size of what that makes is in docs/accuracy.md.
+    /// What is not; the size of what that makes is in docs/measurements/accuracy.md.
     left_out: Vec<String>,
     /// Walls: maps or boundary particles.
     boundary: String,

@@ -12,10 +12,10 @@ use crate::budget;
 const RESOLUTIONS: [f64; 4] = [1.0, 0.85, 0.7, 0.6];
 
 /// Share of a picture's time that does not depend on its pixels: ellipsoids, tiles, dispatches and barriers
-/// (docs/rendering.md, half the pixels).
+/// (docs/measurements/rendering.md, half the pixels).
 const FIXED: f64 = 0.3;
 
-/// Time of curvature flow's forty passes over that of the rest of a picture (docs/rendering.md).
+/// Time of curvature flow's forty passes over that of the rest of a picture (docs/measurements/rendering.md).
 const CURVATURE_FLOW: f64 = 0.3;
 
 /// What frames are solved and drawn with.

@@ -28,7 +28,7 @@ pub fn scene(folder: &Path) -> PathBuf {
 const GREETING: &str = "Khronos Validation Layer Active";
 /// What the layer's lines of interest have; the text of an objection is in lines of their own.
 const SAID: [&str; 3] = [GREETING, "Validation Error", "Validation Warning"];
-/// An objection to what is not ours, see `docs/headset.md`.
+/// An objection to what is not ours, see `docs/measurements/headset.md`.
 const NOT_OURS: &str = "VUID-VkDeviceCreateInfo-pNext-02830";
 
 fn vr(scene: &Path, recording: &Path) -> Command {

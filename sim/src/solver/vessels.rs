@@ -5,9 +5,7 @@ use super::spec::SolverSpec;
 use super::transfer::upload;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
-use crate::scene::TableTop;
 use crate::surface_tension::HalfSpacePull;
-use glam::DVec2;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout;
 

@@ -15,7 +15,7 @@ use super::system::{self, Headset};
 use crate::{HeadsetError, SessionState, Targets};
 
 /// The display rate that is asked for where the runtime offers a choice, Hz: the time of a step
-/// and of a picture is laid out for it (docs/performance.md).
+/// and of a picture is laid out for it (docs/measurements/performance.md).
 const RATE: f32 = 90.0;
 
 /// The frame that has begun.
