@@ -6,12 +6,14 @@ use std::sync::Arc;
 use image::ExtendedColorType;
 use serde::Serialize;
 use vitriol_experiment::output::{self, OutDir};
-use vitriol_experiment::{Blame, Experiment, Failure, Format, Observer, Setup, Span, emit, track};
+use vitriol_experiment::{
+    Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit, track,
+};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::TrackSource;
 
-use crate::cli::{ColourName, PictureArgs};
+use crate::cli::PictureArgs;
 use crate::command::recorded::{head, own_solver, preset_of, scene_of};
 
 /// What `vitriol picture` prints.
@@ -44,7 +46,7 @@ pub fn run(
     };
     let path = output::new_file(dir, file)?;
     if let Some(dir) = &args.passes {
-        if args.colour != ColourName::Liquid {
+        if args.colour != Colour::Liquid {
             return Err("--passes: shows how liquid is drawn; leave --colour out").input();
         }
         output::new_dir(dir)?;
@@ -116,12 +118,4 @@ pub fn run(
             done.t_s
         )
     })
-}
-
-fn png(pixels: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, Failure> {
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(pixels, width, height, ExtendedColorType::Rgba8)
-        .other()?;
-    Ok(png)
 }
