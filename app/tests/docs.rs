@@ -195,8 +195,8 @@ fn commands_flags_and_scenes_are_there() {
         }
         for span in code(&text) {
             let mut words = span.split_whitespace().peekable();
-            let known = match (words.next(), words.peek()) {
-                (Some("vitriol"), Some(&name)) if name.starts_with(|c: char| c.is_lowercase()) => {
+            let known = match (words.next(), words.peek().copied()) {
+                (Some("vitriol"), Some(name)) if name.starts_with(|c: char| c.is_lowercase()) => {
                     commands += 1;
                     let command = cli.find_subcommand(name);
                     flags(command.unwrap_or_else(|| panic!("{page}: `{span}`")))
