@@ -10,7 +10,7 @@ use vitriol_shaders::{Library, ShaderError, ShaderId};
 
 const ONE: ShaderId = ShaderId::new("sim/one.wgsl");
 const TWO: ShaderId = ShaderId::new("render/two.wgsl");
-const ONE_TEXT: &str = "//!include common/k.wgsl
+const ONE_TEXT: &str = "//!include common/maths/k.wgsl
 struct Step { dt: f32, n: u32, @align(8) k: u32 }
 var<immediate> step: Step;
 @compute @workgroup_size(1) fn main() { var x = K * step.dt; x += 1.0; }
@@ -32,7 +32,7 @@ impl Folder {
         }
         let clock = SystemTime::now();
         let mut folder = Self { path, clock };
-        folder.write("common/k.wgsl", "const K = 1.0;");
+        folder.write("common/maths/k.wgsl", "const K = 1.0;");
         folder.write(ONE.path(), ONE_TEXT);
         folder.write(TWO.path(), TWO_TEXT);
         folder
@@ -62,7 +62,7 @@ fn a_changed_file_is_taken_up_by_those_that_include_it() {
     assert!(library.changed().is_empty());
 
     // Same length, other content, in an included file.
-    folder.write("common/k.wgsl", "const K = 2.0;");
+    folder.write("common/maths/k.wgsl", "const K = 2.0;");
     assert_eq!(library.changed(), [ONE]);
     assert!(library.changed().is_empty());
     assert!(library.source(&ONE).unwrap().contains("K = 2.0"));
@@ -73,7 +73,7 @@ fn a_changed_file_is_taken_up_by_those_that_include_it() {
 
     // Saved anew without a change; a file that no shader uses.
     folder.write(ONE.path(), ONE_TEXT);
-    folder.write("common/unused.wgsl", "const U = 0;");
+    folder.write("common/maths/unused.wgsl", "const U = 0;");
     assert!(library.changed().is_empty());
 
     folder.write(TWO.path(), &TWO_TEXT.replace('2', "4"));

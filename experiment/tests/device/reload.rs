@@ -25,16 +25,7 @@ impl Folder {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
         let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/wgsl");
-        for sub in ["common", "sim", "render", "render/fluid", "render/spheres"] {
-            fs::create_dir(root.path().join(sub)).unwrap();
-            for file in fs::read_dir(original.join(sub)).unwrap() {
-                let file = file.unwrap();
-                if file.file_type().unwrap().is_dir() {
-                    continue;
-                }
-                fs::copy(file.path(), root.path().join(sub).join(file.file_name())).unwrap();
-            }
-        }
+        copy(&original, root.path());
         let clock = SystemTime::now();
         Self { root, clock }
     }
@@ -47,6 +38,20 @@ impl Folder {
         self.clock += Duration::from_secs(1);
         let file = fs::File::options().write(true).open(path).unwrap();
         file.set_modified(self.clock).unwrap();
+    }
+}
+
+/// Copies what a folder holds.
+fn copy(from: &Path, to: &Path) {
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let to = to.join(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            fs::create_dir(&to).unwrap();
+            copy(&entry.path(), &to);
+        } else {
+            fs::copy(entry.path(), to).unwrap();
+        }
     }
 }
 
