@@ -34,7 +34,10 @@ impl ComputePipeline {
         }
         let core = &gpu.inner.core;
         let compiled = if core.info.fetches_texels {
-            &compiled.with_texels()
+            &compiled.with_texels().map_err(|error| GpuError::Shader {
+                shader: compiled.label.clone(),
+                cause: error.to_string(),
+            })?
         } else {
             compiled
         };
