@@ -173,6 +173,25 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     write().map_err(|source| OutputError::write(path, source))
 }
 
+/// A PNG file of `size` pixels, a byte a channel, rows from the top.
+///
+/// # Errors
+/// [`png::EncodingError`] where `bytes` are not as many as that.
+pub fn png(
+    bytes: &[u8],
+    [width, height]: [u32; 2],
+    colour: png::ColorType,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(colour);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    writer.finish()?;
+    Ok(file)
+}
+
 /// The folder of one run's results.
 ///
 /// Dropped before [`OutDir::complete`], because the run failed, it takes away

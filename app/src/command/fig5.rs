@@ -5,8 +5,6 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use glam::{Quat, Vec3};
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
@@ -189,10 +187,7 @@ fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let extent = [width, height];
     let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &Shot::of(extent))?;
     let picture = camera.shoot(world, ColourName::Speed)?;
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(&picture, width, height, ExtendedColorType::Rgba8)
-        .other()?;
+    let png = output::png(&picture, extent, png::ColorType::Rgba).other()?;
     output::write_new(path, &png).map_err(output::blame)
 }
 

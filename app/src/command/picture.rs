@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
@@ -85,10 +83,7 @@ pub fn run(
     recorder.finish()?;
     let picture = experiment.picture(0)?;
     let size = [eyes * width, height];
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(picture, size[0], size[1], ExtendedColorType::Rgba8)
-        .other()?;
+    let png = output::png(picture, size, png::ColorType::Rgba).other()?;
     output::write_new(&path, &png).map_err(output::blame)?;
     let pictured = Pictured {
         picture: path,

@@ -2,12 +2,11 @@
 //! one, and what lies between.
 
 use glam::DVec3;
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use vitriol_render::reference::Picture;
 
 use super::judge::Sample;
 use crate::failure::{Blame, Failure};
+use crate::output;
 
 /// Depth difference of the full colour, particle radii.
 const FULL: f64 = 1.0;
@@ -44,16 +43,8 @@ pub fn png(samples: &[Sample]) -> Result<Vec<u8>, Failure> {
             }
         }
     }
-    let mut png = Vec::new();
-    PngEncoder::new(&mut png)
-        .write_image(
-            &bytes,
-            sheet[0] as u32,
-            sheet[1] as u32,
-            ExtendedColorType::Rgb8,
-        )
-        .other()?;
-    Ok(png)
+    let size = sheet.map(|pixels| pixels as u32);
+    output::png(&bytes, size, png::ColorType::Rgb).other()
 }
 
 /// A matt surface in light from above and the viewer's left.
