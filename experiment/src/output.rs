@@ -4,8 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
+pub use png::ColorType;
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
@@ -204,21 +203,23 @@ pub fn write_json(path: &Path, object: &impl Serialize) -> Result<(), Failure> {
     write_new(path, &serde_json::to_vec_pretty(object).other()?)
 }
 
-/// A picture of `[width, height]` pixels as PNG.
+/// A picture of `[width, height]` pixels as PNG: a byte a channel, rows from the top.
 ///
 /// # Errors
-/// What the encoder says.
+/// [`Failure::Other`] where the bytes are not as many as that.
 pub fn png(
     pixels: &[u8],
     [width, height]: [u32; 2],
-    colours: ExtendedColorType,
+    colour: ColorType,
 ) -> Result<Vec<u8>, Failure> {
-    let mut png = Vec::new();
-    let encoder = PngEncoder::new(&mut png);
-    encoder
-        .write_image(pixels, width, height, colours)
-        .other()?;
-    Ok(png)
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(colour);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header().other()?;
+    writer.write_image_data(pixels).other()?;
+    writer.finish().other()?;
+    Ok(file)
 }
 
 /// The folder of one run's results.

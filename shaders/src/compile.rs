@@ -6,12 +6,11 @@ use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{ValidationFlags, Validator};
 use naga::{AddressSpace, Module, ShaderStage};
 
-use crate::chains;
 use crate::check::{Checked, capabilities, validation_message};
 use crate::error::ShaderError;
-use crate::exact;
 use crate::fold::fold_constant_ifs;
 use crate::reflect::{Binding, Stage, bindings};
+use crate::spirv::rewrite;
 
 /// Whether the shader checks indices and divisors at run time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,13 +134,10 @@ pub fn compile(
         ShaderStage::Compute => Stage::Compute,
         other => return Err(specialise(format!("no pipeline has a stage {other:?}"))),
     };
+    let label = format!("{}:{entry}", path.trim_end_matches(".wgsl"));
     Ok(Compiled {
-        label: format!("{}:{entry}", path.trim_end_matches(".wgsl")),
-        spirv: if stage == Stage::Compute {
-            exact::forbid_contraction(&chains::join(&spirv))
-        } else {
-            chains::join(&spirv)
-        },
+        spirv: rewrite(&label, &spirv, stage)?,
+        label,
         entry: entry.to_owned(),
         stage,
         workgroup_size: module.entry_points[0].workgroup_size,

@@ -74,4 +74,13 @@ pub enum ShaderError {
         /// What naga says.
         message: String,
     },
+    /// [`Compiled::spirv`](crate::Compiled::spirv) is no SPIR-V module, so that nothing can be
+    /// changed in it. Take it from [`Library::compile`](crate::Library::compile).
+    #[error("{shader}: its SPIR-V cannot be read ({message}): compile it from WGSL")]
+    Spirv {
+        /// Shader and entry point.
+        shader: String,
+        /// What the parser says.
+        message: String,
+    },
 }

@@ -25,18 +25,16 @@
 //! are `var<immediate>`; no float atomics in workgroup memory; `sample_mask` as an output is
 //! invalid. Only `if` is folded, not `switch`, and not `select`, which evaluates both sides.
 
-mod chains;
 mod check;
 mod compile;
 mod error;
-mod exact;
 mod files;
 mod fold;
 mod include;
 mod library;
 mod reflect;
 mod reload;
-mod texels;
+mod spirv;
 
 pub use compile::{BoundsChecks, CompileOptions, Compiled};
 pub use error::ShaderError;

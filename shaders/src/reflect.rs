@@ -1,7 +1,9 @@
 //! What an entry point really uses, read from the validated module.
 
 use naga::valid::ModuleInfo;
-use naga::{AddressSpace, ImageClass, Module, StorageAccess, TypeInner};
+use naga::{
+    AddressSpace, ArraySize, ImageClass, Module, Scalar, StorageAccess, TypeInner, VectorSize,
+};
 
 pub use naga::{ImageDimension, StorageFormat};
 
@@ -27,6 +29,9 @@ pub struct Binding {
     pub name: String,
     /// What is to be bound.
     pub kind: BindingKind,
+    /// The format in which its elements can be fetched, where it is an array that is only read;
+    /// see [`crate::Compiled::with_texels`].
+    pub texel: Option<TexelFormat>,
 }
 
 /// The kind of resource that a binding takes.
@@ -126,6 +131,8 @@ pub fn bindings(module: &Module, info: &ModuleInfo) -> Result<(Vec<Binding>, u32
             binding: place.binding,
             name,
             kind,
+            texel: texel(module, inner)
+                .filter(|_| kind == BindingKind::Storage { writable: false }),
         });
     }
     bindings.sort_by_key(|binding| (binding.group, binding.binding));
@@ -173,4 +180,28 @@ fn kind(module: &Module, space: AddressSpace, inner: &TypeInner) -> Option<Bindi
         },
         _ => None,
     }
+}
+
+/// The format of the elements of an array without a fixed length, where one fits.
+fn texel(module: &Module, inner: &TypeInner) -> Option<TexelFormat> {
+    let &TypeInner::Array {
+        base,
+        size: ArraySize::Dynamic,
+        ..
+    } = inner
+    else {
+        return None;
+    };
+    let (scalar, components) = match module.types[base].inner {
+        TypeInner::Scalar(scalar) => (scalar, 1),
+        TypeInner::Vector { size, scalar } if size != VectorSize::Tri => (scalar, size as u32),
+        _ => return None,
+    };
+    let kind = match scalar {
+        Scalar::F32 => TexelKind::Float,
+        Scalar::U32 => TexelKind::Uint,
+        Scalar::I32 => TexelKind::Sint,
+        _ => return None,
+    };
+    Some(TexelFormat { kind, components })
 }

@@ -279,6 +279,8 @@ fn the_projects_shaders_are_valid_spirv() {
                 .collect();
             let compiled = library.compile(shader, &entry.name, &open).unwrap();
             assert_valid(&compiled.label, &compiled.spirv);
+            let texels = compiled.with_texels().unwrap();
+            assert_valid(&format!("{} of texels", texels.label), &texels.spirv);
         }
     }
 }

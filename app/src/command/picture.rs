@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use image::ExtendedColorType;
 use serde::Serialize;
-use vitriol_experiment::output::{self, OutDir};
+use vitriol_experiment::output::{self, ColorType, OutDir};
 use vitriol_experiment::{
     Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit, track,
 };
@@ -90,15 +89,12 @@ pub fn run(
     observer.finish()?;
     let picture = experiment.picture(0)?;
     let size = [eyes * width, height];
-    output::write_new(
-        &path,
-        &output::png(picture, size, ExtendedColorType::Rgba8)?,
-    )?;
+    output::write_new(&path, &output::png(picture, size, ColorType::Rgba)?)?;
     if let Some(dir) = &args.passes {
         let mut dir = OutDir::take(Some(dir), "passes")?;
         for (number, pass) in (1..).zip(experiment.passes()?) {
             let name = format!("{number}-{}.png", pass.name.replace(' ', "-"));
-            let file = output::png(&pass.pixels, pass.extent, ExtendedColorType::Rgba8)?;
+            let file = output::png(&pass.pixels, pass.extent, ColorType::Rgba)?;
             dir.write(&name, &file)?;
         }
         dir.complete();

@@ -33,7 +33,10 @@ impl ComputePipeline {
             return Err(wrong_stage(compiled, "compute"));
         }
         let compiled = if core.info.fetches_texels {
-            &compiled.with_texels()
+            &compiled.with_texels().map_err(|error| GpuError::Shader {
+                shader: compiled.label.clone(),
+                cause: error.to_string(),
+            })?
         } else {
             compiled
         };

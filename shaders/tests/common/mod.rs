@@ -1,4 +1,4 @@
-//! A reader of the few SPIR-V instructions that the tests look at, and `spirv-val`.
+//! What the tests look at in SPIR-V, and `spirv-val`.
 
 #![allow(
     dead_code,
@@ -12,44 +12,46 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Write};
 use std::process::{Command, Stdio};
 
-const OP_CONSTANT: u32 = 43;
-const OP_STORE: u32 = 62;
-const OP_DECORATE: u32 = 71;
-const DECORATION_BINDING: u32 = 33;
+use rspirv::dr::Operand::{self, IdRef, LiteralBit32};
+use rspirv::dr::{Instruction, load_words};
+use rspirv::spirv::{Decoration, Op};
 
-/// Opcode and operands of each instruction (SPIR-V specification, 2.3).
-fn instructions(spirv: &[u32]) -> Vec<(u32, &[u32])> {
-    let mut rest = &spirv[5..];
-    let mut all = Vec::new();
-    while let Some(&first) = rest.first() {
-        let (operands, next) = rest[1..].split_at((first >> 16) as usize - 1);
-        all.push((first & 0xffff, operands));
-        rest = next;
-    }
-    all
+/// The module's instructions of one opcode.
+fn instructions(spirv: &[u32], wanted: Op) -> Vec<Instruction> {
+    let module = load_words(spirv).unwrap();
+    let all = module.all_inst_iter().cloned();
+    all.filter(|i| i.class.opcode == wanted).collect()
 }
 
 /// The `@binding` numbers that the module declares.
 pub fn declared_bindings(spirv: &[u32]) -> BTreeSet<u32> {
-    instructions(spirv)
-        .iter()
-        .filter(|(op, words)| *op == OP_DECORATE && words[1] == DECORATION_BINDING)
-        .map(|(_, words)| words[2])
-        .collect()
+    let number = |decoration: &Instruction| match decoration.operands[..] {
+        [
+            _,
+            Operand::Decoration(Decoration::Binding),
+            LiteralBit32(number),
+        ] => Some(number),
+        _ => None,
+    };
+    let decorations = instructions(spirv, Op::Decorate);
+    decorations.iter().filter_map(number).collect()
 }
 
 /// The constants that the module stores anywhere.
 pub fn stored_constants(spirv: &[u32]) -> BTreeSet<u32> {
-    let instructions = instructions(spirv);
-    let constants: BTreeMap<u32, u32> = instructions
+    let constants: BTreeMap<u32, u32> = instructions(spirv, Op::Constant)
         .iter()
-        .filter(|(op, _)| *op == OP_CONSTANT)
-        .map(|(_, words)| (words[1], words[2]))
+        .filter_map(|constant| match constant.operands[..] {
+            [LiteralBit32(value)] => Some((constant.result_id?, value)),
+            _ => None,
+        })
         .collect();
-    instructions
+    instructions(spirv, Op::Store)
         .iter()
-        .filter(|(op, _)| *op == OP_STORE)
-        .filter_map(|(_, words)| constants.get(&words[1]).copied())
+        .filter_map(|store| match store.operands[..] {
+            [_, IdRef(value), ..] => constants.get(&value).copied(),
+            _ => None,
+        })
         .collect()
 }
 

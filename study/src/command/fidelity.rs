@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use image::ExtendedColorType;
+use vitriol_experiment::output::ColorType;
 use vitriol_experiment::{Failure, Format, device, emit, output};
 use vitriol_shaders::Library;
 
@@ -81,10 +81,7 @@ pub fn run(args: &FidelityArgs, format: Format) -> Result<(), Failure> {
     };
     if let Some([numbers, difference]) = files {
         let (pixels, size) = sheet::picture(&samples);
-        output::write_new(
-            &difference,
-            &output::png(&pixels, size, ExtendedColorType::Rgb8)?,
-        )?;
+        output::write_new(&difference, &output::png(&pixels, size, ColorType::Rgb)?)?;
         output::write_json(&numbers, &found)?;
     }
     emit(format, &found, describe)

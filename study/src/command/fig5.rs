@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
-use image::ExtendedColorType;
 use serde::Serialize;
+use vitriol_experiment::output::ColorType;
 use vitriol_experiment::{
     Blame, Camera, Colour, FILM_SIZE, Failure, Format, Shot, device, emit, output,
 };
@@ -176,10 +176,7 @@ fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
     let extent = [width, height];
     let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &Shot::of(extent))?;
     let picture = camera.shoot(world, Colour::Speed)?;
-    output::write_new(
-        path,
-        &output::png(&picture, extent, ExtendedColorType::Rgba8)?,
-    )
+    output::write_new(path, &output::png(&picture, extent, ColorType::Rgba)?)
 }
 
 fn describe(result: &Fig5) -> String {
