@@ -4,6 +4,10 @@ use super::Flask;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
+/// Size over that of the vessel below which its surface is not divided: thousands of times what f64
+/// resolves, so that each half is smaller than the whole, however thin the other's wall is.
+const RESOLUTION: f64 = 1e-12;
+
 /// Whether the glass of two flasks overlaps. A small flask inside of a large
 /// one is fine, so glass is compared with glass: points of each one's surface,
 /// half a wall apart or nearer where it matters, against the other's signed distance.
@@ -36,7 +40,9 @@ fn surface_in_glass(of: &Flask, other: &Flask) -> bool {
     let profile = &other.profile;
     // Flasks that touch, as stacked or side by side, do not overlap.
     let touching = -0.05 * profile.wall();
-    let step = 0.5 * of.profile.wall().min(profile.wall());
+    let (_, radius) = bounding_sphere(of);
+    let wall = of.profile.wall().min(profile.wall());
+    let step = (0.5 * wall).max(RESOLUTION * radius);
     let depth = |point: DVec3| {
         let local = inverse * (stage_from(of, point) - pose.position.as_dvec3());
         profile.signed_distance_glass(local.x.hypot(local.z), local.y) - touching
@@ -73,7 +79,9 @@ impl Patch {
         if here < 0.0 {
             return true;
         }
-        if here > 0.5 * (high + wide) || high.max(wide) < step {
+        // A distance that is no number, where sizes overflow, ends the walk as well.
+        let near = here <= 0.5 * (high + wide);
+        if !near || high.max(wide) < step {
             return false;
         }
         let (ends, angles) = (self.ends, self.angles);

@@ -259,6 +259,20 @@ fn nested_flasks_do_not_overlap() {
     assert!(Scene::parse(&through, "through.toml").is_err());
 }
 
+/// The walk over a vessel's surface ends, though the other's wall is below its resolution in f64.
+#[test]
+fn vessels_of_any_sizes_are_compared() {
+    let huge = |size: &str| {
+        let huge = GOOD.replace("[0.08, 0.03]", &format!("[{size}, 0.03]"));
+        huge.replace("wall = 0.002", &format!("wall = {size}"))
+    };
+    for size in ["1.0", "1e9", "1e20", "1e300"] {
+        // Its wall takes in the first vessel.
+        let error = Scene::parse(&huge(size), "huge.toml").unwrap_err();
+        assert!(error.to_string().starts_with("huge.toml: "), "{error}");
+    }
+}
+
 #[test]
 fn every_builtin_loads_and_states_its_scale() {
     for name in Scene::builtin_names() {
