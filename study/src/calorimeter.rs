@@ -11,8 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{Quat, Vec3};
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::measure::{HeatMeasurement, measure_heat};
 use vitriol_sim::parameters::Parameters;
@@ -23,6 +22,8 @@ use vitriol_sim::scene::{
 };
 use vitriol_sim::solver::{Counters, Solver, SolverSpec};
 use vitriol_sim::world;
+
+use crate::liquid;
 
 /// Depth of the liquid and inner height of the vessel over its radius.
 const DEPTH: f64 = 1.0;
@@ -153,9 +154,7 @@ pub fn mix(
         if frame > 0 {
             let time = |frame: u64| frame as f64 * scene.scale.frame_time;
             let (before, after) = (vessel.pose(time(frame - 1)), vessel.pose(time(frame)));
-            let mut rec = gpu.recorder(QueueKind::Main).other()?;
-            solver.record(&mut rec, &[before], &[after]).other()?;
-            gpu.submit(rec).other()?;
+            liquid::frame(gpu, &solver, &[before], &[after])?;
             mixed.seconds = time(frame);
             (mixed.end, mixed.lost) = look()?;
         }
@@ -171,17 +170,13 @@ pub fn mix(
 /// Without rigid bodies: nobody holds the vessel.
 fn solver(gpu: &Gpu, scene: &Scene, seed: u64) -> Result<Solver, Failure> {
     let profiles: Vec<Profile> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
+    let particles = world::particles(scene, seed).other()?;
     let spec = SolverSpec {
-        parameters: Parameters::from_scene(scene),
         flasks: &profiles,
-        solids: None,
         ground: world::ground(scene),
-        particles: &world::particles(scene, seed).other()?,
-        loads: false,
-        constraint: true,
-        lanes: None,
+        ..liquid::alone(Parameters::from_scene(scene), &particles)
     };
-    Solver::new(gpu, &Library::embedded(), &spec).other()
+    liquid::solver(gpu, &spec)
 }
 
 impl Mixed {

@@ -59,7 +59,7 @@ pub struct Calorimeter {
     /// Preset.
     pub preset: &'static str,
     /// Which liquid was below.
-    pub order: &'static str,
+    pub order: OrderName,
     /// Seed.
     pub seed: u64,
     /// The device.
@@ -185,7 +185,7 @@ fn statement(
         simulated_s: mixed.seconds,
         wall_s,
         preset: args.preset.name(),
-        order: args.order.name(),
+        order: args.order,
         seed: args.seed,
         device,
     }

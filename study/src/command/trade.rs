@@ -57,16 +57,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         found: Trade {
             device: device::statement(&gpu),
             quick: args.quick,
-            finest: None,
-            points: Vec::new(),
-            skipped: 0,
-            calorimetry: Vec::new(),
-            boiling: Vec::new(),
-            boiling_costs: Vec::new(),
-            vouched: None,
-            effects: Vec::new(),
-            orders: Vec::new(),
-            seconds: 0.0,
+            ..Trade::default()
         },
     };
     let wanted = |part| args.part.is_none_or(|only| only == part);

@@ -27,6 +27,7 @@ const BETWEEN: u64 = 3;
 const POWER: (f64, f64) = (200.0, 1.15);
 
 /// What a case came to.
+#[derive(Default)]
 pub(super) struct Run {
     /// Particles.
     pub particles: usize,
@@ -141,6 +142,7 @@ struct Held {
     energy: f64,
 }
 
+#[derive(Default)]
 struct Watch {
     moves: bool,
     late: bool,
@@ -179,40 +181,19 @@ impl Watch {
         let recipe = &case.recipe;
         let mut watch = Self {
             moves: recipe.motion != Motion::Still || recipe.upside_down,
-            late: false,
-            last_part: false,
-            squares: [0.0; 2],
             gravity: recipe.gravity,
             particle_mass: parameters.particle_mass(),
             base: world.scene().floor.height,
             frame_time: recipe.frame_time,
             boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
             literal_limit: 0.5 * recipe.v_max * recipe.v_max,
-            last: Vec::new(),
-            last_step: 0,
-            start_energy: 0.0,
-            start: Amounts::default(),
-            declared: 0.0,
-            paid: 0.0,
             run: Run {
                 particles: world.solver().count() as usize,
-                steps: 0,
-                rested: false,
-                not_finite: 0,
-                lost: 0,
-                speed: 0.0,
-                excess: 0.0,
-                turnover: 0.0,
-                settling: 0.0,
-                end_speed: 0.0,
-                members: 0,
-                boiling: 0,
-                drifts: [0.0; 3],
                 temperatures: [f64::INFINITY, f64::NEG_INFINITY],
                 acids: [f64::INFINITY, f64::NEG_INFINITY],
-                counters: Counters::default(),
-                hash: 0,
+                ..Run::default()
             },
+            ..Self::default()
         };
         let state = world.solver().snapshot().other()?;
         watch.last = watch.energies(&state);

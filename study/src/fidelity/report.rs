@@ -188,22 +188,9 @@ pub fn describe(found: &Fidelity) -> String {
             state.volume_ml
         );
     }
-    let _ = writeln!(
-        text,
-        "\n{:<11} {:<15} {:<5} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>7} {:>6}",
-        "pixels",
-        "filter",
-        "aniso",
-        "margin",
-        "of",
-        "IoU",
-        "depth",
-        "(mean)",
-        "normal",
-        "reproj.",
-        "flicker",
-        "(norm.)",
-        "volume"
+    text.push_str(
+        "\npixels      filter          aniso margin     of    IoU   depth  (mean)  normal\
+         \u{20} reproj.  flicker (norm.) volume\n",
     );
     for row in &found.rows {
         let f = &row.figures;

@@ -3,19 +3,19 @@
 
 use std::time::Instant;
 
-use glam::{DVec3, Quat, Vec3};
+use glam::{Quat, Vec3};
 use serde::Serialize;
 use vitriol_experiment::{Blame, Failure, Ranks};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::fill::{count_for_volume, fill};
 use vitriol_sim::flask::{Profile, glass, particles::sample};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+use vitriol_sim::solver::{Particle, Solver, SolverSpec, SolverState};
 
 use super::exact;
 use super::setting::Setting;
+use crate::liquid;
 
 /// Water at rest, m³: the paper's single dilution at d = 2.5 mm.
 pub const VOLUME: f64 = 217.09e-6;
@@ -110,12 +110,9 @@ impl Tank {
         let particles: Vec<Particle> = places
             .into_iter()
             .map(|position| Particle {
-                position,
-                velocity: DVec3::ZERO,
                 flask: Some(0),
-                temperature: 20.0,
-                acid: 0.0,
                 carried: gravity * (position.y - top),
+                ..liquid::water(position)
             })
             .collect();
         let flasks = [profile.clone()];
@@ -123,22 +120,13 @@ impl Tank {
             .boundary_particles
             .then(|| vec![sample(&profile, 0.5 * d, parameters.support_radius)]);
         let spec = SolverSpec {
-            parameters,
             flasks: &flasks,
             solids: solids.as_deref(),
-            ground: Ground {
-                floor: -1000.0,
-                table: None,
-                scale: 1.0,
-            },
-            particles: &particles,
-            loads: false,
-            constraint: true,
-            lanes: None,
+            ..liquid::alone(parameters, &particles)
         };
         Ok(Self {
             gpu: gpu.clone(),
-            solver: Solver::new(gpu, &Library::embedded(), &spec).other()?,
+            solver: liquid::solver(gpu, &spec)?,
             profile,
             frame_time: setting.frame_time,
             gravity,
@@ -148,18 +136,13 @@ impl Tank {
     /// A frame; its time, ms.
     fn frame(&self, before: Pose, after: Pose) -> Result<f64, Failure> {
         let begin = Instant::now();
-        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
-        self.solver.record(&mut rec, &[before], &[after]).other()?;
-        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        liquid::frame(&self.gpu, &self.solver, &[before], &[after])?;
         Ok(begin.elapsed().as_secs_f64() * 1e3)
     }
 
     /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of what is in the vessel.
     fn density(&self, state: &SolverState) -> Result<(f64, f64), Failure> {
-        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
-        let copy = self.solver.record_density(&mut rec).other()?;
-        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
-        let densities = copy.get::<f32>().other()?;
+        let densities = liquid::densities(&self.gpu, &self.solver)?;
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
         let errors: Vec<f64> = members
             .map(|slot| (f64::from(densities[slot]) - 1.0).max(0.0))
