@@ -62,12 +62,6 @@ pub trait Blame<T> {
     /// The same error, classed.
     fn input(self) -> Result<T, Failure>;
 
-    /// A device or runtime is missing: [`Failure::NoDevice`].
-    ///
-    /// # Errors
-    /// The same error, classed.
-    fn no_device(self) -> Result<T, Failure>;
-
     /// Neither: [`Failure::Other`].
     ///
     /// # Errors
@@ -78,10 +72,6 @@ pub trait Blame<T> {
 impl<T, E: Into<Cause>> Blame<T> for Result<T, E> {
     fn input(self) -> Result<T, Failure> {
         self.map_err(|error| Failure::Input(error.into()))
-    }
-
-    fn no_device(self) -> Result<T, Failure> {
-        self.map_err(|error| Failure::NoDevice(error.into()))
     }
 
     fn other(self) -> Result<T, Failure> {

@@ -47,18 +47,6 @@ struct SessionReport {
     renewals: u64,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
-    #[serde(flatten)]
-    times: Times,
-    /// What the process held after warming up and at the end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    holdings: Option<[Holdings; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recording: Option<RecordingStatus>,
-    state_hash: String,
-}
-
-#[derive(Debug, Serialize)]
-struct Times {
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -80,6 +68,12 @@ struct Times {
     /// From the hand's pose to the flask in the picture, simulation steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_steps: Option<Spread>,
+    /// What the process held after warming up and at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holdings: Option<[Holdings; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<RecordingStatus>,
+    state_hash: String,
 }
 
 /// Runs `vitriol vr`.
@@ -227,15 +221,13 @@ fn state(
         missed_frames: outcome.skipped + late.count() as u64,
         renewals: outcome.renewals,
         governor: outcome.governor.clone(),
-        times: Times {
-            cpu_ms: Spread::of(&tally.cpu_ms),
-            gpu_solver_ms: Spread::of(&tally.solve_ms),
-            gpu_picture_ms: Spread::of(&tally.picture_ms),
-            ready_ms: Spread::of(&counted),
-            period_ms: period,
-            pose_age_ms: Spread::of(&tally.pose_age_ms),
-            input_to_flask_steps: Spread::of(&tally.delay_steps),
-        },
+        cpu_ms: Spread::of(&tally.cpu_ms),
+        gpu_solver_ms: Spread::of(&tally.solve_ms),
+        gpu_picture_ms: Spread::of(&tally.picture_ms),
+        ready_ms: Spread::of(&counted),
+        period_ms: period,
+        pose_age_ms: Spread::of(&tally.pose_age_ms),
+        input_to_flask_steps: Spread::of(&tally.delay_steps),
         holdings: match outcome.holdings {
             [Some(before), Some(after)] => Some([before, after]),
             _ => None,
@@ -281,16 +273,15 @@ fn describe(session: &SessionReport) -> String {
         session.frames,
         session.missed_frames,
     );
-    let times = &session.times;
     // Writing to a string cannot fail.
     let _ = write!(text, "{}", governed(&session.governor));
     let rows = [
-        ("processor, a frame, ms", times.cpu_ms),
-        ("device, solver, ms", times.gpu_solver_ms),
-        ("device, picture, ms", times.gpu_picture_ms),
-        ("from begin to done, ms", times.ready_ms),
-        ("age of the eyes' pose, ms", times.pose_age_ms),
-        ("hand to flask, steps", times.input_to_flask_steps),
+        ("processor, a frame, ms", session.cpu_ms),
+        ("device, solver, ms", session.gpu_solver_ms),
+        ("device, picture, ms", session.gpu_picture_ms),
+        ("from begin to done, ms", session.ready_ms),
+        ("age of the eyes' pose, ms", session.pose_age_ms),
+        ("hand to flask, steps", session.input_to_flask_steps),
     ];
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -306,7 +297,7 @@ fn describe(session: &SessionReport) -> String {
             );
         }
     }
-    if let (Some(period), Some(ready)) = (times.period_ms, times.ready_ms) {
+    if let (Some(period), Some(ready)) = (session.period_ms, session.ready_ms) {
         let _ = writeln!(
             text,
             "left of {period:.2} ms: {:.2} ms in the 99th percentile",

@@ -105,8 +105,10 @@ impl Workbench {
 
 /// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
 pub struct Builder {
-    plan: Plan,
-    eyes: Eyes,
+    /// What is being made.
+    pub plan: Plan,
+    /// What its picture is made for.
+    pub eyes: Eyes,
     thread: JoinHandle<Result<Workbench, Failure>>,
 }
 
@@ -117,16 +119,6 @@ impl Builder {
         let (made, of) = (plan.clone(), eyes.clone());
         let thread = std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of));
         Self { plan, eyes, thread }
-    }
-
-    /// What is being made.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// What its picture is made for.
-    pub fn eyes(&self) -> &Eyes {
-        &self.eyes
     }
 
     /// Whether it is there, so that [`Builder::finish`] does not wait.

@@ -70,7 +70,7 @@ impl Benches {
     /// failure; does not wait. Its switch is for the recording.
     pub fn replace_if_built(&mut self) -> Option<Switch> {
         let coming = self.coming.take_if(|coming| coming.builder.is_finished())?;
-        let eyes = coming.builder.eyes().clone();
+        let eyes = coming.builder.eyes.clone();
         match coming.builder.finish() {
             Ok(bench) => {
                 self.current = bench;
@@ -107,8 +107,7 @@ impl Benches {
         let (plan, effort) = (&self.current.plan, self.current.world.effort());
         self.current = Workbench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
         if let Some(Coming { builder, switch }) = self.coming.take() {
-            let (plan, eyes) = (builder.plan().clone(), self.eyes.clone());
-            let builder = Builder::start(gpu, &self.library, plan, eyes);
+            let builder = Builder::start(gpu, &self.library, builder.plan, self.eyes.clone());
             self.coming = Some(Coming { builder, switch });
         }
         Ok(())

@@ -14,7 +14,8 @@ const EVERY: u64 = 9;
 /// The last reading, and the next one where it is under way.
 #[derive(Default)]
 pub(super) struct Readings {
-    under_way: Option<(ReadingRecord, Ticket)>,
+    /// On a device that is gone it never comes.
+    pub under_way: Option<(ReadingRecord, Ticket)>,
     /// By flask; empty before the first.
     last: Vec<FlaskReading>,
 }
@@ -41,11 +42,6 @@ impl Readings {
             self.under_way = None;
         }
         Ok(())
-    }
-
-    /// Drops what is under way on a device that is gone. The last reading stays.
-    pub fn forget_under_way(&mut self) {
-        self.under_way = None;
     }
 
     /// Forgets readings of another bench.
