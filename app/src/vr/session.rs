@@ -22,7 +22,7 @@ use vitriol_xr::{Headset, Turn};
 use super::blame::blame;
 use super::decision::Decision;
 use super::mirror::{Mirror, Window};
-use super::panel::{PANEL, Panel};
+use super::panel::Panel;
 use super::placement::{Placement, Posture};
 use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
@@ -125,7 +125,7 @@ impl Session {
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
         let tally = Tally::new(counts, timed && (counts || pacing.report.on));
-        let panel = Panel::new(gpu, &benches.library, PANEL)?;
+        let panel = Panel::new(gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
         let mut track = SessionTrack::new(options.record.as_deref(), &options.plan)?;
         pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
@@ -207,7 +207,7 @@ impl Session {
         let gpu = headset.gpu();
         self.benches.move_to(headset)?;
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
-        self.panel = Panel::new(gpu, library, PANEL)?;
+        self.panel = Panel::new(gpu, library)?;
         if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;
         }

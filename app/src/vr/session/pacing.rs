@@ -74,7 +74,7 @@ impl Pacing {
         let on = asked && measures;
         let cause = asked && !measures;
         Self {
-            governor: on.then(|| Governor::new(bench.ladder.costs(), [0, 0])),
+            governor: on.then(|| Governor::new(bench.ladder.costs())),
             report: GovernorReport {
                 on,
                 cause: cause.then(|| "this device does not measure what frames take on it".into()),
@@ -219,7 +219,7 @@ impl Pacing {
         if !same {
             self.level = [0, 0];
             if let Some(governor) = &mut self.governor {
-                *governor = Governor::new(bench.ladder.costs(), self.level);
+                *governor = Governor::new(bench.ladder.costs());
             }
         }
         self.forget();
