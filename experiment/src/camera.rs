@@ -14,7 +14,7 @@ use vitriol_sim::world::World;
 
 use crate::failure::{Blame, Failure};
 use crate::legend::{Legend, draw_tints};
-use crate::scenery::{affine, filter, laboratory, liquid_of};
+use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -162,12 +162,12 @@ impl Camera {
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
         let mut picture = picture.side_by_side().other()?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        match self.legend(world, colour) {
-            Some(legend) => legend.draw(&mut picture, width),
-            None if colour == Colour::Liquid && has_acid(world.scene()) => {
-                draw_tints(&mut picture, width)
+        if colour != Colour::Liquid {
+            if let Some(legend) = Legend::of(self.colour_by(world, colour)) {
+                legend.draw(&mut picture, width);
             }
-            None => {}
+        } else if has_acid(world.scene()) {
+            draw_tints(&mut picture, width);
         }
         Ok(picture)
     }
@@ -269,14 +269,6 @@ impl Camera {
         }
     }
 
-    /// What stands in the picture's corner.
-    fn legend(&self, world: &World, colour: Colour) -> Option<Legend> {
-        match colour {
-            Colour::Liquid => None,
-            _ => Legend::of(self.colour_by(world, colour)),
-        }
-    }
-
     /// The camera's view, or that of the eyes to its left and right.
     fn views(&self) -> Vec<View> {
         let eye = |index: u32| {
@@ -289,14 +281,6 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
-}
-
-/// Whether there is any acid, which is drawn in another tint than water.
-fn has_acid(scene: &Scene) -> bool {
-    scene
-        .liquids
-        .iter()
-        .any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the

@@ -29,27 +29,19 @@ enum OutputError {
         "--out {dir}: holds {found} of an earlier run, which is not overwritten; name another folder or take that one away"
     )]
     Taken {
-        /// The folder asked for.
         dir: PathBuf,
         /// The file that was found in it.
         found: &'static str,
     },
     /// The folder asked for is a file.
     #[error("--out {dir}: is not a folder; name a folder, which may be new")]
-    NotAFolder {
-        /// The path asked for.
-        dir: PathBuf,
-    },
+    NotAFolder { dir: PathBuf },
     /// The file or folder exists already.
     #[error("{path}: exists and is not overwritten; name another or take that one away")]
-    Exists {
-        /// Its path.
-        path: PathBuf,
-    },
+    Exists { path: PathBuf },
     /// The system refused.
     #[error("{path}: could not be written; is there room and permission?")]
     Write {
-        /// The path of the folder or file.
         path: PathBuf,
         /// What the system said.
         source: io::Error,

@@ -95,14 +95,18 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         record: args.record.clone(),
         governed: !args.fixed,
     };
-    let mirrored = !args.no_mirror;
     // Nobody reads what nobody governs or measures.
     let timestamps = if options.governed || options.frames.is_some() {
         Timestamps::Whole
     } else {
         Timestamps::None
     };
-    let (name, outcome, stand_in) = match &args.stand_in {
+    let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
+        let options = with_solver(args, options, headset.gpu())?;
+        let outcome = begin(headset, options, !args.no_mirror)?.run(headset)?;
+        Ok((headset.name().to_owned(), outcome))
+    };
+    let ((name, outcome), stand_in) = match &args.stand_in {
         Some(wearer) => {
             let gpu = device::timed(args.device.as_deref(), timestamps)?;
             let spec = StandInSpec {
@@ -111,13 +115,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 timing: Timing::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
-            let options = with_solver(args, options, &gpu)?;
-            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
-            (
-                headset.name().to_owned(),
-                outcome,
-                Some((spec, headset.ready())),
-            )
+            (worn(&mut headset)?, Some((spec, headset.ready())))
         }
         None => {
             let mut headset = OpenXr::open(OpenXrOptions {
@@ -130,9 +128,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 panel: PANEL,
             })
             .map_err(blame)?;
-            let options = with_solver(args, options, headset.gpu())?;
-            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
-            (headset.name().to_owned(), outcome, None)
+            (worn(&mut headset)?, None)
         }
     };
     emit(format, &state(name, &outcome, stand_in)?, describe)
@@ -273,8 +269,7 @@ fn describe(session: &SessionReport) -> String {
         session.frames,
         session.missed_frames,
     );
-    // Writing to a string cannot fail.
-    let _ = write!(text, "{}", governed(&session.governor));
+    text += &governed(&session.governor);
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),
         ("device, solver, ms", session.gpu_solver_ms),
@@ -283,14 +278,10 @@ fn describe(session: &SessionReport) -> String {
         ("age of the eyes' pose, ms", session.pose_age_ms),
         ("hand to flask, steps", session.input_to_flask_steps),
     ];
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "{:<28} {:>9} {:>9} {:>9} {:>9}",
-        "", "median", "95 %", "99 %", "most"
-    );
+    text += "                                median      95 %      99 %      most\n";
     for (name, spread) in rows {
         if let Some(Spread { p50, p95, p99, max }) = spread {
+            // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
                 "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {max:>9.3}"

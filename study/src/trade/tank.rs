@@ -151,6 +151,52 @@ impl Tank {
         let p99 = Ranks::of(&errors).at(0.99).unwrap_or(0.0);
         Ok((mean, p99))
     }
+
+    fn rested(&self) -> Result<Look, Failure> {
+        let state = self.solver.snapshot().other()?;
+        let count = state.tags.len() as f64;
+        let volume = count * self.solver.parameters().particle_volume();
+        let none = "the liquid of the trade does not fit its vessel";
+        let exact = exact::centre_of_mass(&self.profile, volume).ok_or(none);
+        let level = self.profile.level_for_volume(volume).ok_or(none).other()?;
+        let floor = self.profile.floor_height();
+        let exact = exact.other()? - floor;
+        let (mut centre, mut squares, mut pressures) = (0.0, 0.0, 0.0);
+        for (position, velocity) in state.positions.iter().zip(&state.velocities) {
+            let y = f64::from(position[1]);
+            centre += y / count;
+            let [u, v, w, carried] = velocity.map(f64::from);
+            squares += (u * u + v * v + w * w) / count;
+            // −p/ρ is never above zero.
+            let off = carried + self.gravity * (level - y).max(0.0);
+            pressures += off * off / count;
+        }
+        Ok(Look {
+            density: self.density(&state)?,
+            lost_volume: 1.0 - (centre - floor) / exact,
+            speed: squares.sqrt(),
+            pressure: pressures.sqrt() / (self.gravity * (level - floor)),
+        })
+    }
+
+    /// Particles that are not the vessel's but in it, or the reverse.
+    fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
+        let flask_from_stage = pose.inverse();
+        let tolerance = 0.05 * self.solver.parameters().support_radius;
+        let wrong = (0..state.tags.len()).filter(|&slot| {
+            let [x, y, z, _] = state.positions[slot];
+            let local = flask_from_stage
+                .transform_point(Vec3::new(x, y, z))
+                .as_dvec3();
+            let r = local.x.hypot(local.z);
+            let depth = self.profile.signed_distance_inner(r, local.y);
+            match state.flask_of(slot) {
+                Some(_) => depth < -tolerance,
+                None => self.profile.is_inside(r, local.y) && depth > tolerance,
+            }
+        });
+        wrong.count() as u64
+    }
 }
 
 /// Rests water for `seconds`, of which the last third is looked at.
@@ -192,35 +238,6 @@ struct Look {
     pressure: f64,
 }
 
-impl Tank {
-    fn rested(&self) -> Result<Look, Failure> {
-        let state = self.solver.snapshot().other()?;
-        let count = state.tags.len() as f64;
-        let volume = count * self.solver.parameters().particle_volume();
-        let none = "the liquid of the trade does not fit its vessel";
-        let exact = exact::centre_of_mass(&self.profile, volume).ok_or(none);
-        let level = self.profile.level_for_volume(volume).ok_or(none).other()?;
-        let floor = self.profile.floor_height();
-        let exact = exact.other()? - floor;
-        let (mut centre, mut squares, mut pressures) = (0.0, 0.0, 0.0);
-        for (position, velocity) in state.positions.iter().zip(&state.velocities) {
-            let y = f64::from(position[1]);
-            centre += y / count;
-            let [u, v, w, carried] = velocity.map(f64::from);
-            squares += (u * u + v * v + w * w) / count;
-            // −p/ρ is never above zero.
-            let off = carried + self.gravity * (level - y).max(0.0);
-            pressures += off * off / count;
-        }
-        Ok(Look {
-            density: self.density(&state)?,
-            lost_volume: 1.0 - (centre - floor) / exact,
-            speed: squares.sqrt(),
-            pressure: pressures.sqrt() / (self.gravity * (level - floor)),
-        })
-    }
-}
-
 /// Tips a vessel about its base's edge, holds it, and counts what has run out.
 ///
 /// # Errors
@@ -258,25 +275,4 @@ pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failur
         in_the_end: f64::from(tank.solver.count()) * volume - exact::retained(&tank.profile, TILT),
         lost,
     })
-}
-
-impl Tank {
-    /// Particles that are not the vessel's but in it, or the reverse.
-    fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
-        let flask_from_stage = pose.inverse();
-        let tolerance = 0.05 * self.solver.parameters().support_radius;
-        let wrong = (0..state.tags.len()).filter(|&slot| {
-            let [x, y, z, _] = state.positions[slot];
-            let local = flask_from_stage
-                .transform_point(Vec3::new(x, y, z))
-                .as_dvec3();
-            let r = local.x.hypot(local.z);
-            let depth = self.profile.signed_distance_inner(r, local.y);
-            match state.flask_of(slot) {
-                Some(_) => depth < -tolerance,
-                None => self.profile.is_inside(r, local.y) && depth > tolerance,
-            }
-        });
-        wrong.count() as u64
-    }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Ticket;
@@ -11,7 +12,6 @@ use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 
 use super::Session;
 use super::ended::NoFrameOpen;
-use super::readings::has_acid;
 use crate::vr::blame::blame;
 use crate::vr::hands;
 use crate::vr::haptics;

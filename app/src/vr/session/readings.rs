@@ -1,6 +1,7 @@
 //! Temperature and acid of each flask's liquid, as the panel shows them.
 
 use glam::Vec3;
+use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Ticket;
 use vitriol_sim::scene::{Flask, Scene};
@@ -70,12 +71,6 @@ impl Readings {
             .map(line)
             .collect()
     }
-}
-
-/// Whether one of a scene's liquids has acid.
-pub(super) fn has_acid(scene: &Scene) -> bool {
-    let mut liquids = scene.liquids.iter();
-    liquids.any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 #[cfg(test)]
