@@ -6,7 +6,7 @@ use vitriol_render::{
     ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
     Renderer, SteamSource, View,
 };
-use vitriol_shaders::{Library, ShaderId};
+use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
@@ -89,9 +89,10 @@ impl Shot {
 
 /// Takes pictures of a world.
 pub struct Camera {
-    renderer: Renderer,
+    pub(crate) renderer: Renderer,
     eyes: u32,
-    view: View,
+    /// Where it is and what it sees.
+    pub view: View,
     /// What the colours of temperature run over.
     temperatures: ColourBy,
 }
@@ -122,15 +123,6 @@ impl Camera {
         })
     }
 
-    /// Takes up what changed of the renderer's shaders; `changed` is what
-    /// [`Library::changed`] returned. On an error the old pipelines stay.
-    ///
-    /// # Errors
-    /// What shader or device say.
-    pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
-        self.renderer.reload(library, changed)
-    }
-
     /// Puts the camera where a head is: `stage_from_view`, in real metres.
     pub fn follow(&mut self, stage_from_view: &vitriol_xr::Pose) {
         let [width, height] = self.renderer.extent();
@@ -141,11 +133,6 @@ impl Camera {
             ),
             fov: Fov::symmetric(HEAD_FIELD.to_radians(), width as f32 / height as f32),
         };
-    }
-
-    /// Puts the camera elsewhere.
-    pub fn set_view(&mut self, view: View) {
-        self.view = view;
     }
 
     /// The world as it is now, coloured by speed where it has not what is asked

@@ -28,17 +28,12 @@ impl Failure {
             Self::Other(_) => 1,
         }
     }
-
-    fn cause(&self) -> &(dyn Error + 'static) {
-        match self {
-            Self::Input(cause) | Self::NoDevice(cause) | Self::Other(cause) => cause.as_ref(),
-        }
-    }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut error = self.cause();
+        let (Self::Input(cause) | Self::NoDevice(cause) | Self::Other(cause)) = self;
+        let mut error: &(dyn Error + 'static) = cause.as_ref();
         let mut shown = error.to_string();
         f.write_str(&shown)?;
         while let Some(cause) = error.source() {

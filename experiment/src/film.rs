@@ -174,7 +174,7 @@ impl Film {
     /// meanwhile, which is kept.
     pub fn finish(mut self) -> Result<PathBuf, FilmError> {
         let staged = self.end()?;
-        let path = staged.path().to_owned();
+        let path = staged.path.clone();
         staged.keep().map_err(unwritten(&path))?;
         Ok(path)
     }
@@ -219,7 +219,7 @@ impl Shape {
         give_back: &SyncSender<Vec<u8>>,
     ) -> Result<Staged, FilmError> {
         let mut encoder = Encoder::with_api_config(OpenH264API::from_source(), self.config())?;
-        let file = staged.try_clone().map_err(unwritten(staged.path()))?;
+        let file = staged.try_clone().map_err(unwritten(&staged.path))?;
         let mut muxer: Muxer<BufWriter<File>> = MuxerBuilder::new(BufWriter::new(file))
             .video(
                 VideoCodec::H264,
@@ -254,7 +254,7 @@ impl Shape {
         muxer.finish_in_place()?;
         let flushed = muxer.into_writer().into_inner();
         let flushed = flushed.map_err(|error| error.into_error());
-        flushed.map_err(unwritten(staged.path()))?;
+        flushed.map_err(unwritten(&staged.path))?;
         Ok(staged)
     }
 

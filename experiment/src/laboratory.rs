@@ -34,7 +34,7 @@ pub struct Setup<'a> {
     /// Number or part of the name of the device; the best one without.
     pub device: Option<&'a str>,
     /// Width and height of the pictures, pixels; `None` where none is asked for.
-    pub picture: Option<(u32, u32)>,
+    pub picture: Option<[u32; 2]>,
     /// What each film's colours stand for, in the films' order.
     pub colours: Vec<Colour>,
     /// Views side by side: 1, or 2 for both eyes.
@@ -73,8 +73,8 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
             failure => failure,
         }
     })?;
-    let shot = setup.picture.map(|(width, height)| Shot {
-        extent: [width, height],
+    let shot = setup.picture.map(|extent| Shot {
+        extent,
         eyes: setup.eyes,
         liquid: None,
         filter: setup.filter,
@@ -167,7 +167,8 @@ impl Laboratory {
         let solves = changed.iter().any(|id| id.path().starts_with("sim/"));
         let renewed = solves.then(|| self.renewed_world()).transpose()?;
         if let Some(camera) = &mut self.film {
-            camera.reload(&self.shaders, changed).other()?;
+            let renderer = &mut camera.renderer;
+            renderer.reload(&self.shaders, changed).other()?;
         }
         if let Some(world) = renewed {
             self.world = world;

@@ -73,7 +73,8 @@ impl From<OutputError> for Failure {
 #[derive(Debug)]
 pub struct Staged {
     file: NamedTempFile<File>,
-    path: PathBuf,
+    /// The path that the file will have.
+    pub path: PathBuf,
 }
 
 impl Staged {
@@ -99,11 +100,6 @@ impl Staged {
             file,
             path: path.to_owned(),
         })
-    }
-
-    /// The path that the file will have.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// A second handle to the file being written.
@@ -219,7 +215,8 @@ pub fn png(
 /// again what it holds of the run, and the folder too where it made it.
 #[derive(Debug)]
 pub struct OutDir {
-    path: PathBuf,
+    /// The folder.
+    pub path: PathBuf,
     made: bool,
     files: Vec<PathBuf>,
 }
@@ -236,11 +233,6 @@ impl OutDir {
             Some(path) => Self::named(path),
             None => Self::numbered(Path::new("out"), stem),
         }?)
-    }
-
-    /// The folder's path.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// The path of a file in the folder.

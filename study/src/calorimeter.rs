@@ -20,7 +20,7 @@ use vitriol_sim::scene::{
     Boundary, Feature, Flask, Floor, Liquid, PhysicalChemistry, RelaxationKind, Scale, Scene,
     SolverSettings,
 };
-use vitriol_sim::solver::{Counters, Solver, SolverSpec};
+use vitriol_sim::solver::{Counters, SolverSpec};
 use vitriol_sim::world;
 
 use crate::liquid;
@@ -126,7 +126,15 @@ pub fn mix(
     let volume = feeds[0].volume + feeds[1].volume;
     let vessel = Vessel::new(volume, total)?;
     let scene = vessel.scene(feeds, counts, resolution.iterations);
-    let solver = solver(gpu, &scene, seed)?;
+    let profiles = [vessel.profile.clone()];
+    let particles = world::particles(&scene, seed).other()?;
+    // Without rigid bodies: nobody holds the vessel.
+    let spec = SolverSpec {
+        flasks: &profiles,
+        ground: world::ground(&scene),
+        ..liquid::alone(Parameters::from_scene(&scene), &particles)
+    };
+    let solver = liquid::solver(gpu, &spec)?;
     let look = || -> Result<(HeatMeasurement, u64), Failure> {
         let state = solver.snapshot().other()?;
         let held = measure_heat(solver.parameters(), &state)
@@ -165,18 +173,6 @@ pub fn mix(
     }
     mixed.counters = solver.counters().other()?;
     Ok(mixed)
-}
-
-/// Without rigid bodies: nobody holds the vessel.
-fn solver(gpu: &Gpu, scene: &Scene, seed: u64) -> Result<Solver, Failure> {
-    let profiles: Vec<Profile> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
-    let particles = world::particles(scene, seed).other()?;
-    let spec = SolverSpec {
-        flasks: &profiles,
-        ground: world::ground(scene),
-        ..liquid::alone(Parameters::from_scene(scene), &particles)
-    };
-    liquid::solver(gpu, &spec)
 }
 
 impl Mixed {

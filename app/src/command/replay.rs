@@ -83,7 +83,7 @@ pub fn run(
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let span = Span::covering(seconds, scene.scale.frame_time);
 
-    let (width, height) = FILM_SIZE;
+    let [width, height] = FILM_SIZE;
     let films = colours.iter().enumerate().map(|(index, _)| {
         let path = out.join(film_name(index));
         Film::create(&path, width, height, FILM_FPS)
@@ -127,7 +127,7 @@ pub fn run(
         report_json: out.join(REPORT_JSON).display().to_string(),
         report_html: out.join(REPORT_HTML).display().to_string(),
     };
-    let folder = out.path().to_owned();
+    let folder = out.path.clone();
     out.complete();
     emit(format, &replayed, |done| describe(done, &folder))
 }
@@ -173,7 +173,7 @@ fn assemble(
     // The filling is not the solver's work, so the start does not count.
     let solved = || samples.iter().skip(1);
     let count = solved().count().max(1) as f64;
-    let (width, height) = FILM_SIZE;
+    let [width, height] = FILM_SIZE;
     let film = |index: usize| {
         colours.get(index).map(|colour| FilmStatement {
             path: film_name(index).into(),

@@ -46,7 +46,7 @@ fn info() -> Info {
 fn picture(gpu: &Gpu, panel: &mut Panel) -> Vec<u8> {
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     panel.record(&mut rec).unwrap();
-    let read = rec.read_back_image(panel.image()).unwrap();
+    let read = rec.read_back_image(&panel.image).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     read.get().unwrap()
 }

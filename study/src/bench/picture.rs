@@ -79,11 +79,8 @@ fn ready(
     // A headset's field; on a screen a wide lens.
     let vertical: f32 = if eyes == 2 { 96.0 } else { 60.0 };
     let [eye, target] = HEAD;
-    camera.set_view(View::look_at(
-        eye,
-        target,
-        Fov::symmetric(vertical.to_radians(), aspect),
-    ));
+    let fov = Fov::symmetric(vertical.to_radians(), aspect);
+    camera.view = View::look_at(eye, target, fov);
     for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
         solve(gpu, &world)?;
     }

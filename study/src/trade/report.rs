@@ -208,12 +208,9 @@ pub fn describe(trade: &Trade) -> String {
             effect.pour.cost.median_ms
         );
     }
-    for order in &trade.orders {
-        let _ = writeln!(
-            t,
-            "{} over {}: order {:.2}",
-            order.name, order.by, order.order
-        );
+    for found in &trade.orders {
+        let (name, by, order) = (found.name, found.by, found.order);
+        let _ = writeln!(t, "{name} over {by}: order {order:.2}");
     }
     if trade.skipped > 0 {
         let _ = writeln!(t, "{} settings not tried for want of time", trade.skipped);

@@ -33,7 +33,8 @@ const PRESSES: f32 = 0.6;
 pub struct Panel {
     context: egui::Context,
     painter: Painter,
-    image: Image,
+    /// Its picture.
+    pub image: Image,
     /// Where a hand points, pixels.
     pointer: Option<Pos2>,
     pressed: bool,
@@ -59,11 +60,6 @@ impl Panel {
             armed: false,
             shown: None,
         })
-    }
-
-    /// Its picture.
-    pub fn image(&self) -> &Image {
-        &self.image
     }
 
     /// Takes in where the free hands point (in the scene's stage), shows `info`, and returns what

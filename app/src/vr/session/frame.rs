@@ -182,7 +182,7 @@ impl Session {
         let panel = &mut self.panel;
         let picture = picture.draw(world, &shapes, &sight, targets, |rec| {
             panel.record(rec)?;
-            rec.copy_image(panel.image(), &targets.panel).other()
+            rec.copy_image(&panel.image, &targets.panel).other()
         })?;
         let age_ms = 1e3 * located.elapsed().as_secs_f64();
 
