@@ -7,7 +7,7 @@ use std::sync::Arc;
 use vitriol_gpu::Gpu;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
-use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
+use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Pose, PoseFrame, Switch};
@@ -262,7 +262,12 @@ impl Experiment for Laboratory {
             density_error_mean: measured.density_error_mean,
             density_error_p99: measured.density_error_p99,
             kinetic_energy_j: measured.kinetic_energy,
-            mass_kg: by_place(self.world.scene(), &measured),
+            mass_kg: MassByPlace {
+                flasks: by_flask(scene, &measured.in_flasks),
+                table: measured.on_table,
+                floor: measured.on_floor,
+                air: measured.in_air,
+            },
             neighbour_rebuilds: measured.list_rebuilds.into(),
             left_kg: by_flask(scene, &departed.left),
             above_rim_kg: by_flask(scene, &departed.above_rim),
@@ -361,15 +366,6 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             mist_kg: ledger.mist,
             vapour_kg: ledger.vapour,
         }),
-    }
-}
-
-fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
-    MassByPlace {
-        flasks: by_flask(scene, &measured.in_flasks),
-        table: measured.on_table,
-        floor: measured.on_floor,
-        air: measured.in_air,
     }
 }
 
