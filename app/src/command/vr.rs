@@ -8,7 +8,6 @@ use serde::Serialize;
 use vitriol_experiment::units::{grouped, three_digits};
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit, track};
 use vitriol_gpu::{Gpu, Timestamps};
-use vitriol_sim::measure::Measurement;
 use vitriol_sim::scene::Scene;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
@@ -193,7 +192,7 @@ fn state(
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
     let world = &outcome.bench.world;
-    let measured: Measurement = world.measure().other()?;
+    let measured = world.measure().other()?;
     let tally = &outcome.tally;
     let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {
         let counted = ready.iter().filter(|frame| frame.index >= WARM_UP);

@@ -40,10 +40,7 @@ impl Convergence {
 /// # Errors
 /// What the device says.
 pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> {
-    let mut fall = Vec::new();
-    for substeps in [2u32, 4, 8, 16] {
-        fall.push(free_fall(gpu, substeps)?);
-    }
+    let fall = [2, 4, 8, 16].map(|substeps| free_fall(gpu, substeps));
     let resolutions: &[u32] = if quick { &[10, 20] } else { &[10, 20, 40] };
     let (mut lattice, mut printed) = (Vec::new(), Vec::new());
     for &per_metre in resolutions {
@@ -55,7 +52,7 @@ pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> 
         Convergence::of(
             "free fall for 0.2 s against ½gt², relative",
             "Δt_s, s",
-            fall,
+            fall.into_iter().collect::<Result<_, _>>()?,
         ),
         Convergence::of(
             "a step in c against erf by D, root mean square",

@@ -37,7 +37,9 @@ impl Session {
             self.pacing.missed = true;
         }
         if self.counts.is_first() {
-            self.pacing.restart_counting();
+            // What came before was the warm-up.
+            self.pacing.report.changes = 0;
+            self.pacing.report.settings.clear();
         }
         // 2. What the user decided, and a bench that was built meanwhile.
         let now = sound(&frame.poses, self.placement.last.as_ref());
@@ -153,7 +155,9 @@ impl Session {
             }
             Ok(())
         })?;
-        self.readings.began(reading, &shapes);
+        if let Some(reading) = reading {
+            self.readings.under_way = Some((reading, shapes.clone()));
+        }
         Ok((targets, shapes))
     }
 

@@ -102,12 +102,6 @@ impl Pacing {
         }
     }
 
-    /// Counting begins: what came before was the warm-up.
-    pub fn restart_counting(&mut self) {
-        self.report.changes = 0;
-        self.report.settings.clear();
-    }
-
     /// Forgets what frames took: it was on another device or another scene.
     pub fn forget(&mut self) {
         self.repainter.forget();

@@ -15,7 +15,7 @@ const EVERY: u64 = 9;
 /// The last reading, and the next one where it is under way.
 #[derive(Default)]
 pub(super) struct Readings {
-    /// On a device that is gone it never comes.
+    /// With the submission that it is in; on a device that is gone it never comes.
     pub under_way: Option<(ReadingRecord, Ticket)>,
     /// By flask; empty before the first.
     last: Vec<FlaskReading>,
@@ -25,13 +25,6 @@ impl Readings {
     /// Whether that frame is to begin a reading.
     pub fn is_due(&self, frame: u64) -> bool {
         self.under_way.is_none() && frame.is_multiple_of(EVERY)
-    }
-
-    /// A reading was recorded, if heat is modelled, and submitted.
-    pub fn began(&mut self, reading: Option<ReadingRecord>, submission: &Ticket) {
-        if let Some(reading) = reading {
-            self.under_way = Some((reading, submission.clone()));
-        }
     }
 
     /// Takes a reading that has come; does not wait.
