@@ -34,19 +34,11 @@ const FRAMES: [u32; 2] = [4, 40];
 const SURE: usize = 4;
 
 /// Substeps and iterations for `scene` (as its preset `balanced` left it) by which the 99th
-/// percentile of a frame's time is at most `budget` ms on this device, and that
-/// time. What was measured is kept by device, driver and scene.
+/// percentile of a frame's time is at most `budget` ms, and that time: what `calibrate` says, with whether that is
+/// the whole time, which is kept under `key` (device, driver and scene).
 ///
 /// # Errors
 /// [`Failure::Input`] where even the cheapest takes longer; what the device says.
-pub fn within(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<([u32; 2], f64), Failure> {
-    let key = |scene: &Scene| key(gpu, scene);
-    let calibrate = |scene: &Scene| calibrate(gpu, scene, budget);
-    pick(&Cache::open(), scene, budget, key, calibrate)
-}
-
-/// The same, where a setting's time is what `calibrate` says, and whether that is its whole time, kept
-/// under `key`.
 fn pick(
     cache: &Cache,
     scene: &Scene,
@@ -94,7 +86,7 @@ fn pick(
 /// left it; for a budget that is `balanced`); `None` where neither was.
 ///
 /// # Errors
-/// [`Failure::Input`] for what the liquid does not stand up under; as for [`within`].
+/// [`Failure::Input`] for what the liquid does not stand up under; as for [`pick`].
 pub fn chosen(
     solver: Option<[u32; 2]>,
     budget: Option<f64>,
@@ -105,7 +97,10 @@ pub fn chosen(
         (None, None) => return Ok(None),
         (Some(solver), _) => solver,
         (None, Some(budget)) => {
-            let (solver, time) = within(&gpu()?, scene, budget)?;
+            let gpu = gpu()?;
+            let key = |scene: &Scene| key(&gpu, scene);
+            let calibrate = |scene: &Scene| calibrate(&gpu, scene, budget);
+            let (solver, time) = pick(&Cache::open(), scene, budget, key, calibrate)?;
             tracing::warn!(
                 "--budget-ms {budget}: {} × {}, of which a frame takes {time:.2} ms here",
                 solver[0],

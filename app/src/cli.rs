@@ -4,7 +4,6 @@
 mod arguments;
 
 use clap::{Parser, Subcommand};
-use vitriol_experiment::Format;
 
 pub use arguments::{CameraName, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs};
 
@@ -26,17 +25,6 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-}
-
-impl Cli {
-    /// The form of the result on standard output.
-    pub fn format(&self) -> Format {
-        if self.json {
-            Format::Json
-        } else {
-            Format::Text
-        }
-    }
 }
 
 /// The subcommands.

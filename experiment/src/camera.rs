@@ -6,7 +6,7 @@ use vitriol_render::{
     ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
     Renderer, SteamSource, View,
 };
-use vitriol_shaders::{Library, ShaderId};
+use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
@@ -14,7 +14,7 @@ use vitriol_sim::world::World;
 
 use crate::failure::{Blame, Failure};
 use crate::legend::{Legend, draw_tints};
-use crate::scenery::{affine, filter, laboratory, liquid_of};
+use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -89,9 +89,10 @@ impl Shot {
 
 /// Takes pictures of a world.
 pub struct Camera {
-    renderer: Renderer,
+    pub(crate) renderer: Renderer,
     eyes: u32,
-    view: View,
+    /// Where it is and what it sees.
+    pub view: View,
     /// What the colours of temperature run over.
     temperatures: ColourBy,
 }
@@ -122,15 +123,6 @@ impl Camera {
         })
     }
 
-    /// Takes up what changed of the renderer's shaders; `changed` is what
-    /// [`Library::changed`] returned. On an error the old pipelines stay.
-    ///
-    /// # Errors
-    /// What shader or device say.
-    pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
-        self.renderer.reload(library, changed)
-    }
-
     /// Puts the camera where a head is: `stage_from_view`, in real metres.
     pub fn follow(&mut self, stage_from_view: &vitriol_xr::Pose) {
         let [width, height] = self.renderer.extent();
@@ -141,11 +133,6 @@ impl Camera {
             ),
             fov: Fov::symmetric(HEAD_FIELD.to_radians(), width as f32 / height as f32),
         };
-    }
-
-    /// Puts the camera elsewhere.
-    pub fn set_view(&mut self, view: View) {
-        self.view = view;
     }
 
     /// The world as it is now, coloured by speed where it has not what is asked
@@ -162,12 +149,12 @@ impl Camera {
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
         let mut picture = picture.side_by_side().other()?;
         let width = (self.eyes * self.renderer.extent()[0]) as usize;
-        match self.legend(world, colour) {
-            Some(legend) => legend.draw(&mut picture, width),
-            None if colour == Colour::Liquid && has_acid(world.scene()) => {
-                draw_tints(&mut picture, width)
+        if colour != Colour::Liquid {
+            if let Some(legend) = Legend::of(self.colour_by(world, colour)) {
+                legend.draw(&mut picture, width);
             }
-            None => {}
+        } else if has_acid(world.scene()) {
+            draw_tints(&mut picture, width);
         }
         Ok(picture)
     }
@@ -269,14 +256,6 @@ impl Camera {
         }
     }
 
-    /// What stands in the picture's corner.
-    fn legend(&self, world: &World, colour: Colour) -> Option<Legend> {
-        match colour {
-            Colour::Liquid => None,
-            _ => Legend::of(self.colour_by(world, colour)),
-        }
-    }
-
     /// The camera's view, or that of the eyes to its left and right.
     fn views(&self) -> Vec<View> {
         let eye = |index: u32| {
@@ -289,14 +268,6 @@ impl Camera {
         };
         (0..self.eyes).map(eye).collect()
     }
-}
-
-/// Whether there is any acid, which is drawn in another tint than water.
-fn has_acid(scene: &Scene) -> bool {
-    scene
-        .liquids
-        .iter()
-        .any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 /// The range of a scene's temperatures: from the coldest that there is at the

@@ -6,7 +6,7 @@ use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader, Timestamps};
 use crate::failure::Failure;
 
 /// The device and driver of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct DeviceStatement {
     /// The device's name.
     pub name: String,

@@ -28,17 +28,12 @@ impl Failure {
             Self::Other(_) => 1,
         }
     }
-
-    fn cause(&self) -> &(dyn Error + 'static) {
-        match self {
-            Self::Input(cause) | Self::NoDevice(cause) | Self::Other(cause) => cause.as_ref(),
-        }
-    }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut error = self.cause();
+        let (Self::Input(cause) | Self::NoDevice(cause) | Self::Other(cause)) = self;
+        let mut error: &(dyn Error + 'static) = cause.as_ref();
         let mut shown = error.to_string();
         f.write_str(&shown)?;
         while let Some(cause) = error.source() {
@@ -62,12 +57,6 @@ pub trait Blame<T> {
     /// The same error, classed.
     fn input(self) -> Result<T, Failure>;
 
-    /// A device or runtime is missing: [`Failure::NoDevice`].
-    ///
-    /// # Errors
-    /// The same error, classed.
-    fn no_device(self) -> Result<T, Failure>;
-
     /// Neither: [`Failure::Other`].
     ///
     /// # Errors
@@ -78,10 +67,6 @@ pub trait Blame<T> {
 impl<T, E: Into<Cause>> Blame<T> for Result<T, E> {
     fn input(self) -> Result<T, Failure> {
         self.map_err(|error| Failure::Input(error.into()))
-    }
-
-    fn no_device(self) -> Result<T, Failure> {
-        self.map_err(|error| Failure::NoDevice(error.into()))
     }
 
     fn other(self) -> Result<T, Failure> {

@@ -129,20 +129,14 @@ impl Film {
         if !(1..=120).contains(&fps) {
             return Err(FilmError::Rate { fps });
         }
-        let staged = Staged::create(path).map_err(|source| FilmError::Write {
-            path: path.to_owned(),
-            source,
-        })?;
+        let staged = Staged::create(path).map_err(unwritten(path))?;
         let (frames, queue) = sync_channel(QUEUED_FRAMES);
         let (give_back, spent) = sync_channel(QUEUED_FRAMES + 1);
         let shape = Shape { width, height, fps };
         let encoder = std::thread::Builder::new()
             .name("film".into())
             .spawn(move || shape.encode(staged, &queue, &give_back))
-            .map_err(|source| FilmError::Write {
-                path: path.to_owned(),
-                source,
-            })?;
+            .map_err(unwritten(path))?;
         Ok(Self {
             frame_bytes: width as usize * height as usize * 4,
             frames: Some(frames),
@@ -168,7 +162,7 @@ impl Film {
         frame.extend_from_slice(rgba);
         match &self.frames {
             Some(frames) if frames.send(frame).is_ok() => Ok(()),
-            _ => Err(self.why_stopped()),
+            _ => Err(self.end().err().unwrap_or(FilmError::Stopped)),
         }
     }
 
@@ -179,37 +173,34 @@ impl Film {
     /// or the file system said; also where a film of that name has appeared
     /// meanwhile, which is kept.
     pub fn finish(mut self) -> Result<PathBuf, FilmError> {
-        self.frames = None;
-        let staged = match self.encoder.take().map(JoinHandle::join) {
-            Some(Ok(result)) => result?,
-            _ => return Err(FilmError::Stopped),
-        };
-        let path = staged.path().to_owned();
-        staged.keep().map_err(|source| FilmError::Write {
-            path: path.clone(),
-            source,
-        })?;
+        let staged = self.end()?;
+        let path = staged.path.clone();
+        staged.keep().map_err(unwritten(&path))?;
         Ok(path)
     }
 
-    fn why_stopped(&mut self) -> FilmError {
+    /// Waits for the encoder, which has no more to come.
+    fn end(&mut self) -> Result<Staged, FilmError> {
         self.frames = None;
-        match self.encoder.take().map(JoinHandle::join) {
-            Some(Ok(Err(error))) => error,
-            _ => FilmError::Stopped,
-        }
+        let ended = self.encoder.take().map(JoinHandle::join);
+        ended
+            .and_then(Result::ok)
+            .unwrap_or(Err(FilmError::Stopped))
     }
 }
 
 impl Drop for Film {
     fn drop(&mut self) {
-        self.frames = None;
-        // Waits for the encoder, so that its temporary file is gone when the
-        // film is; a panic there has nothing left to tell.
-        if let Some(encoder) = self.encoder.take() {
-            let _ = encoder.join();
-        }
+        // So that the encoder's temporary file is gone when the film is; a panic there
+        // has nothing left to tell.
+        let _ = self.end();
     }
+}
+
+/// What the file system says of the film at `path`.
+fn unwritten(path: &Path) -> impl FnOnce(std::io::Error) -> FilmError {
+    let path = path.to_owned();
+    move |source| FilmError::Write { path, source }
 }
 
 /// The film's frame size in pixels and its rate in Hz.
@@ -228,10 +219,7 @@ impl Shape {
         give_back: &SyncSender<Vec<u8>>,
     ) -> Result<Staged, FilmError> {
         let mut encoder = Encoder::with_api_config(OpenH264API::from_source(), self.config())?;
-        let file = staged.try_clone().map_err(|source| FilmError::Write {
-            path: staged.path().to_owned(),
-            source,
-        })?;
+        let file = staged.try_clone().map_err(unwritten(&staged.path))?;
         let mut muxer: Muxer<BufWriter<File>> = MuxerBuilder::new(BufWriter::new(file))
             .video(
                 VideoCodec::H264,
@@ -265,13 +253,9 @@ impl Shape {
         }
         muxer.finish_in_place()?;
         let flushed = muxer.into_writer().into_inner();
-        match flushed {
-            Ok(_) => Ok(staged),
-            Err(error) => Err(FilmError::Write {
-                path: staged.path().to_owned(),
-                source: error.into_error(),
-            }),
-        }
+        let flushed = flushed.map_err(|error| error.into_error());
+        flushed.map_err(unwritten(&staged.path))?;
+        Ok(staged)
     }
 
     fn config(self) -> EncoderConfig {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use vitriol_gpu::Gpu;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
-use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger, Measurement};
+use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_xr::{Pose, PoseFrame, Switch};
@@ -34,7 +34,7 @@ pub struct Setup<'a> {
     /// Number or part of the name of the device; the best one without.
     pub device: Option<&'a str>,
     /// Width and height of the pictures, pixels; `None` where none is asked for.
-    pub picture: Option<(u32, u32)>,
+    pub picture: Option<[u32; 2]>,
     /// What each film's colours stand for, in the films' order.
     pub colours: Vec<Colour>,
     /// Views side by side: 1, or 2 for both eyes.
@@ -73,8 +73,8 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
             failure => failure,
         }
     })?;
-    let shot = setup.picture.map(|(width, height)| Shot {
-        extent: [width, height],
+    let shot = setup.picture.map(|extent| Shot {
+        extent,
         eyes: setup.eyes,
         liquid: None,
         filter: setup.filter,
@@ -167,7 +167,8 @@ impl Laboratory {
         let solves = changed.iter().any(|id| id.path().starts_with("sim/"));
         let renewed = solves.then(|| self.renewed_world()).transpose()?;
         if let Some(camera) = &mut self.film {
-            camera.reload(&self.shaders, changed).other()?;
+            let renderer = &mut camera.renderer;
+            renderer.reload(&self.shaders, changed).other()?;
         }
         if let Some(world) = renewed {
             self.world = world;
@@ -261,7 +262,12 @@ impl Experiment for Laboratory {
             density_error_mean: measured.density_error_mean,
             density_error_p99: measured.density_error_p99,
             kinetic_energy_j: measured.kinetic_energy,
-            mass_kg: by_place(self.world.scene(), &measured),
+            mass_kg: MassByPlace {
+                flasks: by_flask(scene, &measured.in_flasks),
+                table: measured.on_table,
+                floor: measured.on_floor,
+                air: measured.in_air,
+            },
             neighbour_rebuilds: measured.list_rebuilds.into(),
             left_kg: by_flask(scene, &departed.left),
             above_rim_kg: by_flask(scene, &departed.above_rim),
@@ -360,15 +366,6 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             mist_kg: ledger.mist,
             vapour_kg: ledger.vapour,
         }),
-    }
-}
-
-fn by_place(scene: &Scene, measured: &Measurement) -> MassByPlace {
-    MassByPlace {
-        flasks: by_flask(scene, &measured.in_flasks),
-        table: measured.on_table,
-        floor: measured.on_floor,
-        air: measured.in_air,
     }
 }
 

@@ -57,12 +57,9 @@ impl Legend {
             BAR[0] + 2 * PADDING,
             2 * text + BAR[1] + TICK + 2 * PADDING + 4,
         ];
-        let height = picture.len() / 4 / width.max(1);
-        if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
+        let Some(mut canvas) = Canvas::with_panel(picture, width, panel) else {
             return;
-        }
-        let mut canvas = Canvas { picture, width };
-        canvas.panel(panel);
+        };
         let left = MARGIN + PADDING;
         let mut top = MARGIN + PADDING;
         canvas.write(left, top, self.title);
@@ -112,12 +109,9 @@ pub fn draw_tints(picture: &mut [u8], width: usize) {
     let letters = lines.iter().map(|(_, name)| name.len() + 3).max();
     let wide = letters.unwrap_or(0) * get_raster_width(FontWeight::Regular, SIZE);
     let panel = [wide + 2 * PADDING, lines.len() * line + 2 * PADDING];
-    let height = picture.len() / 4 / width.max(1);
-    if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
+    let Some(mut canvas) = Canvas::with_panel(picture, width, panel) else {
         return;
-    }
-    let mut canvas = Canvas { picture, width };
-    canvas.panel(panel);
+    };
     let left = MARGIN + PADDING;
     for (index, (tint, name)) in lines.into_iter().enumerate() {
         let top = MARGIN + PADDING + index * line;
@@ -147,14 +141,20 @@ struct Canvas<'a> {
     width: usize,
 }
 
-impl Canvas<'_> {
-    /// The white that a legend stands on, in the upper left corner.
-    fn panel(&mut self, [width, height]: [usize; 2]) {
-        for y in 0..height {
-            for x in 0..width {
-                self.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
+impl<'a> Canvas<'a> {
+    /// With the white that a legend stands on, in the upper left corner, where it has room.
+    fn with_panel(picture: &'a mut [u8], width: usize, panel: [usize; 2]) -> Option<Self> {
+        let height = picture.len() / 4 / width.max(1);
+        if width < panel[0] + 2 * MARGIN || height < panel[1] + 2 * MARGIN {
+            return None;
+        }
+        let mut canvas = Self { picture, width };
+        for y in 0..panel[1] {
+            for x in 0..panel[0] {
+                canvas.blend(MARGIN + x, MARGIN + y, [255; 3], WHITENESS);
             }
         }
+        Some(canvas)
     }
 
     /// Lays `colour` over a pixel; `alpha` is 0 to 255.

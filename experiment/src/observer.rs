@@ -15,7 +15,7 @@ use crate::sample::Sample;
 /// Frame rate of the film, Hz.
 pub const FILM_FPS: u32 = 30;
 /// Width and height of the film, pixels.
-pub const FILM_SIZE: (u32, u32) = (960, 540);
+pub const FILM_SIZE: [u32; 2] = [960, 540];
 
 /// Samples for each simulated second: enough to see a slosh (about 3 Hz in a
 /// beaker), few enough that waiting for the device does not count.

@@ -28,27 +28,19 @@ enum OutputError {
         "--out {dir}: holds {found} of an earlier run, which is not overwritten; name another folder or take that one away"
     )]
     Taken {
-        /// The folder asked for.
         dir: PathBuf,
         /// The file that was found in it.
         found: &'static str,
     },
     /// The folder asked for is a file.
     #[error("--out {dir}: is not a folder; name a folder, which may be new")]
-    NotAFolder {
-        /// The path asked for.
-        dir: PathBuf,
-    },
+    NotAFolder { dir: PathBuf },
     /// The file or folder exists already.
     #[error("{path}: exists and is not overwritten; name another or take that one away")]
-    Exists {
-        /// Its path.
-        path: PathBuf,
-    },
+    Exists { path: PathBuf },
     /// The system refused.
     #[error("{path}: could not be written; is there room and permission?")]
     Write {
-        /// The path of the folder or file.
         path: PathBuf,
         /// What the system said.
         source: io::Error,
@@ -80,7 +72,8 @@ impl From<OutputError> for Failure {
 #[derive(Debug)]
 pub struct Staged {
     file: NamedTempFile<File>,
-    path: PathBuf,
+    /// The path that the file will have.
+    pub path: PathBuf,
 }
 
 impl Staged {
@@ -106,11 +99,6 @@ impl Staged {
             file,
             path: path.to_owned(),
         })
-    }
-
-    /// The path that the file will have.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// A second handle to the file being written.
@@ -228,7 +216,8 @@ pub fn png(
 /// again what it holds of the run, and the folder too where it made it.
 #[derive(Debug)]
 pub struct OutDir {
-    path: PathBuf,
+    /// The folder.
+    pub path: PathBuf,
     made: bool,
     files: Vec<PathBuf>,
 }
@@ -245,11 +234,6 @@ impl OutDir {
             Some(path) => Self::named(path),
             None => Self::numbered(Path::new("out"), stem),
         }?)
-    }
-
-    /// The folder's path.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// The path of a file in the folder.

@@ -94,6 +94,12 @@ pub fn laboratory(scene: &Scene) -> SceneDesc {
     }
 }
 
+/// Whether there is any acid, which is drawn in another tint than water.
+pub fn has_acid(scene: &Scene) -> bool {
+    let mut liquids = scene.liquids.iter();
+    liquids.any(|liquid| liquid.acid_fraction > 0.0)
+}
+
 /// A pose as the renderer takes it.
 pub fn affine(pose: &Pose) -> Affine3A {
     Affine3A::from_rotation_translation(pose.orientation, pose.position)

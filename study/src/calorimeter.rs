@@ -11,8 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{Quat, Vec3};
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::measure::{HeatMeasurement, measure_heat};
 use vitriol_sim::parameters::Parameters;
@@ -21,8 +20,10 @@ use vitriol_sim::scene::{
     Boundary, Feature, Flask, Floor, Liquid, PhysicalChemistry, RelaxationKind, Scale, Scene,
     SolverSettings,
 };
-use vitriol_sim::solver::{Counters, Solver, SolverSpec};
+use vitriol_sim::solver::{Counters, SolverSpec};
 use vitriol_sim::world;
+
+use crate::liquid;
 
 /// Depth of the liquid and inner height of the vessel over its radius.
 const DEPTH: f64 = 1.0;
@@ -125,7 +126,15 @@ pub fn mix(
     let volume = feeds[0].volume + feeds[1].volume;
     let vessel = Vessel::new(volume, total)?;
     let scene = vessel.scene(feeds, counts, resolution.iterations);
-    let solver = solver(gpu, &scene, seed)?;
+    let profiles = [vessel.profile.clone()];
+    let particles = world::particles(&scene, seed).other()?;
+    // Without rigid bodies: nobody holds the vessel.
+    let spec = SolverSpec {
+        flasks: &profiles,
+        ground: world::ground(&scene),
+        ..liquid::alone(Parameters::from_scene(&scene), &particles)
+    };
+    let solver = liquid::solver(gpu, &spec)?;
     let look = || -> Result<(HeatMeasurement, u64), Failure> {
         let state = solver.snapshot().other()?;
         let held = measure_heat(solver.parameters(), &state)
@@ -153,9 +162,7 @@ pub fn mix(
         if frame > 0 {
             let time = |frame: u64| frame as f64 * scene.scale.frame_time;
             let (before, after) = (vessel.pose(time(frame - 1)), vessel.pose(time(frame)));
-            let mut rec = gpu.recorder(QueueKind::Main).other()?;
-            solver.record(&mut rec, &[before], &[after]).other()?;
-            gpu.submit(rec).other()?;
+            liquid::frame(gpu, &solver, &[before], &[after])?;
             mixed.seconds = time(frame);
             (mixed.end, mixed.lost) = look()?;
         }
@@ -166,22 +173,6 @@ pub fn mix(
     }
     mixed.counters = solver.counters().other()?;
     Ok(mixed)
-}
-
-/// Without rigid bodies: nobody holds the vessel.
-fn solver(gpu: &Gpu, scene: &Scene, seed: u64) -> Result<Solver, Failure> {
-    let profiles: Vec<Profile> = scene.flasks.iter().map(|f| f.profile.clone()).collect();
-    let spec = SolverSpec {
-        parameters: Parameters::from_scene(scene),
-        flasks: &profiles,
-        solids: None,
-        ground: world::ground(scene),
-        particles: &world::particles(scene, seed).other()?,
-        loads: false,
-        constraint: true,
-        lanes: None,
-    };
-    Solver::new(gpu, &Library::embedded(), &spec).other()
 }
 
 impl Mixed {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
+use serde::Serialize;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 use crate::parse::{filter, positive, preset};
@@ -105,23 +106,14 @@ pub struct FidelityArgs {
 }
 
 /// Which liquid is in the vessel when the other one comes in on top.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum OrderName {
     /// Acid onto water
     #[default]
     WaterFirst,
     /// Water onto acid
     AcidFirst,
-}
-
-impl OrderName {
-    /// The name as it is given and reported.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::WaterFirst => "water-first",
-            Self::AcidFirst => "acid-first",
-        }
-    }
 }
 
 /// The chemistries that have real amounts.

@@ -8,11 +8,12 @@
 
 use glam::DVec3;
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverError, SolverSpec, SolverState};
+use vitriol_sim::solver::{Ground, Particle, SolverSpec, SolverState};
+
+use crate::liquid::{alone, frame, solver, water};
 
 /// A rectangular column before a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,25 +61,20 @@ impl Column {
         let gravity = scene.scale.gravity;
         let particles = self.block(spacing, gravity);
         let spec = SolverSpec {
-            parameters: parameters.clone(),
-            flasks: &[],
-            solids: None,
             ground: Ground {
                 floor: 0.0,
                 table: None,
                 scale: 1.0,
             },
-            particles: &particles,
-            loads: false,
-            constraint: true,
-            lanes: None,
+            ..alone(parameters.clone(), &particles)
         };
-        let solver = Solver::new(gpu, &Library::embedded(), &spec).other()?;
+        let solver = solver(gpu, &spec)?;
         let unit = (self.base / (f64::from(self.n_squared) * gravity)).sqrt();
         let frames = (last * unit / parameters.frame_time).ceil() as u32;
         let mut fronts = vec![self.front(&solver.snapshot().other()?, spacing)];
         for _ in 0..frames {
-            fronts.push(self.front(&advance(gpu, &solver).other()?, spacing));
+            frame(gpu, &solver, &[], &[])?;
+            fronts.push(self.front(&solver.snapshot().other()?, spacing));
         }
         let fronts = (0..).zip(fronts).map(|(frame, distance)| Front {
             time: f64::from(frame) * parameters.frame_time / unit,
@@ -101,12 +97,8 @@ impl Column {
             let height = (f64::from(j) + 0.5) * d;
             for k in 0..z {
                 particles.extend((0..x).map(|i| Particle {
-                    position: DVec3::new(site(i, x), height, site(k, z)),
-                    velocity: DVec3::ZERO,
-                    flask: None,
-                    temperature: 20.0,
-                    acid: 0.0,
                     carried: gravity * (height - f64::from(y) * d),
+                    ..water(DVec3::new(site(i, x), height, site(k, z)))
                 }));
             }
         }
@@ -150,11 +142,4 @@ fn halved(parameters: Parameters) -> Parameters {
         substeps: parameters.substeps / 2,
         ..parameters
     }
-}
-
-fn advance(gpu: &Gpu, solver: &Solver) -> Result<SolverState, SolverError> {
-    let mut rec = gpu.recorder(QueueKind::Main)?;
-    solver.record(&mut rec, &[], &[])?;
-    gpu.submit(rec)?.wait()?;
-    solver.snapshot()
 }

@@ -7,6 +7,7 @@ pub mod column;
 pub mod command;
 pub mod extremes;
 pub mod fidelity;
+mod liquid;
 pub mod parse;
 mod several;
 pub mod trade;

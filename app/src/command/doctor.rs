@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_experiment::{Failure, Format, emit};
-use vitriol_xr::probe::{self, Probe};
+use vitriol_xr::probe;
 
 #[derive(Debug, Serialize)]
 struct Findings {
@@ -90,24 +90,19 @@ fn look() -> Findings {
                 .to_owned(),
         );
     }
-    let Probe {
-        loader,
-        manifest,
-        runtime,
-        extensions,
-        missing: missing_of_openxr,
-    } = probe::probe();
-    let can_enter_vr = can_replay && missing_of_openxr.is_empty();
-    missing.extend(missing_of_openxr);
+    let probe = probe::probe();
+    let can_enter_vr = can_replay && probe.missing.is_empty();
+    missing.extend(probe.missing);
     Findings {
         can_replay,
         can_enter_vr,
         devices,
         openxr: OpenXr {
-            loader,
-            manifest: manifest.map(|path| path.display().to_string()),
-            runtime,
-            extensions: extensions
+            loader: probe.loader,
+            manifest: probe.manifest.map(|path| path.display().to_string()),
+            runtime: probe.runtime,
+            extensions: probe
+                .extensions
                 .into_iter()
                 .map(|(name, present)| Extension { name, present })
                 .collect(),

@@ -8,7 +8,7 @@ pub mod scenes;
 pub mod track;
 pub mod vr;
 
-use vitriol_experiment::{Failure, prepare};
+use vitriol_experiment::{Failure, Format, prepare};
 
 use crate::cli::{Cli, Command};
 
@@ -17,7 +17,7 @@ use crate::cli::{Cli, Command};
 /// # Errors
 /// What the subcommand fails with; nothing is on standard output then.
 pub fn run(cli: &Cli) -> Result<(), Failure> {
-    let format = cli.format();
+    let format = if cli.json { Format::Json } else { Format::Text };
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, prepare),
         Command::Picture(args) => picture::run(args, format, prepare),

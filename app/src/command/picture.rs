@@ -64,14 +64,13 @@ pub fn run(
         .input();
     }
     let eyes = if args.stereo { 2 } else { 1 };
-    let [width, height] = args.size;
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
         preset: preset_of(args.preset, &track),
         seed: track.metadata.seed,
         device: args.device.as_deref(),
-        picture: Some((width, height)),
+        picture: Some(args.size),
         eyes,
         colours: vec![args.colour],
         filter: args.filter,
@@ -88,8 +87,9 @@ pub fn run(
     )?;
     observer.finish()?;
     let picture = experiment.picture(0)?;
-    let size = [eyes * width, height];
-    output::write_new(&path, &output::png(picture, size, ColorType::Rgba)?)?;
+    let size = [eyes * args.size[0], args.size[1]];
+    let file = output::png(picture, size, ColorType::Rgba)?;
+    output::write_new(&path, &file)?;
     if let Some(dir) = &args.passes {
         let mut dir = OutDir::take(Some(dir), "passes")?;
         for (number, pass) in (1..).zip(experiment.passes()?) {

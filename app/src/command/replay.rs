@@ -60,7 +60,9 @@ pub fn run(
     }
     let preset = preset_of(args.preset, &track);
     let scene = Scene::load(&name).input()?.with_preset(preset);
-    let (scene, chosen) = chosen(args, scene)?;
+    let gpu = || device::open(args.device.as_deref());
+    let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
+    let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
     let head = head(args.camera, &args.track, &track)?;
     let colours = colours(args, &scene, &name)?;
     let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track))?;
@@ -81,7 +83,7 @@ pub fn run(
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let span = Span::covering(seconds, scene.scale.frame_time);
 
-    let (width, height) = FILM_SIZE;
+    let [width, height] = FILM_SIZE;
     let films = colours.iter().enumerate().map(|(index, _)| {
         let path = out.join(film_name(index));
         Film::create(&path, width, height, FILM_FPS)
@@ -107,27 +109,25 @@ pub fn run(
         None => (name, scene),
     };
     let scene = scene.with_effort(outcome.effort);
-    let statements = (
-        SceneStatement::of(&name, &scene),
-        SolverStatement::of(&scene),
-    );
     let report = assemble(
         (args, chosen),
         &colours,
         preset,
         seed,
-        statements,
+        (&name, &scene),
         outcome,
         observations,
     );
-    write(&mut out, &report)?;
+    // The page first and the numbers last: a folder with `report.json` is a whole run.
+    out.write(REPORT_HTML, report.to_html().as_bytes())?;
+    out.write(REPORT_JSON, &serde_json::to_vec_pretty(&report).other()?)?;
 
     let replayed = Replayed {
         report: report.without_series(),
         report_json: out.join(REPORT_JSON).display().to_string(),
         report_html: out.join(REPORT_HTML).display().to_string(),
     };
-    let folder = out.path().to_owned();
+    let folder = out.path.clone();
     out.complete();
     emit(format, &replayed, |done| describe(done, &folder))
 }
@@ -165,7 +165,7 @@ fn assemble(
     colours: &[Colour],
     preset: Preset,
     seed: u64,
-    (scene, solver): (SceneStatement, SolverStatement),
+    (name, scene): (&str, &Scene),
     outcome: Outcome,
     observations: Observations,
 ) -> Report {
@@ -173,7 +173,7 @@ fn assemble(
     // The filling is not the solver's work, so the start does not count.
     let solved = || samples.iter().skip(1);
     let count = solved().count().max(1) as f64;
-    let (width, height) = FILM_SIZE;
+    let [width, height] = FILM_SIZE;
     let film = |index: usize| {
         colours.get(index).map(|colour| FilmStatement {
             path: film_name(index).into(),
@@ -207,8 +207,8 @@ fn assemble(
         film: film(0),
         film_temperature: film(1),
         device: outcome.device,
-        scene,
-        solver,
+        scene: SceneStatement::of(name, scene),
+        solver: SolverStatement::of(scene),
         counters: outcome.counters,
         series: observations.samples,
     }
@@ -230,28 +230,21 @@ fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
 fn command_line(args: &ReplayArgs, preset: Preset, seed: u64, solver: Option<[u32; 2]>) -> String {
+    let head = (args.camera == CameraName::Head).then(|| "head".to_owned());
+    let options = [
+        ("scene", args.scene.as_deref().map(quoted)),
+        ("preset", Some(preset.name().to_owned())),
+        ("seed", Some(seed.to_string())),
+        ("solver", solver.map(|[a, b]| format!("{a}x{b}"))),
+        ("seconds", args.seconds.map(|seconds| seconds.to_string())),
+        ("device", args.device.as_deref().map(quoted)),
+        ("camera", head),
+        ("colour", args.colour.map(|it| it.name().to_owned())),
+        ("filter", args.filter.map(|it| it.name().to_owned())),
+    ];
     let mut line = format!("vitriol replay {}", quoted(&args.track));
-    if let Some(scene) = &args.scene {
-        line += &format!(" --scene {}", quoted(scene));
-    }
-    line += &format!(" --preset {} --seed {}", preset.name(), seed);
-    if let Some([substeps, iterations]) = solver {
-        line += &format!(" --solver {substeps}x{iterations}");
-    }
-    if let Some(seconds) = args.seconds {
-        line += &format!(" --seconds {seconds}");
-    }
-    if let Some(device) = &args.device {
-        line += &format!(" --device {}", quoted(device));
-    }
-    if args.camera == CameraName::Head {
-        line += " --camera head";
-    }
-    if let Some(colour) = args.colour {
-        line += &format!(" --colour {}", colour.name());
-    }
-    if let Some(filter) = args.filter {
-        line += &format!(" --filter {}", filter.name());
+    for (name, value) in options {
+        line.extend(value.map(|value| format!(" --{name} {value}")));
     }
     if args.no_video {
         line += " --no-video";
@@ -267,23 +260,6 @@ fn quoted(argument: &str) -> String {
     } else {
         format!("'{}'", argument.replace('\'', r"'\''"))
     }
-}
-
-/// The scene with the substeps and iterations that were asked for, or that hold the
-/// budget; and these, where it was one of the two.
-fn chosen(args: &ReplayArgs, scene: Scene) -> Result<(Scene, Option<[u32; 2]>), Failure> {
-    let gpu = || device::open(args.device.as_deref());
-    let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
-    let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
-    Ok((scene, chosen))
-}
-
-/// Writes the page first and the numbers last: a folder with `report.json` is
-/// a whole run.
-fn write(out: &mut OutDir, report: &Report) -> Result<(), Failure> {
-    let json = serde_json::to_vec_pretty(report).other()?;
-    out.write(REPORT_HTML, report.to_html().as_bytes())?;
-    out.write(REPORT_JSON, &json)
 }
 
 fn describe(done: &Replayed, out: &Path) -> String {

@@ -1,5 +1,6 @@
 //! `vitriol scenes`: the built-in scenes, each with what it states.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
@@ -11,11 +12,6 @@ use vitriol_study::bench::frame::anatomy;
 
 use crate::cli::ScenesArgs;
 use crate::report::{SceneStatement, SolverStatement};
-
-#[derive(Debug, Serialize)]
-struct SceneList {
-    scenes: Vec<SceneInfo>,
-}
 
 #[derive(Debug, Serialize)]
 struct SceneInfo {
@@ -46,10 +42,10 @@ pub fn run(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
         return cost(args, format);
     }
     let scenes = Scene::builtin_names().into_iter().map(look_into);
-    let scenes = scenes.collect::<Result<_, _>>()?;
-    emit(format, &SceneList { scenes }, |list| {
-        let scenes: Vec<String> = list.scenes.iter().map(describe).collect();
-        scenes.join("\n")
+    let scenes: Vec<SceneInfo> = scenes.collect::<Result<_, _>>()?;
+    emit(format, &BTreeMap::from([("scenes", &scenes)]), |_| {
+        let texts: Vec<String> = scenes.iter().map(describe).collect();
+        texts.join("\n")
     })
 }
 

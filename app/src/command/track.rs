@@ -27,11 +27,6 @@ struct TrackInfo {
 }
 
 #[derive(Debug, Serialize)]
-struct TrackList {
-    tracks: Vec<TrackInfo>,
-}
-
-#[derive(Debug, Serialize)]
 struct Conversion {
     input: String,
     output: String,
@@ -50,10 +45,9 @@ pub fn run(args: &TrackArgs, format: Format) -> Result<(), Failure> {
         (Some(input), None) => emit(format, &look_into(input)?, describe),
         (None, _) => {
             let tracks = builtin::NAMES.iter().map(|name| look_into(name));
-            let tracks = tracks.collect::<Result<_, _>>()?;
-            emit(format, &TrackList { tracks }, |list| {
-                list.tracks.iter().map(line).collect()
-            })
+            let tracks: Vec<TrackInfo> = tracks.collect::<Result<_, _>>()?;
+            let list = BTreeMap::from([("tracks", &tracks)]);
+            emit(format, &list, |_| tracks.iter().map(line).collect())
         }
     }
 }

@@ -8,7 +8,6 @@ use serde::Serialize;
 use vitriol_experiment::units::{grouped, three_digits};
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit, track};
 use vitriol_gpu::{Gpu, Timestamps};
-use vitriol_sim::measure::Measurement;
 use vitriol_sim::scene::Scene;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
@@ -47,18 +46,6 @@ struct SessionReport {
     renewals: u64,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
-    #[serde(flatten)]
-    times: Times,
-    /// What the process held after warming up and at the end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    holdings: Option<[Holdings; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recording: Option<RecordingStatus>,
-    state_hash: String,
-}
-
-#[derive(Debug, Serialize)]
-struct Times {
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -80,6 +67,12 @@ struct Times {
     /// From the hand's pose to the flask in the picture, simulation steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_steps: Option<Spread>,
+    /// What the process held after warming up and at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holdings: Option<[Holdings; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<RecordingStatus>,
+    state_hash: String,
 }
 
 /// Runs `vitriol vr`.
@@ -101,14 +94,18 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         record: args.record.clone(),
         governed: !args.fixed,
     };
-    let mirrored = !args.no_mirror;
     // Nobody reads what nobody governs or measures.
     let timestamps = if options.governed || options.frames.is_some() {
         Timestamps::Whole
     } else {
         Timestamps::None
     };
-    let (name, outcome, stand_in) = match &args.stand_in {
+    let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
+        let options = with_solver(args, options, headset.gpu())?;
+        let outcome = begin(headset, options, !args.no_mirror)?.run(headset)?;
+        Ok((headset.name().to_owned(), outcome))
+    };
+    let ((name, outcome), stand_in) = match &args.stand_in {
         Some(wearer) => {
             let gpu = device::timed(args.device.as_deref(), timestamps)?;
             let spec = StandInSpec {
@@ -117,13 +114,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 timing: Timing::Real,
             };
             let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
-            let options = with_solver(args, options, &gpu)?;
-            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
-            (
-                headset.name().to_owned(),
-                outcome,
-                Some((spec, headset.ready())),
-            )
+            (worn(&mut headset)?, Some((spec, headset.ready())))
         }
         None => {
             let mut headset = OpenXr::open(OpenXrOptions {
@@ -136,9 +127,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 panel: PANEL,
             })
             .map_err(blame)?;
-            let options = with_solver(args, options, headset.gpu())?;
-            let outcome = begin(&headset, options, mirrored)?.run(&mut headset)?;
-            (headset.name().to_owned(), outcome, None)
+            (worn(&mut headset)?, None)
         }
     };
     emit(format, &state(name, &outcome, stand_in)?, describe)
@@ -203,7 +192,7 @@ fn state(
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
     let world = &outcome.bench.world;
-    let measured: Measurement = world.measure().other()?;
+    let measured = world.measure().other()?;
     let tally = &outcome.tally;
     let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {
         let counted = ready.iter().filter(|frame| frame.index >= WARM_UP);
@@ -227,15 +216,13 @@ fn state(
         missed_frames: outcome.skipped + late.count() as u64,
         renewals: outcome.renewals,
         governor: outcome.governor.clone(),
-        times: Times {
-            cpu_ms: Spread::of(&tally.cpu_ms),
-            gpu_solver_ms: Spread::of(&tally.solve_ms),
-            gpu_picture_ms: Spread::of(&tally.picture_ms),
-            ready_ms: Spread::of(&counted),
-            period_ms: period,
-            pose_age_ms: Spread::of(&tally.pose_age_ms),
-            input_to_flask_steps: Spread::of(&tally.delay_steps),
-        },
+        cpu_ms: Spread::of(&tally.cpu_ms),
+        gpu_solver_ms: Spread::of(&tally.solve_ms),
+        gpu_picture_ms: Spread::of(&tally.picture_ms),
+        ready_ms: Spread::of(&counted),
+        period_ms: period,
+        pose_age_ms: Spread::of(&tally.pose_age_ms),
+        input_to_flask_steps: Spread::of(&tally.delay_steps),
         holdings: match outcome.holdings {
             [Some(before), Some(after)] => Some([before, after]),
             _ => None,
@@ -281,32 +268,26 @@ fn describe(session: &SessionReport) -> String {
         session.frames,
         session.missed_frames,
     );
-    let times = &session.times;
-    // Writing to a string cannot fail.
-    let _ = write!(text, "{}", governed(&session.governor));
+    text += &governed(&session.governor);
     let rows = [
-        ("processor, a frame, ms", times.cpu_ms),
-        ("device, solver, ms", times.gpu_solver_ms),
-        ("device, picture, ms", times.gpu_picture_ms),
-        ("from begin to done, ms", times.ready_ms),
-        ("age of the eyes' pose, ms", times.pose_age_ms),
-        ("hand to flask, steps", times.input_to_flask_steps),
+        ("processor, a frame, ms", session.cpu_ms),
+        ("device, solver, ms", session.gpu_solver_ms),
+        ("device, picture, ms", session.gpu_picture_ms),
+        ("from begin to done, ms", session.ready_ms),
+        ("age of the eyes' pose, ms", session.pose_age_ms),
+        ("hand to flask, steps", session.input_to_flask_steps),
     ];
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "{:<28} {:>9} {:>9} {:>9} {:>9}",
-        "", "median", "95 %", "99 %", "most"
-    );
+    text += "                                median      95 %      99 %      most\n";
     for (name, spread) in rows {
         if let Some(Spread { p50, p95, p99, max }) = spread {
+            // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
                 "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {max:>9.3}"
             );
         }
     }
-    if let (Some(period), Some(ready)) = (times.period_ms, times.ready_ms) {
+    if let (Some(period), Some(ready)) = (session.period_ms, session.ready_ms) {
         let _ = writeln!(
             text,
             "left of {period:.2} ms: {:.2} ms in the 99th percentile",

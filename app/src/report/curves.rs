@@ -24,13 +24,13 @@ impl Report {
         let steam = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.steam_kg);
         let mist = |s: &Sample| ledger(s).map_or(f64::NAN, |ledger| ledger.mist_kg);
         let spilled = |s: &Sample| s.mass_kg.table + s.mass_kg.floor;
-        let mut lost = vec![(self.curve("spilled", &spilled), self.largest(&spilled))];
+        let of = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+            (self.curve(label, value), self.largest(value))
+        };
+        let mut lost = vec![of("spilled", &spilled)];
         if self.series.iter().any(|sample| ledger(sample).is_some()) {
-            lost.push((self.curve("evaporated", &steam), self.largest(&steam)));
-            lost.push((
-                self.curve("of it mist in the air", &mist),
-                self.largest(&mist),
-            ));
+            lost.push(of("evaporated", &steam));
+            lost.push(of("of it mist in the air", &mist));
         }
         let most = lost.iter().map(|(_, most)| *most).fold(0.0, f64::max);
         let curves = lost.into_iter().map(|(curve, _)| curve).collect();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample};
-use vitriol_sim::scene::{Boundary, RelaxationKind, Scene};
+use vitriol_sim::scene::Scene;
 
 /// The report of one run. SI units throughout.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -143,19 +143,11 @@ impl SolverStatement {
         Self {
             substeps: scene.solver.substeps,
             iterations: scene.solver.iterations,
-            relaxation: match scene.solver.relaxation {
-                RelaxationKind::Jacobi => "jacobi",
-                RelaxationKind::Chebyshev => "chebyshev",
-            }
-            .into(),
+            relaxation: format!("{:?}", scene.solver.relaxation).to_lowercase(),
             omega: scene.solver.omega,
             carry: scene.solver.carry,
             v_max: scene.solver.v_max,
-            boundary: match scene.solver.boundary {
-                Boundary::Map => "map",
-                Boundary::Particles => "particles",
-            }
-            .into(),
+            boundary: format!("{:?}", scene.solver.boundary).to_lowercase(),
         }
     }
 }

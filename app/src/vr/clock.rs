@@ -15,10 +15,10 @@ pub const MOST_STEPS: u32 = 5;
 pub struct StepClock {
     /// Display time of the last frame, ns.
     last: Option<i64>,
-    /// Simulated time since the end of the last step, s; less than a step.
-    since: f64,
+    /// Time between the end of the last step and the display time, s; less than a step.
+    pub since: f64,
     /// Time that the simulation went slower than the display, s.
-    slowed: f64,
+    pub slowed: f64,
 }
 
 /// A frame's steps.
@@ -70,16 +70,6 @@ impl StepClock {
     /// The display stands still: what passes until its next frame is not simulated.
     pub fn pause(&mut self) {
         self.last = None;
-    }
-
-    /// Time between the end of the last step and the display time, s.
-    pub fn behind(&self) -> f64 {
-        self.since
-    }
-
-    /// Time that was shown as slow motion, s.
-    pub fn slowed(&self) -> f64 {
-        self.slowed
     }
 }
 
@@ -157,7 +147,7 @@ mod tests {
             simulated += STEP * due.ends.len() as f64;
         }
         // What was not simulated was said, to the last bit of it.
-        assert!((clock.slowed() + simulated + clock.behind() - 4.0).abs() < 1e-9);
+        assert!((clock.slowed + simulated + clock.since - 4.0).abs() < 1e-9);
         // And nothing is made up for.
         assert_eq!(clock.advance(ns(4.0 + STEP), STEP).ends.len(), 1);
     }
@@ -171,10 +161,10 @@ mod tests {
         assert_eq!(clock.advance(ns(3.0 + STEP), STEP).ends.len(), 1);
         // Nor is a clock that goes backwards, as a new runtime's may.
         assert!(clock.advance(ns(1.0), STEP).ends.is_empty());
-        assert_eq!(clock.slowed(), 0.0);
+        assert_eq!(clock.slowed, 0.0);
         // Two seconds for a frame: a machine that slow goes on none the less.
         let most = MOST_STEPS as usize;
         assert_eq!(clock.advance(ns(3.0), STEP).ends.len(), most);
-        assert!((clock.slowed() - (2.0 - most as f64 * STEP)).abs() < 1e-9);
+        assert!((clock.slowed - (2.0 - most as f64 * STEP)).abs() < 1e-9);
     }
 }

@@ -57,6 +57,7 @@ pub struct FrameTimes {
 pub struct Governor {
     /// By part, what each rung costs in units of its own; falling.
     costs: [Vec<f64>; 2],
+    /// For the next frames.
     level: Level,
     /// By part, the last frames' times at this level, ms.
     times: [VecDeque<f64>; 2],
@@ -71,26 +72,17 @@ pub struct Governor {
 }
 
 impl Governor {
-    /// At `level` of ladders whose rungs cost `costs`, the finest first.
-    pub fn new(costs: [Vec<f64>; 2], level: Level) -> Self {
-        let mut level = level;
-        for (rung, ladder) in level.iter_mut().zip(&costs) {
-            *rung = (*rung).min(ladder.len().saturating_sub(1));
-        }
+    /// On the finest rung of ladders whose rungs cost `costs`, the finest first.
+    pub fn new(costs: [Vec<f64>; 2]) -> Self {
         Self {
             costs,
-            level,
+            level: [0, 0],
             times: [VecDeque::new(), VecDeque::new()],
             room: [0.0; 2],
             wait: [WAIT[0]; 2],
             risen: [None; 2],
             since_miss: f64::INFINITY,
         }
-    }
-
-    /// The level for the next frames.
-    pub fn level(&self) -> Level {
-        self.level
     }
 
     /// Forgets what frames took, because the device or the work has changed.

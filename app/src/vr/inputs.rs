@@ -48,33 +48,26 @@ pub struct Pressed {
     pub start: bool,
     /// A (X on the left): the bench before the user.
     pub recentre: bool,
-    /// The trigger, by hand.
-    pub triggers: [bool; 2],
 }
 
 /// Remembers what is held down.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Buttons {
-    held: [[bool; 3]; 2],
+    held: [[bool; 2]; 2],
 }
-
-/// A trigger counts as pressed from this value on, and as released below half of it.
-const TRIGGER: f32 = 0.6;
 
 impl Buttons {
     /// Takes in a frame's hands.
     pub fn advance(&mut self, hands: &[Hand; 2]) -> Pressed {
         let mut pressed = Pressed::default();
-        for (index, (held, hand)) in self.held.iter_mut().zip(hands).enumerate() {
+        for (held, hand) in self.held.iter_mut().zip(hands) {
             // A controller that sleeps keeps its buttons as they were.
             if !hand.active {
                 continue;
             }
-            let least = if held[2] { 0.5 * TRIGGER } else { TRIGGER };
-            let now = [hand.button_b, hand.button_a, hand.trigger >= least];
+            let now = [hand.button_b, hand.button_a];
             pressed.start |= now[0] && !held[0];
             pressed.recentre |= now[1] && !held[1];
-            pressed.triggers[index] = now[2] && !held[2];
             *held = now;
         }
         pressed
@@ -137,23 +130,22 @@ mod tests {
     fn a_button_counts_once() {
         let mut buttons = Buttons::default();
         let mut hands = [Hand::default(), Hand::default()];
-        let mut press = |active, b, a, trigger| {
+        let mut press = |active, b, a| {
             hands[1] = Hand {
                 active,
                 button_b: b,
                 button_a: a,
-                trigger,
                 ..Hand::default()
             };
             let pressed = buttons.advance(&hands);
-            (pressed.start, pressed.recentre, pressed.triggers[1])
+            (pressed.start, pressed.recentre)
         };
-        assert_eq!(press(true, true, false, 0.0), (true, false, false));
-        assert_eq!(press(true, true, true, 0.7), (false, true, true));
+        assert_eq!(press(true, true, false), (true, false));
+        assert_eq!(press(true, true, true), (false, true));
         // Asleep: what was held down still is.
-        assert_eq!(press(false, false, false, 0.0), (false, false, false));
-        assert_eq!(press(true, true, true, 0.4), (false, false, false));
-        assert_eq!(press(true, false, false, 0.2), (false, false, false));
-        assert_eq!(press(true, true, false, 0.7), (true, false, true));
+        assert_eq!(press(false, false, false), (false, false));
+        assert_eq!(press(true, true, true), (false, false));
+        assert_eq!(press(true, false, false), (false, false));
+        assert_eq!(press(true, true, false), (true, false));
     }
 }

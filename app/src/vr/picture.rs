@@ -4,7 +4,6 @@ use glam::Affine3A;
 use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
-use vitriol_render::camera::NEAR;
 use vitriol_render::{
     ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, RenderDesc, RenderError, Renderer,
     SteamSource, View,
@@ -81,21 +80,14 @@ pub struct Sight<'a> {
     pub beads: &'a [Bead],
 }
 
-/// A picture's submissions.
-pub struct Drawn {
-    /// What reads the particles, on the solver's queue.
-    pub shapes: Ticket,
-    /// The rest.
-    pub picture: Ticket,
-}
-
 impl Picture {
     /// Leaves out of the pictures what the lenses hide; waits for the device.
     ///
     /// # Errors
     /// What the device says.
     pub fn hide(&mut self, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
-        hide(&mut self.renderer, hidden)
+        let [left, right] = hidden;
+        self.renderer.set_visibility_mask(&[left, right]).other()
     }
 
     /// Pictures of a scene.
@@ -120,7 +112,6 @@ impl Picture {
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
-        hide(&mut renderer, &eyes.hidden)?;
         let puffs = subject
             .puffs
             .map(|bytes| -> Result<_, Failure> {
@@ -129,13 +120,15 @@ impl Picture {
             })
             .transpose()?;
         let beads = || Buffer::storage(gpu, "hands", 16 * u64::from(MOST_BEADS)).other();
-        Ok(Self {
+        let mut picture = Self {
             renderer,
             puffs,
             beads: [beads()?, beads()?],
             under_way: Vec::new(),
             drawn: 0,
-        })
+        };
+        picture.hide(&eyes.hidden)?;
+        Ok(picture)
     }
 
     /// Takes over from `before`, whose pictures may still be under way.
@@ -172,7 +165,7 @@ impl Picture {
         gpu.submit_after(rec, before.as_slice()).other()
     }
 
-    /// Submits the rest of the picture, and its copy to `targets`; `also` records what else is to be
+    /// Submits the rest of the picture behind its `shapes`, and its copy to `targets`; `also` records what else is to be
     /// done behind it.
     ///
     /// # Errors
@@ -180,11 +173,11 @@ impl Picture {
     pub fn draw(
         &mut self,
         world: &World,
-        shapes: Ticket,
+        shapes: &Ticket,
         sight: &Sight<'_>,
         targets: &Targets,
         also: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
-    ) -> Result<Drawn, Failure> {
+    ) -> Result<Ticket, Failure> {
         let (gpu, slot) = (world.gpu(), self.drawn % 2);
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
         self.upload_beads(&mut rec, world, sight.beads)?;
@@ -196,10 +189,10 @@ impl Picture {
             rec.copy_to_image(self.renderer.depth(), depth).other()?;
         }
         also(&mut rec)?;
-        let picture = gpu.submit_after(rec, &[&shapes]).other()?;
+        let picture = gpu.submit_after(rec, &[shapes]).other()?;
         self.drawn += 1;
         self.under_way.push(picture.clone());
-        Ok(Drawn { shapes, picture })
+        Ok(picture)
     }
 
     /// Waits until at most two pictures are under way. Only while no frame is open.
@@ -211,11 +204,6 @@ impl Picture {
             self.under_way.remove(0).wait().other()?;
         }
         Ok(())
-    }
-
-    /// Distance of the near plane, real m.
-    pub fn near() -> f32 {
-        NEAR
     }
 
     /// The colour image, a layer an eye.
@@ -293,10 +281,4 @@ pub fn eye(view: &vitriol_xr::View, stage_from_scene: &Pose) -> View {
             down: view.fov.down,
         },
     }
-}
-
-/// Leaves out of the pictures what the lenses hide.
-fn hide(renderer: &mut Renderer, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
-    let [left, right] = hidden;
-    renderer.set_visibility_mask(&[left, right]).other()
 }

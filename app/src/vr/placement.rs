@@ -47,7 +47,7 @@ pub struct Placement {
     stage_from_scene: Option<Pose>,
     /// The last frame in the headset's stage, where this one's steps begin; `None` where that would be
     /// somewhere else: before the first frame, after a recentring and on another device.
-    last: Option<PoseFrame>,
+    pub last: Option<PoseFrame>,
 }
 
 impl Placement {
@@ -80,21 +80,6 @@ impl Placement {
             key: SWITCH_PLACEMENT.into(),
             value: as_text(&placed),
         }
-    }
-
-    /// The last frame, in the headset's stage.
-    pub fn last(&self) -> Option<&PoseFrame> {
-        self.last.as_ref()
-    }
-
-    /// Takes in a frame, which is the last one from now on.
-    pub fn advance(&mut self, now: PoseFrame) {
-        self.last = Some(now);
-    }
-
-    /// Forgets the last frame, which was another device's.
-    pub fn forget_last(&mut self) {
-        self.last = None;
     }
 
     /// The last frame, in the scene's stage.

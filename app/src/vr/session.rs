@@ -22,7 +22,7 @@ use vitriol_xr::{Headset, Turn};
 use super::blame::blame;
 use super::decision::Decision;
 use super::mirror::{Mirror, Window};
-use super::panel::{PANEL, Panel};
+use super::panel::Panel;
 use super::placement::{Placement, Posture};
 use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
@@ -32,7 +32,6 @@ use benches::Benches;
 use choices::Choices;
 use counts::Counts;
 use ended::NoFrameOpen;
-use frame::Parts;
 use pacing::Pacing;
 use readings::Readings;
 use steps::Steps;
@@ -82,9 +81,28 @@ pub struct SessionOutcome {
     pub recorded: Option<RecordingStatus>,
 }
 
-/// See the module.
+/// See the module. Each part keeps one thing and knows no other part but those that it is handed.
 pub struct Session {
-    parts: Parts,
+    /// The bench in use and the one that is being built.
+    benches: Benches,
+    /// What the user chose and is not done yet.
+    choices: Choices,
+    /// Where the bench stands, and the last frame's poses.
+    placement: Placement,
+    /// Steps that are due.
+    steps: Steps,
+    /// The recording, with simulated time and the switches of the next step.
+    track: SessionTrack,
+    /// What the panel says of the flasks.
+    readings: Readings,
+    /// The panel.
+    panel: Panel,
+    /// The window on the computer, if there is one.
+    mirror: Option<Mirror>,
+    /// The governor, and what it has decided.
+    pacing: Pacing,
+    /// Frames, and what they took.
+    counts: Counts,
     /// Frames after which it ends, those of the warm-up included.
     most: Option<u64>,
     renewals: u64,
@@ -106,24 +124,22 @@ impl Session {
         let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
-        let tally = Tally::new(counts, timed && (counts || pacing.is_governed()));
-        let panel = Panel::new(gpu, &benches.library, PANEL)?;
+        let tally = Tally::new(counts, timed && (counts || pacing.report.on));
+        let panel = Panel::new(gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
         let mut track = SessionTrack::new(options.record.as_deref(), &options.plan)?;
         pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
         Ok(Self {
-            parts: Parts {
-                benches,
-                choices: Choices::new(decisions),
-                placement: Placement::new(options.posture),
-                steps: Steps::new(),
-                track,
-                readings: Readings::default(),
-                panel,
-                mirror: None,
-                pacing,
-                counts: Counts::new(tally),
-            },
+            benches,
+            choices: Choices::new(decisions),
+            placement: Placement::new(options.posture),
+            steps: Steps::new(),
+            track,
+            readings: Readings::default(),
+            panel,
+            mirror: None,
+            pacing,
+            counts: Counts::new(tally),
             most: options.frames.map(|frames| WARM_UP + frames),
             renewals: 0,
         })
@@ -134,14 +150,9 @@ impl Session {
     /// # Errors
     /// What the device says.
     pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
-        let Benches {
-            current,
-            library,
-            eyes,
-            ..
-        } = &self.parts.benches;
-        let mirror = Mirror::new(current.world.gpu(), library, eyes.extent, window)?;
-        self.parts.mirror = Some(mirror);
+        let (gpu, benches) = (self.benches.current.world.gpu(), &self.benches);
+        let mirror = Mirror::new(gpu, &benches.library, benches.eyes.extent, window)?;
+        self.mirror = Some(mirror);
         Ok(self)
     }
 
@@ -152,14 +163,13 @@ impl Session {
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
         loop {
-            if self.parts.choices.hear() {
+            if self.choices.hear() {
                 headset.request_exit().map_err(blame)?;
             }
             match headset.next().map_err(blame)? {
                 Turn::Frame(frame) => {
-                    self.parts.frame(headset, &frame)?;
-                    let frames = self.parts.counts.frames;
-                    if self.most.is_some_and(|most| frames >= most) {
+                    self.frame(headset, &frame)?;
+                    if self.most.is_some_and(|most| self.counts.frames >= most) {
                         headset.request_exit().map_err(blame)?;
                     }
                 }
@@ -181,53 +191,51 @@ impl Session {
 
     /// The headset shows nothing, for this reason: time stands still.
     fn pause(&mut self, why: &str) -> Result<(), Failure> {
-        let parts = &mut self.parts;
-        let info = parts.info();
-        if let Some(mirror) = &mut parts.mirror {
+        let info = self.info();
+        if let Some(mirror) = &mut self.mirror {
             mirror.entitle(&info, Some(why));
         }
-        parts.steps.pause();
-        parts.counts.pause();
-        parts.catch_up(&NoFrameOpen::in_a_turn_without())
+        self.steps.clock.pause();
+        self.counts.pause();
+        self.catch_up(&NoFrameOpen::in_a_turn_without())
     }
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
         self.pause("the headset was lost")?;
         self.renewals += 1;
-        let (parts, gpu) = (&mut self.parts, headset.gpu());
-        parts.benches.move_to(headset)?;
-        let (library, eyes) = (&parts.benches.library, &parts.benches.eyes);
-        parts.panel = Panel::new(gpu, library, PANEL)?;
-        if let Some(mirror) = &mut parts.mirror {
+        let gpu = headset.gpu();
+        self.benches.move_to(headset)?;
+        let (library, eyes) = (&self.benches.library, &self.benches.eyes);
+        self.panel = Panel::new(gpu, library)?;
+        if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;
         }
         // What was under way on the old device will not come, and what it took says nothing of the new one.
-        parts.pacing.forget();
-        parts.counts.tally.restart();
-        parts.steps.submitted();
-        parts.readings.forget_under_way();
-        parts.placement.forget_last();
+        self.pacing.forget();
+        self.counts.tally.restart();
+        self.steps.submitted();
+        self.readings.under_way = None;
+        self.placement.last = None;
         Ok(())
     }
 
-    fn finish(self) -> Result<SessionOutcome, Failure> {
-        let mut parts = self.parts;
-        parts.catch_up(&NoFrameOpen::in_a_turn_without())?;
-        parts.benches.current.world.gpu().wait_idle().other()?;
-        parts.counts.tally.collect()?;
-        let (time, recorded) = parts.track.finish();
+    fn finish(mut self) -> Result<SessionOutcome, Failure> {
+        self.catch_up(&NoFrameOpen::in_a_turn_without())?;
+        self.benches.current.world.gpu().wait_idle().other()?;
+        self.counts.tally.collect()?;
+        let (time, recorded) = self.track.finish();
         Ok(SessionOutcome {
-            bench: parts.benches.current,
+            bench: self.benches.current,
             steps: time.steps(),
             simulated: time.seconds(),
-            slowed: parts.steps.slowed(),
-            frames: parts.counts.frames,
-            skipped: parts.counts.skipped,
+            slowed: self.steps.clock.slowed,
+            frames: self.counts.frames,
+            skipped: self.counts.skipped,
             renewals: self.renewals,
-            tally: parts.counts.tally,
-            governor: parts.pacing.report().clone(),
-            holdings: [parts.counts.began_with, Holdings::now()],
+            tally: self.counts.tally,
+            governor: self.pacing.report,
+            holdings: [self.counts.began_with, Holdings::now()],
             recorded,
         })
     }

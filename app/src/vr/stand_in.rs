@@ -67,7 +67,8 @@ pub struct Ready {
 pub struct StandIn {
     gpu: Gpu,
     spec: StandInSpec,
-    targets: Targets,
+    /// The images that it was given last.
+    pub targets: Targets,
     /// At the track's start; cloned where the wearer starts over.
     wearer: TrackSource,
     playing: TrackSource,
@@ -78,7 +79,8 @@ pub struct StandIn {
     index: u64,
     view: Pose,
     leaving: bool,
-    felt: [f32; 2],
+    /// What the left and the right hand feel.
+    pub felt: [f32; 2],
     compositor: Option<Compositor>,
     name: String,
 }
@@ -137,16 +139,6 @@ impl StandIn {
         seen.map_or_else(Vec::new, |seen| {
             seen.lock().unwrap_or_else(PoisonError::into_inner).clone()
         })
-    }
-
-    /// What the left and the right hand feel.
-    pub fn felt(&self) -> [f32; 2] {
-        self.felt
-    }
-
-    /// The images that it was given last.
-    pub fn targets(&self) -> &Targets {
-        &self.targets
     }
 
     /// Length of a period, s.

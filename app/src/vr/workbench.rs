@@ -1,13 +1,10 @@
-//! The bench that the user works at: a world with its picture. [`Builder`] makes one beside the frame loop.
-
-use std::sync::Arc;
-use std::thread::JoinHandle;
+//! The bench that the user works at: a world with its picture.
 
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
-use vitriol_sim::world::{World, WorldError, WorldState};
+use vitriol_sim::world::{World, WorldError};
 
 use super::ladder::Ladder;
 use super::picture::{Eyes, Picture, Subject};
@@ -82,64 +79,5 @@ impl Workbench {
         let before = std::mem::replace(&mut self.picture, picture);
         self.picture.follow(before);
         self.plan.filter = Some(filter);
-    }
-
-    /// The same bench on another device, every particle where it was, solved as it was.
-    ///
-    /// # Errors
-    /// As for [`Workbench::new`].
-    pub fn moved(
-        gpu: &Gpu,
-        library: &Library,
-        plan: &Plan,
-        eyes: &Eyes,
-        state: &WorldState,
-        effort: [u32; 2],
-    ) -> Result<Self, Failure> {
-        let mut bench = Self::new(gpu, library, plan, eyes)?;
-        bench.world.set_effort(effort).other()?;
-        bench.world.restore(state).other()?;
-        Ok(bench)
-    }
-}
-
-/// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
-pub struct Builder {
-    plan: Plan,
-    eyes: Eyes,
-    thread: JoinHandle<Result<Workbench, Failure>>,
-}
-
-impl Builder {
-    /// Begins to make a bench for a headset's eyes.
-    pub fn start(gpu: &Gpu, library: &Arc<Library>, plan: Plan, eyes: Eyes) -> Self {
-        let (gpu, library) = (gpu.clone(), Arc::clone(library));
-        let (made, of) = (plan.clone(), eyes.clone());
-        let thread = std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of));
-        Self { plan, eyes, thread }
-    }
-
-    /// What is being made.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// What its picture is made for.
-    pub fn eyes(&self) -> &Eyes {
-        &self.eyes
-    }
-
-    /// Whether it is there, so that [`Builder::finish`] does not wait.
-    pub fn is_finished(&self) -> bool {
-        self.thread.is_finished()
-    }
-
-    /// The bench.
-    ///
-    /// # Errors
-    /// As for [`Workbench::new`].
-    pub fn finish(self) -> Result<Workbench, Failure> {
-        let made = self.thread.join();
-        made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other())
     }
 }

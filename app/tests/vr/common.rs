@@ -165,7 +165,7 @@ impl<T: Trouble> Headset for Worn<T> {
     }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
-        self.felt.push(self.inner.felt());
+        self.felt.push(self.inner.felt);
         self.inner.end(shown)
     }
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {

@@ -83,7 +83,7 @@ impl Onlooker {
     fn sees(&self, headset: &StandIn, window: Window) -> Result<(), String> {
         let gpu = headset.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        let eyes = rec.read_back_image(&headset.targets().colour).unwrap();
+        let eyes = rec.read_back_image(&headset.targets.colour).unwrap();
         gpu.submit(rec).unwrap().wait().unwrap();
         let eyes = eyes.get::<[u8; 4]>().unwrap();
         let left = &eyes[..EYE[0] * EYE[1]];

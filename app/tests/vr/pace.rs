@@ -156,7 +156,7 @@ fn a_start_and_a_loss_keep_the_level() {
     // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
     // goes 5 pixels far and not 9.
     assert_eq!(headset.shown.last().unwrap().extent, [58, 38]);
-    let depth = headset.inner.targets().depth.clone().unwrap();
+    let depth = headset.inner.targets.depth.clone().unwrap();
     let mut rec = second.recorder(QueueKind::Main).unwrap();
     let depth = rec.read_back_image(&depth).unwrap();
     second.submit(rec).unwrap().wait().unwrap();

@@ -46,7 +46,7 @@ fn info() -> Info {
 fn picture(gpu: &Gpu, panel: &mut Panel) -> Vec<u8> {
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     panel.record(&mut rec).unwrap();
-    let read = rec.read_back_image(panel.image()).unwrap();
+    let read = rec.read_back_image(&panel.image).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     read.get().unwrap()
 }
@@ -86,7 +86,7 @@ fn press(panel: &mut Panel, x: f32, y: f32) -> Option<Decision> {
 #[test]
 fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
-    let mut panel = Panel::new(&gpu, &Library::embedded(), PANEL).unwrap();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     panel.update([None, None], &info());
     // Down the middle of the right half: every decision once, in order.
     let mut decided = Vec::new();
@@ -112,7 +112,7 @@ fn each_choice_can_be_pressed() {
 #[test]
 fn the_panel_is_legible() {
     let gpu = gpu::device();
-    let mut panel = Panel::new(&gpu, &Library::embedded(), PANEL).unwrap();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     let hand = pointing(700.0, 150.0, 0.0);
     panel.update([None, Some(&hand)], &info());
     let shown = picture(&gpu, &mut panel);
@@ -158,7 +158,7 @@ impl Trouble for Points {
 fn a_hand_presses_the_panel_in_a_session() {
     let gpu = gpu::device();
     // Where the button is, found as above.
-    let mut panel = Panel::new(&gpu, &Library::embedded(), PANEL).unwrap();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     panel.update([None, None], &info());
     let x = 0.75 * PANEL[0] as f32;
     let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);

@@ -112,10 +112,8 @@ fn what_is_shown_is_what_was_drawn() {
     session(&mut headset, folder.path(), nobody());
     assert_eq!(headset.shown.len(), 20);
     let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main).unwrap();
-    let colour = rec
-        .read_back_image(&headset.inner.targets().colour)
-        .unwrap();
-    let depth = headset.inner.targets().depth.clone().unwrap();
+    let colour = rec.read_back_image(&headset.inner.targets.colour).unwrap();
+    let depth = headset.inner.targets.depth.clone().unwrap();
     let depth = rec.read_back_image(&depth).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     let (colour, depth) = (colour.get::<u8>().unwrap(), depth.get::<f32>().unwrap());

@@ -142,7 +142,7 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     let mut headset = Strict::new(&gpu, 5, Calm);
     session(&mut headset, folder.path(), nobody());
     let shown = *headset.inner.shown.last().unwrap();
-    let depth = headset.inner.inner.targets().depth.clone().unwrap();
+    let depth = headset.inner.inner.targets.depth.clone().unwrap();
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     let depth = rec.read_back_image(&depth).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();

@@ -27,7 +27,7 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
         preset: Preset::Balanced,
         seed: 1,
         device: None,
-        picture: Some(SIZE),
+        picture: Some(SIZE.into()),
         colours: vec![Colour::Speed],
         eyes: 1,
         filter: None,

@@ -37,37 +37,25 @@ pub fn rows(
     args: &BenchArgs,
 ) -> Result<Vec<RenderRow>, Failure> {
     let scene = Scene::load(name).input()?.with_preset(args.preset);
-    SIZES
-        .iter()
-        .map(|&(views, extent)| row(timed, plain, name, &scene, args, views, extent))
-        .collect()
-}
-
-fn row(
-    timed: &Gpu,
-    plain: &Gpu,
-    name: &str,
-    scene: &Scene,
-    args: &BenchArgs,
-    views: u32,
-    extent: [u32; 2],
-) -> Result<RenderRow, Failure> {
-    let (world, camera) = ready(timed, scene, args, views, extent)?;
-    let (passes, total) = passes(timed, &world, &camera, args.frames)?;
-    let (world, camera) = ready(plain, scene, args, views, extent)?;
-    let queued = queued(plain, &world, Some(&camera), args.frames)?;
-    Ok(RenderRow {
-        scene: name.to_owned(),
-        fluid_particles: world.solver().count().into(),
-        views,
-        width: extent[0],
-        height: extent[1],
-        passes,
-        device_total: total,
-        frame: queued,
-        overlapped: overlapped(plain, &world, &camera, args.frames)?,
-        solver: self::queued(plain, &world, None, args.frames)?,
-    })
+    let row = |&(views, extent): &(u32, [u32; 2])| {
+        let (world, camera) = ready(timed, &scene, args, views, extent)?;
+        let (passes, total) = passes(timed, &world, &camera, args.frames)?;
+        let (world, camera) = ready(plain, &scene, args, views, extent)?;
+        let queued = queued(plain, &world, Some(&camera), args.frames)?;
+        Ok(RenderRow {
+            scene: name.to_owned(),
+            fluid_particles: world.solver().count().into(),
+            views,
+            width: extent[0],
+            height: extent[1],
+            passes,
+            device_total: total,
+            frame: queued,
+            overlapped: overlapped(plain, &world, &camera, args.frames)?,
+            solver: self::queued(plain, &world, None, args.frames)?,
+        })
+    };
+    SIZES.iter().map(row).collect()
 }
 
 /// A world in motion and the camera before it.
@@ -91,11 +79,8 @@ fn ready(
     // A headset's field; on a screen a wide lens.
     let vertical: f32 = if eyes == 2 { 96.0 } else { 60.0 };
     let [eye, target] = HEAD;
-    camera.set_view(View::look_at(
-        eye,
-        target,
-        Fov::symmetric(vertical.to_radians(), aspect),
-    ));
+    let fov = Fov::symmetric(vertical.to_radians(), aspect);
+    camera.view = View::look_at(eye, target, fov);
     for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
         solve(gpu, &world)?;
     }

@@ -188,44 +188,31 @@ pub fn describe(bench: &Benchmark) -> String {
             text,
             "\n{}: {} fluid and {} boundary particles, {} × {}\n\
              density error: mean {}, 99th percentile {}\n\
-             {:<28} {:>10} {:>10} {:>10} {:>10}",
+             pass                          median ms    95 % ms dispatches         MB",
             row.scene,
             grouped(row.fluid_particles),
             grouped(row.solid_particles),
             row.substeps,
             row.iterations,
             percent(row.density_error_mean),
-            percent(row.density_error_p99),
-            "pass",
-            "median ms",
-            "95 % ms",
-            "dispatches",
-            "MB"
+            percent(row.density_error_p99)
         );
         for pass in &row.passes {
+            let Timing { median_ms, p95_ms } = pass.time;
+            let (name, number, megabytes) = (&pass.name, pass.dispatches, pass.bytes as f64 * 1e-6);
             let _ = writeln!(
                 text,
-                "{:<28} {:>10.3} {:>10.3} {:>10} {:>10.2}",
-                pass.name,
-                pass.time.median_ms,
-                pass.time.p95_ms,
-                pass.dispatches,
-                pass.bytes as f64 * 1e-6
+                "{name:<28} {median_ms:>10.3} {p95_ms:>10.3} {number:>10} {megabytes:>10.2}"
             );
         }
-        let _ = writeln!(
-            text,
-            "{:<28} {:>10.3} {:>10.3}\n{:<28} {:>10.3} {:>10.3}\n{:<28} {:>10.3} {:>10.3}",
-            "all passes, timed",
-            row.device_total.median_ms,
-            row.device_total.p95_ms,
-            "frame, queued, untimed",
-            row.total.median_ms,
-            row.total.p95_ms,
-            "of it recording, submitting",
-            row.cpu.median_ms,
-            row.cpu.p95_ms
-        );
+        let whole = [
+            ("all passes, timed", row.device_total),
+            ("frame, queued, untimed", row.total),
+            ("of it recording, submitting", row.cpu),
+        ];
+        for (name, Timing { median_ms, p95_ms }) in whole {
+            let _ = writeln!(text, "{name:<28} {median_ms:>10.3} {p95_ms:>10.3}");
+        }
         if let Some(paper) = &row.paper {
             let _ = writeln!(
                 text,
@@ -245,10 +232,8 @@ pub fn describe(bench: &Benchmark) -> String {
         describe_picture(row, &mut text);
     }
     if !bench.features.is_empty() {
-        let _ = writeln!(
-            text,
-            "\n{:<14} {:>10} {:>20} {:>10} {:>12}  off with it",
-            "feature", "cost ms", "from to", "dispatches", "B a particle"
+        text.push_str(
+            "\nfeature           cost ms              from to dispatches B a particle  off with it\n",
         );
     }
     for row in &bench.features {
@@ -271,16 +256,13 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "\n{}: {} fluid particles, {} × {} × {}\n{:<28} {:>10} {:>10} {:>10}",
+        "\n{}: {} fluid particles, {} × {} × {}\n\
+         pass                          median ms    95 % ms     number",
         row.scene,
         grouped(row.fluid_particles),
         row.views,
         row.width,
-        row.height,
-        "pass",
-        "median ms",
-        "95 % ms",
-        "number"
+        row.height
     );
     let named = [
         ("picture, all passes, timed", row.device_total),

@@ -13,10 +13,6 @@ use crate::cli::BenchArgs;
 /// [`Failure::NoDevice`], or [`Failure::Input`] for a scene or device that is
 /// not there; [`Failure::Other`] where standard output cannot be written.
 pub fn run(args: &BenchArgs, format: Format) -> Result<(), Failure> {
-    emit(format, &measure(args)?, describe)
-}
-
-fn measure(args: &BenchArgs) -> Result<Benchmark, Failure> {
     let timed = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let plain = device::open(args.device.as_deref())?;
     let names: Vec<String> = match (&args.scene, args.paper) {
@@ -25,25 +21,25 @@ fn measure(args: &BenchArgs) -> Result<Benchmark, Failure> {
         (None, false) if args.render => vec!["triple-dilution".to_owned()],
         (None, false) => vec!["beaker".to_owned()],
     };
-    let (mut rows, mut costs, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
-    if args.render {
-        for name in &names {
-            pictures.extend(picture::rows(&timed, &plain, name, args)?);
-        }
-    } else if args.features {
-        for name in &names {
-            costs.extend(features::costs(&timed, &plain, name, args)?);
-        }
-    } else {
-        for name in &names {
-            rows.push(solver::row(&timed, &plain, name, args)?);
-        }
-    }
-    Ok(Benchmark {
+    let mut found = Benchmark {
         device: device::statement(&timed),
         frames: args.frames,
-        rows,
-        features: costs,
-        pictures,
-    })
+        rows: Vec::new(),
+        features: Vec::new(),
+        pictures: Vec::new(),
+    };
+    for name in &names {
+        if args.render {
+            found
+                .pictures
+                .extend(picture::rows(&timed, &plain, name, args)?);
+        } else if args.features {
+            found
+                .features
+                .extend(features::costs(&timed, &plain, name, args)?);
+        } else {
+            found.rows.push(solver::row(&timed, &plain, name, args)?);
+        }
+    }
+    emit(format, &found, describe)
 }

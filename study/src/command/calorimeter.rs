@@ -8,7 +8,7 @@ use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::Preset;
 
-use crate::calorimeter::{self, EVEN, Feed, Mixed, Resolution};
+use crate::calorimeter::{self, EVEN, Feed, Resolution};
 use crate::cli::{CalorimeterArgs, OrderName};
 
 /// What both liquids together may have, mL: from a vessel of a millimetre, in
@@ -59,7 +59,7 @@ pub struct Calorimeter {
     /// Preset.
     pub preset: &'static str,
     /// Which liquid was below.
-    pub order: &'static str,
+    pub order: OrderName,
     /// Seed.
     pub seed: u64,
     /// The device.
@@ -77,7 +77,37 @@ pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
     let begin = Instant::now();
     let mixed = calorimeter::mix(&gpu, feeds, resolution(args.preset), args.seed)?;
     let wall_s = begin.elapsed().as_secs_f64();
-    let result = statement(args, feeds, &mixed, wall_s, device::statement(&gpu));
+    let end = mixed.end.ledger.unwrap_or_default();
+    let table = SolutionTable::new();
+    let mass_of = |feed: &Feed| feed.volume * table.at(feed.acid).density_at(feed.temperature);
+    // The particles' shares are of what was poured, whose mass they have but
+    // for rounding to whole particles.
+    let mass_g = 1e3 * feeds.iter().map(mass_of).sum::<f64>();
+    let [mass_drift, acid_drift, enthalpy_drift] = mixed.drifts;
+    let result = Calorimeter {
+        final_c: mixed.end.temperature_mean,
+        mass_percent: 100.0 * end.acid / (end.mass - end.vapour),
+        evaporated_g: mass_g * end.vapour / end.mass,
+        time_to_even_s: mixed.even.then_some(mixed.seconds),
+        peak_superheat_k: mixed.peak_superheat,
+        mass_drift,
+        acid_drift,
+        enthalpy_drift,
+        spread_k: mixed.end.temperature_spread,
+        spread_percent: 100.0 * mixed.end.acid_spread,
+        mass_g,
+        ratio_error: mixed.ratio_error,
+        particles: mixed.particles,
+        spacing_m: mixed.spacing,
+        lost_particles: mixed.lost,
+        diffusion_limited: mixed.counters.diffusion_limited,
+        simulated_s: mixed.seconds,
+        wall_s,
+        preset: args.preset.name(),
+        order: args.order,
+        seed: args.seed,
+        device: device::statement(&gpu),
+    };
     emit(format, &result, describe)
 }
 
@@ -149,46 +179,6 @@ pub fn feeds(args: &CalorimeterArgs) -> Result<[Feed; 2], Failure> {
         OrderName::WaterFirst => [water, acid],
         OrderName::AcidFirst => [acid, water],
     })
-}
-
-fn statement(
-    args: &CalorimeterArgs,
-    feeds: [Feed; 2],
-    mixed: &Mixed,
-    wall_s: f64,
-    device: DeviceStatement,
-) -> Calorimeter {
-    let end = mixed.end.ledger.unwrap_or_default();
-    let table = SolutionTable::new();
-    let mass_of = |feed: &Feed| feed.volume * table.at(feed.acid).density_at(feed.temperature);
-    // The particles' shares are of what was poured, whose mass they have but
-    // for rounding to whole particles.
-    let mass_g = 1e3 * feeds.iter().map(mass_of).sum::<f64>();
-    let [mass_drift, acid_drift, enthalpy_drift] = mixed.drifts;
-    Calorimeter {
-        final_c: mixed.end.temperature_mean,
-        mass_percent: 100.0 * end.acid / (end.mass - end.vapour),
-        evaporated_g: mass_g * end.vapour / end.mass,
-        time_to_even_s: mixed.even.then_some(mixed.seconds),
-        peak_superheat_k: mixed.peak_superheat,
-        mass_drift,
-        acid_drift,
-        enthalpy_drift,
-        spread_k: mixed.end.temperature_spread,
-        spread_percent: 100.0 * mixed.end.acid_spread,
-        mass_g,
-        ratio_error: mixed.ratio_error,
-        particles: mixed.particles,
-        spacing_m: mixed.spacing,
-        lost_particles: mixed.lost,
-        diffusion_limited: mixed.counters.diffusion_limited,
-        simulated_s: mixed.seconds,
-        wall_s,
-        preset: args.preset.name(),
-        order: args.order.name(),
-        seed: args.seed,
-        device,
-    }
 }
 
 fn describe(result: &Calorimeter) -> String {

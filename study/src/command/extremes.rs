@@ -3,11 +3,10 @@
 use std::time::Instant;
 
 use vitriol_experiment::{Blame, Failure, Format, device, emit, output};
-use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 
 use crate::cli::ExtremesArgs;
-use crate::extremes::{Case, Finding, Verdict, cases, describe, judge, summary};
+use crate::extremes::{Finding, Verdict, cases, describe, judge, summary};
 use crate::several::at_a_time;
 
 /// The numbers' name in the folder.
@@ -26,7 +25,13 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
     let file = output::new_files(args.out.as_deref(), [NUMBERS])?;
     let gpu = device::open(args.device.as_deref())?;
     let begin = Instant::now();
-    let found = judge_all(&gpu, &wanted, args.jobs as usize)?;
+    let library = Library::embedded();
+    // Several at a time: most of a small case is the host's work.
+    let found = at_a_time(args.jobs as usize, &wanted, |case| {
+        let finding = judge(&gpu, &library, case);
+        tracing::info!("{} {}", case.number, case.label());
+        finding
+    })?;
     let seconds = begin.elapsed().as_secs_f64();
     if let (Some(folder), Some([case])) =
         (&args.out, wanted.get(..1).filter(|_| args.only.is_some()))
@@ -46,19 +51,6 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
         return Err(format!("{} of {} cases failed", all.failed, all.cases)).other();
     }
     Ok(())
-}
-
-/// Judges cases, `jobs` at a time: most of a small case is the host's work.
-///
-/// # Errors
-/// The first of what the device says.
-pub fn judge_all(gpu: &Gpu, cases: &[Case], jobs: usize) -> Result<Vec<Finding>, Failure> {
-    let library = Library::embedded();
-    at_a_time(jobs, cases, |case| {
-        let finding = judge(gpu, &library, case);
-        tracing::info!("{} {}", case.number, case.label());
-        finding
-    })
 }
 
 fn describe_one(finding: &Finding) -> String {

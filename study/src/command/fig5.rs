@@ -172,11 +172,11 @@ fn regions<'a>(
 }
 
 fn shoot(gpu: &Gpu, world: &World, path: &Path) -> Result<(), Failure> {
-    let (width, height) = FILM_SIZE;
-    let extent = [width, height];
-    let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &Shot::of(extent))?;
+    let shot = Shot::of(FILM_SIZE);
+    let camera = Camera::new(gpu, &Library::embedded(), world.scene(), &shot)?;
     let picture = camera.shoot(world, Colour::Speed)?;
-    output::write_new(path, &output::png(&picture, extent, ColorType::Rgba)?)
+    let file = output::png(&picture, FILM_SIZE, ColorType::Rgba)?;
+    output::write_new(path, &file)
 }
 
 fn describe(result: &Fig5) -> String {

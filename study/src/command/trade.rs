@@ -13,8 +13,8 @@ use crate::cli::{TradeArgs, TradePart};
 use crate::several::at_a_time;
 use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
-    Errors, Knob, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page, rest,
-    sweep, tip, vouch,
+    Errors, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page, rest, sweep,
+    tip, vouch,
 };
 
 /// The files' names in the folder.
@@ -57,16 +57,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         found: Trade {
             device: device::statement(&gpu),
             quick: args.quick,
-            finest: None,
-            points: Vec::new(),
-            skipped: 0,
-            calorimetry: Vec::new(),
-            boiling: Vec::new(),
-            boiling_costs: Vec::new(),
-            vouched: None,
-            effects: Vec::new(),
-            orders: Vec::new(),
-            seconds: 0.0,
+            ..Trade::default()
         },
     };
     let wanted = |part| args.part.is_none_or(|only| only == part);
@@ -115,12 +106,22 @@ impl Work<'_> {
                 self.found.skipped += 1;
                 continue;
             }
-            self.found.points.push(self.point(
-                &scene,
-                (preset, knob, setting),
-                seconds,
-                poured.poured,
-            )?);
+            let rested = rest(self.gpu, &scene, &setting, seconds)?;
+            let tipped = tip(self.gpu, &scene, &setting)?;
+            self.found.points.push(Point {
+                preset: preset.name(),
+                knob,
+                setting,
+                stiffness: setting.stiffness(scene.scale.gravity, DEPTH),
+                errors: Errors {
+                    rest_p99: rested.density_p99,
+                    pour_p99: tipped.density_p99,
+                    poured: (tipped.poured / poured.poured - 1.0).abs(),
+                    lost_volume: rested.lost_volume,
+                },
+                rest: rested,
+                pour: tipped,
+            });
             tracing::info!(
                 "{} after {:.0} s",
                 setting.label(),
@@ -128,31 +129,6 @@ impl Work<'_> {
             );
         }
         Ok(())
-    }
-
-    fn point(
-        &self,
-        scene: &Scene,
-        (preset, knob, setting): (Preset, Knob, Setting),
-        seconds: f64,
-        poured: f64,
-    ) -> Result<Point, Failure> {
-        let rested = rest(self.gpu, scene, &setting, seconds)?;
-        let tipped = tip(self.gpu, scene, &setting)?;
-        Ok(Point {
-            preset: preset.name(),
-            knob,
-            setting,
-            stiffness: setting.stiffness(scene.scale.gravity, DEPTH),
-            errors: Errors {
-                rest_p99: rested.density_p99,
-                pour_p99: tipped.density_p99,
-                poured: (tipped.poured / poured - 1.0).abs(),
-                lost_volume: rested.lost_volume,
-            },
-            rest: rested,
-            pour: tipped,
-        })
     }
 
     fn chemistry(&mut self) -> Result<(), Failure> {

@@ -27,6 +27,7 @@ const BETWEEN: u64 = 3;
 const POWER: (f64, f64) = (200.0, 1.15);
 
 /// What a case came to.
+#[derive(Default)]
 pub(super) struct Run {
     /// Particles.
     pub particles: usize,
@@ -135,12 +136,13 @@ fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
 }
 
 /// A particle's part of the energy, by identity.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Held {
     member: bool,
     energy: f64,
 }
 
+#[derive(Default)]
 struct Watch {
     moves: bool,
     late: bool,
@@ -179,40 +181,19 @@ impl Watch {
         let recipe = &case.recipe;
         let mut watch = Self {
             moves: recipe.motion != Motion::Still || recipe.upside_down,
-            late: false,
-            last_part: false,
-            squares: [0.0; 2],
             gravity: recipe.gravity,
             particle_mass: parameters.particle_mass(),
             base: world.scene().floor.height,
             frame_time: recipe.frame_time,
             boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
             literal_limit: 0.5 * recipe.v_max * recipe.v_max,
-            last: Vec::new(),
-            last_step: 0,
-            start_energy: 0.0,
-            start: Amounts::default(),
-            declared: 0.0,
-            paid: 0.0,
             run: Run {
                 particles: world.solver().count() as usize,
-                steps: 0,
-                rested: false,
-                not_finite: 0,
-                lost: 0,
-                speed: 0.0,
-                excess: 0.0,
-                turnover: 0.0,
-                settling: 0.0,
-                end_speed: 0.0,
-                members: 0,
-                boiling: 0,
-                drifts: [0.0; 3],
                 temperatures: [f64::INFINITY, f64::NEG_INFINITY],
                 acids: [f64::INFINITY, f64::NEG_INFINITY],
-                counters: Counters::default(),
-                hash: 0,
+                ..Run::default()
             },
+            ..Self::default()
         };
         let state = world.solver().snapshot().other()?;
         watch.last = watch.energies(&state);
@@ -230,13 +211,7 @@ impl Watch {
     }
 
     fn energies(&self, state: &SolverState) -> Vec<Held> {
-        let mut held = vec![
-            Held {
-                member: false,
-                energy: 0.0
-            };
-            state.tags.len()
-        ];
+        let mut held = vec![Held::default(); state.tags.len()];
         for slot in (0..state.tags.len()).filter(|&slot| state.is_present(slot)) {
             let [_, y, _, _] = state.positions[slot];
             let [u, v, w, _] = state.velocities[slot];
@@ -253,19 +228,22 @@ impl Watch {
     fn amounts(&self, world: &World, state: &SolverState) -> Amounts {
         let heat = vitriol_sim::measure::measure_heat(world.solver().parameters(), state);
         let ledger = heat.as_ref().and_then(|heat| heat.ledger);
+        if let Some(Ledger {
+            acid, mass, steam, ..
+        }) = ledger
+        {
+            let mass = mass + steam;
+            return Amounts { acid, mass, ledger };
+        }
         let present = (0..state.tags.len()).filter(|&slot| state.is_present(slot));
-        let mass = match &ledger {
-            Some(ledger) => ledger.mass + ledger.steam,
-            None => self.particle_mass * present.clone().count() as f64,
-        };
-        let acid = match &ledger {
-            Some(ledger) => ledger.acid,
-            None => present
-                .filter_map(|slot| state.heat.get(slot))
+        let heats = present.clone().filter_map(|slot| state.heat.get(slot));
+        Amounts {
+            acid: heats
                 .map(|heat| self.particle_mass * f64::from(heat[1]))
                 .sum(),
-        };
-        Amounts { acid, mass, ledger }
+            mass: self.particle_mass * present.count() as f64,
+            ledger,
+        }
     }
 
     /// What the glass did in the last step to what is in it.
@@ -369,9 +347,9 @@ impl Watch {
 
     fn keep(&mut self, world: &World, state: &SolverState) {
         let now = self.amounts(world, state);
-        let change = |now: f64, start: f64, whole: f64| {
-            if whole > 0.0 {
-                ((now - start) / whole).abs()
+        let change = |now: f64, start: f64| {
+            if start > 0.0 {
+                ((now - start) / start).abs()
             } else {
                 0.0
             }
@@ -381,8 +359,8 @@ impl Watch {
             _ => 0.0,
         };
         let drifts = [
-            change(now.acid, self.start.acid, self.start.acid),
-            change(now.mass, self.start.mass, self.start.mass),
+            change(now.acid, self.start.acid),
+            change(now.mass, self.start.mass),
             enthalpy,
         ];
         for (largest, now) in self.run.drifts.iter_mut().zip(drifts) {

@@ -168,14 +168,16 @@ impl Recipe {
                  \"evaporation\", \"steam\", \"losses\""
             }
         };
+        let relaxation = ["jacobi", "chebyshev"][usize::from(self.chebyshev)];
+        let walls = ["map", "particles"][usize::from(self.boundary_particles)];
         // Writing to a string cannot fail.
         let _ = write!(
             t,
             "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = [{model}]\n\
              origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
-             [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{}\"\nomega = {:?}\n\
-             carry = {:?}\nv_max = {:?}\nboundary = \"{}\"\nviscosity = {:?}\n",
+             [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{relaxation}\"\nomega = {:?}\n\
+             carry = {:?}\nv_max = {:?}\nboundary = \"{walls}\"\nviscosity = {:?}\n",
             self.origin,
             self.support_ratio,
             self.frame_time,
@@ -184,19 +186,9 @@ impl Recipe {
             self.length_scale,
             self.substeps,
             self.iterations,
-            if self.chebyshev {
-                "chebyshev"
-            } else {
-                "jacobi"
-            },
             self.omega,
             self.carry,
             self.v_max,
-            if self.boundary_particles {
-                "particles"
-            } else {
-                "map"
-            },
             self.viscosity,
         );
         let [d_t, d_c] = self.diffusivities();

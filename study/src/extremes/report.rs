@@ -9,7 +9,7 @@ use vitriol_experiment::DeviceStatement;
 use super::judge::{Finding, Verdict};
 
 /// What `vitriol extremes` prints and writes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Extremes {
     /// The device.
     pub device: DeviceStatement,
@@ -80,15 +80,8 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
         device,
         seed,
         cases: found.len(),
-        passed: 0,
-        refused: 0,
-        failed: 0,
-        limiters: BTreeMap::new(),
-        kinds: BTreeMap::new(),
-        refusals: BTreeMap::new(),
-        worst: Worst::default(),
-        failures: Vec::new(),
         seconds,
+        ..Extremes::default()
     };
     for finding in found {
         for name in &finding.kinds {
@@ -140,7 +133,7 @@ fn field(message: &str) -> String {
 pub fn describe(all: &Extremes) -> String {
     let mut text = format!(
         "{}, {}\n{} cases of seed {}: {} passed, {} refused at load, {} failed, in {:.0} s\n\n\
-         {:<28} {:>6} {:>7} {:>8} {:>8} {:>7}\n",
+         extreme                       cases  passed  limited  refused  failed\n",
         all.device.name,
         all.device.driver,
         all.cases,
@@ -148,13 +141,7 @@ pub fn describe(all: &Extremes) -> String {
         all.passed,
         all.refused,
         all.failed,
-        all.seconds,
-        "extreme",
-        "cases",
-        "passed",
-        "limited",
-        "refused",
-        "failed"
+        all.seconds
     );
     for (name, kind) in &all.kinds {
         // Writing to a string cannot fail.

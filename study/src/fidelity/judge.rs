@@ -9,7 +9,7 @@ use vitriol_render::reference::{
 };
 
 use super::glassware::Glassware;
-use super::report::{self, Figures, Manner};
+use super::report::{self, Figures, Manner, Row};
 use super::states::State;
 use super::views::{STANDS, Stand};
 
@@ -177,25 +177,28 @@ impl Task<'_> {
         report::Picture {
             state: self.state.spec.name,
             view: stand.name,
-            size: self.size,
-            margin_px: truth.interiors[0].margin,
-            manner,
-            figures: Figures {
-                silhouette_iou: both(&|eye| silhouette_iou(&truth.pictures[eye], &drawn[eye])),
-                compared: both(&|eye| {
-                    let seen = truth.pictures[eye].depth.iter();
-                    off[eye].pixels as f64 / seen.filter(|depth| depth.is_finite()).count() as f64
-                }),
-                depth_rms_radii: both(&|eye| off[eye].depth_rms.powi(2)).sqrt(),
-                depth_mean_radii: both(&|eye| off[eye].depth_mean),
-                normal_angle_deg: both(&|eye| off[eye].normal_angle).to_degrees(),
-                reprojection_rms_radii: stereo.depth_rms,
-                flicker_rms_radii: flicker.depth_rms,
-                flicker_normal_deg: flicker.normal_angle.to_degrees(),
-                volume_ratio: if seen > 0.0 {
-                    seen / self.volume_before(&left.rays)
-                } else {
-                    f64::NAN
+            row: Row {
+                size: self.size,
+                margin_px: truth.interiors[0].margin,
+                manner,
+                figures: Figures {
+                    silhouette_iou: both(&|eye| silhouette_iou(&truth.pictures[eye], &drawn[eye])),
+                    compared: both(&|eye| {
+                        let seen = truth.pictures[eye].depth.iter();
+                        off[eye].pixels as f64
+                            / seen.filter(|depth| depth.is_finite()).count() as f64
+                    }),
+                    depth_rms_radii: both(&|eye| off[eye].depth_rms.powi(2)).sqrt(),
+                    depth_mean_radii: both(&|eye| off[eye].depth_mean),
+                    normal_angle_deg: both(&|eye| off[eye].normal_angle).to_degrees(),
+                    reprojection_rms_radii: stereo.depth_rms,
+                    flicker_rms_radii: flicker.depth_rms,
+                    flicker_normal_deg: flicker.normal_angle.to_degrees(),
+                    volume_ratio: if seen > 0.0 {
+                        seen / self.volume_before(&left.rays)
+                    } else {
+                        f64::NAN
+                    },
                 },
             },
         }

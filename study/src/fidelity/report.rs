@@ -85,7 +85,7 @@ pub struct Figures {
     pub volume_ratio: f64,
 }
 
-/// A way of drawing at a resolution, over all states and views.
+/// A way of drawing at a resolution, of one picture or over all states and views.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Row {
     /// Width and height of an eye's picture, pixels.
@@ -107,16 +107,9 @@ pub struct Picture {
     pub state: &'static str,
     /// Where the head is.
     pub view: &'static str,
-    /// Width and height of an eye's picture, pixels.
-    pub size: [u32; 2],
-    /// Pixels that were kept away from silhouettes.
-    pub margin_px: usize,
-    /// How it is drawn.
+    /// Resolution, way of drawing, and what it is off by.
     #[serde(flatten)]
-    pub manner: Manner,
-    /// What it is off by.
-    #[serde(flatten)]
-    pub figures: Figures,
+    pub row: Row,
 }
 
 impl Figures {
@@ -150,7 +143,7 @@ impl Figures {
 pub fn rows(pictures: &[Picture]) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for picture in pictures {
-        let (size, manner) = (picture.size, picture.manner);
+        let (size, manner) = (picture.row.size, picture.row.manner);
         if rows
             .iter()
             .any(|row| (row.size, row.manner) == (size, manner))
@@ -158,7 +151,7 @@ pub fn rows(pictures: &[Picture]) -> Vec<Row> {
             continue;
         }
         let same = || {
-            let all = pictures.iter();
+            let all = pictures.iter().map(|other| &other.row);
             all.filter(|other| (other.size, other.manner) == (size, manner))
         };
         let figures: Vec<Figures> = same().map(|other| other.figures).collect();
@@ -188,22 +181,9 @@ pub fn describe(found: &Fidelity) -> String {
             state.volume_ml
         );
     }
-    let _ = writeln!(
-        text,
-        "\n{:<11} {:<15} {:<5} {:>6} {:>6} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>7} {:>6}",
-        "pixels",
-        "filter",
-        "aniso",
-        "margin",
-        "of",
-        "IoU",
-        "depth",
-        "(mean)",
-        "normal",
-        "reproj.",
-        "flicker",
-        "(norm.)",
-        "volume"
+    text.push_str(
+        "\npixels      filter          aniso margin     of    IoU   depth  (mean)  normal\
+         \u{20} reproj.  flicker (norm.) volume\n",
     );
     for row in &found.rows {
         let f = &row.figures;
@@ -244,19 +224,21 @@ mod tests {
         let picture = |manner, off: f64, volume_ratio| Picture {
             state: "still",
             view: "close",
-            size: [320, 240],
-            margin_px: 3,
-            manner,
-            figures: Figures {
-                silhouette_iou: 1.0 - off,
-                compared: off,
-                depth_rms_radii: off,
-                depth_mean_radii: off,
-                normal_angle_deg: off,
-                reprojection_rms_radii: f64::NAN,
-                flicker_rms_radii: off,
-                flicker_normal_deg: off,
-                volume_ratio,
+            row: Row {
+                size: [320, 240],
+                margin_px: 3,
+                manner,
+                figures: Figures {
+                    silhouette_iou: 1.0 - off,
+                    compared: off,
+                    depth_rms_radii: off,
+                    depth_mean_radii: off,
+                    normal_angle_deg: off,
+                    reprojection_rms_radii: f64::NAN,
+                    flicker_rms_radii: off,
+                    flicker_normal_deg: off,
+                    volume_ratio,
+                },
             },
         };
         let drawn = Manner::new("none", true);

@@ -79,32 +79,25 @@ pub struct State {
 /// # Errors
 /// What scene, track or device say.
 pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, Failure> {
-    let of = |spec: &StateSpec| run_one(gpu, library, preset, *spec);
+    let of = |&spec: &StateSpec| {
+        let scene = Scene::load(spec.scene).input()?.with_preset(preset);
+        let track = track::load(spec.track)?;
+        let seed = track.metadata.seed;
+        let mut source = TrackSource::new(track);
+        let mut world = World::new(gpu, library, &scene, seed).other()?;
+        let length_scale = scene.scale.length_scale;
+        let span = Span::covering(spec.seconds, scene.scale.frame_time);
+        for step in 0..span.steps {
+            let time = step as f64 * span.frame_time;
+            let Some(frame) = source.next(step, time).other()? else {
+                break;
+            };
+            let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
+            world.step(&StepInput { hands }).other()?;
+        }
+        State::new(spec, world)
+    };
     STATES.iter().map(of).collect()
-}
-
-fn run_one(
-    gpu: &Gpu,
-    library: &Library,
-    preset: Preset,
-    spec: StateSpec,
-) -> Result<State, Failure> {
-    let scene = Scene::load(spec.scene).input()?.with_preset(preset);
-    let track = track::load(spec.track)?;
-    let seed = track.metadata.seed;
-    let mut source = TrackSource::new(track);
-    let mut world = World::new(gpu, library, &scene, seed).other()?;
-    let length_scale = scene.scale.length_scale;
-    let span = Span::covering(spec.seconds, scene.scale.frame_time);
-    for step in 0..span.steps {
-        let time = step as f64 * span.frame_time;
-        let Some(frame) = source.next(step, time).other()? else {
-            break;
-        };
-        let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
-        world.step(&StepInput { hands }).other()?;
-    }
-    State::new(spec, world)
 }
 
 impl State {

@@ -19,7 +19,7 @@ const LOOKS: f64 = 10.0;
 const BOILS: f64 = 1e-3;
 
 /// What one seed came to.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Boiled {
     /// Highest superheat of any particle, K.
     pub superheat: f64,
@@ -112,11 +112,8 @@ pub fn boil(
     let between = (1.0 / LOOKS / dt).round().max(1.0) as u64;
     let mut boiled = Boiled {
         superheat: f64::NEG_INFINITY,
-        onset: None,
-        thrown: 0.0,
-        steam: 0.0,
         temperature: f64::NAN,
-        closure: 0.0,
+        ..Boiled::default()
     };
     let mut start = None;
     let mut held = None;

@@ -13,13 +13,11 @@ mod sweep;
 mod tank;
 mod vouch;
 
-pub use boil::{Boiled, Quartiles, Seeds, boil, quartiles};
-pub use exact::{centre_of_mass, retained};
-pub use front::{front, observed_order};
-pub use order::{Convergence, convergence};
+pub use boil::{Seeds, boil};
+pub use order::convergence;
 pub use page::page;
 pub use report::{Errors, Point, Trade, describe};
 pub use setting::{Knob, Setting};
 pub use sweep::{finest, sweep};
-pub use tank::{Cost, Rested, Tipped, rest, tip};
-pub use vouch::{Vouched, vouch};
+pub use tank::{rest, tip};
+pub use vouch::vouch;

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use serde::Serialize;
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
 use vitriol_sim::parameters::{Parameters, Relaxation};
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+use vitriol_sim::solver::{Particle, SolverState};
 
 use super::front::observed_order;
+use crate::liquid;
 
 /// An error at several resolutions.
 #[derive(Clone, Debug, Serialize)]
@@ -40,10 +40,7 @@ impl Convergence {
 /// # Errors
 /// What the device says.
 pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> {
-    let mut fall = Vec::new();
-    for substeps in [2u32, 4, 8, 16] {
-        fall.push(free_fall(gpu, substeps)?);
-    }
+    let fall = [2, 4, 8, 16].map(|substeps| free_fall(gpu, substeps));
     let resolutions: &[u32] = if quick { &[10, 20] } else { &[10, 20, 40] };
     let (mut lattice, mut printed) = (Vec::new(), Vec::new());
     for &per_metre in resolutions {
@@ -55,7 +52,7 @@ pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> 
         Convergence::of(
             "free fall for 0.2 s against ½gt², relative",
             "Δt_s, s",
-            fall,
+            fall.into_iter().collect::<Result<_, _>>()?,
         ),
         Convergence::of(
             "a step in c against erf by D, root mean square",
@@ -100,38 +97,11 @@ fn run(
     particles: &[Particle],
     frames: u32,
 ) -> Result<SolverState, Failure> {
-    let spec = SolverSpec {
-        parameters,
-        flasks: &[],
-        solids: None,
-        ground: Ground {
-            floor: -1000.0,
-            table: None,
-            scale: 1.0,
-        },
-        particles,
-        loads: false,
-        constraint: true,
-        lanes: None,
-    };
-    let solver = Solver::new(gpu, &Library::embedded(), &spec).other()?;
+    let solver = liquid::solver(gpu, &liquid::alone(parameters, particles))?;
     for _ in 0..frames {
-        let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        solver.record(&mut rec, &[], &[]).other()?;
-        gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        liquid::frame(gpu, &solver, &[], &[])?;
     }
     solver.snapshot().other()
-}
-
-fn at(position: DVec3, acid: f64) -> Particle {
-    Particle {
-        position,
-        velocity: DVec3::ZERO,
-        flask: None,
-        temperature: 20.0,
-        acid,
-        carried: 0.0,
-    }
 }
 
 fn free_fall(gpu: &Gpu, substeps: u32) -> Result<[f64; 2], Failure> {
@@ -142,7 +112,7 @@ fn free_fall(gpu: &Gpu, substeps: u32) -> Result<[f64; 2], Failure> {
         ..bare()
     };
     let (step, time) = (parameters.substep_time(), 0.2);
-    let state = run(gpu, parameters, &[at(DVec3::ZERO, 0.0)], 20)?;
+    let state = run(gpu, parameters, &[liquid::water(DVec3::ZERO)], 20)?;
     let fallen = state
         .positions
         .first()
@@ -192,7 +162,10 @@ fn diffused(gpu: &Gpu, per_metre: u32) -> Result<(f64, [f64; 2]), Failure> {
         for j in 0..across {
             for k in 0..across {
                 let x = DVec3::new(place(i, along), place(j, across), place(k, across));
-                particles.push(at(x, if x.x < 0.0 { 1.0 } else { 0.0 }));
+                particles.push(Particle {
+                    acid: if x.x < 0.0 { 1.0 } else { 0.0 },
+                    ..liquid::water(x)
+                });
             }
         }
     }

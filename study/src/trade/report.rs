@@ -13,7 +13,7 @@ use super::tank::{Cost, Rested, Tipped};
 use super::vouch::Vouched;
 
 /// What `vitriol trade` prints and writes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Trade {
     /// The device.
     pub device: DeviceStatement,
@@ -125,19 +125,9 @@ impl Errors {
 /// Tables for people.
 pub fn describe(trade: &Trade) -> String {
     let mut t = format!(
-        "{}, {}\n\n{:<10} {:<22} {:<52} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
-        trade.device.name,
-        trade.device.driver,
-        "preset",
-        "knob",
-        "setting",
-        "n",
-        "ms p99",
-        "rest",
-        "pour",
-        "poured",
-        "lost",
-        "Δt/limit"
+        "{}, {}\n\npreset     knob                   setting                                             \
+         \u{20}       n   ms p99     rest     pour   poured     lost Δt/limit\n",
+        trade.device.name, trade.device.driver
     );
     for point in &trade.points {
         let e = &point.errors;
@@ -218,12 +208,9 @@ pub fn describe(trade: &Trade) -> String {
             effect.pour.cost.median_ms
         );
     }
-    for order in &trade.orders {
-        let _ = writeln!(
-            t,
-            "{} over {}: order {:.2}",
-            order.name, order.by, order.order
-        );
+    for found in &trade.orders {
+        let (name, by, order) = (found.name, found.by, found.order);
+        let _ = writeln!(t, "{name} over {by}: order {order:.2}");
     }
     if trade.skipped > 0 {
         let _ = writeln!(t, "{} settings not tried for want of time", trade.skipped);

@@ -55,55 +55,54 @@ pub fn sweep(scene: &Scene, quick: bool) -> Vec<(Preset, Knob, Setting)> {
 
 fn one_at_a_time(own: Setting, quick: bool) -> Vec<(Knob, Setting)> {
     let mut all = Vec::new();
-    let all_of = |knob, settings: Vec<Setting>| settings.into_iter().map(move |s| (knob, s));
     let substeps: &[u32] = if quick {
         &[6, 16]
     } else {
         &[5, 6, 8, 10, 12, 16]
     };
-    let of_substeps = substeps.iter().map(|&substeps| Setting { substeps, ..own });
-    all.extend(all_of(Knob::Substeps, of_substeps.collect()));
+    for &substeps in substeps {
+        all.push((Knob::Substeps, Setting { substeps, ..own }));
+    }
     let iterations: &[u32] = if quick {
         &[1, 2, 6]
     } else {
         &[1, 2, 3, 4, 6, 8]
     };
-    let of_iterations = iterations
-        .iter()
-        .map(|&iterations| Setting { iterations, ..own });
-    all.extend(all_of(Knob::Iterations, of_iterations.collect()));
+    for &iterations in iterations {
+        all.push((Knob::Iterations, Setting { iterations, ..own }));
+    }
+    let cold = Setting { carry: 0.0, ..own };
     let jacobi = Setting {
         chebyshev: false,
         omega: 0.35,
-        carry: 0.0,
-        ..own
+        ..cold
     };
-    let cold = Setting { carry: 0.0, ..own };
-    all.extend(all_of(Knob::Acceleration, vec![jacobi, cold]));
+    all.extend([jacobi, cold].map(|setting| (Knob::Acceleration, setting)));
     if quick {
         return all;
     }
-    let particles = [4e3, 8e3, 14e3, 28e3, 56e3, 110e3, 200e3];
-    let of_particles = particles.map(|n| own.with_particles(n, VOLUME));
-    all.extend(all_of(Knob::Particles, of_particles.to_vec()));
-    let rates = [45.0, 60.0, 120.0, 240.0];
-    let of_rates = rates.map(|rate| Setting {
-        frame_time: 1.0 / rate,
-        ..own
-    });
-    all.extend(all_of(Knob::FrameTime, of_rates.to_vec()));
+    for particles in [4e3, 8e3, 14e3, 28e3, 56e3, 110e3, 200e3] {
+        all.push((Knob::Particles, own.with_particles(particles, VOLUME)));
+    }
+    for rate in [45.0, 60.0, 120.0, 240.0] {
+        let frame_time = 1.0 / rate;
+        all.push((Knob::FrameTime, Setting { frame_time, ..own }));
+    }
     let solids = Setting {
         boundary_particles: true,
         ..own
     };
-    all.extend(all_of(Knob::Boundary, vec![solids]));
-    let ratios = [1.6, 1.8, 2.3, 2.6].map(|support_ratio| Setting {
-        support_ratio,
-        ..own
-    });
-    all.extend(all_of(Knob::Support, ratios.to_vec()));
-    let margins = [0.05, 0.1, 0.25, 0.35].map(|list_margin| Setting { list_margin, ..own });
-    all.extend(all_of(Knob::Margin, margins.to_vec()));
+    all.push((Knob::Boundary, solids));
+    for support_ratio in [1.6, 1.8, 2.3, 2.6] {
+        let setting = Setting {
+            support_ratio,
+            ..own
+        };
+        all.push((Knob::Support, setting));
+    }
+    for list_margin in [0.05, 0.1, 0.25, 0.35] {
+        all.push((Knob::Margin, Setting { list_margin, ..own }));
+    }
     all
 }
 

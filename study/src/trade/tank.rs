@@ -3,19 +3,19 @@
 
 use std::time::Instant;
 
-use glam::{DVec3, Quat, Vec3};
+use glam::{Quat, Vec3};
 use serde::Serialize;
 use vitriol_experiment::{Blame, Failure, Ranks};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::fill::{count_for_volume, fill};
 use vitriol_sim::flask::{Profile, glass, particles::sample};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+use vitriol_sim::solver::{Particle, Solver, SolverSpec, SolverState};
 
 use super::exact;
 use super::setting::Setting;
+use crate::liquid;
 
 /// Water at rest, m³: the paper's single dilution at d = 2.5 mm.
 pub const VOLUME: f64 = 217.09e-6;
@@ -110,12 +110,9 @@ impl Tank {
         let particles: Vec<Particle> = places
             .into_iter()
             .map(|position| Particle {
-                position,
-                velocity: DVec3::ZERO,
                 flask: Some(0),
-                temperature: 20.0,
-                acid: 0.0,
                 carried: gravity * (position.y - top),
+                ..liquid::water(position)
             })
             .collect();
         let flasks = [profile.clone()];
@@ -123,22 +120,13 @@ impl Tank {
             .boundary_particles
             .then(|| vec![sample(&profile, 0.5 * d, parameters.support_radius)]);
         let spec = SolverSpec {
-            parameters,
             flasks: &flasks,
             solids: solids.as_deref(),
-            ground: Ground {
-                floor: -1000.0,
-                table: None,
-                scale: 1.0,
-            },
-            particles: &particles,
-            loads: false,
-            constraint: true,
-            lanes: None,
+            ..liquid::alone(parameters, &particles)
         };
         Ok(Self {
             gpu: gpu.clone(),
-            solver: Solver::new(gpu, &Library::embedded(), &spec).other()?,
+            solver: liquid::solver(gpu, &spec)?,
             profile,
             frame_time: setting.frame_time,
             gravity,
@@ -148,18 +136,13 @@ impl Tank {
     /// A frame; its time, ms.
     fn frame(&self, before: Pose, after: Pose) -> Result<f64, Failure> {
         let begin = Instant::now();
-        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
-        self.solver.record(&mut rec, &[before], &[after]).other()?;
-        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        liquid::frame(&self.gpu, &self.solver, &[before], &[after])?;
         Ok(begin.elapsed().as_secs_f64() * 1e3)
     }
 
     /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of what is in the vessel.
     fn density(&self, state: &SolverState) -> Result<(f64, f64), Failure> {
-        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
-        let copy = self.solver.record_density(&mut rec).other()?;
-        self.gpu.submit(rec).and_then(|t| t.wait()).other()?;
-        let densities = copy.get::<f32>().other()?;
+        let densities = liquid::densities(&self.gpu, &self.solver)?;
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
         let errors: Vec<f64> = members
             .map(|slot| (f64::from(densities[slot]) - 1.0).max(0.0))
@@ -167,6 +150,52 @@ impl Tank {
         let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
         let p99 = Ranks::of(&errors).at(0.99).unwrap_or(0.0);
         Ok((mean, p99))
+    }
+
+    fn rested(&self) -> Result<Look, Failure> {
+        let state = self.solver.snapshot().other()?;
+        let count = state.tags.len() as f64;
+        let volume = count * self.solver.parameters().particle_volume();
+        let none = "the liquid of the trade does not fit its vessel";
+        let exact = exact::centre_of_mass(&self.profile, volume).ok_or(none);
+        let level = self.profile.level_for_volume(volume).ok_or(none).other()?;
+        let floor = self.profile.floor_height();
+        let exact = exact.other()? - floor;
+        let (mut centre, mut squares, mut pressures) = (0.0, 0.0, 0.0);
+        for (position, velocity) in state.positions.iter().zip(&state.velocities) {
+            let y = f64::from(position[1]);
+            centre += y / count;
+            let [u, v, w, carried] = velocity.map(f64::from);
+            squares += (u * u + v * v + w * w) / count;
+            // −p/ρ is never above zero.
+            let off = carried + self.gravity * (level - y).max(0.0);
+            pressures += off * off / count;
+        }
+        Ok(Look {
+            density: self.density(&state)?,
+            lost_volume: 1.0 - (centre - floor) / exact,
+            speed: squares.sqrt(),
+            pressure: pressures.sqrt() / (self.gravity * (level - floor)),
+        })
+    }
+
+    /// Particles that are not the vessel's but in it, or the reverse.
+    fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
+        let flask_from_stage = pose.inverse();
+        let tolerance = 0.05 * self.solver.parameters().support_radius;
+        let wrong = (0..state.tags.len()).filter(|&slot| {
+            let [x, y, z, _] = state.positions[slot];
+            let local = flask_from_stage
+                .transform_point(Vec3::new(x, y, z))
+                .as_dvec3();
+            let r = local.x.hypot(local.z);
+            let depth = self.profile.signed_distance_inner(r, local.y);
+            match state.flask_of(slot) {
+                Some(_) => depth < -tolerance,
+                None => self.profile.is_inside(r, local.y) && depth > tolerance,
+            }
+        });
+        wrong.count() as u64
     }
 }
 
@@ -209,35 +238,6 @@ struct Look {
     pressure: f64,
 }
 
-impl Tank {
-    fn rested(&self) -> Result<Look, Failure> {
-        let state = self.solver.snapshot().other()?;
-        let count = state.tags.len() as f64;
-        let volume = count * self.solver.parameters().particle_volume();
-        let none = "the liquid of the trade does not fit its vessel";
-        let exact = exact::centre_of_mass(&self.profile, volume).ok_or(none);
-        let level = self.profile.level_for_volume(volume).ok_or(none).other()?;
-        let floor = self.profile.floor_height();
-        let exact = exact.other()? - floor;
-        let (mut centre, mut squares, mut pressures) = (0.0, 0.0, 0.0);
-        for (position, velocity) in state.positions.iter().zip(&state.velocities) {
-            let y = f64::from(position[1]);
-            centre += y / count;
-            let [u, v, w, carried] = velocity.map(f64::from);
-            squares += (u * u + v * v + w * w) / count;
-            // −p/ρ is never above zero.
-            let off = carried + self.gravity * (level - y).max(0.0);
-            pressures += off * off / count;
-        }
-        Ok(Look {
-            density: self.density(&state)?,
-            lost_volume: 1.0 - (centre - floor) / exact,
-            speed: squares.sqrt(),
-            pressure: pressures.sqrt() / (self.gravity * (level - floor)),
-        })
-    }
-}
-
 /// Tips a vessel about its base's edge, holds it, and counts what has run out.
 ///
 /// # Errors
@@ -275,25 +275,4 @@ pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failur
         in_the_end: f64::from(tank.solver.count()) * volume - exact::retained(&tank.profile, TILT),
         lost,
     })
-}
-
-impl Tank {
-    /// Particles that are not the vessel's but in it, or the reverse.
-    fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
-        let flask_from_stage = pose.inverse();
-        let tolerance = 0.05 * self.solver.parameters().support_radius;
-        let wrong = (0..state.tags.len()).filter(|&slot| {
-            let [x, y, z, _] = state.positions[slot];
-            let local = flask_from_stage
-                .transform_point(Vec3::new(x, y, z))
-                .as_dvec3();
-            let r = local.x.hypot(local.z);
-            let depth = self.profile.signed_distance_inner(r, local.y);
-            match state.flask_of(slot) {
-                Some(_) => depth < -tolerance,
-                None => self.profile.is_inside(r, local.y) && depth > tolerance,
-            }
-        });
-        wrong.count() as u64
-    }
 }

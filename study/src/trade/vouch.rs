@@ -3,8 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_shaders::Library;
+use vitriol_gpu::Gpu;
 use vitriol_sim::fill::fill;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
@@ -12,9 +11,10 @@ use vitriol_sim::reference::Reference;
 use vitriol_sim::reference::measure::DensityError;
 use vitriol_sim::reference::surroundings::{Surroundings, Vessel};
 use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec};
+use vitriol_sim::solver::{Particle, SolverSpec};
 
 use super::setting::Setting;
+use crate::liquid;
 
 /// What both found of a glass of water that settles.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -67,40 +67,21 @@ pub fn vouch(
     let particles: Vec<Particle> = places
         .iter()
         .map(|&position| Particle {
-            position,
-            velocity: DVec3::ZERO,
             flask: Some(0),
-            temperature: 20.0,
-            acid: 0.0,
-            carried: 0.0,
+            ..liquid::water(position)
         })
         .collect();
     let mass = parameters.particle_mass();
     let spec = SolverSpec {
-        parameters,
         flasks: &[profile],
-        solids: None,
-        ground: Ground {
-            floor: -1000.0,
-            table: None,
-            scale: 1.0,
-        },
-        particles: &particles,
-        loads: false,
-        constraint: true,
-        lanes: None,
+        ..liquid::alone(parameters, &particles)
     };
-    let solver = Solver::new(gpu, &Library::embedded(), &spec).other()?;
+    let solver = liquid::solver(gpu, &spec)?;
     for _ in 0..frames {
-        let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        solver.record(&mut rec, &still, &still).other()?;
-        gpu.submit(rec).and_then(|t| t.wait()).other()?;
+        liquid::frame(gpu, &solver, &still, &still)?;
     }
     let state = solver.snapshot().other()?;
-    let mut rec = gpu.recorder(QueueKind::Main).other()?;
-    let copy = solver.record_density(&mut rec).other()?;
-    gpu.submit(rec).and_then(|t| t.wait()).other()?;
-    let densities = copy.get::<f32>().other()?;
+    let densities = liquid::densities(gpu, &solver)?;
     let own: Vec<f64> = densities.iter().take(count).map(|&d| d.into()).collect();
     let own = DensityError::of(&own);
     let (mut apart, mut centre, mut squares) = (0.0f64, 0.0, 0.0);

@@ -31,19 +31,19 @@ impl Run {
 /// Runs so many seconds of frames whose parts take what `load` says at a time (s) and a level, in
 /// shares of the period.
 fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
-    let mut governor = Governor::new(ladders(), [0, 0]);
+    let mut governor = Governor::new(ladders());
     let mut run = Run::default();
     let mut under_way = VecDeque::new();
     let frames = (seconds * 90.0) as u32;
     for frame in 0..frames {
         let time = f64::from(frame) / 90.0;
-        under_way.push_back((governor.level(), load(time, governor.level())));
+        under_way.push_back((governor.level, load(time, governor.level)));
         if under_way.len() <= UNDER_WAY {
             continue;
         }
         let (level, shares) = under_way.pop_front().unwrap();
         run.missed += u32::from(shares[0] + shares[1] > 1.0);
-        if level != governor.level() {
+        if level != governor.level {
             continue;
         }
         let taken = FrameTimes {
@@ -55,7 +55,7 @@ fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
             run.changes.push((time, level));
         }
     }
-    run.level = governor.level();
+    run.level = governor.level;
     run
 }
 
@@ -188,7 +188,7 @@ fn the_dear_part_pays() {
 #[test]
 fn only_what_the_device_misses_is_its_fault() {
     for (share, stepped) in [(0.3, None), (0.7, Some([1, 0]))] {
-        let mut governor = Governor::new(ladders(), [0, 0]);
+        let mut governor = Governor::new(ladders());
         let taken = FrameTimes {
             times: [0.9, 0.1].map(|part| part * share * PERIOD),
             period: PERIOD,

@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use softbuffer::{Context, Surface};
-use vitriol_experiment::Failure;
+use vitriol_experiment::{Blame, Failure};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::error::EventLoopError;
@@ -83,9 +83,7 @@ impl Window {
     pub fn open(eye: [u32; 2], decisions: Sender<Decision>) -> Result<Self, Failure> {
         // winit's own message for this names a line of its source.
         if cfg!(target_os = "linux") && std::env::var_os("DISPLAY").is_none() {
-            return Err(Failure::Other(
-                "there is no X server (DISPLAY is not set)".into(),
-            ));
+            return Err("there is no X server (DISPLAY is not set)").other();
         }
         let extent = Arc::new(Extent::default());
         extent.set(fit(eye, [OPENS_AT; 2]));
@@ -120,14 +118,11 @@ impl Window {
                     tracing::warn!("the mirror window is gone: {error}");
                 }
             });
-        let thread = thread.map_err(|error| Failure::Other(error.into()))?;
-        let proxy = match opening.recv_timeout(PATIENCE) {
-            Ok(Ok(proxy)) => proxy,
-            Ok(Err(error)) => return Err(Failure::Other(error.into())),
-            Err(_) => return Err(Failure::Other("the screen does not answer".into())),
-        };
+        let thread = thread.other()?;
+        let opened = opening.recv_timeout(PATIENCE);
+        let opened = opened.map_err(|_| "the screen does not answer").other()?;
         Ok(Self {
-            proxy,
+            proxy: opened.other()?,
             extent,
             ended,
             thread: Some(thread),

@@ -32,9 +32,9 @@ const PRESSES: f32 = 0.6;
 /// See the module.
 pub struct Panel {
     context: egui::Context,
-    extent: [u32; 2],
     painter: Painter,
-    image: Image,
+    /// Its picture.
+    pub image: Image,
     /// Where a hand points, pixels.
     pointer: Option<Pos2>,
     pressed: bool,
@@ -44,28 +44,22 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// A panel of `extent` pixels.
+    /// A panel that shows nothing yet.
     ///
     /// # Errors
     /// What the device says.
-    pub fn new(gpu: &Gpu, library: &Library, extent: [u32; 2]) -> Result<Self, Failure> {
+    pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         let context = egui::Context::default();
         view::style(&context);
         Ok(Self {
             context,
-            extent,
             painter: Painter::new(gpu, library)?,
-            image: draw::image(gpu, extent)?,
+            image: draw::image(gpu, PANEL)?,
             pointer: None,
             pressed: false,
             armed: false,
             shown: None,
         })
-    }
-
-    /// Its picture.
-    pub fn image(&self) -> &Image {
-        &self.image
     }
 
     /// Takes in where the free hands point (in the scene's stage), shows `info`, and returns what
@@ -74,7 +68,7 @@ impl Panel {
         let mut events = Vec::new();
         // The right hand first: only one can point at a time.
         let pointing = hands.into_iter().rev().flatten().find_map(|hand| {
-            let at = pointed_at(&hand.stage_from_aim, self.extent)?;
+            let at = pointed_at(&hand.stage_from_aim, PANEL)?;
             Some((at, hand.trigger))
         });
         let was = std::mem::replace(&mut self.pointer, pointing.map(|(at, _)| at));
@@ -105,7 +99,7 @@ impl Panel {
     }
 
     fn show(&mut self, info: &Info, events: Vec<Event>) -> Option<Decision> {
-        let [width, height] = self.extent.map(|side| side as f32);
+        let [width, height] = PANEL.map(|side| side as f32);
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
             events,

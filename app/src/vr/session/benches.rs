@@ -1,6 +1,7 @@
 //! The bench in use, and the one that is built beside the frame loop to follow it.
 
 use std::sync::Arc;
+use std::thread::JoinHandle;
 
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::{Blame, Failure};
@@ -10,7 +11,7 @@ use vitriol_xr::{Headset, Switch};
 
 use super::ended::NoFrameOpen;
 use crate::vr::picture::Eyes;
-use crate::vr::workbench::{Builder, Plan, TAKEN_UP, Workbench};
+use crate::vr::workbench::{Plan, TAKEN_UP, Workbench};
 
 /// The bench in use, what it and its like are made with, and the next one.
 pub(super) struct Benches {
@@ -23,9 +24,13 @@ pub(super) struct Benches {
     coming: Option<Coming>,
 }
 
-/// A bench under construction, and the switch that a recording keeps of it.
+/// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
 struct Coming {
-    builder: Builder,
+    plan: Plan,
+    /// What its picture is made for.
+    eyes: Eyes,
+    thread: JoinHandle<Result<Workbench, Failure>>,
+    /// What a recording keeps of it.
     switch: Switch,
 }
 
@@ -56,8 +61,18 @@ impl Benches {
             // `--solver` and `--budget-ms` are for the session's first scene; others have their preset.
             (plan.solver, plan.filter) = (None, None);
         }
-        let builder = Builder::start(gpu, &self.library, plan, self.eyes.clone());
-        self.coming = Some(Coming { builder, switch });
+        self.start(gpu, plan, switch);
+    }
+
+    fn start(&mut self, gpu: &Gpu, plan: Plan, switch: Switch) {
+        let (gpu, library) = (gpu.clone(), Arc::clone(&self.library));
+        let (made, of) = (plan.clone(), self.eyes.clone());
+        self.coming = Some(Coming {
+            plan,
+            eyes: self.eyes.clone(),
+            thread: std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of)),
+            switch,
+        });
     }
 
     /// The scene of the bench that is being built.
@@ -69,14 +84,14 @@ impl Benches {
     /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a
     /// failure; does not wait. Its switch is for the recording.
     pub fn replace_if_built(&mut self) -> Option<Switch> {
-        let coming = self.coming.take_if(|coming| coming.builder.is_finished())?;
-        let eyes = coming.builder.eyes().clone();
-        match coming.builder.finish() {
+        let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
+        let made = coming.thread.join();
+        match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
             Ok(bench) => {
                 self.current = bench;
                 // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
                 // these.
-                self.eyes = eyes;
+                self.eyes = coming.eyes;
                 tracing::info!(target: TAKEN_UP, "set up: {}", coming.switch.value);
                 Some(coming.switch)
             }
@@ -104,12 +119,12 @@ impl Benches {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset);
         let state = self.current.world.snapshot().other()?;
-        let (plan, effort) = (&self.current.plan, self.current.world.effort());
-        self.current = Workbench::moved(gpu, &self.library, plan, &self.eyes, &state, effort)?;
-        if let Some(Coming { builder, switch }) = self.coming.take() {
-            let (plan, eyes) = (builder.plan().clone(), self.eyes.clone());
-            let builder = Builder::start(gpu, &self.library, plan, eyes);
-            self.coming = Some(Coming { builder, switch });
+        let effort = self.current.world.effort();
+        self.current = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
+        self.current.world.set_effort(effort).other()?;
+        self.current.world.restore(&state).other()?;
+        if let Some(coming) = self.coming.take() {
+            self.start(gpu, coming.plan, coming.switch);
         }
         Ok(())
     }

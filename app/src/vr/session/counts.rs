@@ -8,6 +8,7 @@ use crate::vr::tally::{Holdings, Tally};
 pub const WARM_UP: u64 = 120;
 
 /// Counts frames and display periods without one.
+#[derive(Default)]
 pub(super) struct Counts {
     /// Frames, those of the warm-up included.
     pub frames: u64,
@@ -25,11 +26,8 @@ impl Counts {
     /// None yet.
     pub fn new(tally: Tally) -> Self {
         Self {
-            frames: 0,
-            skipped: 0,
             tally,
-            began_with: None,
-            before: None,
+            ..Self::default()
         }
     }
 

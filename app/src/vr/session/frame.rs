@@ -2,76 +2,47 @@
 
 use std::time::Instant;
 
+use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Ticket;
+use vitriol_render::camera::NEAR;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 
-use super::benches::Benches;
-use super::choices::Choices;
-use super::counts::Counts;
+use super::Session;
 use super::ended::NoFrameOpen;
-use super::pacing::Pacing;
-use super::readings::{Readings, has_acid};
-use super::steps::Steps;
-use super::track::SessionTrack;
 use crate::vr::blame::blame;
 use crate::vr::hands;
 use crate::vr::haptics;
 use crate::vr::info::Info;
 use crate::vr::inputs::sound;
 use crate::vr::ladder::Setting;
-use crate::vr::mirror::Mirror;
-use crate::vr::panel::{self, Panel};
-use crate::vr::picture::{Picture, Sight, eye};
-use crate::vr::placement::Placement;
+use crate::vr::panel;
+use crate::vr::picture::{Sight, eye};
 use crate::vr::tally::Submitted;
 use crate::vr::workbench::Workbench;
 
-/// What a session is made of. Each part keeps one thing and knows no other part but those that it is handed.
-pub(super) struct Parts {
-    /// The bench in use and the one that is being built.
-    pub benches: Benches,
-    /// What the user chose and is not done yet.
-    pub choices: Choices,
-    /// Where the bench stands, and the last frame's poses.
-    pub placement: Placement,
-    /// Steps that are due.
-    pub steps: Steps,
-    /// The recording, with simulated time and the switches of the next step.
-    pub track: SessionTrack,
-    /// What the panel says of the flasks.
-    pub readings: Readings,
-    /// The panel.
-    pub panel: Panel,
-    /// The window on the computer, if there is one.
-    pub mirror: Option<Mirror>,
-    /// The governor, and what it has decided.
-    pub pacing: Pacing,
-    /// Frames, and what they took.
-    pub counts: Counts,
-}
-
-/// The headset's images, and the submission of the picture's part that reads the particles.
-struct Acquired {
-    targets: Targets,
-    shapes: Ticket,
-}
-
-impl Parts {
+impl Session {
     /// One frame, which the headset's `next` has begun: item 1 of the list. Between there and the end nothing waits
     /// for the device.
-    pub fn frame(
+    pub(super) fn frame(
         &mut self,
         headset: &mut dyn Headset,
         frame: &HeadsetFrame,
     ) -> Result<(), Failure> {
         let begun = Instant::now();
         let info = frame.poses.info;
-        self.count(frame);
+        if self.counts.begin(&info) {
+            self.pacing.missed = true;
+        }
+        if self.counts.is_first() {
+            // What came before was the warm-up.
+            self.pacing.report.changes = 0;
+            self.pacing.report.settings.clear();
+        }
         // 2. What the user decided, and a bench that was built meanwhile.
-        let now = sound(&frame.poses, self.placement.last());
+        let now = sound(&frame.poses, self.placement.last.as_ref());
         self.decide(headset, frame.recentred, &now);
         self.replace_bench()?;
         // 3. The steps up to this frame's display time.
@@ -81,9 +52,9 @@ impl Parts {
         let shown = if frame.should_render {
             self.show_panel();
             // 5. The images, and the liquid's ellipsoids behind the steps.
-            let acquired = self.acquire(headset)?;
+            let (targets, shapes) = self.acquire(headset)?;
             // 6. The eyes, as late as can be, and the picture for them.
-            Some(self.locate_and_draw(headset, acquired)?)
+            Some(self.locate_and_draw(headset, &targets, shapes)?)
         } else {
             // Times are of frames that are shown.
             self.steps.submitted();
@@ -99,18 +70,11 @@ impl Parts {
         self.counts.tally.frame(1e3 * begun.elapsed().as_secs_f64());
         self.catch_up(&no_frame)?;
         // 9. What the next frames are solved and drawn with.
-        self.govern(1e-6 * info.period_ns as f64, &no_frame)?;
+        let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
+        let (benches, track) = (&mut self.benches, &mut self.track);
+        self.pacing
+            .govern(&loads, period, benches, track, &no_frame)?;
         self.benches.take_mask(headset, &no_frame)
-    }
-
-    /// Counts the frame, and what was missed before it.
-    fn count(&mut self, frame: &HeadsetFrame) {
-        if self.counts.begin(&frame.poses.info) {
-            self.pacing.miss();
-        }
-        if self.counts.is_first() {
-            self.pacing.restart_counting();
-        }
     }
 
     /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
@@ -122,7 +86,7 @@ impl Parts {
         }
         if chosen.recentre || recentred || !self.placement.is_known() {
             self.track.switch(self.placement.recentre(now));
-            self.steps.pause();
+            self.steps.clock.pause();
         }
     }
 
@@ -144,7 +108,7 @@ impl Parts {
     fn take_steps(&mut self, now: PoseFrame) -> Result<(), Failure> {
         let world = &mut self.benches.current.world;
         self.steps.plan(&now, &self.placement, world.scene());
-        self.placement.advance(now);
+        self.placement.last = Some(now);
         self.steps.take_ready(world, &mut self.track)
     }
 
@@ -178,8 +142,9 @@ impl Parts {
         }
     }
 
-    /// Acquires the headset's images, and submits what reads the particles behind the steps, on the solver's queue.
-    fn acquire(&mut self, headset: &mut dyn Headset) -> Result<Acquired, Failure> {
+    /// Acquires the headset's images, and submits the picture's part that reads the particles behind the steps, on
+    /// the solver's queue.
+    fn acquire(&mut self, headset: &mut dyn Headset) -> Result<(Targets, Ticket), Failure> {
         let targets = headset.acquire().map_err(blame)?;
         let Workbench { world, picture, .. } = &self.benches.current;
         let is_due = self.readings.is_due(self.counts.frames);
@@ -190,8 +155,10 @@ impl Parts {
             }
             Ok(())
         })?;
-        self.readings.began(reading, &shapes);
-        Ok(Acquired { targets, shapes })
+        if let Some(reading) = reading {
+            self.readings.under_way = Some((reading, shapes.clone()));
+        }
+        Ok((targets, shapes))
     }
 
     /// Locates the eyes, and draws and submits the picture with these views, which are those that it is to be shown
@@ -199,9 +166,9 @@ impl Parts {
     fn locate_and_draw(
         &mut self,
         headset: &mut dyn Headset,
-        acquired: Acquired,
+        targets: &Targets,
+        shapes: Ticket,
     ) -> Result<Shown, Failure> {
-        let Acquired { targets, shapes } = acquired;
         let placed = self.placement.stage_from_scene();
         let seen = self.placement.seen();
         let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
@@ -217,9 +184,9 @@ impl Parts {
             beads: &beads,
         };
         let panel = &mut self.panel;
-        let drawn = picture.draw(world, shapes, &sight, &targets, |rec| {
+        let picture = picture.draw(world, &shapes, &sight, targets, |rec| {
             panel.record(rec)?;
-            rec.copy_image(panel.image(), &targets.panel).other()
+            rec.copy_image(&panel.image, &targets.panel).other()
         })?;
         let age_ms = 1e3 * located.elapsed().as_secs_f64();
 
@@ -227,22 +194,22 @@ impl Parts {
         self.counts.tally.picture(age_ms, behind);
         self.counts.tally.submitted(Submitted {
             steps: self.steps.submitted(),
-            shapes: drawn.shapes,
-            picture: drawn.picture,
-            stamp: self.pacing.stamp(),
+            shapes,
+            picture,
+            stamp: self.pacing.stamp,
         });
         self.pacing.shown(setting);
         Ok(Shown {
             views,
             extent,
-            near: Picture::near(),
+            near: NEAR,
             panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         })
     }
 
     /// Does what may wait for the device: takes the steps that are left over, waits for the picture before the last,
     /// and collects pictures, readings and times that have come.
-    pub fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
+    pub(super) fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
         let Workbench { world, picture, .. } = &mut self.benches.current;
         self.steps.take_rest(world, &mut self.track, no_frame)?;
         picture.keep_up()?;
@@ -253,15 +220,8 @@ impl Parts {
         self.counts.tally.collect()
     }
 
-    /// Tells the governor what the frames that are done took, and does what it decides; `period` is in ms.
-    fn govern(&mut self, period: f64, no_frame: &NoFrameOpen) -> Result<(), Failure> {
-        let loads = self.counts.tally.loads();
-        let (benches, track) = (&mut self.benches, &mut self.track);
-        self.pacing.govern(&loads, period, benches, track, no_frame)
-    }
-
     /// What panel and window title say.
-    pub fn info(&self) -> Info {
+    pub(super) fn info(&self) -> Info {
         let bench = &self.benches.current;
         let scene = bench.world.scene();
         let recorded = self.track.state();

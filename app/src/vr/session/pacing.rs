@@ -4,7 +4,6 @@ use serde::Serialize;
 use vitriol_experiment::switches::SWITCH_SOLVER;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, Timestamps};
-use vitriol_sim::scene::PictureFilter;
 use vitriol_xr::Switch;
 
 use super::benches::Benches;
@@ -48,20 +47,22 @@ pub struct FramesWith {
 }
 
 /// The governor, and what it is told and has decided.
+#[derive(Default)]
 pub(super) struct Pacing {
     /// `None` where everything stays as it begins.
     governor: Option<Governor>,
     /// How much less than was asked for is solved and drawn.
     level: Level,
-    /// Counts changes: a frame that was begun before the last one has another stamp.
-    stamp: u64,
+    /// Counts changes, and goes with each frame that is submitted, see [`FrameLoad::stamp`].
+    pub stamp: u64,
     /// A display period went by without a frame since the governor was told of one.
-    missed: bool,
+    pub missed: bool,
     /// Time since the governor was told of a frame, s. Frames without a step tell it nothing.
     since: f64,
     /// The last change was to more accuracy or pixels.
     finer: bool,
-    report: GovernorReport,
+    /// What it did in the frames that count.
+    pub report: GovernorReport,
     repainter: Repainter,
 }
 
@@ -73,29 +74,14 @@ impl Pacing {
         let on = asked && measures;
         let cause = asked && !measures;
         Self {
-            governor: on.then(|| Governor::new(bench.ladder.costs(), [0, 0])),
-            level: [0, 0],
-            stamp: 0,
-            missed: false,
-            since: 0.0,
-            finer: false,
+            governor: on.then(|| Governor::new(bench.ladder.costs())),
             report: GovernorReport {
                 on,
                 cause: cause.then(|| "this device does not measure what frames take on it".into()),
                 ..GovernorReport::default()
             },
-            repainter: Repainter::default(),
+            ..Self::default()
         }
-    }
-
-    /// Whether there is a governor, for which frames are to be timed.
-    pub fn is_governed(&self) -> bool {
-        self.governor.is_some()
-    }
-
-    /// What goes with a frame that is submitted now, see [`FrameLoad::stamp`].
-    pub fn stamp(&self) -> u64 {
-        self.stamp
     }
 
     /// What frames are solved and drawn with now.
@@ -107,11 +93,6 @@ impl Pacing {
         }
     }
 
-    /// A display period went by without a frame.
-    pub fn miss(&mut self) {
-        self.missed = true;
-    }
-
     /// Counts a frame that is shown with `setting`.
     pub fn shown(&mut self, setting: Setting) {
         let mut counted = self.report.settings.iter_mut();
@@ -119,17 +100,6 @@ impl Pacing {
             Some(with) => with.frames += 1,
             None => self.report.settings.push(FramesWith { setting, frames: 1 }),
         }
-    }
-
-    /// Counting begins: what came before was the warm-up.
-    pub fn restart_counting(&mut self) {
-        self.report.changes = 0;
-        self.report.settings.clear();
-    }
-
-    /// What it did in the frames that count.
-    pub fn report(&self) -> &GovernorReport {
-        &self.report
     }
 
     /// Forgets what frames took: it was on another device or another scene.
@@ -168,10 +138,7 @@ impl Pacing {
         }
         if let Some(filter) = self.repainter.replace_if_made(benches, no_frame)? {
             self.settle();
-            let name = match filter {
-                PictureFilter::NarrowRange => "narrow-range",
-                PictureFilter::CurvatureFlow => "curvature-flow",
-            };
+            let name = filter.name();
             tracing::info!(target: TAKEN_UP, "to keep pace: filter {name}");
             track.switch(switch(SWITCH_FILTER, name.into()));
         }
@@ -246,7 +213,7 @@ impl Pacing {
         if !same {
             self.level = [0, 0];
             if let Some(governor) = &mut self.governor {
-                *governor = Governor::new(bench.ladder.costs(), self.level);
+                *governor = Governor::new(bench.ladder.costs());
             }
         }
         self.forget();

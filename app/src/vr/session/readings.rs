@@ -1,6 +1,7 @@
 //! Temperature and acid of each flask's liquid, as the panel shows them.
 
 use glam::Vec3;
+use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Ticket;
 use vitriol_sim::scene::{Flask, Scene};
@@ -14,7 +15,8 @@ const EVERY: u64 = 9;
 /// The last reading, and the next one where it is under way.
 #[derive(Default)]
 pub(super) struct Readings {
-    under_way: Option<(ReadingRecord, Ticket)>,
+    /// With the submission that it is in; on a device that is gone it never comes.
+    pub under_way: Option<(ReadingRecord, Ticket)>,
     /// By flask; empty before the first.
     last: Vec<FlaskReading>,
 }
@@ -23,13 +25,6 @@ impl Readings {
     /// Whether that frame is to begin a reading.
     pub fn is_due(&self, frame: u64) -> bool {
         self.under_way.is_none() && frame.is_multiple_of(EVERY)
-    }
-
-    /// A reading was recorded, if heat is modelled, and submitted.
-    pub fn began(&mut self, reading: Option<ReadingRecord>, submission: &Ticket) {
-        if let Some(reading) = reading {
-            self.under_way = Some((reading, submission.clone()));
-        }
     }
 
     /// Takes a reading that has come; does not wait.
@@ -41,11 +36,6 @@ impl Readings {
             self.under_way = None;
         }
         Ok(())
-    }
-
-    /// Drops what is under way on a device that is gone. The last reading stays.
-    pub fn forget_under_way(&mut self) {
-        self.under_way = None;
     }
 
     /// Forgets readings of another bench.
@@ -74,12 +64,6 @@ impl Readings {
             .map(line)
             .collect()
     }
-}
-
-/// Whether one of a scene's liquids has acid.
-pub(super) fn has_acid(scene: &Scene) -> bool {
-    let mut liquids = scene.liquids.iter();
-    liquids.any(|liquid| liquid.acid_fraction > 0.0)
 }
 
 #[cfg(test)]

@@ -20,7 +20,8 @@ const SMOOTHING: f64 = 0.05;
 
 /// Plans a frame's steps and takes them.
 pub(super) struct Steps {
-    clock: StepClock,
+    /// When they are due. It pauses while the display stands still, or where the bench leaps.
+    pub clock: StepClock,
     /// Poses of the steps that the frame has still to take, in the frame of the scene's file.
     due: VecDeque<PoseFrame>,
     /// Submissions of the steps since the last picture.
@@ -41,11 +42,11 @@ impl Steps {
     }
 
     /// Finds the steps that are due between the last frame and `now`, each with poses between the two frames'
-    /// at its own end. In the first frame and after a [`Steps::pause`] there are none.
+    /// at its own end. In the first frame and after a [`StepClock::pause`] there are none.
     pub fn plan(&mut self, now: &PoseFrame, placement: &Placement, scene: &Scene) {
         let origin = (scene.origin * scene.scale.length_scale).as_vec3();
         let due = self.clock.advance(now.info.xr_time, scene.scale.frame_time);
-        let (Some(last), true) = (placement.last(), placement.is_known()) else {
+        let (Some(last), true) = (&placement.last, placement.is_known()) else {
             return;
         };
         let passed = (now.info.xr_time - last.info.xr_time) as f64;
@@ -101,11 +102,6 @@ impl Steps {
         Ok(())
     }
 
-    /// The display stands still, or the bench leaps: what passes until the next frame is not simulated.
-    pub fn pause(&mut self) {
-        self.clock.pause();
-    }
-
     /// Submissions since the last call.
     pub fn submitted(&mut self) -> Vec<Ticket> {
         std::mem::take(&mut self.submitted)
@@ -113,17 +109,12 @@ impl Steps {
 
     /// Steps of `frame_time` (s) between the flasks as they are now and the frame's display time.
     pub fn behind(&self, frame_time: f64) -> f64 {
-        self.clock.behind() / frame_time + self.due.len() as f64
+        self.clock.since / frame_time + self.due.len() as f64
     }
 
     /// Speed in per cent of real time, to the next 5; `None` at full speed.
     pub fn slow_motion(&self) -> Option<u32> {
         (self.speed < SLOW).then(|| 5 * (20.0 * self.speed).round() as u32)
-    }
-
-    /// Time that was shown as slow motion, s.
-    pub fn slowed(&self) -> f64 {
-        self.clock.slowed()
     }
 }
 
@@ -170,7 +161,7 @@ mod tests {
                 placement.recentre(&now);
             }
             steps.plan(&now, &placement, scene);
-            placement.advance(now);
+            placement.last = Some(now);
             steps.due.drain(..).collect()
         };
         times.iter().map(plan).collect()
@@ -207,10 +198,10 @@ mod tests {
         placement.recentre(&at(0.0));
         let mut due = |time: f64, pause: bool| {
             if pause {
-                steps.pause();
+                steps.clock.pause();
             }
             steps.plan(&at(time), &placement, &scene);
-            placement.advance(at(time));
+            placement.last = Some(at(time));
             steps.due.drain(..).count()
         };
         assert_eq!(due(0.0, false), 0);
@@ -228,6 +219,6 @@ mod tests {
         let planned = planned(&mut steps, &scene, &times);
         assert!(planned[1..].iter().all(|due| due.len() == 5));
         assert_eq!(steps.slow_motion(), Some(55));
-        assert!((steps.slowed() - 199.0 * (0.1 - 5.0 / 90.0)).abs() < 1e-6);
+        assert!((steps.clock.slowed - 199.0 * (0.1 - 5.0 / 90.0)).abs() < 1e-6);
     }
 }

@@ -63,11 +63,10 @@ impl SessionTrack {
 }
 
 fn metadata(plan: &Plan) -> TrackMetadata {
-    let preset = format!("{:?}", plan.preset).to_lowercase();
     TrackMetadata {
         scene: plan.scene.clone(),
         seed: plan.seed,
-        parameters: [("preset".to_owned(), preset)].into(),
+        parameters: [("preset".to_owned(), plan.preset.name().to_owned())].into(),
         program_version: env!("CARGO_PKG_VERSION").into(),
     }
 }
