@@ -76,8 +76,9 @@ impl Solver {
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
         let constants = Constants::new(spec, count, &grid, lanes);
-        let pipelines = Pipelines::new(gpu, library, spec, &constants)?;
-        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants)?;
+        let all = buffers.all(&vessels);
+        let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
+        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants, &buffers)?;
         let solver = Self {
             gpu: gpu.clone(),
             coefficients: spec
@@ -176,7 +177,7 @@ impl Solver {
     /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
-        self.steam.as_ref().map(|steam| &steam.puffs)
+        self.steam.as_ref().map(Steam::puffs)
     }
 
     /// Lets the puffs rise, and makes new ones of what left the liquid.
