@@ -1,7 +1,6 @@
 //! Lines 26 and 27 of a liquid with a chemistry.
 
 use super::algorithm::Reference;
-use super::boiling;
 use super::chemistry::{Chemistry, surfaces};
 use super::dilution::Pairs;
 use super::neighbours::Neighbours;
@@ -52,17 +51,7 @@ impl Reference {
             Chemistry::Paper(paper) => paper.coefficients(parameters),
             Chemistry::Physical(physical) => physical.coefficients(parameters),
         };
-        let stirred = boiling::stir(
-            &self.surroundings,
-            &self.motion,
-            &self.kernel(),
-            (parameters.particle_volume(), parameters.max_speed),
-            &self.positions,
-            &self.membership,
-            neighbours,
-            &self.velocities,
-            &coefficients,
-        );
+        let stirred = self.stirred(neighbours, &coefficients);
         self.velocities = stirred.velocities;
         match chemistry {
             Chemistry::Paper(paper) => paper.agitation = stirred.agitation,
