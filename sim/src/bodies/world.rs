@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::build::{self, Flask, SUBSTEPS};
 use super::coupling::{self, PastPoses};
-use super::grip::{self, GRIP_REACH, GripState, Grippable, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
+use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 use super::rolling;
 use super::spec::{BodiesError, BodiesSpec, Hand, Load};
 use super::units::Units;
@@ -163,18 +163,9 @@ impl Bodies {
     }
 
     fn advance_grips(&mut self, hands: &[Hand; 2]) {
-        let grippable: Vec<Grippable<'_>> = self
-            .flasks
-            .iter()
-            .zip(&self.poses)
-            .map(|(flask, &stage_from_flask)| Grippable {
-                outline: &flask.outline,
-                stage_from_flask,
-                fixed: flask.fixed,
-            })
-            .collect();
         let reach = GRIP_REACH * self.length_scale;
-        grip::advance(&mut self.state.grips, hands, &grippable, reach);
+        let grips = &mut self.state.grips;
+        grip::advance(grips, hands, &self.flasks, &self.poses, reach);
     }
 
     /// Makes a gripped flask the hand's, if it is not yet.
@@ -216,7 +207,7 @@ impl Bodies {
         body.set_linvel(linear, true);
         body.set_angvel(angular, true);
 
-        let push = coupling::push(
+        let (force, torque) = coupling::push(
             load,
             past,
             loaded.local_com,
@@ -226,8 +217,8 @@ impl Bodies {
         );
         body.reset_forces(false);
         body.reset_torques(false);
-        body.add_force(units.vector(push.force), true);
-        body.add_torque(units.torque(push.torque), true);
+        body.add_force(units.vector(force), true);
+        body.add_torque(units.torque(torque), true);
         self.slow_rolling(index);
     }
 

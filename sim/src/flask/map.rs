@@ -45,7 +45,6 @@ pub struct MapSample {
 /// and h below the base to h outside of the vessel.
 #[derive(Clone, Debug)]
 pub struct VolumeMap {
-    side: Side,
     spacing: f64,
     base: f64,
     columns: usize,
@@ -80,18 +79,12 @@ impl VolumeMap {
             ]
         };
         Self {
-            side,
             spacing,
             base,
             columns,
             rows,
             nodes: (0..columns * rows).map(node).collect(),
         }
-    }
-
-    /// Whose particles it is for.
-    pub fn side(&self) -> Side {
-        self.side
     }
 
     /// Distance between nodes in r and in y, metres.

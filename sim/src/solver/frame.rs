@@ -82,7 +82,9 @@ impl Solver {
             let forces = if last { &p.last_forces } else { &p.forces };
             self.over_particles(rec, forces, &step)?;
         }
-        self.vent(rec)?;
+        if let Some(steam) = &self.steam {
+            steam.record(rec, &self.buffers)?;
+        }
         self.load(rec)
     }
 

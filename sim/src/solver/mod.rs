@@ -41,7 +41,7 @@ use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
 use vessels::Vessels;
-use vitriol_gpu::{Buffer, Gpu, Recorder, vk};
+use vitriol_gpu::{Buffer, Gpu, vk};
 use vitriol_shaders::Library;
 
 /// The particles of a scene on a device, and what moves them.
@@ -178,14 +178,6 @@ impl Solver {
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(Steam::puffs)
-    }
-
-    /// Lets the puffs rise, and makes new ones of what left the liquid.
-    fn vent(&self, rec: &mut Recorder) -> Result<(), SolverError> {
-        if let Some(steam) = &self.steam {
-            steam.record(rec, &self.buffers)?;
-        }
-        Ok(())
     }
 
     /// Bytes of device memory that a particle takes.
