@@ -1,7 +1,7 @@
 //! The world of bodies and its fixed step.
 
 use glam::Vec3;
-use rapier3d::prelude::{PhysicsWorld, RigidBody, RigidBodyType};
+use rapier3d::prelude::{PhysicsWorld, RigidBodyType};
 use serde::{Deserialize, Serialize};
 
 use super::build::{self, Flask, SUBSTEPS};
@@ -82,7 +82,9 @@ impl Bodies {
     /// of a held or fixed flask is not looked at. A flask that is let go in
     /// this step already falls in it.
     pub fn step(&mut self, hands: &[Hand; 2], loads: &[Load]) {
-        self.advance_grips(hands);
+        let reach = GRIP_REACH * self.length_scale;
+        let grips = &mut self.state.grips;
+        grip::advance(grips, hands, &self.flasks, &self.poses, reach);
         for index in 0..self.flasks.len() {
             let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
             if self.holder(index).is_some() {
@@ -106,7 +108,7 @@ impl Bodies {
     /// The velocity of a flask: of a held one by its last two poses. `None` where there
     /// is no such flask.
     pub fn velocity(&self, flask: usize) -> Option<Velocity> {
-        let body = self.body(flask)?;
+        let body = self.rapier.bodies.get(self.flasks.get(flask)?.body)?;
         if self.holder(flask).is_some() {
             let past = &self.state.past[flask];
             let (linear, angular) = grip::velocity_between(past[1], past[0], Vec3::ZERO, self.step);
@@ -156,16 +158,6 @@ impl Bodies {
         self.rapier = rapier;
         self.state = state;
         Ok(())
-    }
-
-    fn body(&self, flask: usize) -> Option<&RigidBody> {
-        self.rapier.bodies.get(self.flasks.get(flask)?.body)
-    }
-
-    fn advance_grips(&mut self, hands: &[Hand; 2]) {
-        let reach = GRIP_REACH * self.length_scale;
-        let grips = &mut self.state.grips;
-        grip::advance(grips, hands, &self.flasks, &self.poses, reach);
     }
 
     /// Makes a gripped flask the hand's, if it is not yet.

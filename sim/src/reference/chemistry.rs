@@ -7,7 +7,7 @@ use super::surroundings::WallSum;
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Flux, Potential, contact_area, flux};
+use crate::chemistry::transport::{Flux, Potential, flux};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 use glam::DVec3;
@@ -307,19 +307,6 @@ impl Physical {
             .map(|content| content.mass * content.enthalpy)
             .sum()
     }
-}
-
-/// Area of glass and of free surface of each particle of volume `volume`
-/// (m³), m², from ∇V_b and Σ_j V₀∇W_ij.
-pub fn surfaces(volume: f64, walls: &[WallSum], liquid: &[DVec3]) -> Vec<(f64, f64)> {
-    let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
-        let open = (wall.gradient + liquid).length();
-        (
-            contact_area(volume, wall.gradient.length()),
-            contact_area(volume, open),
-        )
-    };
-    walls.iter().zip(liquid).map(areas).collect()
 }
 
 /// Leaves out of `values` what is not to `keep`.

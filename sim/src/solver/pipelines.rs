@@ -90,8 +90,16 @@ impl Pipelines {
         buffers: &[&Buffer],
     ) -> Result<Self, SolverError> {
         let carry = flag(spec.parameters.carry > 0.0);
-        let first = [("FIRST", 1.0), ("CARRY", carry)];
-        let clear_first = [("FIRST", 1.0), ("CLEAR_LIST_ARGS", 1.0)];
+        // The rebuild's dispatch sizes return to zero in a substep's first pass.
+        let clears = ("CLEAR_LIST_ARGS", 1.0);
+        let first = [
+            ("FIRST", 1.0),
+            if carry > 0.0 {
+                ("CARRY", carry)
+            } else {
+                clears
+            },
+        ];
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
         let pull = ("PULL", flag(spec.parameters.adhesion > 0.0));
         let vorticity = match spec.parameters.vorticity {
@@ -111,14 +119,8 @@ impl Pipelines {
             cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
-            carried_multiplier: make(
-                sim::MULTIPLIER,
-                &[("APPLY_CARRIED", 1.0), ("CLEAR_LIST_ARGS", 1.0)],
-            )?,
-            first_multiplier: make(
-                sim::MULTIPLIER,
-                if carry > 0.0 { &first } else { &clear_first },
-            )?,
+            carried_multiplier: make(sim::MULTIPLIER, &[("APPLY_CARRIED", 1.0), clears])?,
+            first_multiplier: make(sim::MULTIPLIER, &first)?,
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,

@@ -44,7 +44,7 @@ impl Solver {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
         let [heat, matter] = self.lengths();
-        let [puffs, vented, made] = Steam::start(&self.parameters, n).elements();
+        let (steam, start) = (&state.steam, Steam::start(&self.parameters, n));
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -57,9 +57,9 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
-            ("puffs", state.steam.elements()[0], puffs),
-            ("vented steam", state.steam.elements()[1], vented),
-            ("vents", state.steam.elements()[2], made),
+            ("puffs", steam.puffs.len(), start.puffs.len()),
+            ("vented steam", steam.vented.len(), start.vented.len()),
+            ("vents", steam.made.len(), start.made.len()),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {

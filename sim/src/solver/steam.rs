@@ -39,17 +39,12 @@ pub(super) struct Steam {
 /// What the next frame depends on; empty where no steam leaves.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SteamState {
-    puffs: Vec<[f32; 12]>,
-    vented: Vec<[f32; 2]>,
-    made: Vec<u32>,
+    pub(super) puffs: Vec<[f32; 12]>,
+    pub(super) vented: Vec<[f32; 2]>,
+    pub(super) made: Vec<u32>,
 }
 
 impl SteamState {
-    /// How many elements its arrays have.
-    pub(super) fn elements(&self) -> [usize; 3] {
-        [self.puffs.len(), self.vented.len(), self.made.len()]
-    }
-
     /// Mass of the mist, kg.
     pub(super) fn mist(&self) -> f64 {
         self.puffs.iter().map(|puff| f64::from(puff[10])).sum()
@@ -66,7 +61,7 @@ impl Steam {
         constants: &Constants,
         buffers: &Buffers,
     ) -> Result<Option<Self>, SolverError> {
-        let Some(physical) = physical(parameters).filter(|p| p.bubble_speed.is_some()) else {
+        let Some(physical) = physical(parameters) else {
             return Ok(None);
         };
         let ambient = physical.losses.map_or(ROOM_TEMPERATURE, |l| l.ambient);
@@ -99,7 +94,7 @@ impl Steam {
 
     /// The state in which nothing has left yet, of `parameters`' scene.
     pub(super) fn start(parameters: &Parameters, count: usize) -> SteamState {
-        if physical(parameters).is_none_or(|p| p.bubble_speed.is_none()) {
+        if physical(parameters).is_none() {
             return SteamState::default();
         }
         SteamState {
@@ -142,9 +137,10 @@ fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buf
     [puffs, vented, made, &b.position, &b.tags, &b.ledger]
 }
 
+/// The chemistry, where steam leaves the liquid.
 fn physical(parameters: &Parameters) -> Option<&Physical> {
     match &parameters.chemistry {
-        Some(Chemistry::Physical(physical)) => Some(physical),
+        Some(Chemistry::Physical(p)) if p.bubble_speed.is_some() => Some(p),
         _ => None,
     }
 }
