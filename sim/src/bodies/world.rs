@@ -211,11 +211,6 @@ impl Bodies {
         body.reset_torques(false);
         body.add_force(units.vector(force), true);
         body.add_torque(units.torque(torque), true);
-        self.slow_rolling(index);
-    }
-
-    fn slow_rolling(&mut self, index: usize) {
-        let flask = &self.flasks[index];
         let Some(body) = self.rapier.bodies.get(flask.body) else {
             return;
         };

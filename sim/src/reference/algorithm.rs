@@ -140,15 +140,6 @@ impl Reference {
         at
     }
 
-    /// ρ/ρ₀ at `positions`.
-    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
-        let walls = self
-            .surroundings
-            .sums(positions, &self.membership, &self.motion);
-        let (volumes, _) = self.bulk();
-        density::densities(&self.kernel(), &volumes, positions, neighbours, &walls)
-    }
-
     /// V_i, m³, and ρ₀/ρ_i of every particle: V₀ and 1 where density does not
     /// follow composition.
     pub(super) fn bulk(&self) -> (Vec<f64>, Vec<f64>) {

@@ -5,32 +5,11 @@
 
 use super::algorithm::Reference;
 use super::neighbours::Neighbours;
-use super::surroundings::WallSum;
 use crate::kernel::Kernel;
 use glam::DVec3;
 
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
-
-/// ρ_i/ρ₀ = V_i·W(0) + Σ_j V_j·W_ij + V_b (Eq. 1 with m = ρ₀V₀), the particle
-/// itself included: without it a liquid at rest would be compressed by a
-/// third. Where `volumes` (m³) differ it is the share of space that is filled.
-pub fn densities(
-    kernel: &Kernel,
-    volumes: &[f64],
-    positions: &[DVec3],
-    neighbours: &Neighbours,
-    walls: &[WallSum],
-) -> Vec<f64> {
-    let density = |i: usize| {
-        let around: f64 = neighbours
-            .of(i)
-            .map(|j| volumes[j] * kernel.w(positions[i].distance(positions[j])))
-            .sum();
-        volumes[i] * kernel.w(0.0) + around + walls[i].volume
-    };
-    (0..positions.len()).map(density).collect()
-}
 
 /// One iteration's multipliers from `densities` (ρ/ρ₀) and a =
 /// `gradient_sum`: λ ← min(0, λ − c_r·C/a + c_m·Δλ). `change` is Δλ, that of
@@ -56,6 +35,24 @@ pub fn multipliers(
 }
 
 impl Reference {
+    /// ρ_i/ρ₀ at `positions`, V_i·W(0) + Σ_j V_j·W_ij + V_b (Eq. 1 with m = ρ₀V₀), the
+    /// particle itself included: without it a liquid at rest would be compressed by a
+    /// third. Where the V_i (m³) differ it is the share of space that is filled.
+    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
+        let (kernel, (volumes, _)) = (self.kernel(), self.bulk());
+        let walls = self
+            .surroundings
+            .sums(positions, &self.membership, &self.motion);
+        let density = |i: usize| {
+            let around: f64 = neighbours
+                .of(i)
+                .map(|j| volumes[j] * kernel.w(positions[i].distance(positions[j])))
+                .sum();
+            volumes[i] * kernel.w(0.0) + around + walls[i].volume
+        };
+        (0..positions.len()).map(density).collect()
+    }
+
     /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask,
     /// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres: the same
     /// pressure moves what is light further, and a pair's momenta stay opposite.

@@ -56,7 +56,10 @@ impl Solver {
     ) -> Result<FrameRecord, SolverError> {
         let (p, substeps) = (&self.pipelines, self.parameters.substeps);
         if self.count == 0 {
-            return Ok(self.nothing());
+            return Ok(FrameRecord {
+                loads: None,
+                flasks: self.flasks,
+            });
         }
         self.listed.store(true, Ordering::Relaxed);
         self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
@@ -85,7 +88,10 @@ impl Solver {
         if let Some(steam) = &self.steam {
             steam.record(rec, &self.buffers)?;
         }
-        self.load(rec)
+        Ok(FrameRecord {
+            loads: self.load(rec)?,
+            flasks: self.flasks,
+        })
     }
 
     /// Records a pass that writes each particle's density over the rest
@@ -168,24 +174,14 @@ impl Solver {
         Ok(self.pass(rec, pass).constants(step).invocations(count)?)
     }
 
-    fn load(&self, rec: &mut Recorder) -> Result<FrameRecord, SolverError> {
+    fn load(&self, rec: &mut Recorder) -> Result<Option<Readback>, SolverError> {
         if !self.loads || self.flasks == 0 {
-            return Ok(self.nothing());
+            return Ok(None);
         }
         self.pass(rec, &self.pipelines.load)
             .constants(&self.step(self.parameters.substeps - 1))
             .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;
-        Ok(FrameRecord {
-            loads: Some(rec.read_back(&self.buffers.loads)?),
-            flasks: self.flasks,
-        })
-    }
-
-    fn nothing(&self) -> FrameRecord {
-        FrameRecord {
-            loads: None,
-            flasks: self.flasks,
-        }
+        Ok(Some(rec.read_back(&self.buffers.loads)?))
     }
 
     /// Constants of substep `n`.
