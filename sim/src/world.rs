@@ -295,10 +295,7 @@ impl World {
         let solver = self.solver.snapshot()?;
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
-            Ok(sums
-                .iter()
-                .map(|s| [s.impulse, s.angular, s.offsets])
-                .collect())
+            Ok(bytemuck::cast_slice(&sums).to_vec())
         });
         Ok(WorldState {
             step: self.step,
@@ -321,14 +318,7 @@ impl World {
         self.loads = state
             .loads
             .iter()
-            .map(|sums| {
-                let load = |&[impulse, angular, offsets]: &[[f32; 4]; 3]| LiquidLoad {
-                    impulse,
-                    angular,
-                    offsets,
-                };
-                PendingLoad::Host(sums.iter().map(load).collect())
-            })
+            .map(|sums| PendingLoad::Host(bytemuck::cast_slice(sums).to_vec()))
             .collect();
         Ok(())
     }

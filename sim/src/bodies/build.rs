@@ -73,18 +73,19 @@ pub(super) fn build(spec: &BodiesSpec) -> Result<(PhysicsWorld, Vec<Flask>), Bod
 }
 
 fn check_world(spec: &BodiesSpec) -> Result<(), BodiesError> {
-    let finite = |what, value: f32| {
-        let must = "a finite number";
-        value
-            .is_finite()
+    let check = |what, value: f32, fits: bool, must| {
+        (value.is_finite() && fits)
             .then_some(())
             .ok_or(BodiesError::World { what, value, must })
     };
-    let positive = |what, value: f32| {
-        let must = "a finite number greater than zero";
-        (value.is_finite() && value > 0.0)
-            .then_some(())
-            .ok_or(BodiesError::World { what, value, must })
+    let finite = |what, value| check(what, value, true, "a finite number");
+    let positive = |what, value| {
+        check(
+            what,
+            value,
+            value > 0.0,
+            "a finite number greater than zero",
+        )
     };
     spec.gravity
         .to_array()

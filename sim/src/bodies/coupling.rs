@@ -33,13 +33,6 @@ const GIVEN_BACK_MAX: f32 = 30.0;
 /// A flask's last poses, the newest first.
 pub(super) type PastPoses = [Pose; 4];
 
-/// Force (N) and torque (N m, about the flask's centre of mass) over one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Push {
-    pub force: Vec3,
-    pub torque: Vec3,
-}
-
 /// `load`, or none where it holds something that is not finite or a negative mass:
 /// one step without the liquid is harmless, one NaN in a body is for good.
 pub(super) fn checked(load: Load) -> Load {
@@ -64,8 +57,8 @@ pub(super) fn loaded_mass(glass: MassProperties, load: &Load) -> MassProperties 
     }
 }
 
-/// What acts on a free flask during the coming step besides gravity on its
-/// [loaded](loaded_mass) mass and contacts.
+/// Force (N) and torque (N m, about the flask's centre of mass) on a free flask during the
+/// coming step besides gravity on its [loaded](loaded_mass) mass and contacts.
 pub(super) fn push(
     load: &Load,
     past: &PastPoses,
@@ -73,13 +66,10 @@ pub(super) fn push(
     gravity: Vec3,
     step: f32,
     length_scale: f32,
-) -> Push {
+) -> (Vec3, Vec3) {
     let centre = past[0].transform_point(loaded_centre);
-    let from_liquid = load.impulse / step;
-    let mut push = Push {
-        force: from_liquid,
-        torque: load.angular_impulse / step + (past[0].position - centre).cross(from_liquid),
-    };
+    let mut force = load.impulse / step;
+    let mut torque = load.angular_impulse / step + (past[0].position - centre).cross(force);
     if load.liquid_mass > 0.0 {
         let [_, newer, middle, older] = past.map(|pose| pose.transform_point(load.liquid_centre));
         let acceleration = ((newer - middle) - (middle - older)) / (step * step);
@@ -88,8 +78,8 @@ pub(super) fn push(
         // while the liquid's weight is in the load already.
         let given_back = load.liquid_mass * (acceleration - gravity);
         let lever = past[0].transform_point(load.liquid_centre) - centre;
-        push.force += given_back;
-        push.torque += lever.cross(given_back);
+        force += given_back;
+        torque += lever.cross(given_back);
     }
-    push
+    (force, torque)
 }

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::build::Flask;
 use super::reach;
 use super::spec::Hand;
 use crate::pose::Pose;
@@ -43,13 +44,6 @@ struct Held {
     stage_from_flask: Pose,
 }
 
-/// A flask as a hand sees it.
-pub(super) struct Grippable<'a> {
-    pub outline: &'a [[f32; 2]],
-    pub stage_from_flask: Pose,
-    pub fixed: bool,
-}
-
 /// Advances both hands by a step: they open, close, take and follow.
 ///
 /// A hand takes hold only in the step in which it closes, so that a fist that
@@ -58,7 +52,8 @@ pub(super) struct Grippable<'a> {
 pub(super) fn advance(
     grips: &mut [GripState; 2],
     hands: &[Hand; 2],
-    flasks: &[Grippable<'_>],
+    flasks: &[Flask],
+    poses: &[Pose],
     reach: f32,
 ) {
     for index in 0..hands.len() {
@@ -74,7 +69,7 @@ pub(super) fn advance(
             grips[index] = GripState::default();
         }
         if grips[index].closed && !was_closed {
-            grips[index].held = nearest(hand.stage_from_grip, flasks, reach);
+            grips[index].held = nearest(hand.stage_from_grip, flasks, poses, reach);
             if let (Some(taken), Some(other)) = (grips[index].held, grips[1 - index].held)
                 && taken.flask == other.flask
             {
@@ -87,21 +82,20 @@ pub(super) fn advance(
     }
 }
 
-fn nearest(stage_from_grip: Pose, flasks: &[Grippable<'_>], reach: f32) -> Option<Held> {
+fn nearest(stage_from_grip: Pose, flasks: &[Flask], poses: &[Pose], reach: f32) -> Option<Held> {
     flasks
         .iter()
+        .zip(poses)
         .enumerate()
-        .filter(|(_, flask)| !flask.fixed)
-        .map(|(index, flask)| {
-            let grip = flask
-                .stage_from_flask
-                .inverse()
-                .transform_point(stage_from_grip.position);
-            let distance = reach::signed_distance(flask.outline, grip);
+        .filter(|(_, (flask, _))| !flask.fixed)
+        .map(|(index, (flask, &stage_from_flask))| {
+            let flask_from_stage = stage_from_flask.inverse();
+            let grip = flask_from_stage.transform_point(stage_from_grip.position);
+            let distance = reach::signed_distance(&flask.outline, grip);
             let held = Held {
                 flask: index,
-                grip_from_flask: stage_from_grip.inverse().compose(flask.stage_from_flask),
-                stage_from_flask: flask.stage_from_flask,
+                grip_from_flask: stage_from_grip.inverse().compose(stage_from_flask),
+                stage_from_flask,
             };
             (distance, held)
         })

@@ -1,12 +1,12 @@
 //! The world of bodies and its fixed step.
 
 use glam::Vec3;
-use rapier3d::prelude::{PhysicsWorld, RigidBody, RigidBodyType};
+use rapier3d::prelude::{PhysicsWorld, RigidBodyType};
 use serde::{Deserialize, Serialize};
 
 use super::build::{self, Flask, SUBSTEPS};
 use super::coupling::{self, PastPoses};
-use super::grip::{self, GRIP_REACH, GripState, Grippable, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
+use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 use super::rolling;
 use super::spec::{BodiesError, BodiesSpec, Hand, Load};
 use super::units::Units;
@@ -82,7 +82,9 @@ impl Bodies {
     /// of a held or fixed flask is not looked at. A flask that is let go in
     /// this step already falls in it.
     pub fn step(&mut self, hands: &[Hand; 2], loads: &[Load]) {
-        self.advance_grips(hands);
+        let reach = GRIP_REACH * self.length_scale;
+        let grips = &mut self.state.grips;
+        grip::advance(grips, hands, &self.flasks, &self.poses, reach);
         for index in 0..self.flasks.len() {
             let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
             if self.holder(index).is_some() {
@@ -106,7 +108,7 @@ impl Bodies {
     /// The velocity of a flask: of a held one by its last two poses. `None` where there
     /// is no such flask.
     pub fn velocity(&self, flask: usize) -> Option<Velocity> {
-        let body = self.body(flask)?;
+        let body = self.rapier.bodies.get(self.flasks.get(flask)?.body)?;
         if self.holder(flask).is_some() {
             let past = &self.state.past[flask];
             let (linear, angular) = grip::velocity_between(past[1], past[0], Vec3::ZERO, self.step);
@@ -158,25 +160,6 @@ impl Bodies {
         Ok(())
     }
 
-    fn body(&self, flask: usize) -> Option<&RigidBody> {
-        self.rapier.bodies.get(self.flasks.get(flask)?.body)
-    }
-
-    fn advance_grips(&mut self, hands: &[Hand; 2]) {
-        let grippable: Vec<Grippable<'_>> = self
-            .flasks
-            .iter()
-            .zip(&self.poses)
-            .map(|(flask, &stage_from_flask)| Grippable {
-                outline: &flask.outline,
-                stage_from_flask,
-                fixed: flask.fixed,
-            })
-            .collect();
-        let reach = GRIP_REACH * self.length_scale;
-        grip::advance(&mut self.state.grips, hands, &grippable, reach);
-    }
-
     /// Makes a gripped flask the hand's, if it is not yet.
     fn hold(&mut self, index: usize) {
         if let Some(body) = self.rapier.bodies.get_mut(self.flasks[index].body)
@@ -216,7 +199,7 @@ impl Bodies {
         body.set_linvel(linear, true);
         body.set_angvel(angular, true);
 
-        let push = coupling::push(
+        let (force, torque) = coupling::push(
             load,
             past,
             loaded.local_com,
@@ -226,13 +209,8 @@ impl Bodies {
         );
         body.reset_forces(false);
         body.reset_torques(false);
-        body.add_force(units.vector(push.force), true);
-        body.add_torque(units.torque(push.torque), true);
-        self.slow_rolling(index);
-    }
-
-    fn slow_rolling(&mut self, index: usize) {
-        let flask = &self.flasks[index];
+        body.add_force(units.vector(force), true);
+        body.add_torque(units.torque(torque), true);
         let Some(body) = self.rapier.bodies.get(flask.body) else {
             return;
         };

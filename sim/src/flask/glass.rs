@@ -16,85 +16,53 @@ pub const BOROSILICATE: f64 = 2230.0;
 /// Density of stainless steel 1.4301 (EN 10088-1), kg/m³.
 pub const STAINLESS_STEEL: f64 = 7900.0;
 
-/// A vessel that a scene can name.
+/// A vessel that a scene can name: outer dimensions in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glass {
     /// Name in scene files.
     pub name: &'static str,
-    /// Where its size comes from.
-    pub source: &'static str,
     /// Density of the wall, kg/m³.
     pub density: f64,
     shape: Shape,
+    diameter: f64,
+    neck: f64,
+    height: f64,
 }
 
-/// Outer dimensions in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
-    Cylinder {
-        diameter: f64,
-        height: f64,
-    },
-    Conical {
-        diameter: f64,
-        neck: f64,
-        height: f64,
-    },
-    Round {
-        diameter: f64,
-        neck: f64,
-        height: f64,
-    },
+    Cylinder,
+    Conical,
+    Round,
 }
 
-const fn cylinder(name: &'static str, source: &'static str, diameter: f64, height: f64) -> Glass {
+const fn glass(name: &'static str, shape: Shape, [diameter, neck, height]: [f64; 3]) -> Glass {
     Glass {
         name,
-        source,
         density: BOROSILICATE,
-        shape: Shape::Cylinder { diameter, height },
+        shape,
+        diameter,
+        neck,
+        height,
     }
 }
 
 /// All named vessels.
 pub const GLASSWARE: [Glass; 7] = [
-    cylinder("beaker-250", "ISO 3819, low form, 250 mL", 0.070, 0.095),
-    cylinder("beaker-400", "ISO 3819, low form, 400 mL", 0.080, 0.110),
-    cylinder("beaker-600", "ISO 3819, low form, 600 mL", 0.090, 0.125),
-    cylinder(
-        "cylinder-100",
-        "ISO 4788, tall form, 100 mL, without its foot",
-        0.030,
-        0.256,
-    ),
+    // ISO 3819, low form, 250, 400 and 600 mL.
+    glass("beaker-250", Shape::Cylinder, [0.070, 0.070, 0.095]),
+    glass("beaker-400", Shape::Cylinder, [0.080, 0.080, 0.110]),
+    glass("beaker-600", Shape::Cylinder, [0.090, 0.090, 0.125]),
+    // ISO 4788, tall form, 100 mL, without its foot.
+    glass("cylinder-100", Shape::Cylinder, [0.030, 0.030, 0.256]),
+    // ISO 1773, conical flask, narrow neck, 250 mL.
+    glass("erlenmeyer-250", Shape::Conical, [0.085, 0.034, 0.145]),
+    // ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL.
+    glass("round-bottom-250", Shape::Round, [0.085, 0.034, 0.140]),
+    // A common cooking pot, 16 cm by 10 cm inside: our choice.
     Glass {
-        name: "erlenmeyer-250",
-        source: "ISO 1773, conical flask, narrow neck, 250 mL",
-        density: BOROSILICATE,
-        shape: Shape::Conical {
-            diameter: 0.085,
-            neck: 0.034,
-            height: 0.145,
-        },
-    },
-    Glass {
-        name: "round-bottom-250",
-        source: "ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL",
-        density: BOROSILICATE,
-        shape: Shape::Round {
-            diameter: 0.085,
-            neck: 0.034,
-            height: 0.140,
-        },
-    },
-    Glass {
-        name: "pot-2l",
-        source: "a common cooking pot, 16 cm by 10 cm inside: our choice",
         density: STAINLESS_STEEL,
-        shape: Shape::Cylinder {
-            diameter: 0.164,
-            height: 0.102,
-        },
+        ..glass("pot-2l", Shape::Cylinder, [0.164, 0.164, 0.102])
     },
 ];
 
@@ -107,21 +75,12 @@ impl Glass {
     /// Its inner profile as (height, radius) points, metres, for
     /// [`Profile::new`] with [`WALL`].
     pub fn points(&self) -> Vec<[f64; 2]> {
+        let [body, neck] = [self.diameter, self.neck].map(|outer| 0.5 * outer - WALL);
+        let height = self.height - WALL;
         match self.shape {
-            Shape::Cylinder { diameter, height } => {
-                let radius = 0.5 * diameter - WALL;
-                vec![[0.0, radius], [height - WALL, radius]]
-            }
-            Shape::Conical {
-                diameter,
-                neck,
-                height,
-            } => conical(0.5 * diameter - WALL, 0.5 * neck - WALL, height - WALL),
-            Shape::Round {
-                diameter,
-                neck,
-                height,
-            } => round(0.5 * diameter - WALL, 0.5 * neck - WALL, height - WALL),
+            Shape::Cylinder => vec![[0.0, body], [height, body]],
+            Shape::Conical => conical(body, neck, height),
+            Shape::Round => round(body, neck, height),
         }
     }
 

@@ -45,12 +45,17 @@ pub struct MapSample {
 /// and h below the base to h outside of the vessel.
 #[derive(Clone, Debug)]
 pub struct VolumeMap {
-    side: Side,
-    spacing: f64,
-    base: f64,
-    columns: usize,
-    rows: usize,
-    nodes: Vec<[f32; 4]>,
+    /// Distance between nodes in r and in y, metres.
+    pub(crate) spacing: f64,
+    /// Height of the first row in the flask's frame, metres; the first
+    /// column is at r = 0.
+    pub(crate) base: f64,
+    /// Nodes in r and in y.
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    /// The table for the GPU: [distance (m), V, ∂V/∂r (1/m), ∂V/∂y (1/m)],
+    /// r running fastest.
+    pub(crate) nodes: Vec<[f32; 4]>,
 }
 
 impl VolumeMap {
@@ -80,40 +85,12 @@ impl VolumeMap {
             ]
         };
         Self {
-            side,
             spacing,
             base,
             columns,
             rows,
             nodes: (0..columns * rows).map(node).collect(),
         }
-    }
-
-    /// Whose particles it is for.
-    pub fn side(&self) -> Side {
-        self.side
-    }
-
-    /// Distance between nodes in r and in y, metres.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    /// Height of the first row in the flask's frame, metres; the first
-    /// column is at r = 0.
-    pub fn base(&self) -> f64 {
-        self.base
-    }
-
-    /// Nodes in r and in y.
-    pub fn size(&self) -> [usize; 2] {
-        [self.columns, self.rows]
-    }
-
-    /// The table for the GPU: [distance (m), V, ∂V/∂r (1/m), ∂V/∂y (1/m)],
-    /// r running fastest.
-    pub fn nodes(&self) -> &[[f32; 4]] {
-        &self.nodes
     }
 
     /// Bilinear interpolation at (r, y). Outside of the table V is 0 and the

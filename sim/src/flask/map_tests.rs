@@ -193,7 +193,7 @@ fn the_mouth_is_open() {
     let rim = profile.rim_height();
     let to_wall = profile.mouth_radius() - 0.01;
     for above in [-0.5, 0.0, 0.5, 1.0] {
-        let sample = map.sample(0.01, rim + above * map.spacing());
+        let sample = map.sample(0.01, rim + above * map.spacing);
         // Linear interpolation between nodes is this good far from the glass.
         assert!(
             (sample.distance - to_wall).abs() < 0.05 * H,

@@ -405,21 +405,19 @@ fn validate(points: &[[f64; 2]], wall: f64) -> Result<(), ProfileError> {
         if radius < 0.0 {
             return Err(ProfileError::NegativeRadius { index, radius });
         }
-        let before = if index == 0 {
-            None
-        } else {
-            Some(points[index - 1][0])
-        };
-        match before {
-            None if height != 0.0 => return Err(ProfileError::FloorNotZero(height)),
-            Some(before) if height <= before => {
-                return Err(ProfileError::NotAscending {
-                    index,
-                    height,
-                    before,
-                });
+        if index == 0 {
+            if height != 0.0 {
+                return Err(ProfileError::FloorNotZero(height));
             }
-            _ => {}
+            continue;
+        }
+        let before = points[index - 1][0];
+        if height <= before {
+            return Err(ProfileError::NotAscending {
+                index,
+                height,
+                before,
+            });
         }
     }
     let size = points.iter().flatten().copied().fold(0.0, f64::max);

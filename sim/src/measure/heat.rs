@@ -95,7 +95,7 @@ const WATER_KELVIN: f64 = 4184.0;
 /// Measures a state; `None` where no heat is modelled. Masses are in kg of
 /// the scene, particles that were taken out do not count.
 pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasurement> {
-    let boils = Boils::of(parameters.chemistry.as_ref()?);
+    let chemistry = parameters.chemistry.as_ref()?;
     let present: Vec<usize> = (0..state.heat.len())
         .filter(|&slot| state.is_present(slot))
         .collect();
@@ -119,7 +119,7 @@ pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasu
         acid_spread: acid.deviation,
         acid_min: acid.min,
         acid_max: acid.max,
-        superheat: boils.superheat(state, &present),
+        superheat: superheat(chemistry, state, &present),
         ledger: ledger(state, &present, parameters.particle_mass()),
     })
 }
@@ -167,50 +167,38 @@ impl Spread {
     }
 }
 
-/// What a particle's boiling point follows from.
-enum Boils {
-    Never,
-    At(f64),
-    ByComposition(Box<SolutionTable>),
-}
-
-impl Boils {
-    fn of(chemistry: &Chemistry) -> Self {
-        match chemistry {
-            Chemistry::Paper(paper) => paper
-                .boiling
-                .map_or(Self::Never, |boiling| Self::At(boiling.boiling_point)),
-            Chemistry::Physical(_) => Self::ByComposition(Box::default()),
+/// `None` where nothing boils.
+fn superheat(chemistry: &Chemistry, state: &SolverState, present: &[usize]) -> Option<Superheat> {
+    let point: Box<dyn Fn(usize) -> f64> = match chemistry {
+        Chemistry::Paper(paper) => {
+            let boiling_point = paper.boiling?.boiling_point;
+            Box::new(move |_| boiling_point)
         }
-    }
-
-    fn superheat(&self, state: &SolverState, present: &[usize]) -> Option<Superheat> {
-        let point = |slot: usize| match self {
-            Self::Never => None,
-            Self::At(point) => Some(*point),
+        Chemistry::Physical(_) => {
+            let table = SolutionTable::new();
             // A particle's acid fraction there is that of its liquid.
-            Self::ByComposition(table) => Some(table.at(state.heat[slot][1].into()).boiling_point),
-        };
-        let mut found: Option<Superheat> = None;
-        for &slot in present {
-            let superheat = f64::from(state.heat[slot][0]) - point(slot)?;
-            let so_far = found.get_or_insert(Superheat {
-                max: superheat,
-                particles: 0,
-                in_flasks: Vec::new(),
-            });
-            so_far.max = so_far.max.max(superheat);
-            if superheat > 0.0 {
-                so_far.particles += 1;
-                if let Some(flask) = state.flask_of(slot) {
-                    let flasks = so_far.in_flasks.len().max(flask + 1);
-                    so_far.in_flasks.resize(flasks, 0);
-                    so_far.in_flasks[flask] += 1;
-                }
+            Box::new(move |slot| table.at(state.heat[slot][1].into()).boiling_point)
+        }
+    };
+    let mut found: Option<Superheat> = None;
+    for &slot in present {
+        let superheat = f64::from(state.heat[slot][0]) - point(slot);
+        let so_far = found.get_or_insert(Superheat {
+            max: superheat,
+            particles: 0,
+            in_flasks: Vec::new(),
+        });
+        so_far.max = so_far.max.max(superheat);
+        if superheat > 0.0 {
+            so_far.particles += 1;
+            if let Some(flask) = state.flask_of(slot) {
+                let flasks = so_far.in_flasks.len().max(flask + 1);
+                so_far.in_flasks.resize(flasks, 0);
+                so_far.in_flasks[flask] += 1;
             }
         }
-        found
     }
+    found
 }
 
 fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<Ledger> {

@@ -4,9 +4,9 @@ use super::chemistry::{Chemistry, retain};
 use super::measure::{DensityError, Masses};
 use super::neighbours::{self, Neighbours};
 use super::placement::{Motion, Placement};
-use super::surroundings::Surroundings;
+use super::surroundings::{Contact, Surroundings};
 use super::visibility::see_each_other;
-use super::{density, forces, motion, viscosity};
+use super::{density, forces};
 use crate::flask::Region;
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
@@ -98,20 +98,6 @@ impl Reference {
         self.take_out_non_finite();
     }
 
-    /// Lines 15–17: x* of all particles.
-    pub fn predict(&self) -> Vec<DVec3> {
-        let gravity = DVec3::from_array(self.parameters.gravity);
-        motion::predict(
-            &self.surroundings,
-            &self.motion,
-            self.parameters.margin,
-            (self.parameters.substep_time(), gravity),
-            &self.positions,
-            &self.velocities,
-            &self.membership,
-        )
-    }
-
     /// Line 10 at `positions`: everything within h and the list's margin,
     /// since the iterations bring particles together.
     pub fn neighbours(&self, positions: &[DVec3]) -> Neighbours {
@@ -154,18 +140,9 @@ impl Reference {
         at
     }
 
-    /// ρ/ρ₀ at `positions`.
-    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
-        let walls = self
-            .surroundings
-            .sums(positions, &self.membership, &self.motion);
-        let (volumes, _) = self.bulk();
-        density::densities(&self.kernel(), &volumes, positions, neighbours, &walls)
-    }
-
     /// V_i, m³, and ρ₀/ρ_i of every particle: V₀ and 1 where density does not
     /// follow composition.
-    fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
         match &self.chemistry {
             Some(Chemistry::Physical(physical)) if physical.law.density => {
                 physical.bulk(self.parameters.rest_density)
@@ -180,43 +157,6 @@ impl Reference {
         }
     }
 
-    /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask.
-    pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
-        let walls = self.surroundings.sums(at, &self.membership, &self.motion);
-        let (volumes, lightness) = self.bulk();
-        let displacements = density::displacements(
-            &self.kernel(),
-            (&volumes, &lightness),
-            at,
-            &self.ids,
-            neighbours,
-            &walls,
-            change,
-        );
-        for (at, displacement) in at.iter_mut().zip(displacements) {
-            *at += displacement;
-        }
-    }
-
-    /// Lines 22–25: flask constraint, velocity and position from the
-    /// corrected x*.
-    pub fn commit(&mut self, solved: &[DVec3]) {
-        let limits = (self.parameters.substep_time(), self.parameters.max_speed);
-        for (i, &solved) in solved.iter().enumerate() {
-            let place = (self.positions[i], self.membership[i]);
-            let (place, velocity) = motion::commit(
-                &self.surroundings,
-                &self.motion,
-                self.parameters.margin,
-                limits,
-                place,
-                solved,
-            );
-            (self.positions[i], self.membership[i]) = place;
-            self.velocities[i] = velocity;
-        }
-    }
-
     /// Line 27: XSPH, and anti-viscosity where something boils.
     pub fn smooth(&mut self, neighbours: &Neighbours) {
         if let Some(mut chemistry) = self.chemistry.take() {
@@ -227,20 +167,7 @@ impl Reference {
         if self.parameters.viscosity == 0.0 {
             return;
         }
-        self.velocities = viscosity::xsph(
-            &self.surroundings,
-            &self.motion,
-            &self.kernel(),
-            (
-                self.parameters.particle_volume(),
-                self.parameters.substep_viscosity(),
-                self.parameters.max_speed,
-            ),
-            &self.positions,
-            &self.membership,
-            neighbours,
-            &self.velocities,
-        );
+        self.velocities = self.xsph(neighbours);
     }
 
     /// Line 28: accelerations by internal forces, m/s², of each force that is
@@ -264,19 +191,10 @@ impl Reference {
             accelerations.push(confinement);
         }
         if parameters.cohesion > 0.0 {
-            let (support, strength) = (parameters.support_radius, parameters.cohesion_scale());
-            let cohesion = forces::cohesion(support, strength, &self.positions, neighbours);
-            accelerations.push(cohesion);
+            accelerations.push(self.cohesion(neighbours));
         }
         if parameters.adhesion > 0.0 {
-            let adhesion = forces::adhesion(
-                &self.surroundings,
-                &self.motion,
-                parameters.adhesion_scale(),
-                &self.positions,
-                &self.membership,
-            );
-            accelerations.push(adhesion);
+            accelerations.push(self.adhesion());
         }
         accelerations
     }
@@ -314,6 +232,13 @@ impl Reference {
         if let Some(chemistry) = &mut self.chemistry {
             chemistry.retain(&keep);
         }
+    }
+
+    /// [`Surroundings::contacts`] of particle `i`.
+    pub(super) fn contacts(&self, i: usize, visit: impl FnMut(Contact)) {
+        let (position, member_of) = (self.positions[i], self.membership[i]);
+        self.surroundings
+            .contacts(position, member_of, &self.motion, visit);
     }
 
     /// The kernel W of Eq. 1.

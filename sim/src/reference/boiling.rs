@@ -1,10 +1,8 @@
 //! XSPH with a coefficient per particle, and anti-viscosity (Eqs 16 and 17;
 //! line 27).
 
+use super::algorithm::Reference;
 use super::neighbours::Neighbours;
-use super::placement::Motion;
-use super::surroundings::Surroundings;
-use crate::kernel::Kernel;
 use glam::DVec3;
 
 /// What line 27 needs to know of each particle.
@@ -32,50 +30,43 @@ pub struct Stirred {
     pub agitation: Vec<f64>,
 }
 
-/// v_i ← v_i + Σ_j (μ_i + μ_j − α_i − α_j)/2·w_ij·(v_j − v_i) + μ_i·V_b·(v_b − v_i)
-/// with w_ij = V₀W_ij·2m_j/(m_i + m_j).
-///
-/// Eq. 17 has μ_i alone, with which what one particle gains in momentum no
-/// other loses; the pair's mean keeps it. The reduced mass does so among
-/// unequal ones, and is one among equals. Walls do not boil, so α is none of
-/// theirs. All read the old velocities.
-#[allow(clippy::too_many_arguments)]
-pub fn stir(
-    surroundings: &Surroundings,
-    motion: &[Motion],
-    kernel: &Kernel,
-    (volume, max_speed): (f64, f64),
-    positions: &[DVec3],
-    membership: &[Option<usize>],
-    neighbours: &Neighbours,
-    velocities: &[DVec3],
-    of: &Coefficients,
-) -> Stirred {
-    let mut stirred = Stirred {
-        velocities: Vec::with_capacity(velocities.len()),
-        injected: Vec::with_capacity(velocities.len()),
-        agitation: Vec::with_capacity(velocities.len()),
-    };
-    for (i, &velocity) in velocities.iter().enumerate() {
-        let (mut damping, mut driving, mut agitation) = (DVec3::ZERO, DVec3::ZERO, 0.0);
-        for j in neighbours.of(i) {
-            let kernel = volume * kernel.w(positions[i].distance(positions[j]));
-            if kernel > 0.0 {
-                let weight = kernel * 2.0 * of.masses[j] / (of.masses[i] + of.masses[j]);
-                let apart = velocity - velocities[j];
-                damping -= apart * (weight * 0.5 * (of.viscosity[i] + of.viscosity[j]));
-                driving += apart * (weight * 0.5 * (of.growth[i] + of.growth[j]));
-                agitation += 0.5 * weight * apart.length_squared();
+impl Reference {
+    /// v_i ← v_i + Σ_j (μ_i + μ_j − α_i − α_j)/2·w_ij·(v_j − v_i) + μ_i·V_b·(v_b − v_i)
+    /// with w_ij = V₀W_ij·2m_j/(m_i + m_j).
+    ///
+    /// Eq. 17 has μ_i alone, with which what one particle gains in momentum no
+    /// other loses; the pair's mean keeps it. The reduced mass does so among
+    /// unequal ones, and is one among equals. Walls do not boil, so α is none of
+    /// theirs. All read the old velocities.
+    pub(super) fn stirred(&self, neighbours: &Neighbours, of: &Coefficients) -> Stirred {
+        let (kernel, volume) = (self.kernel(), self.parameters.particle_volume());
+        let (positions, velocities) = (&self.positions, &self.velocities);
+        let mut stirred = Stirred {
+            velocities: Vec::with_capacity(velocities.len()),
+            injected: Vec::with_capacity(velocities.len()),
+            agitation: Vec::with_capacity(velocities.len()),
+        };
+        for (i, &velocity) in velocities.iter().enumerate() {
+            let (mut damping, mut driving, mut agitation) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+            for j in neighbours.of(i) {
+                let kernel = volume * kernel.w(positions[i].distance(positions[j]));
+                if kernel > 0.0 {
+                    let weight = kernel * 2.0 * of.masses[j] / (of.masses[i] + of.masses[j]);
+                    let apart = velocity - velocities[j];
+                    damping -= apart * (weight * 0.5 * (of.viscosity[i] + of.viscosity[j]));
+                    driving += apart * (weight * 0.5 * (of.growth[i] + of.growth[j]));
+                    agitation += 0.5 * weight * apart.length_squared();
+                }
             }
+            self.contacts(i, |contact| {
+                let wall = contact.velocity.clamp_length_max(self.parameters.max_speed);
+                damping += (wall - velocity) * (contact.volume * of.viscosity[i]);
+            });
+            stirred.velocities.push(velocity + damping + driving);
+            let injected = driving.dot(velocity) + 0.5 * driving.length_squared();
+            stirred.injected.push(injected);
+            stirred.agitation.push(agitation);
         }
-        surroundings.contacts(positions[i], membership[i], motion, |contact| {
-            let wall = contact.velocity.clamp_length_max(max_speed);
-            damping += (wall - velocity) * (contact.volume * of.viscosity[i]);
-        });
-        stirred.velocities.push(velocity + damping + driving);
-        let injected = driving.dot(velocity) + 0.5 * driving.length_squared();
-        stirred.injected.push(injected);
-        stirred.agitation.push(agitation);
+        stirred
     }
-    stirred
 }

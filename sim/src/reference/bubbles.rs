@@ -22,60 +22,48 @@ pub struct Rise {
     pub gone: Steam,
 }
 
-/// How bubbles rise in a substep.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bubbles {
-    kernel: Kernel,
-    volume: f64,
-    /// Share of a particle's vapour that rises out of it where there is liquid
-    /// all around.
-    share: f64,
-}
-
-impl Bubbles {
-    /// Bubbles of the speed `speed` (m/s) in a substep of `parameters`.
-    pub fn new(parameters: &Parameters, speed: f64) -> Self {
-        let spacings = speed * parameters.substep_time() / parameters.spacing;
-        Self {
-            kernel: Kernel::new(parameters.support_radius),
-            volume: parameters.particle_volume(),
-            share: -(-spacings).exp_m1(),
+/// What every particle's vapour does in a substep, in bubbles of the speed `speed` (m/s).
+pub fn rise(
+    parameters: &Parameters,
+    speed: f64,
+    pairs: &Pairs,
+    contents: &[Content],
+    of: &[Potential],
+) -> Vec<Rise> {
+    let kernel = Kernel::new(parameters.support_radius);
+    let volume = parameters.particle_volume();
+    // Share of a particle's vapour that rises out of it where there is liquid all around.
+    let spacings = speed * parameters.substep_time() / parameters.spacing;
+    let share = -(-spacings).exp_m1();
+    // What of it goes to a neighbour `up` m above at `distance` m: by the kernel, over the
+    // same for a full neighbourhood, of whose weight W(0) is the particle's own and a
+    // quarter of the rest counts as above.
+    let towards = |up: f64, distance: f64| {
+        let full = 0.25 * (1.0 - volume * kernel.w(0.0));
+        (up / distance).max(0.0) * volume * kernel.w(distance) / full
+    };
+    let rising = |i: usize| contents[i].mass * contents[i].vapour * share;
+    let specific = |i: usize| steam_enthalpy(of[i].temperature);
+    // Mass, and its enthalpy, that comes from below, and what covers i.
+    let sums = pairs.sums(|i, j| {
+        let distance = pairs.distance(i, j);
+        let up = pairs.positions[j].y - pairs.positions[i].y;
+        let come = rising(j) * towards(-up, distance);
+        DVec3::new(come, come * specific(j), towards(up, distance))
+    });
+    let rise = |(i, sums): (usize, DVec3)| {
+        let passed = rising(i) * sums.z;
+        let gone = rising(i) * (1.0 - sums.z / COVERED).max(0.0);
+        Rise {
+            gained: Steam {
+                mass: sums.x - passed - gone,
+                enthalpy: sums.y - (passed + gone) * specific(i),
+            },
+            gone: Steam {
+                mass: gone,
+                enthalpy: gone * specific(i),
+            },
         }
-    }
-
-    /// What of it goes to a neighbour `up` m above at `distance` m: by the
-    /// kernel, over the same for a full neighbourhood, of whose weight W(0) is
-    /// the particle's own and a quarter of the rest counts as above.
-    fn towards(&self, up: f64, distance: f64) -> f64 {
-        let full = 0.25 * (1.0 - self.volume * self.kernel.w(0.0));
-        (up / distance).max(0.0) * self.volume * self.kernel.w(distance) / full
-    }
-
-    /// What every particle's vapour does.
-    pub fn rise(&self, pairs: &Pairs, contents: &[Content], of: &[Potential]) -> Vec<Rise> {
-        let rising = |i: usize| contents[i].mass * contents[i].vapour * self.share;
-        let specific = |i: usize| steam_enthalpy(of[i].temperature);
-        // Mass, and its enthalpy, that comes from below, and what covers i.
-        let sums = pairs.sums(|i, j| {
-            let distance = pairs.distance(i, j);
-            let up = pairs.positions[j].y - pairs.positions[i].y;
-            let come = rising(j) * self.towards(-up, distance);
-            DVec3::new(come, come * specific(j), self.towards(up, distance))
-        });
-        let rise = |(i, sums): (usize, DVec3)| {
-            let passed = rising(i) * sums.z;
-            let gone = rising(i) * (1.0 - sums.z / COVERED).max(0.0);
-            Rise {
-                gained: Steam {
-                    mass: sums.x - passed - gone,
-                    enthalpy: sums.y - (passed + gone) * specific(i),
-                },
-                gone: Steam {
-                    mass: gone,
-                    enthalpy: gone * specific(i),
-                },
-            }
-        };
-        sums.into_iter().enumerate().map(rise).collect()
-    }
+    };
+    sums.into_iter().enumerate().map(rise).collect()
 }

@@ -1,13 +1,13 @@
 //! What a scene's chemistry keeps per particle, and its part of a substep.
 
 use super::boiling::Coefficients;
-use super::bubbles::{Bubbles, Rise};
+use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::surroundings::WallSum;
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Flux, Potential, contact_area, flux};
+use crate::chemistry::transport::{Flux, Potential, flux};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 use glam::DVec3;
@@ -100,13 +100,12 @@ impl Paper {
         let of_heat = Weight::of(law.scheme, law.temperature_diffusivity, densities);
         let acid = dilution::diffuse(pairs, &of_acid, &self.acid);
         self.temperatures = dilution::diffuse(pairs, &of_heat, &self.temperatures);
-        dilution::exchange_with_walls(
-            pairs.exchange,
-            law.temperature_diffusivity,
-            law.ambient,
-            walls,
-            &mut self.temperatures,
-        );
+        // Solids keep their temperature (section 6).
+        for (temperature, wall) in self.temperatures.iter_mut().zip(walls) {
+            let diffusivity = law.temperature_diffusivity;
+            let share = pairs.exchange.wall_share(diffusivity, wall.volume);
+            *temperature += share * (law.ambient - *temperature);
+        }
         let warming = dilution::heat_of_solution(pairs, &of_acid, &law.heat, &self.acid, &acid);
         for (temperature, warming) in self.temperatures.iter_mut().zip(warming) {
             *temperature += warming;
@@ -228,7 +227,7 @@ impl Physical {
         });
         let rises = match self.law.bubble_speed {
             None => vec![Rise::default(); self.contents.len()],
-            Some(speed) => Bubbles::new(parameters, speed).rise(pairs, &self.contents, &potentials),
+            Some(speed) => bubbles::rise(parameters, speed, pairs, &self.contents, &potentials),
         };
         for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
             let (glass, surface) = surfaces[i];
@@ -308,19 +307,6 @@ impl Physical {
             .map(|content| content.mass * content.enthalpy)
             .sum()
     }
-}
-
-/// Area of glass and of free surface of each particle of volume `volume`
-/// (m³), m², from ∇V_b and Σ_j V₀∇W_ij.
-pub fn surfaces(volume: f64, walls: &[WallSum], liquid: &[DVec3]) -> Vec<(f64, f64)> {
-    let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
-        let open = (wall.gradient + liquid).length();
-        (
-            contact_area(volume, wall.gradient.length()),
-            contact_area(volume, open),
-        )
-    };
-    walls.iter().zip(liquid).map(areas).collect()
 }
 
 /// Leaves out of `values` what is not to `keep`.

@@ -3,33 +3,13 @@
 //! In displacement form: λ has the unit m², and no mass or time appears. By
 //! x* ← x* + Σ_j (λ_i + λ_j)·V₀∇W_ij, λ/Δt² is −p/ρ.
 
+use super::algorithm::Reference;
 use super::neighbours::Neighbours;
-use super::surroundings::WallSum;
 use crate::kernel::Kernel;
 use glam::DVec3;
 
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
-
-/// ρ_i/ρ₀ = V_i·W(0) + Σ_j V_j·W_ij + V_b (Eq. 1 with m = ρ₀V₀), the particle
-/// itself included: without it a liquid at rest would be compressed by a
-/// third. Where `volumes` (m³) differ it is the share of space that is filled.
-pub fn densities(
-    kernel: &Kernel,
-    volumes: &[f64],
-    positions: &[DVec3],
-    neighbours: &Neighbours,
-    walls: &[WallSum],
-) -> Vec<f64> {
-    let density = |i: usize| {
-        let around: f64 = neighbours
-            .of(i)
-            .map(|j| volumes[j] * kernel.w(positions[i].distance(positions[j])))
-            .sum();
-        volumes[i] * kernel.w(0.0) + around + walls[i].volume
-    };
-    (0..positions.len()).map(density).collect()
-}
 
 /// One iteration's multipliers from `densities` (ρ/ρ₀) and a =
 /// `gradient_sum`: λ ← min(0, λ − c_r·C/a + c_m·Δλ). `change` is Δλ, that of
@@ -54,34 +34,52 @@ pub fn multipliers(
     }
 }
 
-/// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres, for
-/// `volumes` V_i (m³) and `lightness` ρ₀/ρ_i: the same pressure moves what is
-/// light further, and a pair's momenta stay opposite.
-///
-/// The wall's term has Δλ_i once: it is the gradient of C_i, so that no work
-/// is created. Mirroring it (2 Δλ_i), as Akinci et al. 2012 do with the
-/// pressure, pumps energy into a column at rest (rms speed 0.055 m/s and
-/// growing, against 0.016 m/s and falling).
-pub fn displacements(
-    kernel: &Kernel,
-    (volumes, lightness): (&[f64], &[f64]),
-    positions: &[DVec3],
-    ids: &[u32],
-    neighbours: &Neighbours,
-    walls: &[WallSum],
-    change: &[f64],
-) -> Vec<DVec3> {
-    let displacement = |i: usize| {
-        let by_liquid: DVec3 = neighbours
-            .of(i)
-            .map(|j| {
-                let gradient = gradient(kernel, positions[i] - positions[j], ids[i], ids[j]);
-                gradient * (volumes[j] * (change[i] + change[j]))
-            })
-            .sum();
-        (by_liquid + walls[i].gradient * change[i]) * lightness[i]
-    };
-    (0..positions.len()).map(displacement).collect()
+impl Reference {
+    /// ρ_i/ρ₀ at `positions`, V_i·W(0) + Σ_j V_j·W_ij + V_b (Eq. 1 with m = ρ₀V₀), the
+    /// particle itself included: without it a liquid at rest would be compressed by a
+    /// third. Where the V_i (m³) differ it is the share of space that is filled.
+    pub fn densities(&self, positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
+        let (kernel, (volumes, _)) = (self.kernel(), self.bulk());
+        let walls = self
+            .surroundings
+            .sums(positions, &self.membership, &self.motion);
+        let density = |i: usize| {
+            let around: f64 = neighbours
+                .of(i)
+                .map(|j| volumes[j] * kernel.w(positions[i].distance(positions[j])))
+                .sum();
+            volumes[i] * kernel.w(0.0) + around + walls[i].volume
+        };
+        (0..positions.len()).map(density).collect()
+    }
+
+    /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask,
+    /// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres: the same
+    /// pressure moves what is light further, and a pair's momenta stay opposite.
+    ///
+    /// The wall's term has Δλ_i once: it is the gradient of C_i, so that no work
+    /// is created. Mirroring it (2 Δλ_i), as Akinci et al. 2012 do with the
+    /// pressure, pumps energy into a column at rest (rms speed 0.055 m/s and
+    /// growing, against 0.016 m/s and falling).
+    pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
+        let walls = self.surroundings.sums(at, &self.membership, &self.motion);
+        let (kernel, ids) = (self.kernel(), &self.ids);
+        let (volumes, lightness) = self.bulk();
+        let displacement = |i: usize| {
+            let by_liquid: DVec3 = neighbours
+                .of(i)
+                .map(|j| {
+                    let gradient = gradient(&kernel, at[i] - at[j], ids[i], ids[j]);
+                    gradient * (volumes[j] * (change[i] + change[j]))
+                })
+                .sum();
+            (by_liquid + walls[i].gradient * change[i]) * lightness[i]
+        };
+        let displacements: Vec<_> = (0..at.len()).map(displacement).collect();
+        for (at, displacement) in at.iter_mut().zip(displacements) {
+            *at += displacement;
+        }
+    }
 }
 
 /// ∇_i W(x_ij), 1/m⁴.

@@ -1,7 +1,6 @@
 //! Diffusion and heat of solution (Eqs 5 to 13; line 26).
 
 use super::neighbours::Neighbours;
-use super::surroundings::WallSum;
 use crate::chemistry::exchange::Exchange;
 use crate::chemistry::paper::{Diffusion, Dilution};
 use crate::chemistry::thomsen;
@@ -78,20 +77,6 @@ pub fn diffuse(pairs: &Pairs, weight: &Weight, values: &[f64]) -> Vec<f64> {
         .zip(changes)
         .map(|(a, b): (_, f64)| a + b)
         .collect()
-}
-
-/// What solids at the fixed temperature `ambient` (°C, section 6) leave of
-/// `temperatures`.
-pub fn exchange_with_walls(
-    exchange: &Exchange,
-    diffusivity: f64,
-    ambient: f64,
-    walls: &[WallSum],
-    temperatures: &mut [f64],
-) {
-    for (temperature, wall) in temperatures.iter_mut().zip(walls) {
-        *temperature += exchange.wall_share(diffusivity, wall.volume) * (ambient - *temperature);
-    }
 }
 
 /// Eqs 6 to 13: ΔT_i, K, of a diffusion step that took the acid fractions

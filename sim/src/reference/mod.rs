@@ -21,7 +21,7 @@ pub mod placement;
 mod reaction;
 mod scene;
 pub mod surroundings;
-pub mod viscosity;
+mod viscosity;
 pub mod visibility;
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Prediction, flask constraint and the new state (lines 15–17 and 22–25).
 
+use super::algorithm::Reference;
 use super::placement::Motion;
 use super::surroundings::{Surroundings, Table};
 use crate::flask::project_from;
@@ -8,46 +9,46 @@ use glam::DVec3;
 /// A particle's position and the flask that it is in.
 pub type Place = (DVec3, Option<usize>);
 
-/// Line 16: x* = x + Δt·v + Δt²·g, and the flask constraint on it already,
-/// so that neighbours and density are those of a place it can be in.
-pub fn predict(
-    surroundings: &Surroundings,
-    motion: &[Motion],
-    margin: f64,
-    (time, gravity): (f64, DVec3),
-    positions: &[DVec3],
-    velocities: &[DVec3],
-    membership: &[Option<usize>],
-) -> Vec<DVec3> {
-    let predicted = |((&position, &velocity), &member_of)| {
-        let free = position + velocity * time + gravity * (time * time);
-        constrain(surroundings, motion, margin, (position, member_of), free).0
-    };
-    let states = positions.iter().zip(velocities).zip(membership);
-    states.map(predicted).collect()
-}
-
-/// Lines 23–25 for one particle: the new place and velocity.
-///
-/// Line 24 limits the velocity alone; x* is limited with it, or line 25
-/// would still tunnel. The flask constraint comes after that: what a flask
-/// that moves faster than v_max takes along stays in it. What is not a number
-/// comes out as none, to be taken out.
-pub fn commit(
-    surroundings: &Surroundings,
-    motion: &[Motion],
-    margin: f64,
-    (time, max_speed): (f64, f64),
-    (position, member_of): Place,
-    solved: DVec3,
-) -> (Place, DVec3) {
-    if !is_finite(solved - position) {
-        return ((DVec3::NAN, member_of), DVec3::NAN);
+impl Reference {
+    /// Lines 15–17: x* = x + Δt·v + Δt²·g of all particles, and the flask constraint
+    /// on it already, so that neighbours and density are those of a place it can be in.
+    pub fn predict(&self) -> Vec<DVec3> {
+        let time = self.parameters.substep_time();
+        let gravity = DVec3::from_array(self.parameters.gravity);
+        let predicted = |i: usize| {
+            let free = self.positions[i] + self.velocities[i] * time + gravity * (time * time);
+            self.constrained(i, free).0
+        };
+        (0..self.positions.len()).map(predicted).collect()
     }
-    let limited = position + (solved - position).clamp_length_max(max_speed * time);
-    let place = constrain(surroundings, motion, margin, (position, member_of), limited);
-    let velocity = ((place.0 - position) / time).clamp_length_max(max_speed);
-    (place, velocity)
+
+    /// Lines 22–25: flask constraint, velocity and position from the corrected x*.
+    ///
+    /// Line 24 limits the velocity alone; x* is limited with it, or line 25
+    /// would still tunnel. The flask constraint comes after that: what a flask
+    /// that moves faster than v_max takes along stays in it. What is not a number
+    /// comes out as none, to be taken out.
+    pub fn commit(&mut self, solved: &[DVec3]) {
+        let (time, max_speed) = (self.parameters.substep_time(), self.parameters.max_speed);
+        for (i, &solved) in solved.iter().enumerate() {
+            let position = self.positions[i];
+            if !is_finite(solved - position) {
+                (self.positions[i], self.velocities[i]) = (DVec3::NAN, DVec3::NAN);
+                continue;
+            }
+            let limited = position + (solved - position).clamp_length_max(max_speed * time);
+            (self.positions[i], self.membership[i]) = self.constrained(i, limited);
+            self.velocities[i] =
+                ((self.positions[i] - position) / time).clamp_length_max(max_speed);
+        }
+    }
+
+    /// [`constrain`] of particle `i`.
+    fn constrained(&self, i: usize, predicted: DVec3) -> Place {
+        let place = (self.positions[i], self.membership[i]);
+        let margin = self.parameters.margin;
+        constrain(&self.surroundings, &self.motion, margin, place, predicted)
+    }
 }
 
 /// Line 23: the flask constraint, table and floor, on a particle that was at

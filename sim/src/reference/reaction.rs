@@ -1,10 +1,12 @@
 //! Lines 26 and 27 of a liquid with a chemistry.
 
 use super::algorithm::Reference;
-use super::boiling;
-use super::chemistry::{Chemistry, surfaces};
+use super::chemistry::Chemistry;
 use super::dilution::Pairs;
 use super::neighbours::Neighbours;
+use super::surroundings::WallSum;
+use crate::chemistry::transport::contact_area;
+use glam::DVec3;
 
 impl Reference {
     /// Line 26: diffusion, heat of solution and what else the chemistry does
@@ -38,7 +40,12 @@ impl Reference {
                     let apart = self.positions[i] - self.positions[j];
                     apart.normalize_or_zero() * (volume * kernel.dw(apart.length()))
                 });
-                let surfaces = surfaces(volume, &walls, &slopes);
+                let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
+                    let open = (wall.gradient + liquid).length();
+                    let glass = contact_area(volume, wall.gradient.length());
+                    (glass, contact_area(volume, open))
+                };
+                let surfaces: Vec<_> = walls.iter().zip(&slopes).map(areas).collect();
                 physical.dilute(&pairs, &self.parameters, &self.velocities, &surfaces);
             }
         }
@@ -52,17 +59,7 @@ impl Reference {
             Chemistry::Paper(paper) => paper.coefficients(parameters),
             Chemistry::Physical(physical) => physical.coefficients(parameters),
         };
-        let stirred = boiling::stir(
-            &self.surroundings,
-            &self.motion,
-            &self.kernel(),
-            (parameters.particle_volume(), parameters.max_speed),
-            &self.positions,
-            &self.membership,
-            neighbours,
-            &self.velocities,
-            &coefficients,
-        );
+        let stirred = self.stirred(neighbours, &coefficients);
         self.velocities = stirred.velocities;
         match chemistry {
             Chemistry::Paper(paper) => paper.agitation = stirred.agitation,

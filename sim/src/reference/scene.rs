@@ -3,8 +3,8 @@
 use super::algorithm::Reference;
 use super::chemistry::{DilutionLaw, Paper};
 use super::surroundings::{Surroundings, Table, Vessel};
-use crate::chemistry::OutOfRange;
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
+use crate::chemistry::{Chemistry, OutOfRange};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::scene::{Boundary, Scene, TableTop};
@@ -88,10 +88,7 @@ impl Paper {
         scheme: Diffusion,
         boiling: Boiling,
     ) -> Result<Option<Self>, ChemistryError> {
-        let Some(table) = &scene.paper else {
-            return Ok(None);
-        };
-        let Some(ambient) = table.T_a else {
+        let Some(Chemistry::Paper(paper)) = Chemistry::from_scene(scene) else {
             return Ok(None);
         };
         let particles: Vec<_> = scene
@@ -99,23 +96,19 @@ impl Paper {
             .iter()
             .map(|start| (start.temperature, start.acid_fraction))
             .collect();
-        let dilution = match (table.k_d, table.D_T, table.D_c) {
-            (Some(k_d), Some(temperature_diffusivity), Some(acid_diffusivity)) => {
-                Some(DilutionLaw {
-                    heat: Dilution::new(k_d, scene.scale.particle_mass()),
-                    temperature_diffusivity,
-                    acid_diffusivity,
-                    ambient,
-                    scheme,
-                })
+        let dilution = paper.dilution.map(|table| DilutionLaw {
+            heat: Dilution::new(table.heat_generation, scene.scale.particle_mass()),
+            temperature_diffusivity: table.heat_diffusivity,
+            acid_diffusivity: table.acid_diffusivity,
+            ambient: table.ambient,
+            scheme,
+        });
+        let anti_viscosity = match paper.boiling {
+            Some(table) => {
+                let law = AntiViscosity::new(table.boiling_point, table.intensity)?;
+                Some((law, boiling))
             }
-            _ => None,
-        };
-        let anti_viscosity = match (table.T_B, table.k_v) {
-            (Some(boiling_point), Some(intensity)) => {
-                Some((AntiViscosity::new(boiling_point, intensity)?, boiling))
-            }
-            _ => None,
+            None => None,
         };
         Ok(Some(Self::new(dilution, anti_viscosity, &particles)?))
     }

@@ -97,63 +97,70 @@ pub(super) const ABSOLUTE_ZERO: f64 = -273.15;
 /// that of the azeotrope, 98.3 % of acid (Perry's handbook).
 pub(super) const HOTTEST_LIQUID: f64 = 340.0;
 
+/// A number of a table: its name, the feature that needs it, its value, and what it must be.
+pub(super) type Field = (&'static str, Feature, Option<f64>, Must);
+type Must = (fn(f64) -> bool, &'static str);
+
+const TEMPERATURE: Must = (
+    |value| value > ABSOLUTE_ZERO,
+    "a temperature above −273.15 (°C)",
+);
+const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
+const NOT_NEGATIVE: Must = (|value| value >= 0.0, "zero or more");
+const SHARE: Must = (|value| (0.0..=1.0).contains(&value), "between 0 and 1");
+const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
+const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
+
+/// Whether the numbers of `table` that are there are what they must be.
+pub(super) fn check_fields(table: &str, fields: &[Field]) -> Result<(), Problem> {
+    for &(name, _, value, (fits, must)) in fields {
+        if let Some(value) = value {
+            require(&format!("{table}.{name}"), value, fits(value), must)?;
+        }
+    }
+    Ok(())
+}
+
+impl SolverSettings {
+    pub(super) fn fields(&self) -> [Field; 3] {
+        use Feature::{Cohesion, Vorticity};
+        [
+            ("vorticity", Vorticity, self.vorticity, NOT_NEGATIVE),
+            ("cohesion", Cohesion, self.cohesion, NOT_NEGATIVE),
+            ("adhesion", Cohesion, self.adhesion, NOT_NEGATIVE),
+        ]
+    }
+}
+
 impl PaperChemistry {
-    pub(super) fn check(&self) -> Result<(), Problem> {
-        temperature("paper.T_a", self.T_a)?;
-        if let Some(boiling_point) = self.T_B {
-            let must = "above 0 (°C; Eq. 17 divides by it)";
-            require("paper.T_B", boiling_point, boiling_point > 0.0, must)?;
-        }
-        for (field, value) in [
-            ("k_d", self.k_d),
-            ("k_v", self.k_v),
-            ("D_T", self.D_T),
-            ("D_c", self.D_c),
-        ] {
-            not_negative(&format!("paper.{field}"), value)?;
-        }
-        Ok(())
+    pub(super) fn fields(&self) -> [Field; 6] {
+        use Feature::{Boiling, Dilution, Heat};
+        [
+            ("T_a", Heat, self.T_a, TEMPERATURE),
+            ("T_B", Boiling, self.T_B, BOILING_POINT),
+            ("k_v", Boiling, self.k_v, NOT_NEGATIVE),
+            ("k_d", Dilution, self.k_d, NOT_NEGATIVE),
+            ("D_T", Dilution, self.D_T, NOT_NEGATIVE),
+            ("D_c", Dilution, self.D_c, NOT_NEGATIVE),
+        ]
     }
 }
 
 impl PhysicalChemistry {
-    pub(super) fn check(&self) -> Result<(), Problem> {
-        temperature("physical.ambient", self.ambient)?;
-        for (field, value) in [
-            ("mixing", self.mixing),
-            ("agitation", self.agitation),
-            ("glass_loss", self.glass_loss),
-            ("surface_loss", self.surface_loss),
-        ] {
-            not_negative(&format!("physical.{field}"), value)?;
-        }
-        if let Some(lewis) = self.lewis {
-            let ok = (0.0..=1.0).contains(&lewis);
-            require("physical.lewis", lewis, ok, "between 0 and 1")?;
-        }
-        for (field, value, unit) in [
-            ("physical.superheat_time", self.superheat_time, "seconds"),
-            ("physical.bubble_speed", self.bubble_speed, "m/s"),
-        ] {
-            if let Some(value) = value {
-                require(field, value, value > 0.0, &format!("above zero ({unit})"))?;
-            }
-        }
-        Ok(())
+    pub(super) fn fields(&self) -> [Field; 8] {
+        use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Steam};
+        let p = self;
+        [
+            ("ambient", Heat, p.ambient, TEMPERATURE),
+            ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
+            ("lewis", Dilution, p.lewis, SHARE),
+            ("superheat_time", Evaporation, p.superheat_time, DURATION),
+            ("bubble_speed", Steam, p.bubble_speed, SPEED),
+            ("agitation", Boiling, p.agitation, NOT_NEGATIVE),
+            ("glass_loss", Losses, p.glass_loss, NOT_NEGATIVE),
+            ("surface_loss", Losses, p.surface_loss, NOT_NEGATIVE),
+        ]
     }
-}
-
-fn temperature(field: &str, value: Option<f64>) -> Result<(), Problem> {
-    let must = "a temperature above −273.15 (°C)";
-    value.map_or(Ok(()), |value| {
-        require(field, value, value > ABSOLUTE_ZERO, must)
-    })
-}
-
-fn not_negative(field: &str, value: Option<f64>) -> Result<(), Problem> {
-    value.map_or(Ok(()), |value| {
-        require(field, value, value >= 0.0, "zero or more")
-    })
 }
 
 /// Each feature's parameters are there, and none whose feature is absent.
@@ -188,11 +195,15 @@ pub(super) fn check_features(
         }
         _ => {}
     }
-    for (field, feature, present) in solver_fields(solver)
+    let solver = solver.fields().map(|field| ("solver", field));
+    let of_paper = paper.map(|paper| paper.fields().map(|field| ("paper", field)));
+    let of_physical = physical.map(|physical| physical.fields().map(|field| ("physical", field)));
+    let fields = solver
         .into_iter()
-        .chain(paper.map(paper_fields).into_iter().flatten())
-        .chain(physical.map(physical_fields).into_iter().flatten())
-    {
+        .chain(of_paper.into_iter().flatten())
+        .chain(of_physical.into_iter().flatten());
+    for (table, (name, feature, value, _)) in fields {
+        let (field, present) = (format!("{table}.{name}"), value.is_some());
         let named = model.contains(&feature);
         let name = feature.name();
         if named && !present {
@@ -213,72 +224,6 @@ pub(super) fn check_features(
         return Err(Problem::new("paper.literal_boiling", problem));
     }
     check_needs(model, physical.is_some())
-}
-
-type Field = (&'static str, Feature, bool);
-
-fn solver_fields(solver: &SolverSettings) -> [Field; 3] {
-    [
-        (
-            "solver.vorticity",
-            Feature::Vorticity,
-            solver.vorticity.is_some(),
-        ),
-        (
-            "solver.cohesion",
-            Feature::Cohesion,
-            solver.cohesion.is_some(),
-        ),
-        (
-            "solver.adhesion",
-            Feature::Cohesion,
-            solver.adhesion.is_some(),
-        ),
-    ]
-}
-
-fn paper_fields(p: &PaperChemistry) -> [Field; 6] {
-    [
-        ("paper.T_a", Feature::Heat, p.T_a.is_some()),
-        ("paper.T_B", Feature::Boiling, p.T_B.is_some()),
-        ("paper.k_v", Feature::Boiling, p.k_v.is_some()),
-        ("paper.k_d", Feature::Dilution, p.k_d.is_some()),
-        ("paper.D_T", Feature::Dilution, p.D_T.is_some()),
-        ("paper.D_c", Feature::Dilution, p.D_c.is_some()),
-    ]
-}
-
-fn physical_fields(p: &PhysicalChemistry) -> [Field; 8] {
-    [
-        ("physical.ambient", Feature::Heat, p.ambient.is_some()),
-        ("physical.mixing", Feature::Dilution, p.mixing.is_some()),
-        ("physical.lewis", Feature::Dilution, p.lewis.is_some()),
-        (
-            "physical.superheat_time",
-            Feature::Evaporation,
-            p.superheat_time.is_some(),
-        ),
-        (
-            "physical.bubble_speed",
-            Feature::Steam,
-            p.bubble_speed.is_some(),
-        ),
-        (
-            "physical.agitation",
-            Feature::Boiling,
-            p.agitation.is_some(),
-        ),
-        (
-            "physical.glass_loss",
-            Feature::Losses,
-            p.glass_loss.is_some(),
-        ),
-        (
-            "physical.surface_loss",
-            Feature::Losses,
-            p.surface_loss.is_some(),
-        ),
-    ]
 }
 
 /// What features are built upon: (one, what it needs).

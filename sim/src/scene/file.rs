@@ -3,7 +3,8 @@
 use super::chemistry::{ABSOLUTE_ZERO, Feature, PaperChemistry, PhysicalChemistry};
 use super::error::Problem;
 use super::settings::{
-    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, require,
+    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite, require,
+    within,
 };
 use super::{Flask, Liquid};
 use crate::fill;
@@ -94,12 +95,8 @@ impl FlaskEntry {
                 return Err(Problem::new(field("profile"), problem));
             }
         };
-        require(
-            &field("density"),
-            density,
-            density > 0.0,
-            "above zero (kg/m³)",
-        )?;
+        let must = "above zero (kg/m³)";
+        require(&field("density"), density, density > 0.0, must)?;
         profile
             .check_particle(scale.spacing)
             .map_err(|error| Problem::new(field("points"), error))?;
@@ -180,13 +177,8 @@ impl LiquidEntry {
             }
             (None, Some(count), None) => f64::from(count) * scale.spacing.powi(3),
             (None, None, Some(fraction)) => {
-                let ok = (0.0..=1.0).contains(&fraction);
-                require(
-                    &field("fraction"),
-                    fraction,
-                    ok,
-                    "between 0 and 1 (1: to the brim)",
-                )?;
+                let must = "between 0 and 1 (1: to the brim)";
+                within(&field("fraction"), fraction, 0.0..=1.0, must)?;
                 let profile = &flasks[flask].profile;
                 if fill::count_for_volume(profile.capacity(), scale.spacing) > super::MOST_SITES {
                     let problem =
@@ -201,41 +193,30 @@ impl LiquidEntry {
                 return Err(Problem::new(field("volume_ml"), problem));
             }
         };
-        let (kelvin, acid) = (self.temperature, self.acid_fraction);
-        require(
-            &field("temperature"),
-            kelvin,
-            kelvin > ABSOLUTE_ZERO,
-            "above −273.15 (°C)",
-        )?;
-        if hottest < kelvin {
+        let celsius = self.temperature;
+        let (ok, must) = (celsius > ABSOLUTE_ZERO, "above −273.15 (°C)");
+        require(&field("temperature"), celsius, ok, must)?;
+        if hottest < celsius {
             let problem = format!(
-                "{kelvin} °C: no mixture of water and acid is liquid above {hottest} °C, and the \
+                "{celsius} °C: no mixture of water and acid is liquid above {hottest} °C, and the \
                  tables of [physical] end there; take less"
             );
             return Err(Problem::new(field("temperature"), problem));
         }
-        let ok = (0.0..=1.0).contains(&acid);
-        require(
-            &field("acid_fraction"),
-            acid,
-            ok,
-            "between 0 and 1 (mass of acid over all)",
-        )?;
+        let must = "between 0 and 1 (mass of acid over all)";
+        within(&field("acid_fraction"), self.acid_fraction, 0.0..=1.0, must)?;
         Ok(Liquid {
             flask,
             volume,
-            temperature: kelvin,
-            acid_fraction: acid,
+            temperature: celsius,
+            acid_fraction: self.acid_fraction,
         })
     }
 }
 
 pub(super) fn check_table(table: &TableTop) -> Result<(), Problem> {
-    require("table.top", table.top, true, "a finite number (metres)")?;
-    for value in table.centre {
-        require("table.centre", value, true, "a finite number (metres)")?;
-    }
+    finite("table.top", &[table.top])?;
+    finite("table.centre", &table.centre)?;
     for value in table.size {
         require("table.size", value, value > 0.0, "above zero (metres)")?;
     }

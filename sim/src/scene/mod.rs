@@ -261,10 +261,10 @@ impl Scene {
         raw.scale.check()?;
         raw.solver.check()?;
         if let Some(paper) = &raw.paper {
-            paper.check()?;
+            chemistry::check_fields("paper", &paper.fields())?;
         }
         if let Some(physical) = &raw.physical {
-            physical.check()?;
+            chemistry::check_fields("physical", &physical.fields())?;
         }
         chemistry::check_features(
             &raw.model,
@@ -275,15 +275,8 @@ impl Scene {
         if let Some(table) = &raw.table {
             file::check_table(table)?;
         }
-        settings::require(
-            "floor.height",
-            raw.floor.height,
-            true,
-            "a finite number (metres)",
-        )?;
-        for value in raw.origin {
-            settings::require("origin", value, true, "a finite number (metres)")?;
-        }
+        settings::finite("floor.height", &[raw.floor.height])?;
+        settings::finite("origin", &raw.origin)?;
         let origin = DVec3::from_array(raw.origin);
         let scale = raw.scale;
         let flasks = (0..)

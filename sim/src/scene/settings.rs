@@ -1,7 +1,9 @@
 //! The parts of a scene that are plain numbers, as they stand in its file.
 
+use super::chemistry::check_fields;
 use super::error::Problem;
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// What decides whether the liquid stands up: PBF's stiffness at a given
 /// number of iterations is set by g·Δt_s²/d.
@@ -150,6 +152,23 @@ pub(super) fn require(field: &str, value: f64, ok: bool, must: &str) -> Result<(
     }
 }
 
+/// Refuses `value` outside of `range`.
+pub(super) fn within(
+    field: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    must: &str,
+) -> Result<(), Problem> {
+    require(field, value, range.contains(&value), must)
+}
+
+/// Refuses lengths that are no numbers.
+pub(super) fn finite(field: &str, values: &[f64]) -> Result<(), Problem> {
+    values
+        .iter()
+        .try_for_each(|&value| require(field, value, true, "a finite number (metres)"))
+}
+
 impl Scale {
     pub(super) fn check(&self) -> Result<(), Problem> {
         let positive = |field: &str, value: f64, unit: &str| {
@@ -163,73 +182,32 @@ impl Scale {
         require("scale.frame_time", frame, frame <= 0.1, range)?;
         positive("rest_density", self.rest_density, "kg/m³")?;
         positive("length_scale", self.length_scale, "real metres per metre")?;
-        let ratio = self.support_ratio;
         let range = "between 1.5 and 3 (h/d): with fewer neighbours a liquid does not rest";
-        require(
-            "scale.support_ratio",
-            ratio,
-            (1.5..=3.0).contains(&ratio),
-            range,
-        )?;
+        within("scale.support_ratio", self.support_ratio, 1.5..=3.0, range)?;
         let gravity = self.gravity;
         let downwards = "zero or more (m/s², downwards)";
         require("scale.gravity", gravity, gravity >= 0.0, downwards)?;
         let ratio = self.boundary_spacing_ratio;
         let range = "between 0.25 and 2 (over d)";
-        require(
-            "scale.boundary_spacing_ratio",
-            ratio,
-            (0.25..=2.0).contains(&ratio),
-            range,
-        )
+        within("scale.boundary_spacing_ratio", ratio, 0.25..=2.0, range)
     }
 }
 
 impl SolverSettings {
     pub(super) fn check(&self) -> Result<(), Problem> {
         for (field, value) in [("substeps", self.substeps), ("iterations", self.iterations)] {
-            let ok = (1..=1000).contains(&value);
-            require(
-                &format!("solver.{field}"),
-                value.into(),
-                ok,
-                "between 1 and 1000",
-            )?;
+            let field = format!("solver.{field}");
+            within(&field, value.into(), 1.0..=1000.0, "between 1 and 1000")?;
         }
         let omega = self.omega;
-        require(
-            "solver.omega",
-            omega,
-            omega > 0.0 && omega < 2.0,
-            "above 0 and below 2",
-        )?;
-        let carry = self.carry;
-        let range = "between 0 and 1";
-        require("solver.carry", carry, (0.0..=1.0).contains(&carry), range)?;
-        require(
-            "solver.v_max",
-            self.v_max,
-            self.v_max > 0.0,
-            "above zero (m/s)",
-        )?;
-        let mu = self.viscosity;
+        let ok = omega > 0.0 && omega < 2.0;
+        require("solver.omega", omega, ok, "above 0 and below 2")?;
+        within("solver.carry", self.carry, 0.0..=1.0, "between 0 and 1")?;
+        let v_max = self.v_max;
+        require("solver.v_max", v_max, v_max > 0.0, "above zero (m/s)")?;
         let share = "between 0 and 1 (a share of relative velocities)";
-        require("solver.viscosity", mu, (0.0..=1.0).contains(&mu), share)?;
-        for (field, value) in [
-            ("vorticity", self.vorticity),
-            ("cohesion", self.cohesion),
-            ("adhesion", self.adhesion),
-        ] {
-            if let Some(value) = value {
-                require(
-                    &format!("solver.{field}"),
-                    value,
-                    value >= 0.0,
-                    "zero or more",
-                )?;
-            }
-        }
-        Ok(())
+        within("solver.viscosity", self.viscosity, 0.0..=1.0, share)?;
+        check_fields("solver", &self.fields())
     }
 }
 

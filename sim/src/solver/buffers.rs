@@ -5,6 +5,7 @@ use super::counters::Counters;
 use super::pipelines::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
+use super::vessels::Vessels;
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
@@ -17,7 +18,7 @@ pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
     4 * 8 * (u64::from(substeps) + 1) * flasks
 }
 
-/// Device memory, named as in the shaders.
+/// Device memory, named and labelled as in the shaders.
 pub(super) struct Buffers {
     // State: what a snapshot holds.
     pub(super) position: Buffer,
@@ -137,8 +138,34 @@ impl Buffers {
         })
     }
 
-    pub(super) fn bytes_per_particle(&self, count: u32) -> u64 {
-        let all = [
+    /// All that passes bind; a buffer's label is the name that shaders give it.
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> Vec<&'a Buffer> {
+        let mut all = self.of_particles().to_vec();
+        all.extend([
+            &self.counters,
+            &self.cell_counts,
+            &self.cell_starts,
+            &self.block_sums,
+            &self.list_args,
+            &self.solution,
+            &self.poses,
+            &self.loads,
+            &vessels.flasks,
+            &vessels.radii,
+            &vessels.maps,
+            &vessels.distances,
+            &vessels.plane,
+            &vessels.pulls,
+            &vessels.solids.cells,
+            &vessels.solids.starts,
+            &vessels.solids.solids,
+        ]);
+        all
+    }
+
+    /// Those that grow with the number of particles.
+    fn of_particles(&self) -> [&Buffer; 28] {
+        [
             &self.position,
             &self.velocity,
             &self.tags,
@@ -167,8 +194,11 @@ impl Buffers {
             &self.sorted_bulk,
             &self.wall_push,
             &self.density,
-        ];
-        let bytes: u64 = all.iter().map(|buffer| buffer.bytes()).sum();
+        ]
+    }
+
+    pub(super) fn bytes_per_particle(&self, count: u32) -> u64 {
+        let bytes: u64 = self.of_particles().iter().map(|b| b.bytes()).sum();
         bytes / u64::from(count.max(1))
     }
 }

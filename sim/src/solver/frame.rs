@@ -1,14 +1,15 @@
-//! The simulation loop, Algorithm 1, as passes. A pass's method, its pipeline and its shader in `sim/` bear one
-//! name; in the shader each line of the algorithm is a function that names it.
+//! The simulation loop, Algorithm 1, as passes. A pass and its shader in `sim/` bear one name, and it binds what
+//! the shader declares; in the shader each line of the algorithm is a function that names it.
 
 use super::buffers::LOAD_GROUP;
+use super::pipelines::SolverPass;
 use super::vessels::flask_pose;
 use super::{Solver, SolverError};
 use crate::chemistry::Chemistry;
 use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
 use std::sync::atomic::Ordering;
-use vitriol_gpu::{ComputePipeline, Pass, Readback, Recorder};
+use vitriol_gpu::{Pass, Readback, Recorder};
 use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
 
 /// What a frame leaves to be read once the device is done with it.
@@ -53,24 +54,44 @@ impl Solver {
         before: &[Pose],
         after: &[Pose],
     ) -> Result<FrameRecord, SolverError> {
-        let substeps = self.parameters.substeps;
+        let (p, substeps) = (&self.pipelines, self.parameters.substeps);
         if self.count == 0 {
-            return Ok(self.nothing());
+            return Ok(FrameRecord {
+                loads: None,
+                flasks: self.flasks,
+            });
         }
         self.listed.store(true, Ordering::Relaxed);
         self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
-        self.predict(rec)?; // lines 6 to 8, and 16 of the first substep
+        // Lines 6 to 8, and 16 of the first substep; the forces of each end with that of the next.
+        self.pass(rec, &p.predict)
+            .constants(&self.step(0))
+            .invocations(self.count)?;
         for n in 0..substeps {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
-            self.diffusion(rec, &step)?; // 26 of the paper's chemistry,
-            self.exchange(rec, &step)?; // or of the physical one
-            self.vorticity(rec)?; // 28, what of it takes a pass of its own
-            self.forces(rec, &step, n + 1 == substeps)?; // end of 26, 27 and 28; 16 of the next
+            // 26 of either chemistry, but for the heat of solution and what boiling costs.
+            if let Some(mixing) = &p.mixing {
+                self.over_particles(rec, mixing, &step)?;
+            }
+            // 28, what its confinement needs of the neighbours.
+            if let Some(vorticity) = &p.vorticity {
+                self.pass(rec, vorticity)
+                    .invocations(self.count * self.lanes)?;
+            }
+            // End of 26, 27 and 28, and 16 of the next: one pass over the neighbours.
+            let last = n + 1 == substeps;
+            let forces = if last { &p.last_forces } else { &p.forces };
+            self.over_particles(rec, forces, &step)?;
         }
-        self.vent(rec)?;
-        self.load(rec)
+        if let Some(steam) = &self.steam {
+            steam.record(rec, &self.buffers)?;
+        }
+        Ok(FrameRecord {
+            loads: self.load(rec)?,
+            flasks: self.flasks,
+        })
     }
 
     /// Records a pass that writes each particle's density over the rest
@@ -79,17 +100,9 @@ impl Solver {
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
     pub fn record_density(&self, rec: &mut Recorder) -> Result<Readback, SolverError> {
-        let b = &self.buffers;
-        self.boundary(rec.pass(&self.pipelines.density))
-            .read("position", &b.position)
-            .read("tags", &b.tags)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .read("bulk", &b.bulk)
-            .write("density", &b.density)
-            .constants(&self.step(self.parameters.substeps - 1))
-            .invocations(self.count * self.lanes)?;
-        Ok(rec.read_back(&b.density)?)
+        let step = self.step(self.parameters.substeps - 1);
+        self.over_particles(rec, &self.pipelines.density, &step)?;
+        Ok(rec.read_back(&self.buffers.density)?)
     }
 
     /// Poses at the frame's start and at each substep's end. Interpolated:
@@ -114,25 +127,12 @@ impl Solver {
         Ok(rec.upload(&self.buffers.poses, &poses)?)
     }
 
-    /// Line 16 at a frame's start; within a frame [`Self::forces`] ends with it.
-    fn predict(&self, rec: &mut Recorder) -> Result<(), SolverError> {
-        let b = &self.buffers;
-        self.prediction(rec.pass(&self.pipelines.predict))
-            .read("position", &b.position)
-            .read("velocity", &b.velocity)
-            .read("tags", &b.tags)
-            .read("bulk", &b.bulk)
-            .constants(&self.step(0))
-            .invocations(self.count)?;
-        Ok(())
-    }
-
     /// Lines 18 to 21; the last displacement goes on to lines 22 to 25.
     fn solve_density(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
         let p = &self.pipelines;
         if self.parameters.carry > 0.0 {
-            self.multiplier(rec, &p.carried_multiplier, step)?;
-            self.displacement(rec, &p.displacement, step)?;
+            self.over_particles(rec, &p.carried_multiplier, step)?;
+            self.over_particles(rec, &p.displacement, step)?;
         }
         let gradient_sum = self.parameters.gradient_sum();
         let last = self.coefficients.len() - 1;
@@ -147,181 +147,41 @@ impl Solver {
             } else {
                 &p.multiplier
             };
-            self.multiplier(rec, multiplier, &step)?;
+            self.over_particles(rec, multiplier, &step)?; // 19
             let displacement = if iteration == last {
                 &p.last_displacement
             } else {
                 &p.displacement
             };
-            self.displacement(rec, displacement, &step)?;
+            self.over_particles(rec, displacement, &step)?; // 20
         }
         Ok(())
     }
 
-    /// Line 19.
-    fn multiplier(
+    /// A pass that binds what its shader declares.
+    pub(super) fn pass<'r>(&self, rec: &'r mut Recorder, pass: &'r SolverPass) -> Pass<'r> {
+        pass.begin(rec, &self.buffers.all(&self.vessels))
+    }
+
+    /// A pass in which all lanes of each particle take part.
+    fn over_particles(
         &self,
         rec: &mut Recorder,
-        pass: &ComputePipeline,
+        pass: &SolverPass,
         step: &Step,
     ) -> Result<(), SolverError> {
-        let b = &self.buffers;
-        self.boundary(rec.pass(pass))
-            .read("trial", &b.trial)
-            .read("tags", &b.tags)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .read("velocity", &b.velocity)
-            .write("multiplier", &b.multiplier)
-            .write("solved", &b.solved)
-            .write("boundary", &b.boundary)
-            .write("list_args", &b.list_args)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
+        let count = self.count * self.lanes;
+        Ok(self.pass(rec, pass).constants(step).invocations(count)?)
     }
 
-    /// Line 20, and lines 22 to 25 in a substep's last iteration.
-    fn displacement(
-        &self,
-        rec: &mut Recorder,
-        pass: &ComputePipeline,
-        step: &Step,
-    ) -> Result<(), SolverError> {
-        let b = &self.buffers;
-        self.vessels(rec.pass(pass))
-            .read("solved", &b.solved)
-            .read("boundary", &b.boundary)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .write("trial", &b.trial)
-            .write("wall_push", &b.wall_push)
-            .read("multiplier", &b.multiplier)
-            .read("velocity", &b.velocity)
-            .write("position", &b.position)
-            .read("distances", &self.vessels.distances)
-            .write("tags", &b.tags)
-            .write("new_velocity", &b.new_velocity)
-            .read("list_origin", &b.list_origin)
-            .write("counters", &b.counters)
-            .write("heat", &b.heat)
-            .read("bulk", &b.bulk)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
-    }
-
-    /// Line 26 of the paper's chemistry, but for the heat of solution, which
-    /// [`Self::forces`] adds.
-    fn diffusion(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
-        let Some(pass) = &self.pipelines.diffusion else {
-            return Ok(());
-        };
-        self.mixing(rec.pass(pass))
-            .write("diffused", &self.buffers.diffused)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
-    }
-
-    /// Line 26 of the physical chemistry, but for what boiling costs, which
-    /// [`Self::forces`] takes.
-    fn exchange(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
-        let Some(pass) = &self.pipelines.exchange else {
-            return Ok(());
-        };
-        let b = &self.buffers;
-        self.mixing(rec.pass(pass))
-            .read("new_velocity", &b.new_velocity)
-            .read("tags", &b.tags)
-            .read("agitation", &b.agitation)
-            .read("bulk", &b.bulk)
-            .read("solution", &b.solution)
-            .write("matter", &b.matter)
-            .write("ledger", &b.ledger)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
-    }
-
-    fn mixing<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        let b = &self.buffers;
-        pass.read("position", &b.position)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .read("boundary", &b.boundary)
-            .read("heat", &b.heat)
-            .write("mixing", &b.mixing)
-            .write("counters", &b.counters)
-    }
-
-    /// Line 28's vorticity, which its confinement needs of the neighbours.
-    fn vorticity(&self, rec: &mut Recorder) -> Result<(), SolverError> {
-        let Some(pass) = &self.pipelines.vorticity else {
-            return Ok(());
-        };
-        let b = &self.buffers;
-        rec.pass(pass)
-            .read("position", &b.position)
-            .read("new_velocity", &b.new_velocity)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .write("vorticity", &b.vorticity)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
-    }
-
-    /// Lines 26 (its end), 27 and 28, and line 16 of the next substep: one pass over the neighbours.
-    fn forces(&self, rec: &mut Recorder, step: &Step, last: bool) -> Result<(), SolverError> {
-        let (b, p) = (&self.buffers, &self.pipelines);
-        let pass = if last { &p.last_forces } else { &p.forces };
-        self.walls(self.prediction(rec.pass(pass)))
-            .read("position", &b.position)
-            .read("new_velocity", &b.new_velocity)
-            .read("vorticity", &b.vorticity)
-            .read("tags", &b.tags)
-            .read("list_counts", &b.list_counts)
-            .read("list", &b.list)
-            .read("diffused", &b.diffused)
-            .read("mixing", &b.mixing)
-            .read("solution", &b.solution)
-            .write("heat", &b.heat)
-            .write("matter", &b.matter)
-            .write("ledger", &b.ledger)
-            .write("agitation", &b.agitation)
-            .write("bulk", &b.bulk)
-            .write("velocity", &b.velocity)
-            .write("counters", &b.counters)
-            .constants(step)
-            .invocations(self.count * self.lanes)?;
-        Ok(())
-    }
-
-    fn load(&self, rec: &mut Recorder) -> Result<FrameRecord, SolverError> {
+    fn load(&self, rec: &mut Recorder) -> Result<Option<Readback>, SolverError> {
         if !self.loads || self.flasks == 0 {
-            return Ok(self.nothing());
+            return Ok(None);
         }
-        let b = &self.buffers;
-        self.vessels(rec.pass(&self.pipelines.load))
-            .read("position", &b.position)
-            .read("tags", &b.tags)
-            .read("wall_push", &b.wall_push)
-            .read("matter", &b.matter)
-            .read("velocity", &b.velocity)
-            .write("loads", &b.loads)
+        self.pass(rec, &self.pipelines.load)
             .constants(&self.step(self.parameters.substeps - 1))
             .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;
-        Ok(FrameRecord {
-            loads: Some(rec.read_back(&b.loads)?),
-            flasks: self.flasks,
-        })
-    }
-
-    fn nothing(&self) -> FrameRecord {
-        FrameRecord {
-            loads: None,
-            flasks: self.flasks,
-        }
+        Ok(Some(rec.read_back(&self.buffers.loads)?))
     }
 
     /// Constants of substep `n`.
@@ -354,36 +214,5 @@ impl Solver {
             self.parameters.substep_viscosity()
         };
         if viscosity > 0.0 { viscosity } else { 1.0 }
-    }
-
-    pub(super) fn vessels<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        let v = &self.vessels;
-        pass.read("flasks", &v.flasks)
-            .read("poses", &self.buffers.poses)
-            .read("radii", &v.radii)
-            .read("maps", &v.maps)
-    }
-
-    fn boundary<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        self.walls(self.vessels(pass))
-    }
-
-    fn walls<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        let v = &self.vessels;
-        pass.read("plane", &v.plane)
-            .read("pulls", &v.pulls)
-            .read("solid_cells", &v.solids.cells)
-            .read("solid_starts", &v.solids.starts)
-            .read("solids", &v.solids.solids)
-    }
-
-    fn prediction<'r>(&self, pass: Pass<'r>) -> Pass<'r> {
-        let b = &self.buffers;
-        self.vessels(pass)
-            .read("distances", &self.vessels.distances)
-            .write("list_args", &b.list_args)
-            .read("list_origin", &b.list_origin)
-            .write("wall_push", &b.wall_push)
-            .write("trial", &b.trial)
     }
 }

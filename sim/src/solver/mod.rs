@@ -41,7 +41,7 @@ use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
 use vessels::Vessels;
-use vitriol_gpu::{Buffer, Gpu, Recorder, vk};
+use vitriol_gpu::{Buffer, Gpu, vk};
 use vitriol_shaders::Library;
 
 /// The particles of a scene on a device, and what moves them.
@@ -76,8 +76,9 @@ impl Solver {
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
         let constants = Constants::new(spec, count, &grid, lanes);
-        let pipelines = Pipelines::new(gpu, library, spec, &constants)?;
-        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants)?;
+        let all = buffers.all(&vessels);
+        let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
+        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants, &buffers)?;
         let solver = Self {
             gpu: gpu.clone(),
             coefficients: spec
@@ -176,15 +177,7 @@ impl Solver {
     /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
-        self.steam.as_ref().map(|steam| &steam.puffs)
-    }
-
-    /// Lets the puffs rise, and makes new ones of what left the liquid.
-    fn vent(&self, rec: &mut Recorder) -> Result<(), SolverError> {
-        if let Some(steam) = &self.steam {
-            steam.record(rec, &self.buffers)?;
-        }
-        Ok(())
+        self.steam.as_ref().map(Steam::puffs)
     }
 
     /// Bytes of device memory that a particle takes.

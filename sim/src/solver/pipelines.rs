@@ -9,8 +9,8 @@ use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
 use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
 use crate::parameters::Parameters;
 use crate::surface_tension::PULL_SAMPLES;
-use vitriol_gpu::{ComputePipeline, Gpu};
-use vitriol_shaders::{Library, ShaderId, sim};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Pass, Recorder};
+use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 
 /// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
@@ -54,33 +54,31 @@ impl Grid {
     }
 }
 
-/// Compiled passes, named as their shaders and as the methods that record them.
+/// Compiled passes, named as their shaders.
 pub(super) struct Pipelines {
-    pub(super) predict: ComputePipeline,
-    pub(super) cell_count: ComputePipeline,
-    pub(super) cell_scan: ComputePipeline,
-    pub(super) block_scan: ComputePipeline,
-    pub(super) cell_scatter: ComputePipeline,
-    pub(super) reorder: ComputePipeline,
-    pub(super) list: ComputePipeline,
+    pub(super) predict: SolverPass,
+    pub(super) cell_count: SolverPass,
+    pub(super) cell_scan: SolverPass,
+    pub(super) block_scan: SolverPass,
+    pub(super) cell_scatter: SolverPass,
+    pub(super) reorder: SolverPass,
+    pub(super) list: SolverPass,
     /// Applies what was carried.
-    pub(super) carried_multiplier: ComputePipeline,
-    pub(super) first_multiplier: ComputePipeline,
-    pub(super) multiplier: ComputePipeline,
-    pub(super) displacement: ComputePipeline,
+    pub(super) carried_multiplier: SolverPass,
+    pub(super) first_multiplier: SolverPass,
+    pub(super) multiplier: SolverPass,
+    pub(super) displacement: SolverPass,
     /// Of a substep's last iteration: goes on to lines 22 to 25.
-    pub(super) last_displacement: ComputePipeline,
-    /// Of the paper's chemistry.
-    pub(super) diffusion: Option<ComputePipeline>,
-    /// Of the physical chemistry.
-    pub(super) exchange: Option<ComputePipeline>,
+    pub(super) last_displacement: SolverPass,
+    /// `diffusion` of the paper's chemistry, or `exchange` of the physical one.
+    pub(super) mixing: Option<SolverPass>,
     /// Where the scene has vorticity confinement.
-    pub(super) vorticity: Option<ComputePipeline>,
-    pub(super) forces: ComputePipeline,
+    pub(super) vorticity: Option<SolverPass>,
+    pub(super) forces: SolverPass,
     /// Of a frame's last substep: predicts none.
-    pub(super) last_forces: ComputePipeline,
-    pub(super) load: ComputePipeline,
-    pub(super) density: ComputePipeline,
+    pub(super) last_forces: SolverPass,
+    pub(super) load: SolverPass,
+    pub(super) density: SolverPass,
 }
 
 impl Pipelines {
@@ -89,24 +87,29 @@ impl Pipelines {
         library: &Library,
         spec: &SolverSpec<'_>,
         constants: &Constants,
+        buffers: &[&Buffer],
     ) -> Result<Self, SolverError> {
         let carry = flag(spec.parameters.carry > 0.0);
-        let first = [("FIRST", 1.0), ("CARRY", carry)];
-        let clear_first = [("FIRST", 1.0), ("CLEAR_LIST_ARGS", 1.0)];
-        let make = |shader, extra: &[(&'static str, f64)]| {
-            let own = constants.of(library, shader, extra)?;
-            let compiled = library.compile(&shader, "main", &own)?;
-            Ok::<_, SolverError>(ComputePipeline::new(gpu, &compiled)?)
-        };
+        // The rebuild's dispatch sizes return to zero in a substep's first pass.
+        let clears = ("CLEAR_LIST_ARGS", 1.0);
+        let first = [
+            ("FIRST", 1.0),
+            if carry > 0.0 {
+                ("CARRY", carry)
+            } else {
+                clears
+            },
+        ];
+        let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
         let pull = ("PULL", flag(spec.parameters.adhesion > 0.0));
         let vorticity = match spec.parameters.vorticity {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
         };
-        let (diffusion, exchange) = match spec.parameters.chemistry {
-            None => (None, None),
-            Some(Chemistry::Paper(_)) => (Some(make(sim::DIFFUSION, &[])?), None),
-            Some(Chemistry::Physical(_)) => (None, Some(make(sim::EXCHANGE, &[])?)),
+        let mixing = match spec.parameters.chemistry {
+            None => None,
+            Some(Chemistry::Paper(_)) => Some(make(sim::DIFFUSION, &[])?),
+            Some(Chemistry::Physical(_)) => Some(make(sim::EXCHANGE, &[])?),
         };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
@@ -116,19 +119,12 @@ impl Pipelines {
             cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
-            carried_multiplier: make(
-                sim::MULTIPLIER,
-                &[("APPLY_CARRIED", 1.0), ("CLEAR_LIST_ARGS", 1.0)],
-            )?,
-            first_multiplier: make(
-                sim::MULTIPLIER,
-                if carry > 0.0 { &first } else { &clear_first },
-            )?,
+            carried_multiplier: make(sim::MULTIPLIER, &[("APPLY_CARRIED", 1.0), clears])?,
+            first_multiplier: make(sim::MULTIPLIER, &first)?,
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
-            diffusion,
-            exchange,
+            mixing,
             vorticity,
             forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[pull])?,
@@ -268,21 +264,58 @@ impl Constants {
         Self([&self.0, more].concat())
     }
 
-    /// Those that `shader` declares, with `extra`.
-    pub(super) fn of(
+    /// The pass of `shader`, with those that it declares and `extra`; `buffers` are those of
+    /// [`SolverPass::begin`].
+    pub(super) fn pass(
         &self,
+        gpu: &Gpu,
         library: &Library,
+        buffers: &[&Buffer],
         shader: ShaderId,
         extra: &[(&'static str, f64)],
-    ) -> Result<Vec<(&'static str, f64)>, SolverError> {
+    ) -> Result<SolverPass, SolverError> {
         let declared = library.constants(&shader)?;
-        let mut own: Vec<_> = self
-            .0
-            .iter()
-            .copied()
-            .filter(|(name, _)| declared.iter().any(|known| known == name))
-            .collect();
+        let mut own = self.0.clone();
+        own.retain(|(name, _)| declared.iter().any(|known| known == name));
         own.extend(extra);
-        Ok(own)
+        let compiled = library.compile(&shader, "main", &own)?;
+        let place_of = |binding: &Binding| {
+            let label = match binding.name.as_str() {
+                // What is dead during a rebuild lends its memory.
+                "sorted_trial" => "solved",
+                "sorted_velocity" => "new_velocity",
+                name => name,
+            };
+            let place = buffers.iter().position(|buffer| buffer.label() == label)?;
+            let writable = binding.kind == BindingKind::Storage { writable: true };
+            Some((binding.name.clone(), place, writable))
+        };
+        Ok(SolverPass {
+            pipeline: ComputePipeline::new(gpu, &compiled)?,
+            bindings: compiled.bindings.iter().filter_map(place_of).collect(),
+        })
+    }
+}
+
+/// A pass that is given the buffers that its shader declares, by their labels.
+pub(super) struct SolverPass {
+    pipeline: ComputePipeline,
+    /// Name, place among the buffers, and whether it is written.
+    bindings: Vec<(String, usize, bool)>,
+}
+
+impl SolverPass {
+    /// The pass with its bindings; `buffers` are in the order in which it was made.
+    pub(super) fn begin<'r>(&'r self, rec: &'r mut Recorder, buffers: &[&Buffer]) -> Pass<'r> {
+        let pass = rec.pass(&self.pipeline);
+        self.bindings
+            .iter()
+            .fold(pass, |pass, (name, place, writable)| {
+                if *writable {
+                    pass.write(name, buffers[*place])
+                } else {
+                    pass.read(name, buffers[*place])
+                }
+            })
     }
 }

@@ -14,7 +14,7 @@ impl Solver {
     pub fn snapshot(&self) -> Result<SolverState, SolverError> {
         let (b, gpu) = (&self.buffers, &self.gpu);
         let n = self.count as usize;
-        let Lengths { heat, matter } = self.lengths();
+        let [heat, matter] = self.lengths();
         Ok(SolverState {
             positions: read(gpu, &b.position, n)?,
             velocities: read(gpu, &b.velocity, n)?,
@@ -43,23 +43,23 @@ impl Solver {
     pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
-        let lengths = self.lengths();
-        let [puffs, vented, made] = Steam::start(&self.parameters, n).elements();
+        let [heat, matter] = self.lengths();
+        let (steam, start) = (&state.steam, Steam::start(&self.parameters, n));
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
             ("tags", state.tags.len(), n),
-            ("heat", state.heat.len(), lengths.heat),
-            ("contents", state.matter.len(), lengths.matter),
-            ("ledger", state.ledger.len(), lengths.matter),
-            ("agitation", state.agitation.len(), lengths.matter),
-            ("bulk", state.bulk.len(), lengths.matter),
+            ("heat", state.heat.len(), heat),
+            ("contents", state.matter.len(), matter),
+            ("ledger", state.ledger.len(), matter),
+            ("agitation", state.agitation.len(), matter),
+            ("bulk", state.bulk.len(), matter),
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
-            ("puffs", state.steam.elements()[0], puffs),
-            ("vented steam", state.steam.elements()[1], vented),
-            ("vents", state.steam.elements()[2], made),
+            ("puffs", steam.puffs.len(), start.puffs.len()),
+            ("vented steam", steam.vented.len(), start.vented.len()),
+            ("vents", steam.made.len(), start.made.len()),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {
@@ -96,15 +96,12 @@ impl Solver {
         Ok(())
     }
 
-    /// How long the arrays are that only some scenes have.
-    fn lengths(&self) -> Lengths {
+    /// How long the arrays are that only some scenes have: `heat`, and those of `matter`.
+    fn lengths(&self) -> [usize; 2] {
         let of = |asked: bool| if asked { self.count as usize } else { 0 };
         let chemistry = self.parameters.chemistry.as_ref();
         let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
-        Lengths {
-            heat: of(chemistry.is_some()),
-            matter: of(physical),
-        }
+        [of(chemistry.is_some()), of(physical)]
     }
 
     /// Reads the counters; waits for the device.
@@ -115,9 +112,4 @@ impl Solver {
         let words = read::<Counters>(&self.gpu, &self.buffers.counters, 1)?;
         Ok(words.first().copied().unwrap_or_default())
     }
-}
-
-struct Lengths {
-    heat: usize,
-    matter: usize,
 }

@@ -2,13 +2,13 @@
 
 use super::buffers::Buffers;
 use super::error::SolverError;
-use super::pipelines::Constants;
+use super::pipelines::{Constants, SolverPass};
 use super::transfer::{read, write};
 use crate::chemistry::puff::Room;
 use crate::chemistry::{Chemistry, Physical};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::Puff;
 use vitriol_shaders::{Library, sim};
 
@@ -30,27 +30,21 @@ const ROOM_TEMPERATURE: f64 = 20.0;
 
 /// Puffs and what makes them.
 pub(super) struct Steam {
-    pub(super) puffs: Buffer,
-    vented: Buffer,
-    made: Buffer,
-    rise: ComputePipeline,
-    vent: ComputePipeline,
+    /// `puffs`, `vented` and `made`.
+    own: [Buffer; 3],
+    rise: SolverPass,
+    vent: SolverPass,
 }
 
 /// What the next frame depends on; empty where no steam leaves.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SteamState {
-    puffs: Vec<[f32; 12]>,
-    vented: Vec<[f32; 2]>,
-    made: Vec<u32>,
+    pub(super) puffs: Vec<[f32; 12]>,
+    pub(super) vented: Vec<[f32; 2]>,
+    pub(super) made: Vec<u32>,
 }
 
 impl SteamState {
-    /// How many elements its arrays have.
-    pub(super) fn elements(&self) -> [usize; 3] {
-        [self.puffs.len(), self.vented.len(), self.made.len()]
-    }
-
     /// Mass of the mist, kg.
     pub(super) fn mist(&self) -> f64 {
         self.puffs.iter().map(|puff| f64::from(puff[10])).sum()
@@ -65,8 +59,9 @@ impl Steam {
         parameters: &Parameters,
         count: u32,
         constants: &Constants,
+        buffers: &Buffers,
     ) -> Result<Option<Self>, SolverError> {
-        let Some(physical) = physical(parameters).filter(|p| p.bubble_speed.is_some()) else {
+        let Some(physical) = physical(parameters) else {
             return Ok(None);
         };
         let ambient = physical.losses.map_or(ROOM_TEMPERATURE, |l| l.ambient);
@@ -82,25 +77,24 @@ impl Steam {
             ("ROOM_ENTHALPY", room.enthalpy),
             ("ROOM_DENSITY", room.density),
         ]);
-        let make = |shader| {
-            let own = constants.of(library, shader, &[])?;
-            let compiled = library.compile(&shader, "main", &own)?;
-            Ok::<_, SolverError>(ComputePipeline::new(gpu, &compiled)?)
-        };
-        let n = count as usize;
         let buffer = |label, bytes| Buffer::storage(gpu, label, bytes);
+        let own = [
+            buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
+            buffer("vented", bytes_of_elements::<[f32; 2]>(count as usize))?,
+            buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
+        ];
+        let bound = bound(&own, buffers);
+        let make = |shader| constants.pass(gpu, library, &bound, shader, &[]);
         Ok(Some(Self {
-            puffs: buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
-            vented: buffer("vented", bytes_of_elements::<[f32; 2]>(n))?,
-            made: buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
             rise: make(sim::RISE)?,
             vent: make(sim::VENT)?,
+            own,
         }))
     }
 
     /// The state in which nothing has left yet, of `parameters`' scene.
     pub(super) fn start(parameters: &Parameters, count: usize) -> SteamState {
-        if physical(parameters).is_none_or(|p| p.bubble_speed.is_none()) {
+        if physical(parameters).is_none() {
             return SteamState::default();
         }
         SteamState {
@@ -110,39 +104,43 @@ impl Steam {
         }
     }
 
+    pub(super) fn puffs(&self) -> &Buffer {
+        &self.own[0]
+    }
+
     pub(super) fn snapshot(&self, gpu: &Gpu, count: usize) -> Result<SteamState, SolverError> {
+        let [puffs, vented, made] = &self.own;
         Ok(SteamState {
-            puffs: read(gpu, &self.puffs, PUFFS as usize)?,
-            vented: read(gpu, &self.vented, count)?,
-            made: read(gpu, &self.made, VENTS as usize)?,
+            puffs: read(gpu, puffs, PUFFS as usize)?,
+            vented: read(gpu, vented, count)?,
+            made: read(gpu, made, VENTS as usize)?,
         })
     }
 
     pub(super) fn restore(&self, gpu: &Gpu, state: &SteamState) -> Result<(), GpuError> {
-        write(gpu, &self.puffs, &state.puffs)?;
-        write(gpu, &self.vented, &state.vented)?;
-        write(gpu, &self.made, &state.made)
+        let [puffs, vented, made] = &self.own;
+        write(gpu, puffs, &state.puffs)?;
+        write(gpu, vented, &state.vented)?;
+        write(gpu, made, &state.made)
     }
 
     /// Records the rise of the puffs, and new ones of what left the liquid.
     pub(super) fn record(&self, rec: &mut Recorder, b: &Buffers) -> Result<(), GpuError> {
-        rec.pass(&self.rise)
-            .write("puffs", &self.puffs)
-            .invocations(PUFFS)?;
-        rec.pass(&self.vent)
-            .write("puffs", &self.puffs)
-            .read("position", &b.position)
-            .read("tags", &b.tags)
-            .read("ledger", &b.ledger)
-            .write("vented", &self.vented)
-            .write("made", &self.made)
-            .workgroups([VENTS, 1, 1])
+        let all = bound(&self.own, b);
+        self.rise.begin(rec, &all).invocations(PUFFS)?;
+        self.vent.begin(rec, &all).workgroups([VENTS, 1, 1])
     }
 }
 
+/// What the two passes bind.
+fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buffer; 6] {
+    [puffs, vented, made, &b.position, &b.tags, &b.ledger]
+}
+
+/// The chemistry, where steam leaves the liquid.
 fn physical(parameters: &Parameters) -> Option<&Physical> {
     match &parameters.chemistry {
-        Some(Chemistry::Physical(physical)) => Some(physical),
+        Some(Chemistry::Physical(p)) if p.bubble_speed.is_some() => Some(p),
         _ => None,
     }
 }

@@ -37,7 +37,6 @@ impl Vessels {
             let outside = VolumeMap::new(profile, Side::Outside, support);
             let table = profile.radius_table();
             let height = profile.rim_height() - profile.floor_height();
-            let [columns, rows] = outside.size();
             flasks.push(layout::Flask {
                 floor: profile.floor_height() as f32,
                 rim: profile.rim_height() as f32,
@@ -48,21 +47,21 @@ impl Vessels {
                 radius_first: radii.len() as u32,
                 radius_count: table.len() as u32,
                 inside_first: maps.len() as u32,
-                outside_first: (maps.len() + outside.nodes().len()) as u32,
+                outside_first: (maps.len() + outside.nodes.len()) as u32,
                 distance_first: distances.len() as u32,
-                map_columns: columns as u32,
-                map_rows: rows as u32,
-                map_scale: (1.0 / outside.spacing()) as f32,
-                map_base: outside.base() as f32,
+                map_columns: outside.columns as u32,
+                map_rows: outside.rows as u32,
+                map_scale: (1.0 / outside.spacing) as f32,
+                map_base: outside.base as f32,
             });
             radii.extend(table);
             if spec.solids.is_none() {
                 // Both sides' maps have one size.
                 let inside = VolumeMap::new(profile, Side::Inside, support);
-                maps.extend_from_slice(inside.nodes());
-                maps.extend_from_slice(outside.nodes());
+                maps.extend(inside.nodes);
+                maps.extend_from_slice(&outside.nodes);
             }
-            distances.extend(outside.nodes().iter().map(|node| node[0]));
+            distances.extend(outside.nodes.iter().map(|node| node[0]));
         }
         let plane = PlaneMap::new(support).table(PLANE_ENTRIES);
         let pulls = if spec.parameters.adhesion > 0.0 {

@@ -88,10 +88,3 @@ fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
     }
     return Meeting(way, normal, material);
 }
-
-/// The light along a ray back from what it meets; the sky's where it meets nothing.
-fn room_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
-    let met = room_meets(origin, direction);
-    if met.way == 0.0 { return ambient_light(direction.y); }
-    return bench_light(origin + met.way * direction, met.normal, met.material);
-}
