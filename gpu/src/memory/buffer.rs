@@ -46,7 +46,7 @@ impl Buffer {
     /// A device-local buffer of at least `bytes` bytes (rounded up to a
     /// multiple of 4, and to 16 at least, so that an empty one can be bound)
     /// that compute and raster passes read and write, that copies reach, and
-    /// that can hold indirect arguments, a condition or indices.
+    /// that can hold indirect arguments or indices.
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] over `maxStorageBufferRange`,
@@ -55,9 +55,6 @@ impl Buffer {
         let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
-        if core.info.features.conditional {
-            usage |= vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT;
-        }
         if core.info.fetches_texels {
             usage |= vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         }

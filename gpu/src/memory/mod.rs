@@ -14,7 +14,7 @@ pub(crate) use buffer::BufferInner;
 pub use buffer::{Buffer, bytes_of_elements};
 pub(crate) use image::ImageInner;
 pub use image::{Image, ImageDesc};
-pub use sampler::{Address, Filter, Sampler, SamplerDesc};
+pub use sampler::Sampler;
 
 use crate::GpuError;
 use crate::device::{Core, lock};

@@ -247,12 +247,9 @@ impl<'a> Binder<'a> {
             return;
         };
         match slot.kind {
-            BindingKind::Sampler { comparison } if comparison == sampler.inner.compares => {}
-            BindingKind::Sampler { .. } => {
-                return self.refuse(
-                    name,
-                    "one of sampler and shader compares, the other does not".to_owned(),
-                );
+            BindingKind::Sampler { comparison: false } => {}
+            BindingKind::Sampler { comparison: true } => {
+                return self.refuse(name, "no sampler that compares is bound".to_owned());
             }
             kind => return self.refuse(name, wrong_kind(&kind)),
         }

@@ -35,31 +35,14 @@ pub(crate) struct ImageUse {
     pub(crate) discard: bool,
 }
 
-/// How many vertices a draw has, and from where.
-#[derive(Clone, Copy)]
-pub(crate) enum DrawCount {
-    Vertices {
-        vertices: u32,
-        instances: u32,
-    },
-    Indexed {
-        indices: vk::Buffer,
-        count: u32,
-        instances: u32,
-    },
-    Indirect {
-        arguments: vk::Buffer,
-        offset: u64,
-    },
-}
-
 /// A draw, kept until the scope's barrier is known.
 pub(crate) struct DrawCommand {
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) push: LayoutPush,
     pub(crate) descriptors: usize,
     pub(crate) constants: usize,
-    pub(crate) count: DrawCount,
+    pub(crate) indices: vk::Buffer,
+    pub(crate) count: u32,
 }
 
 /// Everything that one submission needs on the host.
@@ -90,7 +73,6 @@ pub(crate) struct Storage {
     pub(crate) queries: Option<Queries>,
     pub(crate) markers: Option<Markers>,
     pub(crate) bound: vk::Pipeline,
-    pub(crate) in_condition: bool,
     /// Something was copied to where the host reads.
     pub(crate) host_reads: bool,
 }
@@ -130,7 +112,6 @@ impl Storage {
             queries: None,
             markers: None,
             bound: vk::Pipeline::null(),
-            in_condition: false,
             host_reads: false,
         };
         let allocate = vk::CommandBufferAllocateInfo::default()
