@@ -23,8 +23,6 @@ pub struct DeviceInfo {
     pub timestamp_period: f32,
     /// Optional features that are on.
     pub features: EnabledFeatures,
-    /// Whether `QueueKind::Async` is a queue of its own.
-    pub second_queue: bool,
     /// Whether compute passes get read-only arrays as texel buffers: on a
     /// software driver, see `Compiled::with_texels`.
     pub fetches_texels: bool,
@@ -43,12 +41,6 @@ pub struct BindingLimits {
     pub workgroups: [u32; 3],
     /// Bindings of one pipeline (push descriptors).
     pub bindings: u32,
-    /// Bytes of workgroup memory.
-    pub workgroup_bytes: u32,
-    /// Width and height of an image.
-    pub image_extent: u32,
-    /// Layers of an image.
-    pub image_layers: u32,
     /// Elements of a texel buffer.
     pub texels: u64,
 }
@@ -131,9 +123,6 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             immediate_bytes: core.limits.max_push_constants_size,
             workgroups: core.limits.max_compute_work_group_count,
             bindings: push.max_push_descriptors,
-            workgroup_bytes: core.limits.max_compute_shared_memory_size,
-            image_extent: core.limits.max_image_dimension2_d,
-            image_layers: core.limits.max_image_array_layers,
             texels: core.limits.max_texel_buffer_elements.into(),
         },
         subgroup_size: v11.subgroup_size,

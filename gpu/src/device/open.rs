@@ -153,7 +153,6 @@ fn device_info(properties: Properties, features: EnabledFeatures, plan: &QueuePl
             0.0
         },
         features,
-        second_queue: plan.is_double(),
         // Vulkan promises 65,536 texels, of which a list soon has more.
         fetches_texels: properties.kind == vk::PhysicalDeviceType::CPU
             && properties.limits.texels >= 1 << 27,

@@ -4,7 +4,6 @@ use ash::vk;
 use bytemuck::NoUninit;
 use vitriol_shaders::{BindingKind, ImageDimension};
 
-use crate::barrier::Use;
 use crate::pipeline::{DescriptorData, Layout, Slot};
 use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
@@ -172,11 +171,7 @@ impl<'a> Binder<'a> {
                 },
             },
         };
-        let used = Use {
-            slot: storage.buffer_slot(buffer),
-            scope: slot.scope,
-        };
-        storage.uses.push(used);
+        storage.use_buffer(buffer, slot.scope);
         storage.pass_bytes += inner.bytes;
     }
 

@@ -7,7 +7,7 @@ use bytemuck::NoUninit;
 
 use super::Recorder;
 use super::binder::{Asked, Binder};
-use crate::barrier::{Scope, Use};
+use crate::barrier::Scope;
 use crate::pipeline::RasterInner;
 use crate::submission::{DrawCommand, Storage};
 use crate::{Buffer, GpuError, Image, RasterPipeline};
@@ -115,11 +115,7 @@ impl Draw<'_> {
             .inner
             .check_usage(vk::BufferUsageFlags::INDEX_BUFFER)?;
         self.binder.check(self.storage)?;
-        let slot = self.storage.buffer_slot(indices);
-        self.storage.uses.push(Use {
-            slot,
-            scope: Scope::INDEX,
-        });
+        self.storage.use_buffer(indices, Scope::INDEX);
         self.storage.retain(self.pipeline.clone());
         self.storage.draws.push(DrawCommand {
             pipeline: self.pipeline.handle,

@@ -13,7 +13,7 @@ use super::timing::{Markers, Names, Queries};
 use crate::GpuError;
 use crate::barrier::{Planner, Scope, Use};
 use crate::device::{Core, Options, Timestamps};
-use crate::memory::{BufferInner, ImageInner};
+use crate::memory::ImageInner;
 use crate::pipeline::{DescriptorData, LayoutPush};
 use crate::{Buffer, Image};
 
@@ -132,18 +132,6 @@ impl Storage {
         Ok(storage)
     }
 
-    /// The slot of a buffer; holds the buffer from its first use on.
-    pub(crate) fn buffer_slot(&mut self, buffer: &Buffer) -> u32 {
-        let inner: &Arc<BufferInner> = &buffer.inner;
-        if let Some(slot) = self.slots.get(&inner.id) {
-            return *slot;
-        }
-        let slot = self.planner.add();
-        self.slots.insert(inner.id, slot);
-        self.retained.push(inner.clone());
-        slot
-    }
-
     /// The index in [`Storage::images`]; holds the image from its first use on.
     pub(crate) fn image_index(&mut self, image: &Image) -> usize {
         let inner = &image.inner;
@@ -160,9 +148,14 @@ impl Storage {
         index
     }
 
-    /// Adds a buffer to the pass being recorded.
+    /// Adds a buffer to the pass being recorded; holds the buffer from its first
+    /// use on.
     pub(crate) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
-        let slot = self.buffer_slot(buffer);
+        let inner = &buffer.inner;
+        let slot = *self.slots.entry(inner.id).or_insert_with(|| {
+            self.retained.push(inner.clone());
+            self.planner.add()
+        });
         self.uses.push(Use { slot, scope });
     }
 
