@@ -147,7 +147,7 @@ impl Buffer {
             .map_err(GpuError::vulkan("vkCreateBuffer"))?;
         // SAFETY: `handle` was just made.
         let requirements = unsafe { core.device.get_buffer_memory_requirements(handle) };
-        let bound = allocate(core, label, requirements, location, true).and_then(|allocation| {
+        let bind = |allocation: Allocation| {
             // SAFETY: the memory is of this device, large enough and not used
             // by anything else; the buffer has none yet.
             unsafe {
@@ -156,15 +156,11 @@ impl Buffer {
             }
             .map_err(GpuError::vulkan("vkBindBufferMemory"))
             .map(|()| allocation)
-        });
-        let allocation = match bound {
-            Ok(allocation) => allocation,
-            Err(error) => {
-                // SAFETY: nothing uses the buffer.
-                unsafe { core.device.destroy_buffer(handle, None) };
-                return Err(error);
-            }
         };
+        let allocation = allocate(core, label, requirements, location, true)
+            .and_then(bind)
+            // SAFETY: nothing uses the buffer.
+            .inspect_err(|_| unsafe { core.device.destroy_buffer(handle, None) })?;
         core.name(handle, label);
         Ok(Self {
             inner: Arc::new(BufferInner {

@@ -121,10 +121,9 @@ fn create(
         core.device
             .create_graphics_pipelines(core.pipeline_cache, &[create], None)
     };
-    match made {
-        Ok(handles) => Ok(handles.first().copied().unwrap_or_default()),
-        Err((_, result)) => Err(GpuError::vulkan("vkCreateGraphicsPipelines")(result)),
-    }
+    let handles =
+        made.map_err(|(_, result)| GpuError::vulkan("vkCreateGraphicsPipelines")(result))?;
+    Ok(handles.first().copied().unwrap_or_default())
 }
 
 impl Drop for RasterInner {

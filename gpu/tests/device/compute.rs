@@ -1,4 +1,4 @@
-//! Passes, hazards, immediates, indirect and conditional dispatch.
+//! Passes, hazards, immediates and indirect dispatch.
 
 use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
 
