@@ -25,63 +25,33 @@ const KINDS: [(S, A); Scope::COUNT as usize] = [
     (S::COMPUTE_SHADER, A::UNIFORM_READ),
     (S::COMPUTE_SHADER, A::SHADER_SAMPLED_READ),
     (S::VERTEX_SHADER, A::SHADER_STORAGE_READ),
-    (S::VERTEX_SHADER, A::UNIFORM_READ),
-    (S::VERTEX_SHADER, A::SHADER_SAMPLED_READ),
     (S::FRAGMENT_SHADER, A::SHADER_STORAGE_READ),
-    (S::FRAGMENT_SHADER, A::SHADER_STORAGE_WRITE),
-    (S::FRAGMENT_SHADER, A::UNIFORM_READ),
-    (S::FRAGMENT_SHADER, A::SHADER_SAMPLED_READ),
     (
         S::COLOR_ATTACHMENT_OUTPUT,
         A::from_raw(A::COLOR_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
     ),
-    (
-        S::from_raw(S::EARLY_FRAGMENT_TESTS.as_raw() | S::LATE_FRAGMENT_TESTS.as_raw()),
-        A::from_raw(
-            A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw() | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
-        ),
-    ),
     (S::DRAW_INDIRECT, A::INDIRECT_COMMAND_READ),
-    (
-        S::CONDITIONAL_RENDERING_EXT,
-        A::CONDITIONAL_RENDERING_READ_EXT,
-    ),
     (S::INDEX_INPUT, A::INDEX_READ),
     (S::ALL_TRANSFER, A::TRANSFER_READ),
     (S::ALL_TRANSFER, A::TRANSFER_WRITE),
 ];
 
 impl Scope {
-    const COUNT: u32 = 18;
+    const COUNT: u32 = 11;
     pub(crate) const NONE: Self = Self(0);
     pub(crate) const COMPUTE_READ: Self = Self(1);
     pub(crate) const COMPUTE_WRITE: Self = Self(1 << 1);
     pub(crate) const COMPUTE_UNIFORM: Self = Self(1 << 2);
     pub(crate) const COMPUTE_SAMPLED: Self = Self(1 << 3);
     pub(crate) const VERTEX_READ: Self = Self(1 << 4);
-    pub(crate) const VERTEX_UNIFORM: Self = Self(1 << 5);
-    pub(crate) const VERTEX_SAMPLED: Self = Self(1 << 6);
-    pub(crate) const FRAGMENT_READ: Self = Self(1 << 7);
-    pub(crate) const FRAGMENT_WRITE: Self = Self(1 << 8);
-    pub(crate) const FRAGMENT_UNIFORM: Self = Self(1 << 9);
-    pub(crate) const FRAGMENT_SAMPLED: Self = Self(1 << 10);
-    pub(crate) const COLOUR: Self = Self(1 << 11);
-    pub(crate) const DEPTH: Self = Self(1 << 12);
-    pub(crate) const INDIRECT: Self = Self(1 << 13);
-    pub(crate) const CONDITIONAL: Self = Self(1 << 14);
-    pub(crate) const INDEX: Self = Self(1 << 15);
-    pub(crate) const COPY_READ: Self = Self(1 << 16);
-    pub(crate) const COPY_WRITE: Self = Self(1 << 17);
+    pub(crate) const FRAGMENT_READ: Self = Self(1 << 5);
+    pub(crate) const COLOUR: Self = Self(1 << 6);
+    pub(crate) const INDIRECT: Self = Self(1 << 7);
+    pub(crate) const INDEX: Self = Self(1 << 8);
+    pub(crate) const COPY_READ: Self = Self(1 << 9);
+    pub(crate) const COPY_WRITE: Self = Self(1 << 10);
     const COMPUTE: Self = Self(0b1111);
-    const VERTEX: Self = Self(0b111 << 4);
-    const FRAGMENT: Self = Self(0b1111 << 7);
-    const WRITES: Self = Self(
-        Self::COMPUTE_WRITE.0
-            | Self::FRAGMENT_WRITE.0
-            | Self::COLOUR.0
-            | Self::DEPTH.0
-            | Self::COPY_WRITE.0,
-    );
+    const WRITES: Self = Self(Self::COMPUTE_WRITE.0 | Self::COLOUR.0 | Self::COPY_WRITE.0);
 
     pub(crate) const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -104,14 +74,15 @@ impl Scope {
         self.without(Self::WRITES)
     }
 
-    /// All kinds of every shader stage in this set. Widening is free on the
-    /// device (caches are flushed by stage, not by binding) and saves the
-    /// barrier that the next pass would otherwise need.
+    /// All kinds of the compute stage where this set has one of them. Widening is
+    /// free on the device (caches are flushed by stage, not by binding) and saves
+    /// the barrier that the next pass would otherwise need.
     fn widened(self) -> Self {
-        [Self::COMPUTE, Self::VERTEX, Self::FRAGMENT]
-            .into_iter()
-            .filter(|stage| !self.and(*stage).is_empty())
-            .fold(self, Self::union)
+        if self.and(Self::COMPUTE).is_empty() {
+            self
+        } else {
+            self.union(Self::COMPUTE)
+        }
     }
 
     /// Pipeline stages of this set.

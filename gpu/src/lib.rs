@@ -27,7 +27,7 @@
 //!
 //! Rules that hold everywhere:
 //! - Device requirements are Vulkan 1.3 (dynamic rendering, synchronization2,
-//!   timeline semaphores, multiview) and `VK_KHR_push_descriptor`.
+//!   timeline semaphores) and `VK_KHR_push_descriptor`.
 //! - A handle ([`Buffer`], [`Image`], pipelines) is a cheap clone; what a
 //!   recorder uses lives until the device has finished with it.
 //! - Between submissions on one queue everything is ordered; between queues
@@ -56,14 +56,9 @@ pub use device::{
 };
 pub use error::GpuError;
 pub use gpu::{DeviceHandles, Gpu};
-pub use memory::{
-    Address, Buffer, Filter, Image, ImageDesc, Sampler, SamplerDesc, bytes_of_elements,
-};
-pub use pipeline::{Blend, ColourFormat, ComputePipeline, DepthFormat, RasterDesc, RasterPipeline};
+pub use memory::{Buffer, Image, ImageDesc, Sampler, bytes_of_elements};
+pub use pipeline::{ComputePipeline, RasterPipeline};
 pub use queue::QueueKind;
-pub use recorder::{
-    ColourTarget, CopyRegion, DepthTarget, Draw, Load, Pass, Raster, RasterTarget, Readback,
-    Recorder,
-};
+pub use recorder::{CopyRegion, Draw, Pass, Raster, Readback, Recorder};
 pub use submission::PassTiming;
 pub use ticket::Ticket;

@@ -15,8 +15,8 @@ use crate::submission::Storage;
 pub enum QueueKind {
     /// Graphics and compute.
     Main,
-    /// Compute beside it, where the device has a second queue
-    /// (`DeviceInfo::second_queue`); else the main queue itself. No raster.
+    /// Compute beside it, where the device has a second queue; else the main
+    /// queue itself. No raster.
     Async,
 }
 

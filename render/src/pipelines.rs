@@ -22,8 +22,7 @@ impl Pipelines {
         let over = |shader: ShaderId, class: Class, switches: &[(&str, f64)]| {
             let mut constants = vec![("CLASS", f64::from(class as u32))];
             constants.extend(switches);
-            let compiled = library.compile(&shader, "main", &constants)?;
-            Ok::<_, RenderError>((class, ComputePipeline::new(gpu, &compiled)?))
+            Ok::<_, RenderError>((class, compute(gpu, library, shader, &constants)?))
         };
         Ok(Self {
             picture: [
@@ -46,6 +45,17 @@ impl Pipelines {
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed.iter().any(|id| USED.contains(id))
     }
+}
+
+/// The pipeline of a shader, specialised by `constants`.
+pub(crate) fn compute(
+    gpu: &Gpu,
+    library: &Library,
+    shader: ShaderId,
+    constants: &[(&str, f64)],
+) -> Result<ComputePipeline, RenderError> {
+    let compiled = library.compile(&shader, "main", constants)?;
+    Ok(ComputePipeline::new(gpu, &compiled)?)
 }
 
 const USED: [ShaderId; 5] = [

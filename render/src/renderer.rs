@@ -1,8 +1,6 @@
 //! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
-use vitriol_gpu::{
-    Buffer, Filter, Gpu, Image, ImageDesc, Recorder, Sampler, SamplerDesc, bytes_of_elements, vk,
-};
+use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
@@ -83,13 +81,7 @@ impl Renderer {
             nothing: zeros(gpu)?,
             spheres: Spheres::new(gpu, library, extent, views)?,
             drawn: image("drawn")?,
-            between: Sampler::new(
-                gpu,
-                SamplerDesc {
-                    filter: Filter::Linear,
-                    ..SamplerDesc::default()
-                },
-            )?,
+            between: Sampler::linear(gpu)?,
             picture: image("picture")?,
             depths: Buffer::storage(gpu, "picture depth", bytes_of_elements::<f32>(pixels))?,
         })

@@ -6,6 +6,7 @@ use vitriol_shaders::{Library, ShaderId, layout, spheres};
 use crate::RenderError;
 use crate::frame::ColourBy;
 use crate::lanes::workgroups;
+use crate::pipelines::compute;
 use crate::source::ParticleSource;
 use crate::tiles::{Class, Tiles};
 
@@ -35,14 +36,10 @@ impl Spheres {
         views: u32,
     ) -> Result<Self, RenderError> {
         let words = bytes_of_elements::<u32>((views * width * height) as usize);
-        let compute = |shader: ShaderId, constants: &[(&str, f64)]| {
-            let compiled = library.compile(&shader, "main", constants)?;
-            Ok::<_, RenderError>(ComputePipeline::new(gpu, &compiled)?)
-        };
         let class = ("CLASS", f64::from(Class::Spheres as u32));
         Ok(Self {
-            nearest_pass: compute(spheres::NEAREST, &[])?,
-            light_pass: compute(spheres::LIGHT, &[class])?,
+            nearest_pass: compute(gpu, library, spheres::NEAREST, &[])?,
+            light_pass: compute(gpu, library, spheres::LIGHT, &[class])?,
             depths: Buffer::storage(gpu, "sphere depth", words)?,
             nearest: Buffer::storage(gpu, "nearest sphere", words)?,
             views,

@@ -1,9 +1,10 @@
 //! Marks what each tile of the picture contains, and lists the tiles by it for the passes over their pixels.
 
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
-use vitriol_shaders::{Library, ShaderId, layout, render};
+use vitriol_shaders::{Library, layout, render};
 
 use crate::RenderError;
+use crate::pipelines::compute;
 use crate::source::SteamSource;
 
 /// Pixels along a tile's edge, as in `common/picture/tile_marks.wgsl`.
@@ -52,19 +53,15 @@ const CLASSES: u64 = 6;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {
-    pipelines: Pipelines,
+    mark_pass: ComputePipeline,
+    puffs_pass: ComputePipeline,
+    lists_pass: ComputePipeline,
     marks: Buffer,
     lists: Buffer,
     /// Sizes of the dispatches over the lists.
     arguments: Buffer,
     puffs: Buffer,
     views: u32,
-}
-
-struct Pipelines {
-    mark: ComputePipeline,
-    puffs: ComputePipeline,
-    lists: ComputePipeline,
 }
 
 impl Tiles {
@@ -78,7 +75,9 @@ impl Tiles {
         let count = columns * rows * views;
         let words = |label: &str, words: u64| Buffer::storage(gpu, label, 4 * words);
         Ok(Self {
-            pipelines: Pipelines::new(gpu, library)?,
+            mark_pass: compute(gpu, library, render::TILES, &[])?,
+            puffs_pass: compute(gpu, library, render::TILE_PUFFS, &[])?,
+            lists_pass: compute(gpu, library, render::TILE_LISTS, &[])?,
             marks: words("tiles", count.into())?,
             lists: words("tile lists", CLASSES * u64::from(count))?,
             arguments: words("tile dispatches", 3 * CLASSES)?,
@@ -98,7 +97,7 @@ impl Tiles {
         rec.group("tiles", |rec| {
             rec.fill(&self.marks, 0)?;
             rec.fill(&self.arguments, 0)?;
-            rec.pass(&self.pipelines.mark)
+            rec.pass(&self.mark_pass)
                 .label("tiles")
                 .uniform("frame", uniforms)
                 .read("ellipsoids", ellipsoids)
@@ -107,7 +106,7 @@ impl Tiles {
                 .invocations(count.max(TABLE_POINTS))?;
             if let Some(steam) = steam {
                 rec.fill(&self.puffs, 0)?;
-                rec.pass(&self.pipelines.puffs)
+                rec.pass(&self.puffs_pass)
                     .label("tiles")
                     .uniform("frame", uniforms)
                     .read("puffs", steam.puffs)
@@ -130,7 +129,7 @@ impl Tiles {
     ) -> Result<(), GpuError> {
         let [columns, rows] = tiles_of(extent);
         rec.group("tiles", |rec| {
-            rec.pass(&self.pipelines.lists)
+            rec.pass(&self.lists_pass)
                 .label("tiles")
                 .uniform("frame", uniforms)
                 .read("tiles", &self.marks)
@@ -155,19 +154,5 @@ impl Tiles {
     pub(crate) fn over(&self, class: Class, pass: Pass<'_>) -> Result<(), GpuError> {
         pass.read("tile_lists", &self.lists)
             .indirect(&self.arguments, 12 * class as u64)
-    }
-}
-
-impl Pipelines {
-    fn new(gpu: &Gpu, library: &Library) -> Result<Self, RenderError> {
-        let make = |shader: ShaderId| {
-            let compiled = library.compile(&shader, "main", &[])?;
-            Ok::<_, RenderError>(ComputePipeline::new(gpu, &compiled)?)
-        };
-        Ok(Self {
-            mark: make(render::TILES)?,
-            puffs: make(render::TILE_PUFFS)?,
-            lists: make(render::TILE_LISTS)?,
-        })
     }
 }

@@ -75,8 +75,8 @@ impl Side {
     }
 }
 
-/// One hand with its controller.
-#[derive(Clone, Debug, PartialEq)]
+/// One hand with its controller; by default one of which nothing is known.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hand {
     /// The runtime binds this hand to a device, and its inputs count.
     pub active: bool,
@@ -103,25 +103,6 @@ pub struct Hand {
     pub button_b: bool,
     /// OpenXR interaction profile path; empty where nothing is bound.
     pub profile: Arc<str>,
-}
-
-impl Default for Hand {
-    /// A hand of which nothing is known.
-    fn default() -> Self {
-        Self {
-            active: false,
-            valid: false,
-            tracked: false,
-            stage_from_grip: Pose::IDENTITY,
-            stage_from_aim: Pose::IDENTITY,
-            squeeze: 0.0,
-            trigger: 0.0,
-            thumbstick: [0.0; 2],
-            button_a: false,
-            button_b: false,
-            profile: Arc::from(""),
-        }
-    }
 }
 
 /// The display frame for which a runtime predicted the poses.

@@ -8,7 +8,8 @@ const UNIT_TOLERANCE: f32 = 1e-3;
 
 /// A rigid transform `parent_from_child`: it takes a point's coordinates in the child frame
 /// to its coordinates in the parent frame, `p_parent = orientation * p_child + position`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// [`Pose::IDENTITY`] by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
     /// Origin of the child frame in the parent frame, m.
     pub position: Vec3,

@@ -18,7 +18,6 @@ pub struct Core {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) device: ash::Device,
     pub(crate) push: ash::khr::push_descriptor::Device,
-    pub(crate) conditional: Option<ash::ext::conditional_rendering::Device>,
     /// Where the instance has VK_EXT_debug_utils.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
     pub(crate) messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,

@@ -112,12 +112,8 @@ pub(crate) fn device_request(
     properties: &Properties,
     queues: Vec<QueueRequest>,
 ) -> DeviceRequest {
-    let mut extensions = vec![ash::khr::push_descriptor::NAME.to_owned()];
-    if properties.features.conditional {
-        extensions.push(ash::ext::conditional_rendering::NAME.to_owned());
-    }
     let mut request = DeviceRequest {
-        extensions,
+        extensions: vec![ash::khr::push_descriptor::NAME.to_owned()],
         features: properties.features,
         queues,
     };
@@ -144,12 +140,8 @@ pub(crate) fn create_device(
         })
         .collect();
     let extensions = pointers(&request.extensions);
-    let features = vk::PhysicalDeviceFeatures::default()
-        .fragment_stores_and_atomics(on.fragment_stores)
-        .independent_blend(on.independent_blend);
-    let mut v11 = vk::PhysicalDeviceVulkan11Features::default()
-        .multiview(true)
-        .storage_buffer16_bit_access(on.float16);
+    let mut v11 =
+        vk::PhysicalDeviceVulkan11Features::default().storage_buffer16_bit_access(on.float16);
     let mut v12 = vk::PhysicalDeviceVulkan12Features::default()
         .timeline_semaphore(true)
         .shader_float16(on.float16)
@@ -158,18 +150,12 @@ pub(crate) fn create_device(
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default()
         .dynamic_rendering(true)
         .synchronization2(true);
-    let mut conditional =
-        vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
-    let mut create = vk::DeviceCreateInfo::default()
+    let create = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_extension_names(&extensions)
-        .enabled_features(&features)
         .push_next(&mut v11)
         .push_next(&mut v12)
         .push_next(&mut v13);
-    if on.conditional {
-        create = create.push_next(&mut conditional);
-    }
     provider.create_device(instance, physical, &create)
 }
 

@@ -21,12 +21,8 @@ pub struct DeviceInfo {
     pub subgroup_size: u32,
     /// Nanoseconds per timestamp tick; zero where the device has none.
     pub timestamp_period: f32,
-    /// Views of one multiview pass at most.
-    pub max_views: u32,
     /// Optional features that are on.
     pub features: EnabledFeatures,
-    /// Whether `QueueKind::Async` is a queue of its own.
-    pub second_queue: bool,
     /// Whether compute passes get read-only arrays as texel buffers: on a
     /// software driver, see `Compiled::with_texels`.
     pub fetches_texels: bool,
@@ -45,12 +41,6 @@ pub struct BindingLimits {
     pub workgroups: [u32; 3],
     /// Bindings of one pipeline (push descriptors).
     pub bindings: u32,
-    /// Bytes of workgroup memory.
-    pub workgroup_bytes: u32,
-    /// Width and height of an image.
-    pub image_extent: u32,
-    /// Layers of an image.
-    pub image_layers: u32,
     /// Elements of a texel buffer.
     pub texels: u64,
 }
@@ -58,14 +48,8 @@ pub struct BindingLimits {
 /// Optional features, each on where the device has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EnabledFeatures {
-    /// `Recorder::conditional` works (VK_EXT_conditional_rendering).
-    pub conditional: bool,
     /// `enable f16` in WGSL, in 16-bit storage too.
     pub float16: bool,
-    /// Fragment shaders may write storage buffers.
-    pub fragment_stores: bool,
-    /// Colour targets of one pipeline may blend differently.
-    pub independent_blend: bool,
     /// SPIR-V's Vulkan memory model.
     pub memory_model: bool,
     /// Subgroup operations in compute (arithmetic, ballot and shuffle).
@@ -81,7 +65,6 @@ pub(crate) struct Properties {
     pub(crate) limits: BindingLimits,
     pub(crate) subgroup_size: u32,
     pub(crate) timestamp_period: f32,
-    pub(crate) max_views: u32,
     pub(crate) extensions: Vec<CString>,
     pub(crate) features: EnabledFeatures,
     /// Required things that are not there.
@@ -140,9 +123,6 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             immediate_bytes: core.limits.max_push_constants_size,
             workgroups: core.limits.max_compute_work_group_count,
             bindings: push.max_push_descriptors,
-            workgroup_bytes: core.limits.max_compute_shared_memory_size,
-            image_extent: core.limits.max_image_dimension2_d,
-            image_layers: core.limits.max_image_array_layers,
             texels: core.limits.max_texel_buffer_elements.into(),
         },
         subgroup_size: v11.subgroup_size,
@@ -151,7 +131,6 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
         } else {
             0.0
         },
-        max_views: v11.max_multiview_view_count,
         extensions,
         features,
         missing,
@@ -178,19 +157,15 @@ fn query_features(
     let mut v11 = vk::PhysicalDeviceVulkan11Features::default();
     let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
-    let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
     let mut features = vk::PhysicalDeviceFeatures2::default()
         .push_next(&mut v11)
         .push_next(&mut v12)
-        .push_next(&mut v13)
-        .push_next(&mut conditional);
+        .push_next(&mut v13);
     // SAFETY: as for the properties in `query`.
     unsafe { instance.get_physical_device_features2(physical, &mut features) };
-    let core = features.features;
 
     let mut missing = Vec::new();
     for (there, name) in [
-        (v11.multiview, "multiview"),
         (v12.timeline_semaphore, "timelineSemaphore"),
         (v13.dynamic_rendering, "dynamicRendering"),
         (v13.synchronization2, "synchronization2"),
@@ -206,11 +181,7 @@ fn query_features(
         | vk::SubgroupFeatureFlags::BALLOT
         | vk::SubgroupFeatureFlags::SHUFFLE;
     let enabled = EnabledFeatures {
-        conditional: has(extensions, ash::ext::conditional_rendering::NAME)
-            && conditional.conditional_rendering == vk::TRUE,
         float16: v12.shader_float16 == vk::TRUE && v11.storage_buffer16_bit_access == vk::TRUE,
-        fragment_stores: core.fragment_stores_and_atomics == vk::TRUE,
-        independent_blend: core.independent_blend == vk::TRUE,
         memory_model: v12.vulkan_memory_model == vk::TRUE
             && v12.vulkan_memory_model_device_scope == vk::TRUE,
         subgroups: v11_properties

@@ -54,10 +54,6 @@ pub fn list_devices() -> Result<Vec<DeviceSummary>, GpuError> {
 
 fn summary(index: usize, properties: Properties) -> DeviceSummary {
     let mut missing_optional = Vec::new();
-    if !properties.features.conditional {
-        missing_optional
-            .push("VK_EXT_conditional_rendering (indirect dispatches are used instead)".to_owned());
-    }
     if properties.timestamp_period == 0.0 {
         missing_optional.push("timestamps (no times per pass)".to_owned());
     }

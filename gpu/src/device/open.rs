@@ -91,10 +91,6 @@ pub(crate) fn open(
 
     let core = Arc::new(Core {
         push: ash::khr::push_descriptor::Device::new(instance, &device),
-        conditional: request
-            .features
-            .conditional
-            .then(|| ash::ext::conditional_rendering::Device::new(instance, &device)),
         labels,
         messenger: opening.messenger.take(),
         messages,
@@ -156,9 +152,7 @@ fn device_info(properties: Properties, features: EnabledFeatures, plan: &QueuePl
         } else {
             0.0
         },
-        max_views: properties.max_views,
         features,
-        second_queue: plan.is_double(),
         // Vulkan promises 65,536 texels, of which a list soon has more.
         fetches_texels: properties.kind == vk::PhysicalDeviceType::CPU
             && properties.limits.texels >= 1 << 27,

@@ -54,10 +54,6 @@ impl QueuePlan {
         })
     }
 
-    pub(crate) fn is_double(&self) -> bool {
-        self.second.is_some()
-    }
-
     pub(crate) fn timestamps(&self) -> bool {
         self.places().all(|place| place.timestamp_mask != 0)
     }

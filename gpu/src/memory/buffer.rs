@@ -46,7 +46,7 @@ impl Buffer {
     /// A device-local buffer of at least `bytes` bytes (rounded up to a
     /// multiple of 4, and to 16 at least, so that an empty one can be bound)
     /// that compute and raster passes read and write, that copies reach, and
-    /// that can hold indirect arguments, a condition or indices.
+    /// that can hold indirect arguments or indices.
     ///
     /// # Errors
     /// [`GpuError::BufferTooLarge`] over `maxStorageBufferRange`,
@@ -55,9 +55,6 @@ impl Buffer {
         let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
-        if core.info.features.conditional {
-            usage |= vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT;
-        }
         if core.info.fetches_texels {
             usage |= vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         }
@@ -150,7 +147,7 @@ impl Buffer {
             .map_err(GpuError::vulkan("vkCreateBuffer"))?;
         // SAFETY: `handle` was just made.
         let requirements = unsafe { core.device.get_buffer_memory_requirements(handle) };
-        let bound = allocate(core, label, requirements, location, true).and_then(|allocation| {
+        let bind = |allocation: Allocation| {
             // SAFETY: the memory is of this device, large enough and not used
             // by anything else; the buffer has none yet.
             unsafe {
@@ -159,15 +156,11 @@ impl Buffer {
             }
             .map_err(GpuError::vulkan("vkBindBufferMemory"))
             .map(|()| allocation)
-        });
-        let allocation = match bound {
-            Ok(allocation) => allocation,
-            Err(error) => {
-                // SAFETY: nothing uses the buffer.
-                unsafe { core.device.destroy_buffer(handle, None) };
-                return Err(error);
-            }
         };
+        let allocation = allocate(core, label, requirements, location, true)
+            .and_then(bind)
+            // SAFETY: nothing uses the buffer.
+            .inspect_err(|_| unsafe { core.device.destroy_buffer(handle, None) })?;
         core.name(handle, label);
         Ok(Self {
             inner: Arc::new(BufferInner {

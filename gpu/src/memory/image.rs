@@ -118,26 +118,20 @@ impl Image {
             .map_err(GpuError::vulkan("vkCreateImage"))?;
         // SAFETY: `handle` was just made.
         let requirements = unsafe { core.device.get_image_memory_requirements(handle) };
-        let bound = allocate(core, label, requirements, MemoryLocation::GpuOnly, false).and_then(
-            |allocation| {
-                // SAFETY: the memory is of this device, large enough and not
-                // used by anything else; the image has none yet.
-                unsafe {
-                    core.device
-                        .bind_image_memory(handle, allocation.memory(), allocation.offset())
-                }
-                .map_err(GpuError::vulkan("vkBindImageMemory"))
-                .map(|()| allocation)
-            },
-        );
-        let allocation = match bound {
-            Ok(allocation) => allocation,
-            Err(error) => {
-                // SAFETY: nothing uses the image.
-                unsafe { core.device.destroy_image(handle, None) };
-                return Err(error);
+        let bind = |allocation: Allocation| {
+            // SAFETY: the memory is of this device, large enough and not used
+            // by anything else; the image has none yet.
+            unsafe {
+                core.device
+                    .bind_image_memory(handle, allocation.memory(), allocation.offset())
             }
+            .map_err(GpuError::vulkan("vkBindImageMemory"))
+            .map(|()| allocation)
         };
+        let allocation = allocate(core, label, requirements, MemoryLocation::GpuOnly, false)
+            .and_then(bind)
+            // SAFETY: nothing uses the image.
+            .inspect_err(|_| unsafe { core.device.destroy_image(handle, None) })?;
         Self::wrap(core, label, desc, handle, desc.home(), Some(allocation))
     }
 

@@ -10,11 +10,10 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
-pub(crate) use buffer::BufferInner;
 pub use buffer::{Buffer, bytes_of_elements};
 pub(crate) use image::ImageInner;
 pub use image::{Image, ImageDesc};
-pub use sampler::{Address, Filter, Sampler, SamplerDesc};
+pub use sampler::Sampler;
 
 use crate::GpuError;
 use crate::device::{Core, lock};

@@ -7,37 +7,6 @@ use ash::vk;
 use crate::GpuError;
 use crate::device::Core;
 
-/// Between texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// The nearest texel.
-    #[default]
-    Nearest,
-    /// Weighted mean of four.
-    Linear,
-}
-
-/// Outside the image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Address {
-    /// The texel at the edge.
-    #[default]
-    Clamp,
-    /// The image again.
-    Repeat,
-}
-
-/// How a shader samples an image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SamplerDesc {
-    /// Between texels.
-    pub filter: Filter,
-    /// Outside the image.
-    pub address: Address,
-    /// For WGSL's `sampler_comparison`.
-    pub compare: Option<vk::CompareOp>,
-}
-
 /// A sampler; cheap to clone.
 #[derive(Clone)]
 pub struct Sampler {
@@ -46,37 +15,28 @@ pub struct Sampler {
 
 pub(crate) struct SamplerInner {
     pub(crate) handle: vk::Sampler,
-    pub(crate) compares: bool,
     core: Arc<Core>,
 }
 
 impl Sampler {
+    /// Gives the weighted mean of the four nearest texels; outside the image,
+    /// the texel at its edge.
+    ///
     /// # Errors
     /// Out of memory.
-    pub fn new(core: &Arc<Core>, desc: SamplerDesc) -> Result<Self, GpuError> {
-        let filter = match desc.filter {
-            Filter::Nearest => vk::Filter::NEAREST,
-            Filter::Linear => vk::Filter::LINEAR,
-        };
-        let address = match desc.address {
-            Address::Clamp => vk::SamplerAddressMode::CLAMP_TO_EDGE,
-            Address::Repeat => vk::SamplerAddressMode::REPEAT,
-        };
+    pub fn linear(core: &Arc<Core>) -> Result<Self, GpuError> {
         let create = vk::SamplerCreateInfo::default()
-            .mag_filter(filter)
-            .min_filter(filter)
-            .address_mode_u(address)
-            .address_mode_v(address)
-            .address_mode_w(address)
-            .compare_enable(desc.compare.is_some())
-            .compare_op(desc.compare.unwrap_or(vk::CompareOp::NEVER));
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
         // SAFETY: the device is alive and the parameters are valid everywhere.
         let handle = unsafe { core.device.create_sampler(&create, None) }
             .map_err(GpuError::vulkan("vkCreateSampler"))?;
         Ok(Self {
             inner: Arc::new(SamplerInner {
                 handle,
-                compares: desc.compare.is_some(),
                 core: core.clone(),
             }),
         })

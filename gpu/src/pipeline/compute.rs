@@ -57,12 +57,9 @@ impl ComputePipeline {
             core.device
                 .create_compute_pipelines(core.pipeline_cache, &[create], None)
         };
-        let handle = match made {
-            Ok(handles) => handles.first().copied().unwrap_or_default(),
-            Err((_, result)) => {
-                return Err(GpuError::vulkan("vkCreateComputePipelines")(result));
-            }
-        };
+        let handles =
+            made.map_err(|(_, result)| GpuError::vulkan("vkCreateComputePipelines")(result))?;
+        let handle = handles.first().copied().unwrap_or_default();
         core.name(handle, &compiled.label);
         Ok(Self {
             inner: Arc::new(ComputeInner {

@@ -211,21 +211,13 @@ fn merge(core: &Core, shaders: &[&Compiled]) -> Result<Vec<Slot>, GpuError> {
                     binding.name, binding.group
                 )));
             }
-            let scope = scope(shader.stage, &binding.kind);
-            if !scope.writes().is_empty() {
-                let may = match shader.stage {
-                    Stage::Compute => true,
-                    Stage::Vertex => false,
-                    Stage::Fragment => core.info.features.fragment_stores,
-                };
-                if !may {
-                    return Err(refuse(format!(
-                        "\"{}\" is writable in stage {:?}, which this device or crate does not \
-                         allow; declare it read-only or write it in a compute pass",
-                        binding.name, shader.stage
-                    )));
-                }
-            }
+            let Some(scope) = scope(shader.stage, &binding.kind) else {
+                return Err(refuse(format!(
+                    "\"{}\" cannot be bound in stage {:?}, which reads storage buffers only; \
+                     use a compute pass for it",
+                    binding.name, shader.stage
+                )));
+            };
             let stage = stage_flag(shader.stage);
             match slots
                 .iter_mut()
@@ -281,45 +273,31 @@ fn descriptor_type(kind: &BindingKind) -> vk::DescriptorType {
     }
 }
 
-fn scope(stage: Stage, kind: &BindingKind) -> Scope {
-    let (read, write, uniform, sampled) = match stage {
-        Stage::Compute => (
-            Scope::COMPUTE_READ,
-            Scope::COMPUTE_WRITE,
-            Scope::COMPUTE_UNIFORM,
-            Scope::COMPUTE_SAMPLED,
-        ),
-        // A vertex shader that writes is refused; any kind that writes will do.
-        Stage::Vertex => (
-            Scope::VERTEX_READ,
-            Scope::FRAGMENT_WRITE,
-            Scope::VERTEX_UNIFORM,
-            Scope::VERTEX_SAMPLED,
-        ),
-        Stage::Fragment => (
-            Scope::FRAGMENT_READ,
-            Scope::FRAGMENT_WRITE,
-            Scope::FRAGMENT_UNIFORM,
-            Scope::FRAGMENT_SAMPLED,
-        ),
-    };
+/// How `stage` accesses a binding, where it may have one of that kind.
+fn scope(stage: Stage, kind: &BindingKind) -> Option<Scope> {
     let pick = |readable: bool, writable: bool| {
         let mut scope = Scope::NONE;
         if readable {
-            scope = scope.union(read);
+            scope = scope.union(Scope::COMPUTE_READ);
         }
         if writable {
-            scope = scope.union(write);
+            scope = scope.union(Scope::COMPUTE_WRITE);
         }
         scope
     };
-    match *kind {
-        BindingKind::Storage { writable } => pick(true, writable),
-        BindingKind::Uniform { .. } => uniform,
-        BindingKind::Texels(_) | BindingKind::SampledImage { .. } => sampled,
-        BindingKind::StorageImage {
-            readable, writable, ..
-        } => pick(readable, writable),
-        BindingKind::Sampler { .. } => Scope::NONE,
-    }
+    Some(match (stage, *kind) {
+        (Stage::Vertex, BindingKind::Storage { writable: false }) => Scope::VERTEX_READ,
+        (Stage::Fragment, BindingKind::Storage { writable: false }) => Scope::FRAGMENT_READ,
+        (Stage::Vertex | Stage::Fragment, _) => return None,
+        (_, BindingKind::Storage { writable }) => pick(true, writable),
+        (_, BindingKind::Uniform { .. }) => Scope::COMPUTE_UNIFORM,
+        (_, BindingKind::Texels(_) | BindingKind::SampledImage { .. }) => Scope::COMPUTE_SAMPLED,
+        (
+            _,
+            BindingKind::StorageImage {
+                readable, writable, ..
+            },
+        ) => pick(readable, writable),
+        (_, BindingKind::Sampler { .. }) => Scope::NONE,
+    })
 }

@@ -11,7 +11,7 @@ pub(crate) use compute::ComputeInner;
 pub use compute::ComputePipeline;
 pub(crate) use layout::{DescriptorData, Layout, LayoutPush, Slot};
 pub(crate) use raster::RasterInner;
-pub use raster::{Blend, ColourFormat, DepthFormat, RasterDesc, RasterPipeline};
+pub use raster::RasterPipeline;
 
 use crate::GpuError;
 use crate::device::Core;

@@ -4,7 +4,6 @@ use ash::vk;
 use bytemuck::NoUninit;
 use vitriol_shaders::{BindingKind, ImageDimension};
 
-use crate::barrier::Use;
 use crate::pipeline::{DescriptorData, Layout, Slot};
 use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
@@ -172,11 +171,7 @@ impl<'a> Binder<'a> {
                 },
             },
         };
-        let used = Use {
-            slot: storage.buffer_slot(buffer),
-            scope: slot.scope,
-        };
-        storage.uses.push(used);
+        storage.use_buffer(buffer, slot.scope);
         storage.pass_bytes += inner.bytes;
     }
 
@@ -247,12 +242,9 @@ impl<'a> Binder<'a> {
             return;
         };
         match slot.kind {
-            BindingKind::Sampler { comparison } if comparison == sampler.inner.compares => {}
-            BindingKind::Sampler { .. } => {
-                return self.refuse(
-                    name,
-                    "one of sampler and shader compares, the other does not".to_owned(),
-                );
+            BindingKind::Sampler { comparison: false } => {}
+            BindingKind::Sampler { comparison: true } => {
+                return self.refuse(name, "no sampler that compares is bound".to_owned());
             }
             kind => return self.refuse(name, wrong_kind(&kind)),
         }

@@ -6,7 +6,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 
 use super::binder::{Asked, Binder};
-use crate::barrier::{Scope, Use};
+use crate::barrier::Scope;
 use crate::pipeline::ComputeInner;
 use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
@@ -149,11 +149,7 @@ impl<'r> Pass<'r> {
     pub fn indirect(mut self, arguments: &Buffer, offset: u64) -> Result<(), GpuError> {
         self.binder.check(self.storage)?;
         arguments.inner.check_indirect(offset, 12)?;
-        let slot = self.storage.buffer_slot(arguments);
-        self.storage.uses.push(Use {
-            slot,
-            scope: Scope::INDIRECT,
-        });
+        self.storage.use_buffer(arguments, Scope::INDIRECT);
         self.bind()?;
         // SAFETY: as in `workgroups`; the arguments lie in a buffer made for
         // them, at a multiple of 4.

@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use ash::vk;
-use gpu_allocator::MemoryLocation;
-
 use crate::device::Core;
 use crate::{Buffer, GpuError};
 
@@ -28,13 +25,16 @@ impl Arena {
     ) -> Result<(Buffer, u64), GpuError> {
         let bytes = data.len() as u64;
         if bytes > CHUNK_BYTES - self.used {
-            let buffer = staging(core, bytes)?;
+            let buffer = Buffer::staging(core, "staging", bytes)?;
             buffer.inner.write_at(0, data)?;
             return Ok((buffer, 0));
         }
         let chunk = match &self.chunk {
             Some(chunk) => chunk.clone(),
-            None => self.chunk.insert(staging(core, CHUNK_BYTES)?).clone(),
+            None => {
+                let chunk = Buffer::staging(core, "staging", CHUNK_BYTES)?;
+                self.chunk.insert(chunk).clone()
+            }
         };
         let offset = self.used;
         chunk.inner.write_at(offset, data)?;
@@ -46,14 +46,4 @@ impl Arena {
     pub(crate) fn clear(&mut self) {
         self.used = 0;
     }
-}
-
-fn staging(core: &Arc<Core>, bytes: u64) -> Result<Buffer, GpuError> {
-    Buffer::new(
-        core,
-        "staging",
-        bytes,
-        vk::BufferUsageFlags::empty(),
-        MemoryLocation::CpuToGpu,
-    )
 }

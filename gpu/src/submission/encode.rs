@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::Submission;
-use super::storage::{DrawCount, Storage};
+use super::storage::Storage;
 use crate::GpuError;
 use crate::barrier::{Barrier, Use};
 use crate::pipeline::LayoutPush;
@@ -15,7 +15,6 @@ impl Storage {
     pub(crate) fn begin(&mut self, submission: Arc<Submission>) -> Result<(), GpuError> {
         self.submission = submission;
         self.bound = vk::Pipeline::null();
-        self.in_condition = false;
         self.host_reads = false;
         let begin = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
@@ -56,7 +55,7 @@ impl Storage {
         if let Some(queries) = &mut self.queries {
             queries.write(&self.core, self.cmd)?;
         }
-        // SAFETY: the buffer is recording; labels and conditions are closed.
+        // SAFETY: the buffer is recording; labels are closed.
         unsafe { self.core.device.end_command_buffer(self.cmd) }
             .map_err(GpuError::vulkan("vkEndCommandBuffer"))
     }
@@ -74,12 +73,6 @@ impl Storage {
         let info = vk::DependencyInfo::default().memory_barriers(&barriers);
         // SAFETY: the buffer is recording outside a raster scope.
         unsafe { self.core.device.cmd_pipeline_barrier2(self.cmd, &info) };
-    }
-
-    /// Orders uses of buffers that stand outside a pass.
-    pub(crate) fn order(&mut self, uses: &[Use]) {
-        let barrier = self.planner.pass(uses);
-        self.emit(barrier);
     }
 
     /// One barrier command for the planner's barrier and `image_barriers`.
@@ -205,23 +198,8 @@ impl Storage {
             // SAFETY: pipeline, descriptors and immediates are bound; buffers
             // are held, and their ranges were checked when the draw was made.
             unsafe {
-                match draw.count {
-                    DrawCount::Vertices {
-                        vertices,
-                        instances,
-                    } => device.cmd_draw(self.cmd, vertices, instances, 0, 0),
-                    DrawCount::Indexed {
-                        indices,
-                        count,
-                        instances,
-                    } => {
-                        device.cmd_bind_index_buffer(self.cmd, indices, 0, vk::IndexType::UINT32);
-                        device.cmd_draw_indexed(self.cmd, count, instances, 0, 0, 0);
-                    }
-                    DrawCount::Indirect { arguments, offset } => {
-                        device.cmd_draw_indirect(self.cmd, arguments, offset, 1, 16);
-                    }
-                }
+                device.cmd_bind_index_buffer(self.cmd, draw.indices, 0, vk::IndexType::UINT32);
+                device.cmd_draw_indexed(self.cmd, draw.count, 1, 0, 0, 0);
             }
         }
     }

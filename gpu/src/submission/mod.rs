@@ -8,7 +8,7 @@ mod timing;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
-pub(crate) use storage::{DrawCommand, DrawCount, Storage};
+pub(crate) use storage::{DrawCommand, Storage};
 pub use timing::PassTiming;
 
 /// What a recorder, its ticket and its readbacks know of one submission.

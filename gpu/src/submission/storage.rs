@@ -13,7 +13,7 @@ use super::timing::{Markers, Names, Queries};
 use crate::GpuError;
 use crate::barrier::{Planner, Scope, Use};
 use crate::device::{Core, Options, Timestamps};
-use crate::memory::{BufferInner, ImageInner};
+use crate::memory::ImageInner;
 use crate::pipeline::{DescriptorData, LayoutPush};
 use crate::{Buffer, Image};
 
@@ -35,31 +35,14 @@ pub(crate) struct ImageUse {
     pub(crate) discard: bool,
 }
 
-/// How many vertices a draw has, and from where.
-#[derive(Clone, Copy)]
-pub(crate) enum DrawCount {
-    Vertices {
-        vertices: u32,
-        instances: u32,
-    },
-    Indexed {
-        indices: vk::Buffer,
-        count: u32,
-        instances: u32,
-    },
-    Indirect {
-        arguments: vk::Buffer,
-        offset: u64,
-    },
-}
-
 /// A draw, kept until the scope's barrier is known.
 pub(crate) struct DrawCommand {
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) push: LayoutPush,
     pub(crate) descriptors: usize,
     pub(crate) constants: usize,
-    pub(crate) count: DrawCount,
+    pub(crate) indices: vk::Buffer,
+    pub(crate) count: u32,
 }
 
 /// Everything that one submission needs on the host.
@@ -90,7 +73,6 @@ pub(crate) struct Storage {
     pub(crate) queries: Option<Queries>,
     pub(crate) markers: Option<Markers>,
     pub(crate) bound: vk::Pipeline,
-    pub(crate) in_condition: bool,
     /// Something was copied to where the host reads.
     pub(crate) host_reads: bool,
 }
@@ -130,7 +112,6 @@ impl Storage {
             queries: None,
             markers: None,
             bound: vk::Pipeline::null(),
-            in_condition: false,
             host_reads: false,
         };
         let allocate = vk::CommandBufferAllocateInfo::default()
@@ -151,18 +132,6 @@ impl Storage {
         Ok(storage)
     }
 
-    /// The slot of a buffer; holds the buffer from its first use on.
-    pub(crate) fn buffer_slot(&mut self, buffer: &Buffer) -> u32 {
-        let inner: &Arc<BufferInner> = &buffer.inner;
-        if let Some(slot) = self.slots.get(&inner.id) {
-            return *slot;
-        }
-        let slot = self.planner.add();
-        self.slots.insert(inner.id, slot);
-        self.retained.push(inner.clone());
-        slot
-    }
-
     /// The index in [`Storage::images`]; holds the image from its first use on.
     pub(crate) fn image_index(&mut self, image: &Image) -> usize {
         let inner = &image.inner;
@@ -179,9 +148,14 @@ impl Storage {
         index
     }
 
-    /// Adds a buffer to the pass being recorded.
+    /// Adds a buffer to the pass being recorded; holds the buffer from its first
+    /// use on.
     pub(crate) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
-        let slot = self.buffer_slot(buffer);
+        let inner = &buffer.inner;
+        let slot = *self.slots.entry(inner.id).or_insert_with(|| {
+            self.retained.push(inner.clone());
+            self.planner.add()
+        });
         self.uses.push(Use { slot, scope });
     }
 

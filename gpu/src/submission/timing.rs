@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::device::Core;
 use crate::{Buffer, GpuError};
@@ -169,13 +168,7 @@ pub(crate) struct Markers {
 impl Markers {
     pub(crate) fn new(core: &Arc<Core>) -> Result<Self, GpuError> {
         let markers = Self {
-            buffer: Buffer::new(
-                core,
-                "markers",
-                4 * MARKED_PASSES as u64,
-                vk::BufferUsageFlags::empty(),
-                MemoryLocation::GpuToCpu,
-            )?,
+            buffer: Buffer::readback(core, "markers", 4 * MARKED_PASSES as u64)?,
         };
         markers.clear(MARKED_PASSES)?;
         Ok(markers)

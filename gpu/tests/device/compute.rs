@@ -1,4 +1,4 @@
-//! Passes, hazards, immediates, indirect and conditional dispatch.
+//! Passes, hazards, immediates and indirect dispatch.
 
 use vitriol_gpu::{Buffer, ComputePipeline, QueueKind};
 
@@ -96,40 +96,6 @@ fn immediates_and_indirect_sizes_arrive() {
     let result = rec.read_back(&counter).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();
     assert_eq!(result.get::<u32>().unwrap()[0], 5 * 2 * 32);
-    assert_silent(&gpu);
-}
-
-#[test]
-fn a_condition_rules_dispatches() {
-    let gpu = open();
-    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
-    let a = Buffer::storage(&gpu, "a", 256).unwrap();
-    let b = Buffer::storage(&gpu, "b", 256).unwrap();
-    let condition = Buffer::storage(&gpu, "condition", 16).unwrap();
-    gpu.write(&a, &[1_u32; 64]).unwrap();
-    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-    if !gpu.info().features.conditional {
-        assert!(rec.conditional(&condition, 0, |_| Ok(())).is_err());
-        return;
-    }
-    rec.fill(&b, 0).unwrap();
-    rec.upload(&condition, &[0_u32, 9]).unwrap();
-    let results: Vec<_> = [0, 4]
-        .into_iter()
-        .map(|offset| {
-            rec.conditional(&condition, offset, |rec| {
-                rec.pass(&double)
-                    .read("source", &a)
-                    .write("target_", &b)
-                    .invocations(64)
-            })
-            .unwrap();
-            rec.read_back(&b).unwrap()
-        })
-        .collect();
-    gpu.submit(rec).unwrap().wait().unwrap();
-    assert_eq!(results[0].get::<u32>().unwrap(), [0; 64]);
-    assert_eq!(results[1].get::<u32>().unwrap(), [3; 64]);
     assert_silent(&gpu);
 }
 

@@ -28,10 +28,7 @@ fn devices_are_listed_and_described() {
         info.limits.immediate_bytes >= 128 && info.limits.bindings >= 32,
         "{info:?}"
     );
-    assert!(
-        info.subgroup_size.is_power_of_two() && info.max_views >= 6,
-        "{info:?}"
-    );
+    assert!(info.subgroup_size.is_power_of_two(), "{info:?}");
     assert!(
         !info.driver.is_empty() && info.api.starts_with("1."),
         "{info:?}"

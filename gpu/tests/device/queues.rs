@@ -1,6 +1,6 @@
 //! The second queue, or the main one in its place.
 
-use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, RasterTarget};
+use vitriol_gpu::{Buffer, ComputePipeline, Image, ImageDesc, QueueKind, vk};
 
 use crate::common::{DOUBLE, assert_silent, compile, open};
 
@@ -33,13 +33,16 @@ fn a_ticket_orders_the_queues() {
 fn the_async_queue_refuses_raster() {
     let gpu = open();
     let mut rec = gpu.recorder(QueueKind::Async).unwrap();
-    let target = RasterTarget {
-        label: "picture",
-        colours: &[],
-        depth: None,
-        view_mask: 0,
+    let desc = ImageDesc {
+        extent: [4, 4],
+        layers: 1,
+        format: vk::Format::R8G8B8A8_UNORM,
+        usage: vk::ImageUsageFlags::COLOR_ATTACHMENT,
     };
-    let error = rec.raster(&target, |_| Ok(())).unwrap_err();
+    let target = Image::new(&gpu, "picture", desc).unwrap();
+    let error = rec
+        .raster("picture", &target, [0.0; 4], |_| Ok(()))
+        .unwrap_err();
     assert!(error.to_string().contains("QueueKind::Main"), "{error}");
 }
 

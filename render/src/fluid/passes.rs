@@ -5,6 +5,7 @@ use vitriol_shaders::{Library, ShaderId, fluid};
 
 use crate::RenderError;
 use crate::desc::SurfaceFilter;
+use crate::pipelines::compute;
 use crate::tiles::Class;
 
 /// Invocations that share a particle's neighbours on a GPU: the latency of
@@ -43,10 +44,7 @@ impl Passes {
             1
         };
         let splat_lanes = SPLATTED_BY[usize::from(is_cpu)];
-        let compute = |shader: ShaderId, constants: &[(&str, f64)]| {
-            let compiled = library.compile(&shader, "main", constants)?;
-            Ok::<_, RenderError>(ComputePipeline::new(gpu, &compiled)?)
-        };
+        let compute = |shader, constants: &[_]| compute(gpu, library, shader, constants);
         let splat = |shader| compute(shader, &[("LANES", splat_lanes.into())]);
         Ok(Self {
             anisotropy: compute(fluid::ANISOTROPY, &[("LANES", lanes.into())])?,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use openxr as xr;
 
-use super::bindings::{On, PROFILES, Profile, Use};
+use super::bindings::{On, POSES, PROFILES, Profile, Use};
 use super::convert::{CallFailure, failed, located};
 use super::pinch::Pinch;
 use crate::{Hand, Side};
@@ -73,7 +73,7 @@ impl Set {
         profile: &Profile,
     ) -> Result<xr::Result<()>, CallFailure> {
         let mut bindings = Vec::new();
-        for (used, on, control) in profile.controls {
+        for (used, on, control) in POSES.iter().chain(profile.controls) {
             let hands = match on {
                 On::Both => &[xr::USER_HAND_LEFT, xr::USER_HAND_RIGHT][..],
                 On::Left => &[xr::USER_HAND_LEFT],

@@ -41,19 +41,38 @@ pub(super) struct Profile {
     pub path: &'static str,
     /// Whether the runtime has it, by the extensions that are on.
     pub offered: fn(&InstanceExtensions) -> bool,
-    /// Use, hands and path below the hand's.
-    pub controls: &'static [(Use, On, &'static str)],
+    /// All but [`POSES`].
+    pub controls: &'static [Control],
 }
 
-const GRIP: (Use, On, &str) = (Use::Grip, On::Both, "input/grip/pose");
-const AIM: (Use, On, &str) = (Use::Aim, On::Both, "input/aim/pose");
-const HAPTIC: (Use, On, &str) = (Use::Haptic, On::Both, "output/haptic");
-const TRIGGER: (Use, On, &str) = (Use::Trigger, On::Both, "input/trigger/value");
-const SQUEEZE: (Use, On, &str) = (Use::Squeeze, On::Both, "input/squeeze/value");
-const SQUEEZE_CLICK: (Use, On, &str) = (Use::Squeeze, On::Both, "input/squeeze/click");
-const STICK: (Use, On, &str) = (Use::Stick, On::Both, "input/thumbstick");
-const MENU: (Use, On, &str) = (Use::B, On::Both, "input/menu/click");
-const PAD_CLICK: (Use, On, &str) = (Use::A, On::Both, "input/trackpad/click");
+/// Use, hands and path below the hand's.
+type Control = (Use, On, &'static str);
+
+/// What every profile has.
+pub(super) const POSES: [Control; 2] = [
+    (Use::Grip, On::Both, "input/grip/pose"),
+    (Use::Aim, On::Both, "input/aim/pose"),
+];
+
+const HAPTIC: Control = (Use::Haptic, On::Both, "output/haptic");
+const TRIGGER: Control = (Use::Trigger, On::Both, "input/trigger/value");
+const SQUEEZE: Control = (Use::Squeeze, On::Both, "input/squeeze/value");
+const SQUEEZE_CLICK: Control = (Use::Squeeze, On::Both, "input/squeeze/click");
+const STICK: Control = (Use::Stick, On::Both, "input/thumbstick");
+const MENU: Control = (Use::B, On::Both, "input/menu/click");
+const PAD_CLICK: Control = (Use::A, On::Both, "input/trackpad/click");
+
+/// Touch's, and Pico's, which are like them.
+const TOUCH: &[Control] = &[
+    SQUEEZE,
+    TRIGGER,
+    STICK,
+    (Use::A, On::Left, "input/x/click"),
+    (Use::B, On::Left, "input/y/click"),
+    (Use::A, On::Right, "input/a/click"),
+    (Use::B, On::Right, "input/b/click"),
+    HAPTIC,
+];
 
 fn core(_: &InstanceExtensions) -> bool {
     true
@@ -64,36 +83,17 @@ pub(super) const PROFILES: [Profile; 7] = [
     Profile {
         path: "/interaction_profiles/khr/simple_controller",
         offered: core,
-        controls: &[
-            GRIP,
-            AIM,
-            (Use::Trigger, On::Both, "input/select/click"),
-            MENU,
-            HAPTIC,
-        ],
+        controls: &[(Use::Trigger, On::Both, "input/select/click"), MENU, HAPTIC],
     },
     Profile {
         path: "/interaction_profiles/oculus/touch_controller",
         offered: core,
-        controls: &[
-            GRIP,
-            AIM,
-            SQUEEZE,
-            TRIGGER,
-            STICK,
-            (Use::A, On::Left, "input/x/click"),
-            (Use::B, On::Left, "input/y/click"),
-            (Use::A, On::Right, "input/a/click"),
-            (Use::B, On::Right, "input/b/click"),
-            HAPTIC,
-        ],
+        controls: TOUCH,
     },
     Profile {
         path: "/interaction_profiles/valve/index_controller",
         offered: core,
         controls: &[
-            GRIP,
-            AIM,
             SQUEEZE,
             TRIGGER,
             STICK,
@@ -106,8 +106,6 @@ pub(super) const PROFILES: [Profile; 7] = [
         path: "/interaction_profiles/htc/vive_controller",
         offered: core,
         controls: &[
-            GRIP,
-            AIM,
             SQUEEZE_CLICK,
             TRIGGER,
             (Use::Stick, On::Both, "input/trackpad"),
@@ -119,39 +117,17 @@ pub(super) const PROFILES: [Profile; 7] = [
     Profile {
         path: "/interaction_profiles/microsoft/motion_controller",
         offered: core,
-        controls: &[
-            GRIP,
-            AIM,
-            SQUEEZE_CLICK,
-            TRIGGER,
-            STICK,
-            PAD_CLICK,
-            MENU,
-            HAPTIC,
-        ],
+        controls: &[SQUEEZE_CLICK, TRIGGER, STICK, PAD_CLICK, MENU, HAPTIC],
     },
     Profile {
         path: "/interaction_profiles/bytedance/pico4_controller",
         offered: |on| on.bd_controller_interaction.is_some(),
-        controls: &[
-            GRIP,
-            AIM,
-            SQUEEZE,
-            TRIGGER,
-            STICK,
-            (Use::A, On::Left, "input/x/click"),
-            (Use::B, On::Left, "input/y/click"),
-            (Use::A, On::Right, "input/a/click"),
-            (Use::B, On::Right, "input/b/click"),
-            HAPTIC,
-        ],
+        controls: TOUCH,
     },
     Profile {
         path: "/interaction_profiles/ext/hand_interaction_ext",
         offered: |on| on.ext_hand_interaction.is_some(),
         controls: &[
-            GRIP,
-            AIM,
             (Use::Squeeze, On::Both, "input/grasp_ext/value"),
             (Use::Trigger, On::Both, "input/pinch_ext/value"),
         ],

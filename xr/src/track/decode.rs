@@ -103,26 +103,23 @@ fn hand(
 ) -> Result<Hand, Flaw> {
     let input = input.ok_or_else(|| incomplete(names::INPUT[side as usize]))?;
     Ok(Hand {
-        active: input.active.unwrap_or_default(),
-        valid: input.valid.unwrap_or_default(),
-        tracked: input.tracked.unwrap_or_default(),
+        active: input.active(),
+        valid: input.valid(),
+        tracked: input.tracked(),
         stage_from_grip: find(transforms, names::GRIP[side as usize])?,
         stage_from_aim: find(transforms, names::AIM[side as usize])?,
-        squeeze: input.squeeze.unwrap_or_default(),
-        trigger: input.trigger.unwrap_or_default(),
-        thumbstick: [
-            input.thumbstick_x.unwrap_or_default(),
-            input.thumbstick_y.unwrap_or_default(),
-        ],
-        button_a: input.button_a.unwrap_or_default(),
-        button_b: input.button_b.unwrap_or_default(),
-        profile: Arc::from(input.profile.unwrap_or_default()),
+        squeeze: input.squeeze(),
+        trigger: input.trigger(),
+        thumbstick: [input.thumbstick_x(), input.thumbstick_y()],
+        button_a: input.button_a(),
+        button_b: input.button_b(),
+        profile: Arc::from(input.profile()),
     })
 }
 
 fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
     let views = frame.fov.len();
-    let fov = <[message::Fov; 2]>::try_from(frame.fov).map_err(|_| {
+    let fov = <&[message::Fov; 2]>::try_from(&frame.fov[..]).map_err(|_| {
         Flaw::new(
             names::FRAME,
             "fov",
@@ -140,13 +137,13 @@ fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
         )
     })?;
     Ok(FrameInfo {
-        xr_time: frame.xr_time.unwrap_or_default(),
-        period_ns: frame.period_ns.unwrap_or_default(),
-        fov: fov.map(|fov| Fov {
-            left: fov.left.unwrap_or_default(),
-            right: fov.right.unwrap_or_default(),
-            up: fov.up.unwrap_or_default(),
-            down: fov.down.unwrap_or_default(),
+        xr_time: frame.xr_time(),
+        period_ns: frame.period_ns(),
+        fov: fov.each_ref().map(|fov| Fov {
+            left: fov.left(),
+            right: fov.right(),
+            up: fov.up(),
+            down: fov.down(),
         }),
         session_state,
     })
@@ -200,17 +197,8 @@ fn find(transforms: &[FrameTransform], child: &str) -> Result<Pose, Flaw> {
 fn pose(transform: &FrameTransform, child: &str) -> Result<Pose, Flaw> {
     let p = transform.translation.clone().unwrap_or_default();
     let q = transform.rotation.clone().unwrap_or_default();
-    let position = DVec3::new(
-        p.x.unwrap_or_default(),
-        p.y.unwrap_or_default(),
-        p.z.unwrap_or_default(),
-    );
-    let orientation = DQuat::from_xyzw(
-        q.x.unwrap_or_default(),
-        q.y.unwrap_or_default(),
-        q.z.unwrap_or_default(),
-        q.w.unwrap_or_default(),
-    );
+    let position = DVec3::new(p.x(), p.y(), p.z());
+    let orientation = DQuat::from_xyzw(q.x(), q.y(), q.z(), q.w());
     let narrowed = Pose::new(position.as_vec3(), orientation.as_quat());
     if position.is_finite() && !narrowed.position.is_finite() {
         return Err(Flaw::new(

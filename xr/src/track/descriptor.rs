@@ -31,13 +31,6 @@ pub fn frame_transforms() -> Vec<u8> {
             field("nanos", 2, Type::Int32),
         ],
     );
-    let xyz = || ["x", "y", "z", "w"].into_iter().zip(1..);
-    let doubles = |n| {
-        xyz()
-            .take(n)
-            .map(|(name, tag)| field(name, tag, Type::Double))
-            .collect()
-    };
     let transform = message(
         "FrameTransform",
         vec![
@@ -60,21 +53,15 @@ pub fn frame_transforms() -> Vec<u8> {
                 &[],
                 timestamp,
             ),
-            file(
-                "foxglove/Vector3.proto",
-                "foxglove",
+            foxglove(
                 &[],
-                message("Vector3", doubles(3)),
+                message("Vector3", alike(&["x", "y", "z"], Type::Double)),
             ),
-            file(
-                "foxglove/Quaternion.proto",
-                "foxglove",
+            foxglove(
                 &[],
-                message("Quaternion", doubles(4)),
+                message("Quaternion", alike(&["x", "y", "z", "w"], Type::Double)),
             ),
-            file(
-                "foxglove/FrameTransform.proto",
-                "foxglove",
+            foxglove(
                 &[
                     "google/protobuf/timestamp.proto",
                     "foxglove/Vector3.proto",
@@ -82,12 +69,7 @@ pub fn frame_transforms() -> Vec<u8> {
                 ],
                 transform,
             ),
-            file(
-                "foxglove/FrameTransforms.proto",
-                "foxglove",
-                &["foxglove/FrameTransform.proto"],
-                transforms,
-            ),
+            foxglove(&["foxglove/FrameTransform.proto"], transforms),
         ],
     };
     set.encode_to_vec()
@@ -110,14 +92,7 @@ pub fn xr() -> Vec<u8> {
             field("profile", 10, Type::String),
         ],
     );
-    let fov = message(
-        "Fov",
-        ["left", "right", "up", "down"]
-            .into_iter()
-            .zip(1..)
-            .map(|(name, tag)| field(name, tag, Type::Float))
-            .collect(),
-    );
+    let fov = message("Fov", alike(&["left", "right", "up", "down"], Type::Float));
     let mut state = reference("session_state", 4, ".vitriol.xr.SessionState");
     state.set_type(Type::Enum);
     let frame = message(
@@ -129,13 +104,7 @@ pub fn xr() -> Vec<u8> {
             state,
         ],
     );
-    let switch = message(
-        "Switch",
-        vec![
-            field("key", 1, Type::String),
-            field("value", 2, Type::String),
-        ],
-    );
+    let switch = message("Switch", alike(&["key", "value"], Type::String));
     let mut xr = file("vitriol/xr.proto", "vitriol.xr", &[], input);
     xr.message_type.extend([fov, frame, switch]);
     xr.enum_type.push(session_state());
@@ -173,12 +142,26 @@ fn file(
     }
 }
 
+/// A file of one message, called like it.
+fn foxglove(imports: &[&str], holds: DescriptorProto) -> FileDescriptorProto {
+    let name = format!("foxglove/{}.proto", holds.name());
+    file(&name, "foxglove", imports, holds)
+}
+
 fn message(name: &str, field: Vec<FieldDescriptorProto>) -> DescriptorProto {
     DescriptorProto {
         name: Some(name.into()),
         field,
         ..Default::default()
     }
+}
+
+/// Fields of one type, numbered from 1.
+fn alike(names: &[&str], kind: Type) -> Vec<FieldDescriptorProto> {
+    (1..)
+        .zip(names)
+        .map(|(number, name)| field(name, number, kind))
+        .collect()
 }
 
 fn field(name: &str, number: i32, kind: Type) -> FieldDescriptorProto {

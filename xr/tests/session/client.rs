@@ -3,9 +3,7 @@
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
-use vitriol_gpu::{
-    ColourTarget, DepthTarget, Image, ImageDesc, Load, Options, QueueKind, RasterTarget, vk,
-};
+use vitriol_gpu::{Buffer, Image, ImageDesc, Options, QueueKind, vk};
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::{
     Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn, View,
@@ -25,9 +23,9 @@ pub struct Client {
 }
 
 struct Pictures {
-    colour: Image,
-    depth: Image,
-    panel: Image,
+    colour: (Buffer, Image),
+    depth: (Buffer, Image),
+    panel: (Buffer, Image),
 }
 
 impl Client {
@@ -104,7 +102,7 @@ impl Client {
         targets.colour
     }
 
-    /// Clears pictures of our own and copies them to `targets`.
+    /// Fills pictures of our own and copies them to `targets`.
     pub fn submit(&mut self, targets: &Targets) {
         let gpu = self.xr.gpu().clone();
         let pictures = self.pictures.get_or_insert_with(|| {
@@ -115,7 +113,10 @@ impl Client {
                     format,
                     usage,
                 };
-                Image::new(&gpu, label, desc).unwrap()
+                let [width, height] = desc.extent;
+                let bytes = u64::from(4 * width * height * desc.layers);
+                let texels = Buffer::storage(&gpu, label, bytes).unwrap();
+                (texels, Image::new(&gpu, label, desc).unwrap())
             };
             let eyes = targets.colour.desc().extent;
             let linear = vk::Format::R8G8B8A8_UNORM;
@@ -128,33 +129,18 @@ impl Client {
             }
         });
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        let eyes = RasterTarget {
-            label: "eyes",
-            colours: &[ColourTarget {
-                image: &pictures.colour,
-                load: Load::Clear([0.25, 0.5, 0.75, 1.0]),
-            }],
-            depth: Some(DepthTarget {
-                image: &pictures.depth,
-                load: Load::Clear(0.0),
-            }),
-            view_mask: 0b11,
-        };
-        rec.raster(&eyes, |_| Ok(())).unwrap();
-        let panel = RasterTarget {
-            label: "panel",
-            colours: &[ColourTarget {
-                image: &pictures.panel,
-                load: Load::Clear([1.0, 0.0, 0.0, 1.0]),
-            }],
-            depth: None,
-            view_mask: 0,
-        };
-        rec.raster(&panel, |_| Ok(())).unwrap();
-        rec.copy_image(&pictures.colour, &targets.colour).unwrap();
-        rec.copy_image(&pictures.panel, &targets.panel).unwrap();
+        for ((texels, image), word) in [
+            (&pictures.colour, u32::from_le_bytes([64, 128, 191, 255])),
+            (&pictures.depth, 0.0_f32.to_bits()),
+            (&pictures.panel, u32::from_le_bytes([255, 0, 0, 255])),
+        ] {
+            rec.fill(texels, word).unwrap();
+            rec.copy_to_image(texels, image).unwrap();
+        }
+        rec.copy_image(&pictures.colour.1, &targets.colour).unwrap();
+        rec.copy_image(&pictures.panel.1, &targets.panel).unwrap();
         if let Some(depth) = &targets.depth {
-            rec.copy_image(&pictures.depth, depth).unwrap();
+            rec.copy_image(&pictures.depth.1, depth).unwrap();
         }
         gpu.submit(rec).unwrap();
     }

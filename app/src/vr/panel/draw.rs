@@ -5,10 +5,7 @@ use std::sync::Arc;
 
 use egui::epaint::{ImageData, Primitive};
 use egui::{ClippedPrimitive, Rect, TexturesDelta};
-use vitriol_gpu::{
-    Blend, Buffer, ColourFormat, ColourTarget, Gpu, Image, ImageDesc, Load, RasterDesc,
-    RasterPipeline, RasterTarget, Recorder, vk,
-};
+use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, RasterPipeline, Recorder, vk};
 use vitriol_shaders::{Library, layout, panel};
 
 use vitriol_experiment::{Blame, Failure};
@@ -63,19 +60,8 @@ struct Texture {
 impl Painter {
     pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         let compile = |entry| library.compile(&panel::PANEL, entry, &[]).other();
-        let pipeline = RasterPipeline::new(
-            gpu,
-            &RasterDesc {
-                vertex: &compile("vertex")?,
-                fragment: Some(&compile("fragment")?),
-                colours: &[ColourFormat {
-                    format: FORMAT,
-                    blend: Blend::Premultiplied,
-                }],
-                depth: None,
-                view_mask: 0,
-            },
-        );
+        let (vertex, fragment) = (compile("vertex")?, compile("fragment")?);
+        let pipeline = RasterPipeline::new(gpu, &vertex, &fragment, FORMAT);
         Ok(Self {
             gpu: gpu.clone(),
             pipeline: pipeline.other()?,
@@ -138,16 +124,7 @@ impl Painter {
             rec.upload(buffer, indices).other()?;
         }
         let [width, height] = image.desc().extent;
-        let target = RasterTarget {
-            label: "panel",
-            colours: &[ColourTarget {
-                image,
-                load: Load::Clear(GROUND),
-            }],
-            depth: None,
-            view_mask: 0,
-        };
-        rec.raster(&target, |raster| {
+        rec.raster("panel", image, GROUND, |raster| {
             for (part, indices) in self.parts.iter().zip(&buffers.indices) {
                 let Rect { min, max } = part.clip;
                 raster
@@ -159,7 +136,7 @@ impl Painter {
                         size: [width as f32, height as f32],
                         texels: self.texture.size.map(|side| side as u32),
                     })
-                    .indexed(indices, part.indices, 1)?;
+                    .indexed(indices, part.indices)?;
             }
             Ok(())
         })
