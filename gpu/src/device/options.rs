@@ -24,6 +24,6 @@ pub struct Options {
     /// What is measured by the device's clock.
     pub timestamps: Timestamps,
     /// Marks each pass as the device reaches it, so that
-    /// [`GpuError::DeviceLost`] can name the last one.
+    /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost) can name the last one.
     pub markers: bool,
 }
