@@ -27,7 +27,7 @@ struct Folder {
 impl Folder {
     fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("vitriol-{name}-{}", std::process::id()));
-        for sub in ["common", "sim", "render"] {
+        for sub in ["common/maths", "sim", "render"] {
             fs::create_dir_all(path.join(sub)).unwrap();
         }
         let clock = SystemTime::now();

@@ -79,8 +79,9 @@ impl Patch {
         if here < 0.0 {
             return true;
         }
-        // A distance that is no number, where sizes overflow, ends the walk as well.
-        let near = here <= 0.5 * (high + wide);
+        // Sizes that overflow end the walk as well: halves of what is infinite are infinite.
+        let size = high + wide;
+        let near = size.is_finite() && here <= 0.5 * size;
         if !near || high.max(wide) < step {
             return false;
         }

@@ -64,7 +64,7 @@ pub(super) fn passes(
 /// # Errors
 /// What the device says.
 pub fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure> {
-    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let world = World::new(gpu, &Library::watching(), scene, 0).other()?;
     let mut tally = Tally::default();
     tally.add(&solve(gpu, &world)?)?;
     Ok((tally.rows().0, world.solver().bytes_per_particle()))
@@ -72,7 +72,7 @@ pub fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure>
 
 /// A world whose liquid has come to rest.
 pub(super) fn settled(gpu: &Gpu, scene: &Scene) -> Result<World, Failure> {
-    let world = World::new(gpu, &Library::embedded(), scene, 0).other()?;
+    let world = World::new(gpu, &Library::watching(), scene, 0).other()?;
     let frames = (WARM_UP / scene.scale.frame_time).ceil() as u64;
     for _ in 0..frames {
         solve(gpu, &world)?.wait().other()?;

@@ -66,7 +66,7 @@ fn ready(
     eyes: u32,
     extent: [u32; 2],
 ) -> Result<(World, Camera), Failure> {
-    let library = Library::embedded();
+    let library = Library::watching();
     let world = World::new(gpu, &library, scene, 0).other()?;
     let shot = Shot {
         extent,
