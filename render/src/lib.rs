@@ -27,6 +27,7 @@
 
 pub mod camera;
 pub mod colour_map;
+mod compute;
 mod desc;
 mod error;
 mod fluid;

@@ -4,6 +4,7 @@ use vitriol_gpu::{ComputePipeline, Gpu, vk};
 use vitriol_shaders::{Library, ShaderId, render};
 
 use crate::RenderError;
+use crate::compute::compute;
 use crate::tiles::Class;
 
 /// Rays of a pixel that are traced to the glass, on a GPU and on a CPU, whose film has to come in time.
@@ -45,17 +46,6 @@ impl Pipelines {
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed.iter().any(|id| USED.contains(id))
     }
-}
-
-/// The pipeline of a shader, specialised by `constants`.
-pub(crate) fn compute(
-    gpu: &Gpu,
-    library: &Library,
-    shader: ShaderId,
-    constants: &[(&str, f64)],
-) -> Result<ComputePipeline, RenderError> {
-    let compiled = library.compile(&shader, "main", constants)?;
-    Ok(ComputePipeline::new(gpu, &compiled)?)
 }
 
 const USED: [ShaderId; 5] = [

@@ -4,9 +4,9 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::{Library, ShaderId, layout, spheres};
 
 use crate::RenderError;
+use crate::compute::compute;
 use crate::frame::ColourBy;
 use crate::lanes::workgroups;
-use crate::pipelines::compute;
 use crate::source::ParticleSource;
 use crate::tiles::{Class, Tiles};
 

@@ -4,7 +4,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Library, layout, render};
 
 use crate::RenderError;
-use crate::pipelines::compute;
+use crate::compute::compute;
 use crate::source::SteamSource;
 
 /// Pixels along a tile's edge, as in `common/picture/tile_marks.wgsl`.

@@ -4,8 +4,8 @@ use vitriol_gpu::{ComputePipeline, Gpu, vk};
 use vitriol_shaders::{Library, ShaderId, fluid};
 
 use crate::RenderError;
+use crate::compute::compute;
 use crate::desc::SurfaceFilter;
-use crate::pipelines::compute;
 use crate::tiles::Class;
 
 /// Invocations that share a particle's neighbours on a GPU: the latency of

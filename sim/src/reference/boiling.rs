@@ -1,20 +1,10 @@
 //! XSPH with a coefficient per particle, and anti-viscosity (Eqs 16 and 17;
 //! line 27).
 
-use super::algorithm::Reference;
+use super::chemistry::Coefficients;
 use super::neighbours::Neighbours;
+use super::state::Reference;
 use glam::DVec3;
-
-/// What line 27 needs to know of each particle.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Coefficients {
-    /// μ_i ≥ 0 of one substep: how fast relative velocities go.
-    pub viscosity: Vec<f64>,
-    /// α_i ≥ 0 of one substep: how fast they grow.
-    pub growth: Vec<f64>,
-    /// m_i, kg.
-    pub masses: Vec<f64>,
-}
 
 /// What line 27 did.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,5 @@
 //! What a scene's chemistry keeps per particle, and its part of a substep.
 
-use super::boiling::Coefficients;
 use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::surroundings::WallSum;
@@ -11,6 +10,17 @@ use crate::chemistry::transport::{Flux, Potential, flux};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 use glam::DVec3;
+
+/// What line 27 needs to know of each particle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficients {
+    /// μ_i ≥ 0 of one substep: how fast relative velocities go.
+    pub viscosity: Vec<f64>,
+    /// α_i ≥ 0 of one substep: how fast they grow.
+    pub growth: Vec<f64>,
+    /// m_i, kg.
+    pub masses: Vec<f64>,
+}
 
 /// What is modelled beyond a fluid with viscosity.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 //! In displacement form: λ has the unit m², and no mass or time appears. By
 //! x* ← x* + Σ_j (λ_i + λ_j)·V₀∇W_ij, λ/Δt² is −p/ρ.
 
-use super::algorithm::Reference;
 use super::neighbours::Neighbours;
+use super::state::Reference;
 use crate::kernel::Kernel;
 use glam::DVec3;
 

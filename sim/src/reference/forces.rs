@@ -1,8 +1,8 @@
 //! Internal forces (line 28): vorticity confinement (Macklin & Müller 2013),
 //! cohesion and adhesion (Akinci et al. 2013), as accelerations.
 
-use super::algorithm::Reference;
 use super::neighbours::Neighbours;
+use super::state::Reference;
 use crate::kernel::Kernel;
 use crate::surface_tension::cohesion_kernel;
 use glam::DVec3;

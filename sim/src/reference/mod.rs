@@ -20,6 +20,7 @@ pub mod neighbours;
 pub mod placement;
 mod reaction;
 mod scene;
+mod state;
 pub mod surroundings;
 mod viscosity;
 pub mod visibility;
@@ -27,5 +28,5 @@ pub mod visibility;
 #[cfg(test)]
 mod tests;
 
-pub use algorithm::Reference;
 pub use scene::ChemistryError;
+pub use state::Reference;

@@ -1,7 +1,7 @@
 //! Prediction, flask constraint and the new state (lines 15–17 and 22–25).
 
-use super::algorithm::Reference;
 use super::placement::Motion;
+use super::state::Reference;
 use super::surroundings::{Surroundings, Table};
 use crate::flask::project_from;
 use glam::DVec3;

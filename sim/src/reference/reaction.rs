@@ -1,9 +1,9 @@
 //! Lines 26 and 27 of a liquid with a chemistry.
 
-use super::algorithm::Reference;
 use super::chemistry::Chemistry;
 use super::dilution::Pairs;
 use super::neighbours::Neighbours;
+use super::state::Reference;
 use super::surroundings::WallSum;
 use crate::chemistry::transport::contact_area;
 use glam::DVec3;

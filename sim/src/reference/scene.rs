@@ -1,7 +1,7 @@
 //! The reference solver of a scene.
 
-use super::algorithm::Reference;
 use super::chemistry::{DilutionLaw, Paper};
+use super::state::Reference;
 use super::surroundings::{Surroundings, Table, Vessel};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::{Chemistry, OutOfRange};

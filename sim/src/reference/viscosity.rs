@@ -1,7 +1,7 @@
 //! XSPH viscosity (Eq. 16; line 27).
 
-use super::algorithm::Reference;
 use super::neighbours::Neighbours;
+use super::state::Reference;
 use glam::DVec3;
 
 impl Reference {

@@ -1,42 +1,10 @@
 //! What a scene models beyond incompressible flow, and with which numbers.
 
 use super::error::Problem;
-use super::settings::{SolverSettings, require};
+use super::feature::Feature;
+use super::fields::{Field, Must, NOT_NEGATIVE};
+use super::settings::SolverSettings;
 use serde::{Deserialize, Serialize};
-
-/// What a scene models beyond a fluid with viscosity. What is not named
-/// costs nothing.
-#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Feature {
-    /// Temperature and its diffusion.
-    Heat,
-    /// Acid fraction, its diffusion and the heat of solution.
-    Dilution,
-    /// Anti-viscosity above the boiling point.
-    Boiling,
-    /// Cohesion between particles and adhesion to glass.
-    Cohesion,
-    /// Vorticity confinement.
-    Vorticity,
-    /// Density by composition and temperature: water floats on acid.
-    Density,
-    /// Viscosity by composition and temperature.
-    Viscosity,
-    /// Water that evaporates above the boiling point of the composition.
-    Evaporation,
-    /// Vapour that leaves the liquid, rises and condenses.
-    Steam,
-    /// Heat lost through glass and at the free surface.
-    Losses,
-}
-
-impl Feature {
-    /// The name as scenes have it.
-    pub fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
-    }
-}
 
 /// Parameters of the paper's chemistry, Table 1 (its μ₀ is
 /// [`SolverSettings::viscosity`]). A scene has those that its features use.
@@ -97,40 +65,14 @@ pub(super) const ABSOLUTE_ZERO: f64 = -273.15;
 /// that of the azeotrope, 98.3 % of acid (Perry's handbook).
 pub(super) const HOTTEST_LIQUID: f64 = 340.0;
 
-/// A number of a table: its name, the feature that needs it, its value, and what it must be.
-pub(super) type Field = (&'static str, Feature, Option<f64>, Must);
-type Must = (fn(f64) -> bool, &'static str);
-
 const TEMPERATURE: Must = (
     |value| value > ABSOLUTE_ZERO,
     "a temperature above −273.15 (°C)",
 );
 const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
-const NOT_NEGATIVE: Must = (|value| value >= 0.0, "zero or more");
 const SHARE: Must = (|value| (0.0..=1.0).contains(&value), "between 0 and 1");
 const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
 const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
-
-/// Whether the numbers of `table` that are there are what they must be.
-pub(super) fn check_fields(table: &str, fields: &[Field]) -> Result<(), Problem> {
-    for &(name, _, value, (fits, must)) in fields {
-        if let Some(value) = value {
-            require(&format!("{table}.{name}"), value, fits(value), must)?;
-        }
-    }
-    Ok(())
-}
-
-impl SolverSettings {
-    pub(super) fn fields(&self) -> [Field; 3] {
-        use Feature::{Cohesion, Vorticity};
-        [
-            ("vorticity", Vorticity, self.vorticity, NOT_NEGATIVE),
-            ("cohesion", Cohesion, self.cohesion, NOT_NEGATIVE),
-            ("adhesion", Cohesion, self.adhesion, NOT_NEGATIVE),
-        ]
-    }
-}
 
 impl PaperChemistry {
     pub(super) fn fields(&self) -> [Field; 6] {

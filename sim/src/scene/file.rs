@@ -1,10 +1,11 @@
 //! A scene file as it stands, before flasks and liquids are made of it.
 
-use super::chemistry::{ABSOLUTE_ZERO, Feature, PaperChemistry, PhysicalChemistry};
+use super::chemistry::{ABSOLUTE_ZERO, PaperChemistry, PhysicalChemistry};
 use super::error::Problem;
+use super::feature::Feature;
+use super::fields::{require, within};
 use super::settings::{
-    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite, require,
-    within,
+    Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite,
 };
 use super::{Flask, Liquid};
 use crate::fill;

@@ -4,6 +4,8 @@
 mod builtin;
 mod chemistry;
 mod error;
+mod feature;
+mod fields;
 mod file;
 mod limits;
 mod overlap;
@@ -12,8 +14,9 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use chemistry::{Feature, PaperChemistry, PhysicalChemistry};
+pub use chemistry::{PaperChemistry, PhysicalChemistry};
 pub use error::SceneError;
+pub use feature::Feature;
 pub use settings::{
     Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale,
     SolverSettings, TableTop,
@@ -261,10 +264,10 @@ impl Scene {
         raw.scale.check()?;
         raw.solver.check()?;
         if let Some(paper) = &raw.paper {
-            chemistry::check_fields("paper", &paper.fields())?;
+            fields::check_fields("paper", &paper.fields())?;
         }
         if let Some(physical) = &raw.physical {
-            chemistry::check_fields("physical", &physical.fields())?;
+            fields::check_fields("physical", &physical.fields())?;
         }
         chemistry::check_features(
             &raw.model,

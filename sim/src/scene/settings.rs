@@ -1,9 +1,9 @@
 //! The parts of a scene that are plain numbers, as they stand in its file.
 
-use super::chemistry::check_fields;
 use super::error::Problem;
+use super::feature::Feature;
+use super::fields::{Field, NOT_NEGATIVE, check_fields, require, within};
 use serde::{Deserialize, Serialize};
-use std::ops::RangeInclusive;
 
 /// What decides whether the liquid stands up: PBF's stiffness at a given
 /// number of iterations is set by g·Δt_s²/d.
@@ -143,25 +143,6 @@ pub struct Floor {
     pub height: f64,
 }
 
-/// Refuses `value` unless it is finite and `ok`.
-pub(super) fn require(field: &str, value: f64, ok: bool, must: &str) -> Result<(), Problem> {
-    if value.is_finite() && ok {
-        Ok(())
-    } else {
-        Err(Problem::new(field, format!("{value} is not {must}")))
-    }
-}
-
-/// Refuses `value` outside of `range`.
-pub(super) fn within(
-    field: &str,
-    value: f64,
-    range: RangeInclusive<f64>,
-    must: &str,
-) -> Result<(), Problem> {
-    require(field, value, range.contains(&value), must)
-}
-
 /// Refuses lengths that are no numbers.
 pub(super) fn finite(field: &str, values: &[f64]) -> Result<(), Problem> {
     values
@@ -194,6 +175,15 @@ impl Scale {
 }
 
 impl SolverSettings {
+    pub(super) fn fields(&self) -> [Field; 3] {
+        use Feature::{Cohesion, Vorticity};
+        [
+            ("vorticity", Vorticity, self.vorticity, NOT_NEGATIVE),
+            ("cohesion", Cohesion, self.cohesion, NOT_NEGATIVE),
+            ("adhesion", Cohesion, self.adhesion, NOT_NEGATIVE),
+        ]
+    }
+
     pub(super) fn check(&self) -> Result<(), Problem> {
         for (field, value) in [("substeps", self.substeps), ("iterations", self.iterations)] {
             let field = format!("solver.{field}");

@@ -1,0 +1,41 @@
+//! Numbers of a scene's file, and what they must be.
+
+use super::error::Problem;
+use super::feature::Feature;
+use std::ops::RangeInclusive;
+
+/// A number of a table: its name, the feature that needs it, its value, and what it must be.
+pub(super) type Field = (&'static str, Feature, Option<f64>, Must);
+/// Whether it fits, and what it must be, in words.
+pub(super) type Must = (fn(f64) -> bool, &'static str);
+
+pub(super) const NOT_NEGATIVE: Must = (|value| value >= 0.0, "zero or more");
+
+/// Refuses `value` unless it is finite and `ok`.
+pub(super) fn require(field: &str, value: f64, ok: bool, must: &str) -> Result<(), Problem> {
+    if value.is_finite() && ok {
+        Ok(())
+    } else {
+        Err(Problem::new(field, format!("{value} is not {must}")))
+    }
+}
+
+/// Refuses `value` outside of `range`.
+pub(super) fn within(
+    field: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    must: &str,
+) -> Result<(), Problem> {
+    require(field, value, range.contains(&value), must)
+}
+
+/// Whether the numbers of `table` that are there are what they must be.
+pub(super) fn check_fields(table: &str, fields: &[Field]) -> Result<(), Problem> {
+    for &(name, _, value, (fits, must)) in fields {
+        if let Some(value) = value {
+            require(&format!("{table}.{name}"), value, fits(value), must)?;
+        }
+    }
+    Ok(())
+}
