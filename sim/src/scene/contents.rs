@@ -68,7 +68,7 @@ impl Flask {
             return Err(Problem::new("scale.spacing", problem));
         }
         let [columns, rows] = VolumeMap::size(&self.profile, scale.support());
-        if !(columns * rows <= MOST_NODES) {
+        if columns * rows > MOST_NODES {
             let problem = format!(
                 "{spacing} m is too small for flask {name:?}, {:.3e} m wide and {:.3e} m high with \
                  its wall: the table of its walls would have more than {MOST_NODES} nodes; take \
