@@ -321,7 +321,6 @@ impl Vessel {
             physical: Some(PhysicalChemistry {
                 ambient: Some(20.0),
                 mixing: Some(0.041),
-                lewis: Some(0.7),
                 superheat_time: Some(0.01),
                 ..PhysicalChemistry::default()
             }),

@@ -20,9 +20,8 @@
 //!include common/maths/compensated.wgsl
 //!include common/maths/decay.wgsl
 
-/// C_t: diffusivity of the eddies over h·|v_ij|; Le of their mixing.
+/// C_t: diffusivity of the eddies over h·|v_ij|.
 override MIXING: f32 = 0.0;
-override LEWIS: f32 = 1.0;
 /// Molecular diffusivities of acid and of heat, m²/s.
 override ACID_DIFFUSIVITY: f32 = 0.0;
 override THERMAL_DIFFUSIVITY: f32 = 0.0;
@@ -55,17 +54,36 @@ override AMBIENT: f32 = 20.0;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
 @group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
 
-/// What a pair exchanges of acid and of heat per difference, for `rates` = Δt·D (m²), where one
-/// particle holds `a` and the other `b`; and how many of the two were cut short. The kernel's part
-/// is `diffusion_weight`; with the two harmonic means it needs one division instead of three.
-fn conductances(rates: vec2<f32>, q: f32, a: vec2<f32>, b: vec2<f32>) -> vec3<f32> {
+/// What a pair exchanges in a substep.
+struct Rates {
+    /// Per difference of c and of h: liquid that eddies exchange, with its enthalpy, and acid by itself.
+    carried: f32,
+    /// Per difference of T: conducted heat, less what of it the acid's enthalpy has already.
+    conducted: f32,
+    /// Whether they were cut short.
+    cut: bool,
+}
+
+/// Those of a pair with eddies of the diffusivity `eddies` (m²/s), of which the other counts where
+/// `whole` is 1. The kernel's part is `diffusion_weight`; with the two harmonic means it needs one
+/// division instead of three.
+fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32) -> Rates {
+    let a = vec2<f32>(own.mass, own.mass * own.capacity);
+    let b = vec2<f32>(other.mass, other.mass * other.capacity) * whole;
     let sums = max(a + b, vec2<f32>(1e-12));
     let inverse = 1.0 / ((q * q + 0.01) * sums.x * sums.y);
     let weight = (4.0 / (SUPPORT * SUPPORT)) * weight_scale() * (-spline_slope(q) * q) * inverse;
-    let wanted = rates * (weight * (a * b)) * sums.yx;
+    // Of liquid and of its heat, per diffusivity.
+    let shares = (step.time * weight * (a * b)) * sums.yx;
+    let fastest = (eddies + max(ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY)) * shares;
     let most = min(a, b) * (1.0 / f32(LIST_CAPACITY));
-    let cut = select(vec2<f32>(0.0), vec2<f32>(1.0), wanted > most);
-    return vec3<f32>(min(wanted, most), cut.x + cut.y);
+    let cut = any(fastest > most);
+    var kept = 1.0;
+    // From all alike: else a cut mixture would leave its line.
+    if (cut) { kept = min(most.x / fastest.x, most.y / fastest.y); }
+    let brought = ACID_DIFFUSIVITY * shares.x * (0.5 * (own.capacity + other.capacity));
+    return Rates(
+        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
 }
 
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
@@ -113,11 +131,11 @@ fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> 
             let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
             let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
-            let rates = step.time * vec2<f32>(ACID_DIFFUSIVITY + eddies, THERMAL_DIFFUSIVITY + LEWIS * eddies);
-            let share = conductances(rates, q, own.capacities, other.capacities * whole);
-            let acid = share.x * (other.acid - own.acid);
-            let carried = acid * (0.5 * (own.enthalpy_slope + other.enthalpy_slope));
-            sums.flux += vec3<f32>(acid, carried + share.y * (other.temperature - own.temperature), share.z);
+            let rates = rates_of(eddies, q, own, other, whole);
+            let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
+                + rates.conducted * (other.temperature - own.temperature);
+            sums.flux += vec3<f32>(
+                rates.carried * (other.acid - own.acid), enthalpy, select(0.0, 1.0, rates.cut));
             if (LOSSES) { sums.open += offset * (per_distance * spline_slope(q)); }
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
@@ -136,7 +154,7 @@ fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> 
 
 /// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0.
 fn heat_from_around(own: Potential, glass: vec3<f32>, open: vec3<f32>) -> f32 {
-    let capacity = own.capacities.y;
+    let capacity = own.mass * own.capacity;
     let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(capacity, 1e-3);
     return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
 }

@@ -118,7 +118,6 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
     Some(Physical {
         mixing: Mixing {
             turbulence: physical.mixing?,
-            lewis: physical.lewis?,
         },
         density: scene.models(Feature::Density),
         viscosity: scene.models(Feature::Viscosity),

@@ -2,25 +2,20 @@
 
 use super::exchange::Exchange;
 use super::physical::Content;
-use super::table::SolutionTable;
+use super::table::{SolutionTable, steam_enthalpy};
 
 /// How liquids mix below the size of a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mixing {
-    /// C_t: diffusivity over h·|v_ij|.
+    /// C_t: the eddies' diffusivity over h·|v_ij|.
     pub turbulence: f64,
-    /// Le = D_T/D_c of that mixing, at most 1.
-    pub lewis: f64,
 }
 
 impl Default for Mixing {
     /// Smagorinsky's eddy viscosity (0.17·h)²·|S| (Lilly 1967) with
-    /// |S| = |v_ij|/h, over a turbulent Schmidt number of 0.7; Le = 0.7.
+    /// |S| = |v_ij|/h, over a turbulent Schmidt number of 0.7.
     fn default() -> Self {
-        Self {
-            turbulence: 0.041,
-            lewis: 0.7,
-        }
+        Self { turbulence: 0.041 }
     }
 }
 
@@ -30,18 +25,26 @@ pub const ACID_DIFFUSIVITY: f64 = 1.7e-9;
 /// Thermal diffusivity of water, m²/s (20 °C); 98 % acid has 1.3e-7.
 pub const THERMAL_DIFFUSIVITY: f64 = 1.4e-7;
 
+/// What carries acid and heat between two particles, m²/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diffusivities {
+    /// Eddies, which carry liquid: its acid and its enthalpy alike.
+    pub eddies: f64,
+    /// Molecular, of acid.
+    pub acid: f64,
+    /// Molecular, of heat.
+    pub heat: f64,
+}
+
 impl Mixing {
-    /// (D_T, D_c), m²/s, of a pair with the relative speed `speed` (m/s) for
-    /// the support radius `support` (m).
-    ///
-    /// Le ≤ 1 is that of the eddies alone, which carry both alike: in still
-    /// liquid heat is a hundred times faster than acid.
-    pub fn diffusivities(&self, support: f64, speed: f64) -> (f64, f64) {
-        let eddies = self.turbulence * support * speed;
-        (
-            THERMAL_DIFFUSIVITY + self.lewis * eddies,
-            ACID_DIFFUSIVITY + eddies,
-        )
+    /// Those of a pair with the relative speed `speed` (m/s) for the support
+    /// radius `support` (m).
+    pub fn diffusivities(&self, support: f64, speed: f64) -> Diffusivities {
+        Diffusivities {
+            eddies: self.turbulence * support * speed,
+            acid: ACID_DIFFUSIVITY,
+            heat: THERMAL_DIFFUSIVITY,
+        }
     }
 }
 
@@ -54,9 +57,9 @@ pub struct Potential {
     pub acid: f64,
     /// T, °C.
     pub temperature: f64,
-    /// ∂h/∂c at T, J/kg.
-    pub slope: f64,
-    /// Heat capacity of its liquid, J/K.
+    /// h of its liquid, without the vapour's, J/kg.
+    pub enthalpy: f64,
+    /// Specific heat capacity of its liquid at T, J/(kg K).
     pub capacity: f64,
 }
 
@@ -65,14 +68,19 @@ impl Potential {
     pub fn of(table: &SolutionTable, content: &Content) -> Self {
         let row = content.liquid_row(table);
         let temperature = row.temperature_with_steam(content.enthalpy, content.vapour);
-        let mass = content.liquid_mass();
+        let steam = content.vapour * steam_enthalpy(temperature);
         Self {
-            mass,
+            mass: content.liquid_mass(),
             acid: row.acid,
             temperature,
-            slope: row.slope_at(temperature),
-            capacity: mass * row.capacity_at(temperature),
+            enthalpy: (content.enthalpy - steam) / (1.0 - content.vapour),
+            capacity: row.capacity_at(temperature),
         }
+    }
+
+    /// Heat capacity of its liquid, J/K.
+    pub fn heat_capacity(&self) -> f64 {
+        self.mass * self.capacity
     }
 }
 
@@ -88,39 +96,49 @@ pub struct Flux {
 /// What i gets from j at `distance` (m) in a substep; j gets the opposite,
 /// bit for bit.
 ///
-/// Acid carries ∂h/∂c, the difference of the partial enthalpies of the two
-/// components, as the mean of both particles' own; so mixing neither makes
-/// nor loses enthalpy, and the heat of mixing appears as the temperature that
-/// the tables give to the same enthalpy at another composition. Masses and
-/// heat capacities enter by their harmonic mean. The limit of [`Exchange`]
-/// is taken on the smaller of the two, for which it is a share.
+/// Eddies carry liquid: with K·(c_j − c_i) of acid comes K·(h_j − h_i) of
+/// enthalpy, so a mixture stays on the straight line between what it was made
+/// of, and its heat of mixing is the temperature that the tables give there.
+/// Molecules carry acid and heat apart. Acid by itself brings the chord
+/// h(c_j, T̄) − h(c_i, T̄), which is (h_j − h_i) less ½(cp_i + cp_j)·(T_j − T_i),
+/// and heat is conducted by T. The mean of both particles' ∂h/∂c is not the
+/// chord: across a fresh contact of water and acid it is +540 kJ/kg for −26,
+/// at any resolution.
+///
+/// Masses and heat capacities enter by their harmonic mean. What the limit of
+/// [`Exchange`] cuts, it cuts from all three alike: else a cut mixture would
+/// leave its line.
 pub fn flux(
     exchange: &Exchange,
-    (temperature_diffusivity, acid_diffusivity): (f64, f64),
+    diffusivities: &Diffusivities,
     distance: f64,
     i: &Potential,
     j: &Potential,
 ) -> Flux {
-    let of_acid = conductance(exchange, acid_diffusivity, distance, i.mass, j.mass);
-    let of_heat = conductance(
-        exchange,
-        temperature_diffusivity,
-        distance,
-        i.capacity,
-        j.capacity,
-    );
-    let acid = of_acid * (j.acid - i.acid);
+    let Diffusivities { eddies, acid, heat } = *diffusivities;
+    let (i_heat, j_heat) = (i.heat_capacity(), j.heat_capacity());
+    let per_diffusivity = exchange.unlimited(1.0, distance);
+    let of_mass = per_diffusivity * harmonic(i.mass, j.mass);
+    let of_heat = per_diffusivity * harmonic(i_heat, j_heat);
+    // No share of what a particle holds, of liquid or of heat, is above 1/N.
+    let fastest = eddies + heat.max(acid);
+    let kept_of = |wanted: f64, least: f64| {
+        let most = exchange.limit() * least;
+        if wanted > most { most / wanted } else { 1.0 }
+    };
+    let kept = kept_of(fastest * of_mass, i.mass.min(j.mass))
+        .min(kept_of(fastest * of_heat, i_heat.min(j_heat)));
+    let carried = kept * (eddies + acid) * of_mass;
+    let conducted = kept * (heat * of_heat - acid * of_mass * 0.5 * (i.capacity + j.capacity));
     Flux {
-        acid,
-        enthalpy: acid * 0.5 * (i.slope + j.slope) + of_heat * (j.temperature - i.temperature),
+        acid: carried * (j.acid - i.acid),
+        enthalpy: carried * (j.enthalpy - i.enthalpy) + conducted * (j.temperature - i.temperature),
     }
 }
 
-/// A pair's share of what the two can hold, `a` and `b`.
-fn conductance(exchange: &Exchange, diffusivity: f64, distance: f64, a: f64, b: f64) -> f64 {
-    // a·b first: the same bits whichever of the two comes first.
-    let wanted = exchange.unlimited(diffusivity, distance) * (2.0 * (a * b) / (a + b));
-    wanted.min(exchange.limit() * a.min(b))
+/// Of a·b first: the same bits whichever of the two comes first.
+fn harmonic(a: f64, b: f64) -> f64 {
+    2.0 * (a * b) / (a + b)
 }
 
 /// Heat loss through a boundary at ambient temperature.
@@ -154,8 +172,9 @@ impl Losses {
     ///
     /// By the exponential of its own decay, so that no time is too long.
     pub fn gain(&self, particle: &Potential, glass: f64, surface: f64, time: f64) -> f64 {
-        let rate = (self.glass * glass + self.surface * surface) / particle.capacity;
-        particle.capacity * (particle.temperature - self.ambient) * (-rate * time).exp_m1()
+        let capacity = particle.heat_capacity();
+        let rate = (self.glass * glass + self.surface * surface) / capacity;
+        capacity * (particle.temperature - self.ambient) * (-rate * time).exp_m1()
     }
 }
 

@@ -229,7 +229,7 @@ impl Physical {
             let distance = pairs.distance(i, j);
             flux(
                 pairs.exchange,
-                diffusivities,
+                &diffusivities,
                 distance,
                 &potentials[i],
                 &potentials[j],

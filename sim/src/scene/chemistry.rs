@@ -40,11 +40,9 @@ pub struct PaperChemistry {
 pub struct PhysicalChemistry {
     /// Temperature of the surroundings, °C; with `heat`.
     pub ambient: Option<f64>,
-    /// Mixing by motion finer than a particle: the acid's diffusivity in
+    /// Mixing by motion finer than a particle: the eddies' diffusivity in
     /// units of h·|v_ij|; with `dilution`.
     pub mixing: Option<f64>,
-    /// Lewis number D_T/D_c of that mixing, at most 1; with `dilution`.
-    pub lewis: Option<f64>,
     /// Time in which a superheat decays by evaporation, s; with `evaporation`.
     pub superheat_time: Option<f64>,
     /// Speed at which bubbles rise through the liquid, m/s; with `steam`.
@@ -70,7 +68,6 @@ const TEMPERATURE: Must = (
     "a temperature above −273.15 (°C)",
 );
 const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
-const SHARE: Must = (|value| (0.0..=1.0).contains(&value), "between 0 and 1");
 const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
 const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
 
@@ -89,13 +86,12 @@ impl PaperChemistry {
 }
 
 impl PhysicalChemistry {
-    pub(super) fn fields(&self) -> [Field; 8] {
+    pub(super) fn fields(&self) -> [Field; 7] {
         use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Steam};
         let p = self;
         [
             ("ambient", Heat, p.ambient, TEMPERATURE),
             ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
-            ("lewis", Dilution, p.lewis, SHARE),
             ("superheat_time", Evaporation, p.superheat_time, DURATION),
             ("bubble_speed", Steam, p.bubble_speed, SPEED),
             ("agitation", Boiling, p.agitation, NOT_NEGATIVE),

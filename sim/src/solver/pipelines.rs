@@ -170,7 +170,6 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         ("DENSITY", flag(physical.density)),
         ("VISCOSITY", flag(physical.viscosity)),
         ("MIXING", physical.mixing.turbulence),
-        ("LEWIS", physical.mixing.lewis),
         ("ACID_DIFFUSIVITY", ACID_DIFFUSIVITY),
         ("THERMAL_DIFFUSIVITY", THERMAL_DIFFUSIVITY),
     ];

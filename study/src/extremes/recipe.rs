@@ -202,7 +202,7 @@ impl Recipe {
             ),
             Base::Physical => write!(
                 t,
-                "[physical]\nambient = 20.0\nmixing = {:?}\nlewis = 0.7\nsuperheat_time = 0.4\n\
+                "[physical]\nambient = 20.0\nmixing = {:?}\nsuperheat_time = 0.4\n\
                  bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
                 0.005 * self.k_v

@@ -35,23 +35,25 @@ struct Potential {
     temperature: f32,
     /// Of the liquid, without its vapour.
     acid: f32,
-    /// For acid and for heat: mass of the liquid (V0·ρ0) and its heat capacity (J/K per V0·ρ0). They
-    /// are only coefficients of the exchange, so 11 bits of each are enough; both sides of a pair
-    /// unpack the same ones.
-    capacities: vec2<f32>,
-    /// ∂h/∂c, J/kg.
-    enthalpy_slope: f32,
+    /// Mass of the liquid (V0·ρ0), and its specific heat capacity (J/(kg K)). They are only
+    /// coefficients of the exchange, so 11 bits of each are enough; both sides of a pair unpack the
+    /// same ones.
+    mass: f32,
+    capacity: f32,
+    /// h of the liquid, without the vapour's, J/kg.
+    enthalpy: f32,
 }
 
-/// Units of the packed capacities; `solver/matter.rs` has the second too.
-const CAPACITY_UNITS: vec2<f32> = vec2<f32>(1.0, 4000.0);
+/// Unit of the packed capacity, as in `solver/matter.rs`.
+const CAPACITY_UNIT: f32 = 4000.0;
 
 fn pack_potential(potential: Potential) -> vec4<f32> {
-    let capacities = bitcast<f32>(pack2x16float(potential.capacities / CAPACITY_UNITS));
-    return vec4<f32>(potential.temperature, potential.acid, capacities, potential.enthalpy_slope);
+    let held = vec2<f32>(potential.mass, potential.capacity / CAPACITY_UNIT);
+    return vec4<f32>(
+        potential.temperature, potential.acid, bitcast<f32>(pack2x16float(held)), potential.enthalpy);
 }
 
 fn unpack_potential(words: vec4<f32>) -> Potential {
-    let capacities = unpack2x16float(bitcast<u32>(words.z)) * CAPACITY_UNITS;
-    return Potential(words.x, words.y, capacities, words.w);
+    let held = unpack2x16float(bitcast<u32>(words.z));
+    return Potential(words.x, words.y, held.x, held.y * CAPACITY_UNIT, words.w);
 }

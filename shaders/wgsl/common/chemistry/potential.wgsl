@@ -6,7 +6,8 @@
 fn potential_of(content: Content) -> Potential {
     let row = row_at(liquid_acid(content.acid, content.vapour));
     let temperature = temperature_with_steam(row, content.enthalpy, content.vapour);
-    let liquid = content.mass * (1.0 - content.vapour);
-    let capacities = vec2<f32>(liquid, liquid * capacity_at(row, temperature));
-    return Potential(temperature, row.acid, capacities, slope_at(row, temperature));
+    let steam = content.vapour * steam_enthalpy(temperature);
+    return Potential(
+        temperature, row.acid, content.mass * (1.0 - content.vapour), capacity_at(row, temperature),
+        (content.enthalpy - steam) / (1.0 - content.vapour));
 }

@@ -38,17 +38,13 @@ fn the_physical_chemistrys_numbers_arrive() {
     // No two alike.
     physical.ambient = Some(1.0);
     physical.mixing = Some(2.0);
-    physical.lewis = Some(0.3);
     physical.superheat_time = Some(4.0);
     physical.bubble_speed = Some(5.0);
     physical.agitation = Some(6.0);
     physical.glass_loss = Some(7.0);
     physical.surface_loss = Some(8.0);
     let all = Physical {
-        mixing: Mixing {
-            turbulence: 2.0,
-            lewis: 0.3,
-        },
+        mixing: Mixing { turbulence: 2.0 },
         density: true,
         viscosity: true,
         superheat_time: Some(4.0),

@@ -137,8 +137,8 @@ proptest! {
             let mut gained = contents[i].mass * contents[i].acid;
             for j in 0..points.len() {
                 let apart = distance(points[i].0, points[j].0);
-                let got = flux(&exchange, d, apart, &potentials[i], &potentials[j]);
-                let back = flux(&exchange, d, apart, &potentials[j], &potentials[i]);
+                let got = flux(&exchange, &d, apart, &potentials[i], &potentials[j]);
+                let back = flux(&exchange, &d, apart, &potentials[j], &potentials[i]);
                 prop_assert_eq!((got.acid, got.enthalpy), (-back.acid, -back.enthalpy));
                 gained += got.acid;
                 acid += got.acid;
@@ -204,7 +204,8 @@ fn uniform_liquid_exchanges_nothing() {
     let table = SolutionTable::new();
     let content = Content::liquid(&table, 0.125, 0.3, 80.0).unwrap();
     let potential = Potential::of(&table, &content);
-    let got = flux(&exchange, (1.0, 1.0), 0.05, &potential, &potential);
+    let d = Mixing::default().diffusivities(0.1, 1.0);
+    let got = flux(&exchange, &d, 0.05, &potential, &potential);
     // Exactly: else a scene at rest would not stay as it is.
     assert_eq!((got.acid, got.enthalpy), (0.0, 0.0));
     assert_eq!(thomsen::secant(0.3, 0.3) - thomsen::secant(0.3, 0.3), 0.0);
@@ -221,7 +222,7 @@ fn losses_stop_at_ambient() {
         let content = Content::liquid(&table, 1.6e-5, 0.5, temperature).unwrap();
         let hot = Potential::of(&table, &content);
         let at_once = losses.gain(&hot, 6e-6, 6e-6, 1e9);
-        let all = hot.capacity * (20.0 - temperature);
+        let all = hot.heat_capacity() * (20.0 - temperature);
         assert!(
             (at_once - all).abs() <= 1e-9 * all.abs() + 1e-12,
             "{temperature}"

@@ -7,6 +7,7 @@ mod chaos;
 mod contact;
 mod dilution;
 mod mixing;
+mod mixing_line;
 mod passes;
 mod rest;
 mod walls;

@@ -93,8 +93,8 @@ fn malformed_scenes_name_file_field_and_remedy() {
         ),
         (
             "[floor]",
-            "[physical]\nlewis = 1.43\n[floor]",
-            &["physical.lewis", "between 0 and 1"],
+            "[physical]\nlewis = 0.7\n[floor]",
+            &["unknown field `lewis`", "`mixing`"],
         ),
         (
             "[floor]",

@@ -5,6 +5,7 @@ mod conserved;
 mod extremes;
 mod figures;
 mod idle;
+mod mixing_line;
 mod paper;
 mod physical;
 mod repeat;

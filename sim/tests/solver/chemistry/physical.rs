@@ -197,10 +197,7 @@ fn the_order_of_pouring_does_not_matter() {
     let table = SolutionTable::new();
     // Mixing by eddies as fast as pairs may: the end is what is asked for.
     let law = Physical {
-        mixing: Mixing {
-            turbulence: 10.0,
-            lewis: 0.7,
-        },
+        mixing: Mixing { turbulence: 10.0 },
         density: true,
         ..mixing_alone()
     };
