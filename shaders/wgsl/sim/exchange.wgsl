@@ -61,7 +61,7 @@ struct Rates {
     /// Per difference of T: conducted heat, less what of it the acid's enthalpy has already.
     conducted: f32,
     /// Whether they were cut short.
-    cut: bool,
+    cut: f32,
 }
 
 /// Those of a pair with eddies of the diffusivity `eddies` (m²/s), of which the other counts where
@@ -77,10 +77,10 @@ fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32) -
     let shares = (step.time * weight * (a * b)) * sums.yx;
     let fastest = (eddies + max(ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY)) * shares;
     let most = min(a, b) * (1.0 / f32(LIST_CAPACITY));
-    let cut = any(fastest > most);
+    let cut = select(0.0, 1.0, any(fastest > most));
     var kept = 1.0;
     // From all alike: else a cut mixture would leave its line.
-    if (cut) { kept = min(most.x / fastest.x, most.y / fastest.y); }
+    if (cut > 0.0) { kept = min(most.x / fastest.x, most.y / fastest.y); }
     let brought = ACID_DIFFUSIVITY * shares.x * (0.5 * (own.capacity + other.capacity));
     return Rates(
         kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
@@ -135,7 +135,7 @@ fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> 
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             sums.flux += vec3<f32>(
-                rates.carried * (other.acid - own.acid), enthalpy, select(0.0, 1.0, rates.cut));
+                rates.carried * (other.acid - own.acid), enthalpy, rates.cut);
             if (LOSSES) { sums.open += offset * (per_distance * spline_slope(q)); }
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
