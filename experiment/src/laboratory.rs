@@ -44,7 +44,7 @@ pub struct Setup<'a> {
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
-    /// The shaders; where it watches a folder, what changes there is taken up
+    /// The shaders; where it watches a folder, what changes there is reloaded
     /// between two steps.
     pub shaders: Arc<Library>,
 }
@@ -157,7 +157,7 @@ impl Laboratory {
         let names = names.join(", ");
         match self.rebuild(&changed) {
             Ok(()) => tracing::warn!(
-                "taken up: {names}; the report's command line no longer gives this run"
+                "reloaded: {names}; the report's command line no longer gives this run"
             ),
             Err(failure) => tracing::warn!("the old {names} stay in use: {failure}"),
         }

@@ -206,14 +206,9 @@ pub enum GpuError {
     /// A result was asked for before the device had it.
     #[error("the submission is not finished; wait for its ticket first")]
     NotDone,
-    /// The device lacks an optional feature that was used.
-    #[error("this device has no {feature}; {remedy}")]
-    Unsupported {
-        /// The feature.
-        feature: &'static str,
-        /// What to do instead.
-        remedy: &'static str,
-    },
+    /// Source and destination of a copy are one buffer.
+    #[error("buffer \"{0}\" is copied to itself; copy through a second buffer")]
+    CopyToItself(String),
 }
 
 impl GpuError {

@@ -48,7 +48,6 @@ pub fn count_sites(profile: &Profile, d: f64) -> usize {
 
 /// Calls `found` with each site and the number of its layer.
 fn visit(profile: &Profile, d: f64, mut found: impl FnMut(usize, DVec3)) {
-    let reach = (profile.outer_radius() / d).ceil() as i64;
     let gap = 0.5 * d * (1.0 - 1e-9);
     let lowest = profile.floor_height() + 0.5 * d;
     let layers = ((profile.rim_height() - lowest - gap) / d).floor();
@@ -57,12 +56,9 @@ fn visit(profile: &Profile, d: f64, mut found: impl FnMut(usize, DVec3)) {
         // No wall within the gap is nearer to the axis: what is clear of this needs no
         // distance to be found, which is most sites of a wide vessel.
         let narrowest = profile.narrowest(y - gap, y + gap);
-        let widest = profile.inner_radius(y);
+        let reach = (profile.inner_radius(y) / d).ceil() as i64;
         for i in -reach..=reach {
             let x = i as f64 * d;
-            if x.abs() > widest {
-                continue;
-            }
             for k in -reach..=reach {
                 let z = k as f64 * d;
                 let r = x.hypot(z);

@@ -23,27 +23,23 @@ pub fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// What `work` gives, and how long this thread stood still in it: asleep, or waiting for another
-/// thread, a program or a disk. That it waited for a processor which others had does not count, so
-/// that a limit on it holds on a busy machine too.
+/// What `work` gives, and how long it took but for the time in which this thread waited for a
+/// processor that others had: a limit on it holds on a busy machine too.
 ///
-/// Elsewhere than on Linux, all the time that passed.
-pub fn standing<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let (begun, before) = (Instant::now(), busy());
+/// Where the system does not tell that wait, all the time that passed.
+pub fn own_time<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let (begun, before) = (Instant::now(), queued());
     let done = work();
-    let busy = busy().saturating_sub(before);
-    (done, begun.elapsed().saturating_sub(busy))
+    let queued = queued().saturating_sub(before);
+    (done, begun.elapsed().saturating_sub(queued))
 }
 
-/// Time that this thread has run or waited for a processor, where the system says.
-fn busy() -> Duration {
-    if cfg!(not(target_os = "linux")) {
-        return Duration::ZERO;
-    }
-    // Both in ns, and how often it ran (Linux, Documentation/scheduler/sched-stats.rst).
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").expect("schedstat");
-    let times = told.split_whitespace().take(2);
-    times
-        .map(|time| Duration::from_nanos(time.parse().expect("a time")))
-        .sum()
+/// Time for which this thread has waited for a processor.
+fn queued() -> Duration {
+    // Time run and time waited, ns, and how often it ran (Linux, Documentation/scheduler/sched-stats.rst).
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat");
+    let waited = told
+        .ok()
+        .and_then(|told| told.split_whitespace().nth(1)?.parse().ok());
+    Duration::from_nanos(waited.unwrap_or_default())
 }

@@ -9,6 +9,6 @@ mod mirror;
 mod pace;
 mod panel;
 mod pour;
-mod recorder;
+mod recording;
 mod rules;
 mod switches;

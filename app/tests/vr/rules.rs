@@ -124,7 +124,7 @@ fn nothing_waits_for_the_device_within_a_frame() {
     let gpu = gpu::device();
     let folder = tempfile::tempdir().unwrap();
     let (sender, decisions) = channel();
-    // A bench is built and taken up on the way.
+    // A bench is built and moved to on the way.
     let mut headset = Strict::new(&gpu, 60, Starts(sender));
     let (_, track) = session(&mut headset, folder.path(), decisions);
     let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);

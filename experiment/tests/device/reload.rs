@@ -130,11 +130,11 @@ fn a_running_replay_takes_up_what_is_sound() {
     );
     let said = messages.take();
     assert!(
-        said.contains("taken up: render/spheres/light.wgsl"),
+        said.contains("reloaded: render/spheres/light.wgsl"),
         "{said}"
     );
 
-    // Broken: the one that was taken up stays, and the message has the line.
+    // Broken: the one that was reloaded stays, and the message has the line.
     folder.edit("render/spheres/light.wgsl", "5.0 *", "5.0 * nonsense *");
     let still = step(laboratory.as_mut());
     assert!(red(&still) > 250, "{}", red(&still));

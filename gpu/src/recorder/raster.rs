@@ -48,6 +48,13 @@ impl Recorder {
                 target.label()
             )));
         }
+        if target.desc().layers != 1 {
+            return Err(refuse(format!(
+                "image \"{}\" has {} layers; draw to an image of one",
+                target.label(),
+                target.desc().layers
+            )));
+        }
         let storage = &mut *self.storage;
         storage.clear_pass();
         let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;

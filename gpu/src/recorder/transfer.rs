@@ -99,7 +99,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`GpuError::OutOfRange`] past either end or unaligned;
-    /// [`GpuError::Unsupported`] within one buffer.
+    /// [`GpuError::CopyToItself`] within one buffer.
     pub fn copy(
         &mut self,
         from: &Buffer,
@@ -107,10 +107,7 @@ impl Recorder {
         regions: &[CopyRegion],
     ) -> Result<(), GpuError> {
         if from.is(to) {
-            return Err(GpuError::Unsupported {
-                feature: "copy within one buffer",
-                remedy: "copy through a second buffer",
-            });
+            return Err(GpuError::CopyToItself(from.label().to_owned()));
         }
         let mut pieces = Vec::with_capacity(regions.len());
         for region in regions.iter().filter(|region| region.bytes > 0) {

@@ -89,6 +89,42 @@ fn later_draws_blend_over_earlier_ones() {
     assert_silent(&gpu);
 }
 
+/// As a panel is drawn: one scope, and for each draw buffers and constants of its own.
+#[test]
+fn draws_of_a_scope_have_their_own_buffers_and_constants() {
+    let gpu = open();
+    let target = image(&gpu, "colour", ATTACHMENT);
+    let shifted = QUAD
+        .replace("struct Out", "var<immediate> shift: vec4<f32>;\nstruct Out")
+        .replace(
+            "vec4<f32>(x, y, 0.5, 1.0)",
+            "vec4<f32>(x, y, 0.5, 1.0) + shift",
+        );
+    let [vertex, fragment] = ["place", "paint"].map(|entry| compile_entry(&shifted, entry));
+    let paint = RasterPipeline::new(&gpu, &vertex, &fragment, COLOUR).unwrap();
+    // Each covers the upper left quarter, from where its constants move it.
+    let quarter = [-1.0, -1.0, 0.0, 0.0];
+    let (red, of_red) = quads(&gpu, &[(quarter, RED)]);
+    let (green, of_green) = quads(&gpu, &[(ALL, GREEN), (quarter, GREEN)]);
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.raster("two", &target, BLACK, |r| {
+        let right: [f32; 4] = [1.0, 0.0, 0.0, 0.0];
+        let draw = r.draw(&paint).read("quads", &red).constants(&right);
+        draw.indexed(&of_red, 6)?;
+        let down: [f32; 4] = [-1.0, 1.0, 0.0, 0.0];
+        let draw = r.draw(&paint).read("quads", &green).constants(&down);
+        draw.indexed(&of_green, 6)
+    })
+    .unwrap();
+    let picture = rec.read_back_image(&target).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    let (red, green, black) = ([255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 0, 255]);
+    let corners = [(4, 4), (12, 4), (4, 12), (12, 12)].map(|(x, y)| texel(&picture, x, y));
+    // Green's first six indices are of the quad that covers all, which its constants move down and left.
+    assert_eq!(corners, [black, red, green, black]);
+    assert_silent(&gpu);
+}
+
 #[test]
 fn a_picture_is_sampled_and_stored_by_compute() {
     let gpu = open();
@@ -171,6 +207,16 @@ fn targets_and_pipelines_that_do_not_fit_are_refused() {
         .unwrap_err()
         .to_string();
     assert!(error.contains("was not made for"), "{error}");
+    let two = ImageDesc {
+        layers: 2,
+        ..*target.desc()
+    };
+    let two = Image::new(&gpu, "two", two).unwrap();
+    let error = rec
+        .raster("scope", &two, RED, |_| Ok(()))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("\"two\" has 2 layers"), "{error}");
     let error = rec
         .raster("scope", &target, RED, |r| {
             r.draw(&half).read("quads", &list).indexed(&indices, 6)

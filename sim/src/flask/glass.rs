@@ -134,6 +134,7 @@ mod tests {
     #[test]
     fn holds_what_its_name_says() {
         let nominal_ml = [250.0, 400.0, 600.0, 100.0, 250.0, 250.0, 2000.0];
+        assert_eq!(GLASSWARE.len(), nominal_ml.len());
         for (glass, nominal) in GLASSWARE.iter().zip(nominal_ml) {
             let capacity = glass.profile(1.0).unwrap().capacity() * 1e6;
             // To the brim a vessel holds its nominal volume and up to 40 %

@@ -41,6 +41,15 @@ pub struct MapSample {
     pub volume_dy: f64,
 }
 
+/// Nodes `spacing` apart (metres) in r and in y that reach h beyond the vessel.
+fn nodes(profile: &Profile, support: f64, spacing: f64) -> [f64; 2] {
+    let size = [
+        profile.outer_radius() + support,
+        profile.rim_height() + 2.0 * support,
+    ];
+    size.map(|length| (length / spacing).ceil() + 1.0)
+}
+
 /// Table of [`MapSample`]s over (r, y) in the flask's frame, from the axis
 /// and h below the base to h outside of the vessel.
 #[derive(Clone, Debug)]
@@ -64,13 +73,17 @@ impl VolumeMap {
         Self::refined(profile, side, support, 1)
     }
 
+    /// Nodes in r and in y that a table for this support radius (metres) takes; infinite where
+    /// the profile's size is.
+    pub fn size(profile: &Profile, support: f64) -> [f64; 2] {
+        nodes(profile, support, support / NODES_PER_SUPPORT)
+    }
+
     /// The same with nodes `refinement` times as close: what a test takes to
     /// tell the law from its interpolation.
     pub(crate) fn refined(profile: &Profile, side: Side, support: f64, refinement: u32) -> Self {
         let spacing = support / (NODES_PER_SUPPORT * f64::from(refinement));
-        let count = |length: f64| (length / spacing).ceil() as usize + 1;
-        let columns = count(profile.outer_radius() + support);
-        let rows = count(profile.rim_height() + 2.0 * support);
+        let [columns, rows] = nodes(profile, support, spacing).map(|count| count as usize);
         let base = -support;
         let integral = Integral::new(profile, side, support);
         let node = |index: usize| {

@@ -1,13 +1,14 @@
 //! A scene file as it stands, before flasks and liquids are made of it.
 
 use super::chemistry::{ABSOLUTE_ZERO, PaperChemistry, PhysicalChemistry};
+use super::contents::{Flask, Liquid};
 use super::error::Problem;
 use super::feature::Feature;
 use super::fields::{require, within};
+use super::preset::Preset;
 use super::settings::{
     Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite,
 };
-use super::{Flask, Liquid};
 use crate::fill;
 use crate::flask::{Profile, glass};
 use crate::pose::Pose;
@@ -37,7 +38,7 @@ pub(super) struct SceneFile {
     #[serde(default)]
     pub picture: PictureSettings,
     #[serde(default)]
-    pub preset: BTreeMap<super::Preset, PresetOverrides>,
+    pub preset: BTreeMap<Preset, PresetOverrides>,
 }
 
 #[derive(Deserialize)]
@@ -108,7 +109,7 @@ impl FlaskEntry {
         }
         let [yaw, pitch, roll] = self.rotation.map(f64::to_radians);
         let orientation = DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll);
-        Ok(Flask {
+        let flask = Flask {
             mass: profile.glass_volume() * density,
             name: self.name,
             profile,
@@ -117,7 +118,9 @@ impl FlaskEntry {
                 orientation.as_quat(),
             ),
             fixed: self.fixed,
-        })
+        };
+        flask.check_size(scale)?;
+        Ok(flask)
     }
 }
 
@@ -181,11 +184,6 @@ impl LiquidEntry {
                 let must = "between 0 and 1 (1: to the brim)";
                 within(&field("fraction"), fraction, 0.0..=1.0, must)?;
                 let profile = &flasks[flask].profile;
-                if fill::count_for_volume(profile.capacity(), scale.spacing) > super::MOST_SITES {
-                    let problem =
-                        "of a vessel that holds too many particles; take a larger spacing";
-                    return Err(Problem::new(field("fraction"), problem));
-                }
                 let fitting = fill::count_sites(profile, scale.spacing);
                 (fraction * fitting as f64).floor() * scale.spacing.powi(3)
             }

@@ -3,105 +3,35 @@
 
 mod builtin;
 mod chemistry;
+mod contents;
 mod error;
 mod feature;
 mod fields;
 mod file;
 mod limits;
 mod overlap;
+mod preset;
 mod settings;
 
 #[cfg(test)]
 mod tests;
 
 pub use chemistry::{PaperChemistry, PhysicalChemistry};
+pub use contents::{Flask, Liquid, StartParticle};
 pub use error::SceneError;
 pub use feature::Feature;
+pub use preset::Preset;
 pub use settings::{
     Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale,
     SolverSettings, TableTop,
 };
 
 use crate::fill::{self, FillError};
-use crate::flask::Profile;
 use crate::flask::particles::{self, BoundaryParticle};
-use crate::pose::Pose;
 use error::Problem;
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
-
-/// How much accuracy is bought: substeps, iterations and particle number.
-#[derive(Clone, Copy, Debug, Deserialize, Eq, Ord, PartialEq, PartialOrd, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Preset {
-    /// Cheapest.
-    Fast,
-    /// What the user holds in the headset.
-    Balanced,
-    /// Most accurate.
-    Reference,
-}
-
-impl Preset {
-    /// All of them, the cheapest first.
-    pub const ALL: [Self; 3] = [Self::Fast, Self::Balanced, Self::Reference];
-
-    /// The name as it is given and reported.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fast => "fast",
-            Self::Balanced => "balanced",
-            Self::Reference => "reference",
-        }
-    }
-}
-
-/// A vessel of a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Flask {
-    /// Name that liquids and tracks refer to.
-    pub name: String,
-    /// Its shape, metres of the scene.
-    pub profile: Profile,
-    /// Mass of the empty vessel, kg.
-    pub mass: f64,
-    /// Where it stands at the start.
-    pub stage_from_flask: Pose,
-    /// Clamped to a stand.
-    pub fixed: bool,
-}
-
-/// A liquid in a flask at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Liquid {
-    /// Index of its flask.
-    pub flask: usize,
-    /// Volume, m³ of the scene.
-    pub volume: f64,
-    /// Temperature, °C.
-    pub temperature: f64,
-    /// Mass of acid over mass of liquid.
-    pub acid_fraction: f64,
-}
-
-/// A fluid particle at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartParticle {
-    /// Position in the stage, metres.
-    pub position: DVec3,
-    /// Index of the flask it is in.
-    pub flask: usize,
-    /// Temperature, °C.
-    pub temperature: f64,
-    /// Acid fraction.
-    pub acid_fraction: f64,
-}
-
-/// Most particles that a flask may hold when it is full: what a device's
-/// buffers hold, and the lattice is walked in seconds.
-const MOST_SITES: usize = 50_000_000;
 
 /// A scene, validated.
 #[derive(Clone, Debug, PartialEq)]
@@ -365,14 +295,7 @@ impl Scene {
             let spacing = self.scale.spacing;
             let volume: f64 = of().map(|liquid| liquid.volume).sum();
             let capacity = flask.profile.capacity();
-            if fill::count_for_volume(capacity, spacing) > MOST_SITES {
-                let problem = format!(
-                    "{spacing} m puts more than {MOST_SITES} particles into a full flask \
-                     ({:?}); take a larger spacing",
-                    flask.name
-                );
-                return Err(Problem::new("scale.spacing", problem));
-            }
+            flask.check_size(&self.scale)?;
             // Before the lattice is walked: a volume that is absurd must not
             // cost memory.
             let sites = if volume > capacity {

@@ -1,6 +1,6 @@
 //! Finds flasks that stand in each other.
 
-use super::Flask;
+use super::contents::Flask;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

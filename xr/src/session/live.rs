@@ -11,7 +11,7 @@ use super::mask::Mask;
 use super::options::OpenXrOptions;
 use super::provider::Runtime;
 use super::stage::Stage;
-use super::system::{self, Headset};
+use super::system::{self, ConnectedHeadset};
 use crate::{HeadsetError, SessionState, Targets};
 
 /// The display rate that is asked for where the runtime offers a choice, Hz: the time of a step
@@ -61,7 +61,7 @@ impl Live {
     /// Everything from the instance on, or nothing.
     pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, CallFailure> {
         let instance = system::instance(entry)?;
-        let Headset {
+        let ConnectedHeadset {
             system,
             extent,
             blend,

@@ -7,8 +7,8 @@ use crate::{HeadsetError, probe};
 
 pub(super) const STEREO: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
 
-/// A headset that is connected.
-pub(super) struct Headset {
+/// What the runtime says of the headset that is connected.
+pub(super) struct ConnectedHeadset {
     pub system: xr::SystemId,
     /// Recommended size of each eye's picture, pixels.
     pub extent: [u32; 2],
@@ -47,7 +47,7 @@ pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, CallFailure> {
 }
 
 /// The headset of the instance's runtime.
-pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, CallFailure> {
+pub(super) fn headset(instance: &xr::Instance) -> Result<ConnectedHeadset, CallFailure> {
     let system = instance
         .system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)
         .map_err(|answer| match answer {
@@ -104,7 +104,7 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<Headset, CallFailure> {
         true => opaque,
         false => modes.first().copied().unwrap_or(opaque),
     };
-    Ok(Headset {
+    Ok(ConnectedHeadset {
         system,
         extent,
         blend,

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use vitriol_gpu::Buffer;
 use vitriol_tests::monado::{self, Controller, Rig};
-use vitriol_tests::wait::{PATIENCE, standing};
+use vitriol_tests::wait::{PATIENCE, own_time};
 use vitriol_xr::{Headset, HeadsetFrame, Shown, Side, Turn};
 
 use crate::client::Client;
@@ -62,9 +62,9 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
     client.assert_silent();
     // Nothing is there yet, and each turn says so soon.
     for _ in 0..10 {
-        let (turn, stood) = standing(|| client.xr.next().unwrap());
+        let (turn, took) = own_time(|| client.xr.next().unwrap());
         assert!(matches!(turn, Turn::Lost { .. }));
-        assert!(stood < Duration::from_secs(2), "it stood for {stood:?}");
+        assert!(took < Duration::from_secs(2), "it took {took:?}");
     }
     rig.start();
     let (_, others) = client.frame();

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use vitriol::vr::record::{Sink, TrackRecording};
-use vitriol_tests::wait::standing;
+use vitriol_tests::wait::own_time;
 use vitriol_xr::track::TrackError;
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
 
@@ -88,12 +88,12 @@ fn a_full_queue_delays_nobody_and_is_counted() {
     // The first is taken off the queue, and waits for the disk.
     recording.push(&frame(0, None), Vec::new());
     hold.asked.recv().unwrap();
-    let ((), stood) = standing(|| {
+    let ((), took) = own_time(|| {
         for step in 1..20 {
             recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
         }
     });
-    assert!(stood < Duration::from_secs(1), "it stood for {stood:?}");
+    assert!(took < Duration::from_secs(1), "it took {took:?}");
     let state = recording.state();
     assert_eq!((state.steps, state.unwritten), (0, 15));
     assert!(state.cause.unwrap().contains("did not keep up"));

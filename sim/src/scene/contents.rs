@@ -1,0 +1,83 @@
+//! What a scene holds: flasks, their liquids, and the particles that these become.
+
+use super::error::Problem;
+use super::settings::Scale;
+use crate::fill;
+use crate::flask::{Profile, VolumeMap};
+use crate::pose::Pose;
+use glam::DVec3;
+
+/// Most particles that a flask may hold when it is full: what a device's
+/// buffers hold, and the lattice is walked in seconds.
+const MOST_SITES: usize = 50_000_000;
+
+/// Most nodes of a flask's table of distances and boundary volumes, 16 bytes each: eight
+/// times what a cube of [`MOST_SITES`] takes.
+const MOST_NODES: f64 = 5e6;
+
+/// A vessel of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flask {
+    /// Name that liquids and tracks refer to.
+    pub name: String,
+    /// Its shape, metres of the scene.
+    pub profile: Profile,
+    /// Mass of the empty vessel, kg.
+    pub mass: f64,
+    /// Where it stands at the start.
+    pub stage_from_flask: Pose,
+    /// Clamped to a stand.
+    pub fixed: bool,
+}
+
+/// A liquid in a flask at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Liquid {
+    /// Index of its flask.
+    pub flask: usize,
+    /// Volume, m³ of the scene.
+    pub volume: f64,
+    /// Temperature, °C.
+    pub temperature: f64,
+    /// Mass of acid over mass of liquid.
+    pub acid_fraction: f64,
+}
+
+/// A fluid particle at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartParticle {
+    /// Position in the stage, metres.
+    pub position: DVec3,
+    /// Index of the flask it is in.
+    pub flask: usize,
+    /// Temperature, °C.
+    pub temperature: f64,
+    /// Acid fraction.
+    pub acid_fraction: f64,
+}
+
+impl Flask {
+    /// Whether buffers hold a full flask and its table at the scale's spacing.
+    pub(super) fn check_size(&self, scale: &Scale) -> Result<(), Problem> {
+        let (name, spacing) = (&self.name, scale.spacing);
+        if fill::count_for_volume(self.profile.capacity(), spacing) > MOST_SITES {
+            let problem = format!(
+                "{spacing} m puts more than {MOST_SITES} particles into a full flask ({name:?}); \
+                 take a larger spacing"
+            );
+            return Err(Problem::new("scale.spacing", problem));
+        }
+        let [columns, rows] = VolumeMap::size(&self.profile, scale.support());
+        if columns * rows > MOST_NODES {
+            let problem = format!(
+                "{spacing} m is too small for flask {name:?}, {:.3e} m wide and {:.3e} m high with \
+                 its wall: the table of its walls would have more than {MOST_NODES} nodes; take \
+                 a smaller flask, a thinner wall or a larger spacing",
+                2.0 * self.profile.outer_radius(),
+                self.profile.rim_height()
+            );
+            return Err(Problem::new("scale.spacing", problem));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,206 @@
+//! Scenes with a mistake, and what is said of it.
+
+use super::GOOD;
+use crate::scene::Scene;
+
+fn broken(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from} is not in the good scene");
+    Scene::parse(GOOD, "good.toml").unwrap();
+    let error = Scene::parse(&GOOD.replacen(from, to, 1), "bad.toml").unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn malformed_scenes_name_file_field_and_remedy() {
+    let cases = [
+        (
+            "spacing = 0.005\n",
+            "spacing = 0.00005\n",
+            &["scale.spacing", "larger spacing"][..],
+        ),
+        (
+            "spacing = 0.005\n",
+            "",
+            &["missing field `spacing`", "line 5"][..],
+        ),
+        (
+            "gravity",
+            "gravitas",
+            &["unknown field `gravitas`", "`gravity`", "line 9"],
+        ),
+        ("0.005", "nan", &["scale.spacing", "NaN", "above zero"]),
+        (
+            "0.005",
+            "-0.005",
+            &["scale.spacing", "-0.005", "above zero"],
+        ),
+        ("0.005", "\"wide\"", &["invalid type", "line 6"]),
+        ("omega = 0.5", "omega = 3.0", &["solver.omega", "below 2"]),
+        (
+            "substeps = 3",
+            "substeps = 1",
+            &["solver.substeps", "leap out", "take 2 or more"],
+        ),
+        (
+            "viscosity = 0.1",
+            "viscosity = 1.5",
+            &["solver.viscosity", "between 0 and 1"],
+        ),
+        (
+            "frame_time = 0.01",
+            "frame_time = 5.0",
+            &["scale.frame_time", "at most 0.1"],
+        ),
+        (
+            "support_ratio = 2.0",
+            "support_ratio = 1.2",
+            &["scale.support_ratio", "between 1.5 and 3"],
+        ),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[10000.0, 0.5, 0.0]",
+            &["flask[1].position", "`origin`"],
+        ),
+        (
+            "model = []",
+            "model = []\norigin = [0.0, inf, 0.0]",
+            &["origin", "inf"],
+        ),
+        (
+            "temperature = 20.0\nacid_fraction = 0.0\n",
+            "temperature = 400.0\nacid_fraction = 0.0\n[physical]\n",
+            &["liquid[0].temperature", "no mixture"],
+        ),
+        (
+            "substeps = 3",
+            "substeps = 0",
+            &["solver.substeps", "between 1"],
+        ),
+        (
+            "\"map\"",
+            "\"mop\"",
+            &["unknown variant `mop`", "`map`", "`particles`"],
+        ),
+        (
+            "model = []",
+            "model = [\"boiling\"]",
+            &["paper", "missing", "boiling", "[physical]"],
+        ),
+        (
+            "[floor]",
+            "[paper]\nT_a = 20.0\n[physical]\nambient = 20.0\n[floor]",
+            &["physical", "keep one chemistry"],
+        ),
+        (
+            "[floor]",
+            "[physical]\nlewis = 1.43\n[floor]",
+            &["physical.lewis", "between 0 and 1"],
+        ),
+        (
+            "[floor]",
+            "[paper]\nT_B = 0.0\n[floor]",
+            &["paper.T_B", "above 0"],
+        ),
+        (
+            "[floor]",
+            "[physical]\nambient = 20.0\n[floor]",
+            &["physical.ambient", "not used", "heat"],
+        ),
+        (
+            "viscosity = 0.1",
+            "viscosity = 0.1\nvorticity = 1.0",
+            &["solver.vorticity", "model"],
+        ),
+        (
+            "beaker-250",
+            "bucket",
+            &["flask[0].profile", "bucket", "beaker-250"],
+        ),
+        (
+            "[0.08, 0.03]",
+            "[0.08, 0.001]",
+            &["flask[1].points", "narrower than a particle"],
+        ),
+        (
+            "[0.08, 0.03]",
+            "[0.0, 0.03]",
+            &["flask[1].points", "list the points from the floor up"],
+        ),
+        ("[0.08, 0.03]", "[0.08, nan]", &["flask[1].points", "NaN"]),
+        (
+            "wall = 0.002",
+            "wall = -1.0",
+            &["flask[1].wall", "above zero"],
+        ),
+        ("wall = 0.002\n", "", &["flask[1].wall", "missing"]),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[0.06, 0.5, 0.0]",
+            &["flask[1].position", "overlaps", "move them apart"],
+        ),
+        (
+            "[0.2, 0.5, 0.0]",
+            "[inf, 0.5, 0.0]",
+            &["flask[1].position", "inf"],
+        ),
+        (
+            "name = \"b\"",
+            "name = \"a\"",
+            &["flask[1].name", "give another"],
+        ),
+        (
+            "flask = \"a\"",
+            "flask = \"c\"",
+            &["liquid[0].flask", "no flask is named", "a, b"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "volume_ml = 400.0",
+            &["liquid", "fit below the rim"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "volume_ml = 1e30",
+            &["liquid", "fit below the rim"],
+        ),
+        (
+            "volume_ml = 100.0",
+            "",
+            &["liquid[0].volume_ml", "exactly one"],
+        ),
+        (
+            "acid_fraction = 0.0",
+            "acid_fraction = 1.5",
+            &["liquid[0].acid_fraction", "between 0 and 1"],
+        ),
+        (
+            "[floor]",
+            "[preset.quick]\n[floor]",
+            &["unknown variant `quick`", "`fast`"],
+        ),
+        (
+            "[floor]",
+            "[preset.fast]\nspacing = 0.1\n[floor]",
+            &["preset.fast.spacing", "narrower"],
+        ),
+    ];
+    for (from, to, parts) in cases {
+        let message = broken(from, to);
+        assert!(message.starts_with("bad.toml: "), "{message}");
+        for part in parts {
+            assert!(
+                message.contains(part),
+                "{to:?}: {part:?} is not in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn missing_file_is_named_with_the_builtin_scenes() {
+    let message = Scene::load("nowhere.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("nowhere.toml") && message.contains("two-flasks"),
+        "{message}"
+    );
+}
