@@ -2,6 +2,7 @@
 // substep to those after it; line 27's coefficient (Eq. 17) follows from the temperature that comes of it. The
 // second half, the heat of solution, needs the neighbours' changes, and waits for the pass of lines 27 and 28.
 //!include common/chemistry/boiling.wgsl
+//!include common/chemistry/compensated.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/mixing.wgsl
@@ -13,7 +14,6 @@
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
-//!include common/maths/compensated.wgsl
 
 /// D_T and D_c, m²/s.
 override HEAT_DIFFUSION: f32 = 0.0;

@@ -7,6 +7,7 @@
 // 28: internal forces. Then line 24 once more, since they may pass v_max.
 // 16: within a frame, the next substep's prediction, which saves a pass.
 //!include common/chemistry/bulk.wgsl
+//!include common/chemistry/compensated.wgsl
 //!include common/chemistry/ledger.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/pair_share.wgsl
@@ -21,7 +22,6 @@
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/velocity.wgsl
-//!include common/maths/compensated.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;
