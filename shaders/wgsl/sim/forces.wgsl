@@ -101,7 +101,7 @@ fn xsph_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
     return share;
 }
 
-/// Line 27, of the physical chemistry: the share that boiling adds.
+/// Line 27, of the physical chemistry: the share of its relative velocity that boiling adds to a pair.
 fn anti_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
     return whole * weight * (0.5 * (own.growth + other.growth));
 }

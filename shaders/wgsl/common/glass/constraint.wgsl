@@ -101,7 +101,7 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     return Constrained(slid, NOBODYS, true);
 }
 
-/// Lines 23: keeps a particle on its side of every wall. `before` is where it
+/// Line 23: keeps a particle on its side of every wall. `before` is where it
 /// was under the poses from `before_first` on, `after` where it is predicted
 /// under those from `after_first` on (stage frame).
 fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first: u32, after_first: u32) -> Constrained {
