@@ -6,6 +6,7 @@
 // energy into a resting column.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/heat.wgsl
 //!include common/glass/constraint.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
@@ -148,7 +149,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tag = tags[i];
     let multiplied = multiplier[i];
     var finite = is_finite(x_star) && is_finite(vec3<f32>(multiplied));
-    if (HEAT) { finite = finite && is_finite(heat[i].xyz); }
+    if (HEAT) { finite = finite && is_finite(tested_in(heat[i])); }
     if (tag.x == REMOVED) {
         new_velocity[i] = vec4<f32>(0.0);
     } else if (!finite) {

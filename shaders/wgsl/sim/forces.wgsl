@@ -49,7 +49,6 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(3) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(4) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
-/// (ω, |ω|), 1/s.
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
 /// (T, c) after diffusion.
 @group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
@@ -142,7 +141,7 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
             }
             if (DILUTION) { sums.warmed += whole * heat_of_solution(own, other, q); }
             if (CONFINEMENT > 0.0) {
-                sums.eta += offset * ((vorticity[j].w - omega.w) / distance * spline_slope(q));
+                sums.eta += offset * ((magnitude_in(vorticity[j]) - magnitude_in(omega)) / distance * spline_slope(q));
             }
             if (COHESION > 0.0) { sums.attraction -= offset * (cohesion(q) / distance); }
         }
@@ -158,9 +157,9 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
 
 /// Line 26's end, of the paper's chemistry.
 fn warm(i: u32, own: Mixing, sums: Sums) {
-    let after = diffused[i];
-    let warmed = PaperHeat(after.x + HEATING * sums.warmed, after.y, 0.5 * sums.agitation, own.acid_lacking);
-    heat[i] = pack_paper_heat(warmed);
+    let temperature = diffused[i].x + HEATING * sums.warmed;
+    let acid = diffused[i].y;
+    heat[i] = pack_paper_heat(PaperHeat(temperature, acid, 0.5 * sums.agitation, own.acid_lacking));
 }
 
 /// Line 26's end, of the physical chemistry: kinetic energy is paid for, and the state follows from what the

@@ -40,8 +40,8 @@ fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> Contact {
     if (membership == NOBODYS) {
         // Table and floor stand still.
         let above = heights(x);
-        sum.drag -= (half_space(above.x).x + half_space(above.y).x) * v;
-        if (PULL) { sum.pull.y -= half_space_pull(above.x) + half_space_pull(above.y); }
+        sum.drag -= (half_space(above.table).volume + half_space(above.floor).volume) * v;
+        if (PULL) { sum.pull.y -= half_space_pull(above.table) + half_space_pull(above.floor); }
     }
     return sum;
 }

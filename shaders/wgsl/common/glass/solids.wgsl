@@ -43,13 +43,14 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
     var wall = Wall(vec3<f32>(0.0), 0.0, vec3<f32>(0.0));
     for (var n = begin + lane; n < end; n += LANES) {
         let solid = solids[n];
+        let volume = solid.w;
         let offset = p - solid.xyz;
         let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
         let per_distance = inverseSqrt(square);
         let q = square * per_distance * INVERSE_SUPPORT;
-        wall.volume += solid.w * spline(q);
-        wall.gradient += offset * (solid.w * per_distance * spline_slope(q) / SUPPORT);
-        if (PULL) { wall.pull -= offset * (solid.w * per_distance * adhesion(q)); }
+        wall.volume += volume * spline(q);
+        wall.gradient += offset * (volume * per_distance * spline_slope(q) / SUPPORT);
+        if (PULL) { wall.pull -= offset * (volume * per_distance * adhesion(q)); }
     }
     return wall;
 }
