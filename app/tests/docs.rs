@@ -9,7 +9,7 @@ use clap::CommandFactory;
 use vitriol::cli::Cli;
 use vitriol_sim::scene::Scene;
 
-/// Words that README and the pages in `docs` may have together; those of measurements are not counted.
+/// Words that README and the pages in `docs` may have; CONTRIBUTING, CHANGELOG and `docs/measurements` are not counted.
 const MOST_WORDS: usize = 9000;
 
 fn root() -> PathBuf {
@@ -162,6 +162,35 @@ fn functions_of_the_papers_map_are_in_their_files() {
     }
     assert!(missing.is_empty(), "{missing:#?}");
     assert!(names > 20, "{names} names were found");
+}
+
+/// A shader's function that the map names for a line of Algorithm 1 begins its comment with that line.
+#[test]
+fn functions_of_algorithm_1_name_their_lines() {
+    let map = fs::read_to_string(root().join("docs/paper-map.md")).unwrap();
+    let table = map.split("| Algorithm 1 |").nth(1).unwrap();
+    let rows = table.lines().take_while(|line| !line.is_empty());
+    let (mut names, mut without) = (0, Vec::new());
+    for cell in rows.filter_map(|row| row.split('|').nth(2)) {
+        let mut shader = None;
+        for span in code(cell.trim()) {
+            if is_path(&span) {
+                shader = Some(span).filter(|path| path.ends_with(".wgsl"));
+            } else if let Some(shader) = &shader {
+                let path = root().join("shaders/wgsl").join(shader);
+                let text = fs::read_to_string(path).unwrap();
+                let before = text.split(&format!("fn {span}(")).next().unwrap();
+                let above = before.lines().rev();
+                let comment = above.take_while(|line| line.starts_with("///")).last();
+                if !comment.is_some_and(|line| line.starts_with("/// Line")) {
+                    without.push(format!("{shader}: {span}"));
+                }
+                names += 1;
+            }
+        }
+    }
+    assert!(without.is_empty(), "{without:#?}");
+    assert!(names > 15, "{names} names were found");
 }
 
 /// The last part of a name of code.

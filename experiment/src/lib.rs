@@ -1,5 +1,5 @@
 //! The experiment: a scene on a device, driven by poses, and what is kept of it.
-//! The room below program and study; it knows no command line.
+//! Below program and study: it parses no command line.
 
 mod camera;
 mod clock;

@@ -2,6 +2,7 @@
 // substep to those after it; line 27's coefficient (Eq. 17) follows from the temperature that comes of it. The
 // second half, the heat of solution, needs the neighbours' changes, and waits for the pass of lines 27 and 28.
 //!include common/chemistry/boiling.wgsl
+//!include common/chemistry/compensated.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/mixing.wgsl
@@ -13,7 +14,6 @@
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
-//!include common/maths/compensated.wgsl
 
 /// D_T and D_c, m²/s.
 override HEAT_DIFFUSION: f32 = 0.0;
@@ -33,14 +33,15 @@ override AMBIENT: f32 = 20.0;
 
 /// What diffusion brings a particle.
 struct Diffusion {
-    /// Of T (°C) and c.
-    change: vec2<f32>,
+    /// Of T (°C) and of c.
+    temperature: f32,
+    acid: f32,
     /// Pairs that were cut short.
     limited: f32,
 }
 
 /// Line 26, Eq. 5; for lane 0, but all lanes must ask.
-fn diffuse(i: u32, lane: u32, own: vec2<f32>) -> Diffusion {
+fn diffuse(i: u32, lane: u32, own: PaperHeat) -> Diffusion {
     var sum: Diffusion;
     let x = position[i].xyz;
     let full = full_from(atomicLoad(&counters.list_overflows));
@@ -52,15 +53,16 @@ fn diffuse(i: u32, lane: u32, own: vec2<f32>) -> Diffusion {
             let j = four[n];
             let offset = x - position[j].xyz;
             let weight = diffusion_weight(sqrt(dot(offset, offset)) * INVERSE_SUPPORT);
-            let apart = heat[j].xy - own;
-            let share = vec2<f32>(pair_share(step.time * HEAT_DIFFUSION, weight),
-                                  pair_share(step.time * ACID_DIFFUSION, weight))
-                * has_whole_list(j, i, full);
-            sum.change += apart * share;
-            sum.limited += select(0.0, 1.0, max(share.x, share.y) >= 1.0 / f32(LIST_CAPACITY));
+            let whole = has_whole_list(j, i, full);
+            let heat_share = pair_share(step.time * HEAT_DIFFUSION, weight) * whole;
+            let acid_share = pair_share(step.time * ACID_DIFFUSION, weight) * whole;
+            let other = heat[j];
+            sum.temperature += (temperature_in(other) - own.temperature) * heat_share;
+            sum.acid += (acid_in(other) - own.acid) * acid_share;
+            sum.limited += select(0.0, 1.0, max(heat_share, acid_share) >= 1.0 / f32(LIST_CAPACITY));
         }
     }
-    return Diffusion(vec2<f32>(lane_sum(sum.change.x), lane_sum(sum.change.y)), lane_sum(sum.limited));
+    return Diffusion(lane_sum(sum.temperature), lane_sum(sum.acid), lane_sum(sum.limited));
 }
 
 @compute @workgroup_size(64)
@@ -70,10 +72,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     let own = unpack_paper_heat(heat[i]);
     var diffusion: Diffusion;
-    if (DILUTION) { diffusion = diffuse(i, lane, vec2<f32>(own.temperature, own.acid)); }
+    if (DILUTION) { diffusion = diffuse(i, lane, own); }
     if (lane != 0u) { return; }
-    let acid = compensated(Compensated(own.acid, own.acid_lacking), diffusion.change.y);
-    var temperature = own.temperature + diffusion.change.x;
+    let acid = compensated(Compensated(own.acid, own.acid_lacking), diffusion.acid);
+    var temperature = own.temperature + diffusion.temperature;
     var mixed: Mixing;
     mixed.acid_before = own.acid;
     mixed.acid_lacking = acid.lacking;

@@ -1,11 +1,12 @@
-// Line 19, second half, and line 20: Δx from the multipliers' changes. In the
-// last iteration lines 23 to 25 too: flask constraint, velocity, position.
+// Line 19, second half, and line 20: Δx from the multipliers' changes, and x*. In
+// the last iteration lines 23 to 25 too: flask constraint, velocity, position.
 //
 // The wall's gradient counts once, not mirrored as in Akinci et al. 2012: the
 // single form is the gradient of the constraint, and the mirrored one pumps
 // energy into a resting column.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/heat.wgsl
 //!include common/glass/constraint.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
@@ -41,7 +42,7 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read> bulk: array<vec4<f32>>;
 
-/// Lines 19 and 20: Σ (dλ_i + dλ_j) ∇W over the neighbours, but for the kernel's scale.
+/// Line 19: Σ (dλ_i + dλ_j) ∇W over the neighbours, but for the kernel's scale.
 fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
@@ -59,6 +60,30 @@ fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
         }
     }
     return lane_sum3(sum);
+}
+
+/// Δx, m, by what gives it.
+struct Displacement {
+    neighbours: vec3<f32>,
+    wall: vec3<f32>,
+}
+
+/// Line 19: Δx by the constraints' gradients at a particle; `sum` is that of its neighbours.
+fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>) -> Displacement {
+    var delta = Displacement(sum * (weight_scale() / SUPPORT), change_in(own) * wall_gradient(boundary[i]));
+    if (DENSITY) {
+        // The same pressure moves what is light further: water rises in acid.
+        let lightness = unpack_bulk(bulk[i]).lightness;
+        delta.neighbours *= lightness;
+        delta.wall *= lightness;
+    }
+    return delta;
+}
+
+/// Line 20: x* + ωΔx; ω lies in the multipliers already (`Relaxation`).
+fn displace(i: u32, x_star: vec3<f32>, delta: Displacement) -> vec3<f32> {
+    if (LOADS) { wall_push[i] += vec4<f32>(delta.wall, 0.0); }
+    return x_star + delta.neighbours + delta.wall;
 }
 
 /// x* no further from where the list was built than it serves.
@@ -114,16 +139,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = solved[i];
     let sum = sum_gradients(i, lane, own); // 19
     if (lane != 0u) { return; }
-    var wall = change_in(own) * wall_gradient(boundary[i]);
-    var pressed = sum * (weight_scale() / SUPPORT);
-    if (DENSITY) {
-        // The same pressure moves what is light further: water rises in acid.
-        let lightness = unpack_bulk(bulk[i]).lightness;
-        wall *= lightness;
-        pressed *= lightness;
-    }
-    let x_star = own.xyz + pressed + wall; // 20
-    if (LOADS) { wall_push[i] += vec4<f32>(wall, 0.0); }
+    let x_star = displace(i, own.xyz, displacement(i, own, sum)); // 19 and 20
     if (!COMMIT) {
         var volume = 1.0;
         if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
@@ -133,7 +149,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tag = tags[i];
     let multiplied = multiplier[i];
     var finite = is_finite(x_star) && is_finite(vec3<f32>(multiplied));
-    if (HEAT) { finite = finite && is_finite(heat[i].xyz); }
+    if (HEAT) { finite = finite && is_finite(tested_in(heat[i])); }
     if (tag.x == REMOVED) {
         new_velocity[i] = vec4<f32>(0.0);
     } else if (!finite) {

@@ -3,6 +3,7 @@
 // motion. `chemistry/transport.rs` and `chemistry/physical.rs` are the same in f64.
 //!include common/chemistry/boiling.wgsl
 //!include common/chemistry/bulk.wgsl
+//!include common/chemistry/compensated.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/ledger.wgsl
@@ -17,7 +18,6 @@
 //!include common/liquid/particle.wgsl
 //!include common/liquid/position.wgsl
 //!include common/liquid/step.wgsl
-//!include common/maths/compensated.wgsl
 //!include common/maths/decay.wgsl
 
 /// C_t: diffusivity of the eddies over h·|v_ij|.

@@ -7,6 +7,7 @@
 // 28: internal forces. Then line 24 once more, since they may pass v_max.
 // 16: within a frame, the next substep's prediction, which saves a pass.
 //!include common/chemistry/bulk.wgsl
+//!include common/chemistry/compensated.wgsl
 //!include common/chemistry/ledger.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/pair_share.wgsl
@@ -21,7 +22,6 @@
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/velocity.wgsl
-//!include common/maths/compensated.wgsl
 
 /// Whether the next substep is predicted here.
 override PREDICT: bool = false;
@@ -49,7 +49,6 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(3) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(4) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
-/// (ω, |ω|), 1/s.
 @group(0) @binding(6) var<storage, read> vorticity: array<vec4<f32>>;
 /// (T, c) after diffusion.
 @group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
@@ -101,7 +100,7 @@ fn xsph_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
     return share;
 }
 
-/// Line 27, of the physical chemistry: the share that boiling adds.
+/// Line 27, of the physical chemistry: the share of its relative velocity that boiling adds to a pair.
 fn anti_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
     return whole * weight * (0.5 * (own.growth + other.growth));
 }
@@ -142,7 +141,7 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
             }
             if (DILUTION) { sums.warmed += whole * heat_of_solution(own, other, q); }
             if (CONFINEMENT > 0.0) {
-                sums.eta += offset * ((vorticity[j].w - omega.w) / distance * spline_slope(q));
+                sums.eta += offset * ((magnitude_in(vorticity[j]) - magnitude_in(omega)) / distance * spline_slope(q));
             }
             if (COHESION > 0.0) { sums.attraction -= offset * (cohesion(q) / distance); }
         }
@@ -158,9 +157,9 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
 
 /// Line 26's end, of the paper's chemistry.
 fn warm(i: u32, own: Mixing, sums: Sums) {
-    let after = diffused[i];
-    let warmed = PaperHeat(after.x + HEATING * sums.warmed, after.y, 0.5 * sums.agitation, own.acid_lacking);
-    heat[i] = pack_paper_heat(warmed);
+    let temperature = diffused[i].x + HEATING * sums.warmed;
+    let acid = diffused[i].y;
+    heat[i] = pack_paper_heat(PaperHeat(temperature, acid, 0.5 * sums.agitation, own.acid_lacking));
 }
 
 /// Line 26's end, of the physical chemistry: kinetic energy is paid for, and the state follows from what the

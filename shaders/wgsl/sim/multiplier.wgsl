@@ -1,5 +1,5 @@
-// Line 19, first half: density at x* (Eq. 1), the constraint (Eq. 2) and this
-// iteration's change of the Lagrange multiplier.
+// Line 19, first half: density at x* (Eq. 1), the constraint (Eq. 2) and the
+// Lagrange multiplier λ.
 //
 // The inequality of Eq. 2 is kept by the accumulated multiplier (λ ≤ 0), not
 // by each iteration's own: an iteration may take back what an earlier one
@@ -62,6 +62,28 @@ fn density_constraint(sum: f32, volume: f32, wall: f32) -> f32 {
     return (sum + volume * spline(0.0)) * weight_scale() + wall - 1.0;
 }
 
+/// Line 19: λ after this iteration, for C at x*, and its change.
+fn update_multiplier(i: u32, x: vec3<f32>, constraint: f32) {
+    var before = 0.0;
+    var momentum = 0.0;
+    if (FIRST) {
+        if (CARRY) { before = multiplier[i]; }
+    } else {
+        before = multiplier[i];
+        momentum = step.momentum * change_in(solved[i]);
+    }
+    let after = min(before - step.residual * constraint + momentum, 0.0);
+    multiplier[i] = after;
+    solved[i] = pack_solved(x, after - before);
+}
+
+/// Before the first line 19: λ is what the substep before left.
+fn apply_carried(i: u32, x: vec3<f32>) {
+    let carried = carried_by(velocity[i]) * step.time * step.time;
+    multiplier[i] = carried;
+    solved[i] = pack_solved(x, carried);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
@@ -90,21 +112,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     boundary[i] = wall;
     if (APPLY_CARRIED) {
-        let carried = carried_by(velocity[i]) * step.time * step.time;
-        multiplier[i] = carried;
-        solved[i] = pack_solved(x, carried);
+        apply_carried(i, x);
         return;
     }
-    let constraint = density_constraint(sum, volume_in(own), wall_volume(wall));
-    var before = 0.0;
-    var momentum = 0.0;
-    if (FIRST) {
-        if (CARRY) { before = multiplier[i]; }
-    } else {
-        before = multiplier[i];
-        momentum = step.momentum * change_in(solved[i]);
-    }
-    let after = min(before - step.residual * constraint + momentum, 0.0);
-    multiplier[i] = after;
-    solved[i] = pack_solved(x, after - before);
+    update_multiplier(i, x, density_constraint(sum, volume_in(own), wall_volume(wall)));
 }

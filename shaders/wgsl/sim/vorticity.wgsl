@@ -3,12 +3,12 @@
 // needs the neighbours' ω.
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
+//!include common/liquid/vorticity.wgsl
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> new_velocity: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
-/// (ω, |ω|), 1/s.
 @group(0) @binding(4) var<storage, read_write> vorticity: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
@@ -32,5 +32,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     let omega = lane_sum3(sum) * (weight_scale() / SUPPORT);
-    if (lane == 0u) { vorticity[i] = vec4<f32>(omega, length(omega)); }
+    if (lane == 0u) { vorticity[i] = pack_vorticity(omega); }
 }

@@ -13,6 +13,9 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 /// Threads of the load pass's workgroups.
 pub(super) const LOAD_GROUP: u32 = 256;
 
+/// How many of [`Buffers::all`] grow with the number of particles.
+pub(super) const OF_PARTICLES: usize = 28;
+
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
     4 * 8 * (u64::from(substeps) + 1) * flasks
@@ -138,33 +141,9 @@ impl Buffers {
         })
     }
 
-    /// All that passes bind; a buffer's label is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> Vec<&'a Buffer> {
-        let mut all = self.of_particles().to_vec();
-        all.extend([
-            &self.counters,
-            &self.cell_counts,
-            &self.cell_starts,
-            &self.block_sums,
-            &self.list_args,
-            &self.solution,
-            &self.poses,
-            &self.loads,
-            &vessels.flasks,
-            &vessels.radii,
-            &vessels.maps,
-            &vessels.distances,
-            &vessels.plane,
-            &vessels.pulls,
-            &vessels.solids.cells,
-            &vessels.solids.starts,
-            &vessels.solids.solids,
-        ]);
-        all
-    }
-
-    /// Those that grow with the number of particles.
-    fn of_particles(&self) -> [&Buffer; 28] {
+    /// All that passes bind, those first that grow with the number of particles; a buffer's label
+    /// is the name that shaders give it.
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 17] {
         [
             &self.position,
             &self.velocity,
@@ -194,11 +173,23 @@ impl Buffers {
             &self.sorted_bulk,
             &self.wall_push,
             &self.density,
+            &self.counters,
+            &self.cell_counts,
+            &self.cell_starts,
+            &self.block_sums,
+            &self.list_args,
+            &self.solution,
+            &self.poses,
+            &self.loads,
+            &vessels.flasks,
+            &vessels.radii,
+            &vessels.maps,
+            &vessels.distances,
+            &vessels.plane,
+            &vessels.pulls,
+            &vessels.solids.cells,
+            &vessels.solids.starts,
+            &vessels.solids.solids,
         ]
-    }
-
-    pub(super) fn bytes_per_particle(&self, count: u32) -> u64 {
-        let bytes: u64 = self.of_particles().iter().map(|b| b.bytes()).sum();
-        bytes / u64::from(count.max(1))
     }
 }

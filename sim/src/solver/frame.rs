@@ -1,5 +1,4 @@
-//! The simulation loop, Algorithm 1, as passes. A pass and its shader in `sim/` bear one name, and it binds what
-//! the shader declares; in the shader each line of the algorithm is a function that names it.
+//! The simulation loop, Algorithm 1, as passes in its order. `docs/paper-map.md` has each line's shader and function.
 
 use super::buffers::LOAD_GROUP;
 use super::pipelines::SolverPass;

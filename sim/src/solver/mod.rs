@@ -182,7 +182,10 @@ impl Solver {
 
     /// Bytes of device memory that a particle takes.
     pub fn bytes_per_particle(&self) -> u64 {
-        self.buffers.bytes_per_particle(self.count)
+        let all = self.buffers.all(&self.vessels);
+        let of_particles = all.iter().take(buffers::OF_PARTICLES);
+        let bytes: u64 = of_particles.map(|buffer| buffer.bytes()).sum();
+        bytes / u64::from(self.count.max(1))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
 use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
 use crate::parameters::Parameters;
 use crate::surface_tension::PULL_SAMPLES;
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, Pass, Recorder};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 
 /// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
@@ -285,13 +285,20 @@ impl Constants {
                 "sorted_velocity" => "new_velocity",
                 name => name,
             };
-            let place = buffers.iter().position(|buffer| buffer.label() == label)?;
+            let place = buffers.iter().position(|buffer| buffer.label() == label);
+            let place = place.ok_or_else(|| GpuError::Binding {
+                pass: compiled.label.clone(),
+                binding: binding.name.clone(),
+                cause: "the solver has no buffer of this name; add it in solver/buffers.rs or name another"
+                    .to_owned(),
+            })?;
             let writable = binding.kind == BindingKind::Storage { writable: true };
-            Some((binding.name.clone(), place, writable))
+            Ok((binding.name.clone(), place, writable))
         };
+        let bindings: Result<_, GpuError> = compiled.bindings.iter().map(place_of).collect();
         Ok(SolverPass {
+            bindings: bindings?,
             pipeline: ComputePipeline::new(gpu, &compiled)?,
-            bindings: compiled.bindings.iter().filter_map(place_of).collect(),
         })
     }
 }

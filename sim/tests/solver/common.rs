@@ -10,7 +10,7 @@ use vitriol_sim::flask::Profile;
 use vitriol_sim::flask::particles::BoundaryParticle;
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Ground, Particle, Solver, SolverSpec, SolverState};
+use vitriol_sim::solver::{Ground, Particle, Solver, SolverError, SolverSpec, SolverState};
 pub use vitriol_tests::random::Random;
 
 /// Spacing of real glass, metres.
@@ -125,6 +125,10 @@ impl Setup {
     }
 
     pub fn solver(&self, gpu: &Gpu) -> Solver {
+        self.solver_of(gpu, &Library::watching()).unwrap()
+    }
+
+    pub fn solver_of(&self, gpu: &Gpu, shaders: &Library) -> Result<Solver, SolverError> {
         let spec = SolverSpec {
             parameters: self.parameters.clone(),
             flasks: &self.flasks,
@@ -135,7 +139,7 @@ impl Setup {
             constraint: true,
             lanes: self.lanes,
         };
-        Solver::new(gpu, &Library::watching(), &spec).unwrap()
+        Solver::new(gpu, shaders, &spec)
     }
 }
 

@@ -1,10 +1,11 @@
 //! A scene pays for what it names, and for nothing else.
 
 use crate::common::*;
-use vitriol_gpu::{QueueKind, Timestamps};
+use vitriol_gpu::{GpuError, QueueKind, Timestamps};
 use vitriol_shaders::{Library, ShaderId, sim};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::SolverError;
 use vitriol_tests::gpu;
 
 pub const PASSES: [ShaderId; 13] = [
@@ -93,6 +94,22 @@ fn shaders_bind_what_the_scene_has() {
     assert_eq!(any.iter().find(|name| looks_at(name)), None, "{idle:?}");
     let carried = bindings(sim::MULTIPLIER, &[("FIRST", 1.0)]);
     assert!(!carried.contains(&"velocity".to_owned()), "{carried:?}");
+}
+
+#[test]
+fn a_buffer_that_the_solver_lacks_is_named() {
+    let library = Library::watching();
+    let renamed = |shader: ShaderId| {
+        let text = library.source(&shader).unwrap();
+        (shader.path(), text.replace("list_origin", "elsewhere"))
+    };
+    let setup = Setup::new(parameters(), Vec::new(), Vec::new());
+    let shaders = Library::from_sources(PASSES.map(renamed));
+    let made = setup.solver_of(&gpu::device(), &shaders);
+    let Err(SolverError::Gpu(GpuError::Binding { pass, binding, .. })) = made else {
+        panic!("{:?}", made.err());
+    };
+    assert_eq!((&*pass, &*binding), ("sim/predict:main", "elsewhere"));
 }
 
 /// Labels of the passes of one frame, in their order.

@@ -50,30 +50,32 @@ impl Session {
         // 4. What the hands feel.
         self.vibrate(headset)?;
         let shown = if frame.should_render {
+            // 5. The panel, and which button of it a hand points at.
             self.show_panel();
-            // 5. The images, and the liquid's ellipsoids behind the steps.
+            // 6. The images, and the liquid's ellipsoids behind the steps.
             let (targets, shapes) = self.acquire(headset)?;
-            // 6. The eyes, as late as can be, and the picture for them.
+            // 7. The eyes, as late as can be, and the picture for them.
             Some(self.locate_and_draw(headset, &targets, shapes)?)
         } else {
             // Times are of frames that are shown.
             self.steps.submitted();
             None
         };
-        // 7. The frame's end, with what is shown.
+        // 8. The frame's end, with what is shown.
         let no_frame = NoFrameOpen::by_ending(headset, shown.as_ref())?;
-        // 8. The mirror's part, behind the picture, and what may wait for the device.
+        // 9. The mirror's part, behind the picture, and what may wait for the device.
         if let (Some(mirror), Some(shown)) = (&mut self.mirror, &shown) {
             let picture = self.benches.current.picture.image();
             mirror.take(picture, shown.extent, info.xr_time)?;
         }
         self.counts.tally.frame(1e3 * begun.elapsed().as_secs_f64());
         self.catch_up(&no_frame)?;
-        // 9. What the next frames are solved and drawn with.
+        // 10. What the next frames are solved and drawn with.
         let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
         let (benches, track) = (&mut self.benches, &mut self.track);
         self.pacing
             .govern(&loads, period, benches, track, &no_frame)?;
+        // 11. What the lenses hide.
         self.benches.take_mask(headset, &no_frame)
     }
 

@@ -27,7 +27,7 @@ fn bounded_growth(budget: f32, agitation: f32) -> f32 {
     return select(GROWTH_LIMIT, budget / max(agitation, 1e-30), budget < GROWTH_LIMIT * agitation);
 }
 
-/// The coefficient of a particle at `temperature` (°C). `agitation` is e_i =
+/// Line 27, Eq. 17: the coefficient of a particle at `temperature` (°C). `agitation` is e_i =
 /// ½ Σ w |v_i − v_j|² (J/kg) of the substep before: this substep's is known
 /// to nobody before the pass that needs it.
 fn stirring(temperature: f32, agitation: f32) -> f32 {

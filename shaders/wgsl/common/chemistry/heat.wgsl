@@ -10,6 +10,11 @@ fn acid_in(heat: vec4<f32>) -> f32 {
     return heat.y;
 }
 
+/// What must be finite in a record of either chemistry; the fourth word follows from these.
+fn tested_in(heat: vec4<f32>) -> vec3<f32> {
+    return heat.xyz;
+}
+
 /// Of the paper's chemistry.
 struct PaperHeat {
     /// °C.

@@ -1,4 +1,4 @@
-// What a particle's acid fraction and enthalpy lack by rounding (`maths/compensated.wgsl`), in one word.
+// What a particle's acid fraction and enthalpy lack by rounding (`compensated.wgsl`), in one word.
 
 struct Rests {
     acid: f32,

@@ -24,21 +24,51 @@ const AZEOTROPE: f32 = 0.983;
 /// Vapour that a particle may hold at most: a trace of liquid stays.
 const MOST_VAPOUR: f32 = 0.99;
 
+struct Heats {
+    /// h at 25 °C, J/kg.
+    enthalpy: f32,
+    /// cp at 20 °C, J/(kg K).
+    capacity: f32,
+    /// T_b, °C.
+    boiling_point: f32,
+}
+
 /// Heat of one composition.
 struct Row {
     acid: f32,
-    /// h at 25 °C, cp at 20 °C and T_b.
-    value: vec3<f32>,
-    /// Their slopes in c over the interval.
-    slope: vec3<f32>,
+    value: Heats,
+    /// Slopes in c over the interval.
+    slope: Heats,
+}
+
+fn unpack_heats(words: vec3<f32>) -> Heats {
+    return Heats(words.x, words.y, words.z);
+}
+
+fn heats_of_node(node: u32) -> vec3<f32> {
+    return solution[2u * node].xyz;
+}
+
+fn density_of_node(node: u32) -> f32 {
+    return solution[2u * node].w;
+}
+
+/// dρ/dT.
+fn expansion_of_node(node: u32) -> f32 {
+    return solution[2u * node + 1u].x;
+}
+
+fn log_viscosities_of_node(node: u32) -> vec3<f32> {
+    return solution[2u * node + 1u].yzw;
 }
 
 fn row_at(acid: f32) -> Row {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);
-    let low = solution[2u * i].xyz;
-    let rise = solution[2u * i + 2u].xyz - low;
-    return Row(acid, low + (place - f32(i)) * rise, rise * f32(SOLUTION_INTERVALS));
+    let low = heats_of_node(i);
+    let rise = heats_of_node(i + 1u) - low;
+    let value = low + (place - f32(i)) * rise;
+    return Row(acid, unpack_heats(value), unpack_heats(rise * f32(SOLUTION_INTERVALS)));
 }
 
 fn capacity_rise(acid: f32) -> f32 {
@@ -46,7 +76,7 @@ fn capacity_rise(acid: f32) -> f32 {
 }
 
 fn capacity_at(row: Row, temperature: f32) -> f32 {
-    return row.value.y + capacity_rise(row.acid) * (temperature - CAPACITY_AT);
+    return row.value.capacity + capacity_rise(row.acid) * (temperature - CAPACITY_AT);
 }
 
 /// ∫ dT and ∫ (T − 20) dT from 25 °C.
@@ -57,14 +87,14 @@ fn warmth(temperature: f32) -> vec2<f32> {
 
 fn enthalpy_at(row: Row, temperature: f32) -> f32 {
     let w = warmth(temperature);
-    return row.value.x + row.value.y * w.x + capacity_rise(row.acid) * w.y;
+    return row.value.enthalpy + row.value.capacity * w.x + capacity_rise(row.acid) * w.y;
 }
 
 /// ∂h/∂c at a temperature.
 fn slope_at(row: Row, temperature: f32) -> f32 {
     let w = warmth(temperature);
     let rise = select(0.0, CAPACITY_SLOPE / CAPACITY_SLOPE_FROM, row.acid < CAPACITY_SLOPE_FROM);
-    return row.slope.x + row.slope.y * w.x + rise * w.y;
+    return row.slope.enthalpy + row.slope.capacity * w.x + rise * w.y;
 }
 
 fn steam_enthalpy(temperature: f32) -> f32 {
@@ -74,10 +104,10 @@ fn steam_enthalpy(temperature: f32) -> f32 {
 /// T of this liquid with the fraction `vapour` of steam whose enthalpy together is `enthalpy`.
 fn temperature_with_steam(row: Row, enthalpy: f32, vapour: f32) -> f32 {
     let liquid = 1.0 - vapour;
-    let linear = liquid * row.value.y + vapour * STEAM_CAPACITY;
+    let linear = liquid * row.value.capacity + vapour * STEAM_CAPACITY;
     let square = 0.5 * liquid * capacity_rise(row.acid);
     let offset = ENTHALPY_ZERO - CAPACITY_AT;
-    let zero = liquid * row.value.x + vapour * STEAM_ENTHALPY;
+    let zero = liquid * row.value.enthalpy + vapour * STEAM_ENTHALPY;
     let level = (enthalpy - zero) + offset * (linear + square * offset);
     let root = sqrt(max(linear * linear + 4.0 * square * level, 0.0));
     return max(CAPACITY_AT + 2.0 * level / (linear + root), ABSOLUTE_ZERO);
@@ -95,12 +125,12 @@ fn equilibrium(acid: f32, enthalpy: f32, start: f32) -> f32 {
     var vapour = clamp(start, 0.0, most);
     for (var step = 0u; step < 3u; step++) {
         let row = row_at(liquid_acid(acid, vapour));
-        let at = row.value.z;
+        let at = row.value.boiling_point;
         let liquid = enthalpy_at(row, at);
         let steam = steam_enthalpy(at);
         let boiling = liquid + vapour * (steam - liquid);
-        let liquid_slope = slope_at(row, at) + capacity_at(row, at) * row.slope.z;
-        let steam_slope = STEAM_CAPACITY * row.slope.z;
+        let liquid_slope = slope_at(row, at) + capacity_at(row, at) * row.slope.boiling_point;
+        let steam_slope = STEAM_CAPACITY * row.slope.boiling_point;
         let slope = steam - liquid + row.acid * (liquid_slope + steam_slope * vapour / (1.0 - vapour));
         vapour = clamp(vapour + (enthalpy - boiling) / slope, 0.0, most);
     }
@@ -116,8 +146,8 @@ fn density_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);
     let t = place - f32(i);
-    let cold = mix(solution[2u * i].w, solution[2u * i + 2u].w, t);
-    let slope = mix(solution[2u * i + 1u].x, solution[2u * i + 3u].x, t);
+    let cold = mix(density_of_node(i), density_of_node(i + 1u), t);
+    let slope = mix(expansion_of_node(i), expansion_of_node(i + 1u), t);
     return cold + slope * (clamp(temperature, TABLES_FROM, TABLES_TO) - 20.0);
 }
 
@@ -125,7 +155,7 @@ fn density_of(acid: f32, temperature: f32) -> f32 {
 fn viscosity_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);
-    let logs = mix(solution[2u * i + 1u].yzw, solution[2u * i + 3u].yzw, place - f32(i));
+    let logs = mix(log_viscosities_of_node(i), log_viscosities_of_node(i + 1u), place - f32(i));
     let at = 1.0 / (clamp(temperature, 0.0, 350.0) - ABSOLUTE_ZERO);
     let cool = logs.x + (at - INVERSE_20) / (INVERSE_60 - INVERSE_20) * (logs.y - logs.x);
     let warm = logs.y + (at - INVERSE_60) / (INVERSE_100 - INVERSE_60) * (logs.z - logs.y);

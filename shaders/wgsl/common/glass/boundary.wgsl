@@ -66,7 +66,7 @@ fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>, lane: u32) ->
     return wall;
 }
 
-/// The record (∇V, V) at `x` of all walls that act on a particle with `membership`; for
+/// The record `boundary` at `x` of all walls that act on a particle with `membership`; for
 /// lane 0, but all lanes must ask. One loop for particles inside and outside:
 /// two would both be walked on a software driver.
 fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32, lane: u32) -> vec4<f32> {
@@ -76,15 +76,16 @@ fn boundary_volume(membership: u32, x: vec3<f32>, pose_first: u32, lane: u32) ->
             let pose = poses[pose_first + k];
             if (may_touch(k, membership, pose, x)) {
                 let wall = wall_of(k, membership, pose, x, lane);
-                sum += vec4<f32>(wall.gradient, wall.volume);
+                sum += pack_walls(wall.gradient, wall.volume);
             }
         }
     }
-    if (SOLIDS) { sum = vec4<f32>(lane_sum3(sum.xyz), lane_sum(sum.w)); }
+    if (SOLIDS) { sum = pack_walls(lane_sum3(wall_gradient(sum)), lane_sum(wall_volume(sum))); }
     if (membership == NOBODYS) {
         let above = heights(x);
-        let v = half_space(above.x) + half_space(above.y);
-        sum += vec4<f32>(0.0, v.y, 0.0, v.x);
+        let table = half_space(above.table);
+        let ground = half_space(above.floor);
+        sum += pack_walls(vec3<f32>(0.0, table.slope + ground.slope, 0.0), table.volume + ground.volume);
     }
     return sum;
 }

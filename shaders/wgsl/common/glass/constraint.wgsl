@@ -17,7 +17,7 @@ struct Constrained {
 }
 
 fn glass_distance(k: u32, p: vec3<f32>) -> f32 {
-    return glass(k, p).w;
+    return glass(k, p).distance;
 }
 
 /// Fig. 4: vertically to a proper height, then radially at the radius of that height.
@@ -55,9 +55,9 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     var start = before;
     let was_in = is_inside(k, before);
     let here = glass(k, before);
-    if (was_in || here.w < 0.0) {
+    if (was_in || here.distance < 0.0) {
         // Still in the glass by rounding or by the map's interpolation: along its normal first.
-        start = before + here.xyz * (2.0 * MARGIN - here.w);
+        start = before + here.normal * (2.0 * MARGIN - here.distance);
         if (was_in || glass_distance(k, start) < 0.0 || is_inside(k, start)) {
             start = out_of_glass(k, before);
         }
@@ -90,18 +90,18 @@ fn from_outside(k: u32, before: vec3<f32>, after: vec3<f32>) -> Constrained {
     }
     let hit = start + path * (clear / size);
     // The rest of the motion along the glass, so that a drop runs down it.
-    let normal = glass(k, hit).xyz;
+    let normal = glass(k, hit).normal;
     let rest = after - hit;
     var slid = hit + rest - normal * min(dot(rest, normal), 0.0) + normal * MARGIN;
     let gap = glass(k, slid);
-    if (gap.w < MARGIN) { slid += gap.xyz * (2.0 * MARGIN - gap.w); }
+    if (gap.distance < MARGIN) { slid += gap.normal * (2.0 * MARGIN - gap.distance); }
     if (glass_distance(k, slid) < 0.0 || is_inside(k, slid) || length(slid - hit) > 2.0 * length(rest) + 8.0 * MARGIN) {
         slid = hit;
     }
     return Constrained(slid, NOBODYS, true);
 }
 
-/// Lines 23: keeps a particle on its side of every wall. `before` is where it
+/// Line 23: keeps a particle on its side of every wall. `before` is where it
 /// was under the poses from `before_first` on, `after` where it is predicted
 /// under those from `after_first` on (stage frame).
 fn constrain(membership: u32, before: vec3<f32>, after: vec3<f32>, before_first: u32, after_first: u32) -> Constrained {

@@ -19,8 +19,8 @@ fn wall_velocity(k: u32, x: vec3<f32>) -> vec3<f32> {
     return velocity * min(1.0, MAX_SPEED / max(length(velocity), 1e-9));
 }
 
-/// All walls that a particle at `x` with velocity `v` touches; for lane 0, but
-/// all lanes must ask.
+/// Lines 27 and 28: all walls that a particle at `x` with velocity `v` touches;
+/// for lane 0, but all lanes must ask.
 fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> Contact {
     var sum = Contact(vec3<f32>(0.0), vec3<f32>(0.0));
     if (FLASKS > 0u && (SOLIDS || lane == 0u)) {
@@ -40,8 +40,8 @@ fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> Contact {
     if (membership == NOBODYS) {
         // Table and floor stand still.
         let above = heights(x);
-        sum.drag -= (half_space(above.x).x + half_space(above.y).x) * v;
-        if (PULL) { sum.pull.y -= half_space_pull(above.x) + half_space_pull(above.y); }
+        sum.drag -= (half_space(above.table).volume + half_space(above.floor).volume) * v;
+        if (PULL) { sum.pull.y -= half_space_pull(above.table) + half_space_pull(above.floor); }
     }
     return sum;
 }

@@ -4,10 +4,16 @@
 /// Signed distances to the glass, of the maps for particles outside.
 @group(0) @binding(25) var<storage, read> distances: array<f32>;
 
-/// Direction in which the distance to the glass grows fastest, and that
-/// distance (positive on either side of it; beyond the map a lower bound).
+/// The way to a flask's glass.
+struct Gap {
+    /// Direction in which the distance grows fastest.
+    normal: vec3<f32>,
+    /// Metres, positive on either side of the glass; beyond the map a lower bound.
+    distance: f32,
+}
+
 /// One sample gives both: on a software driver, gathers are what this costs.
-fn glass(k: u32, p: vec3<f32>) -> vec4<f32> {
+fn glass(k: u32, p: vec3<f32>) -> Gap {
     let r = length(p.xz);
     let place = map_place(k, r, p.y);
     let node = flasks[k].distance_first + place.node;
@@ -21,5 +27,5 @@ fn glass(k: u32, p: vec3<f32>) -> vec4<f32> {
     let normal = vec3<f32>(out.x * slope.x, slope.y, out.y * slope.x);
     let value = mix(mix(a, b, place.s), mix(c, d, place.s), place.t);
     let distance = select(value, max(abs(value), place.away), place.away > 0.0);
-    return vec4<f32>(normal / max(length(normal), 1e-12), distance);
+    return Gap(normal / max(length(normal), 1e-12), distance);
 }

@@ -23,7 +23,7 @@ struct SolidCells {
 /// (position in the flask's frame, volume times W(0)), a solid as often as cells list it.
 @group(0) @binding(29) var<storage, read> solids: array<vec4<f32>>;
 
-/// A(r)·πh³/8 over W(0)'s unit: adhesion by a solid of volume·W(0) = 1 (Akinci et al. 2013, Eq. 7).
+/// Line 28: A(r)·πh³/8 over W(0)'s unit: adhesion by a solid of volume·W(0) = 1 (Akinci et al. 2013, Eq. 7).
 fn adhesion(q: f32) -> f32 {
     let inner = max(q * (6.0 - 4.0 * q) - 2.0, 0.0);
     return select(0.0, 0.007 * 3.14159265358979 / 8.0 * sqrt(sqrt(inner)), q >= 0.5 && q < 1.0);
@@ -43,13 +43,14 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
     var wall = Wall(vec3<f32>(0.0), 0.0, vec3<f32>(0.0));
     for (var n = begin + lane; n < end; n += LANES) {
         let solid = solids[n];
+        let volume = solid.w;
         let offset = p - solid.xyz;
         let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
         let per_distance = inverseSqrt(square);
         let q = square * per_distance * INVERSE_SUPPORT;
-        wall.volume += solid.w * spline(q);
-        wall.gradient += offset * (solid.w * per_distance * spline_slope(q) / SUPPORT);
-        if (PULL) { wall.pull -= offset * (solid.w * per_distance * adhesion(q)); }
+        wall.volume += volume * spline(q);
+        wall.gradient += offset * (volume * per_distance * spline_slope(q) / SUPPORT);
+        if (PULL) { wall.pull -= offset * (volume * per_distance * adhesion(q)); }
     }
     return wall;
 }

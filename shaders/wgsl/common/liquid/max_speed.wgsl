@@ -1,9 +1,9 @@
-// Line 24's bound, of the magnitude: "min(vector, scalar)" is none.
+// Line 24's bound is one of the magnitude: the minimum of a vector and a scalar does not exist.
 
 /// v_max, m/s.
 override MAX_SPEED: f32 = 10.0;
 
-/// A velocity as it may be. What is cut is counted in the including shader's `counters`.
+/// Line 24: a velocity as it may be. What is cut is counted in the including shader's `counters`.
 fn clamp_speed(v: vec3<f32>) -> vec3<f32> {
     var clamped = v;
     let speed = length(v);

@@ -120,18 +120,18 @@ fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
     return sum;
 }
 
-/// The nearest wall: direction away from it, and its distance; far away for none.
-fn nearest_wall(x: vec3<f32>) -> vec4<f32> {
-    var wall = vec4<f32>(0.0, 1.0, 0.0, x.y - around.floor);
+/// The nearest wall; far away for none.
+fn nearest_wall(x: vec3<f32>) -> Gap {
+    var wall = Gap(vec3<f32>(0.0, 1.0, 0.0), x.y - around.floor);
     let on_table = all(x.xz > around.table_min) && all(x.xz < around.table_max);
     let above = x.y - around.table_top;
-    if (on_table && above > -around.spacing) { wall.w = min(wall.w, above); }
+    if (on_table && above > -around.spacing) { wall.distance = min(wall.distance, above); }
     for (var k = 0u; k < around.flasks; k++) {
         let offset = x - poses[k].position.xyz;
         let reach = flasks[k].outer + flasks[k].rim + around.support;
         if (dot(offset, offset) < reach * reach) {
             let here = glass(k, flask_from_stage(poses[k], x));
-            if (here.w < wall.w) { wall = vec4<f32>(rotate(poses[k].orientation, here.xyz), here.w); }
+            if (here.distance < wall.distance) { wall = Gap(rotate(poses[k].orientation, here.normal), here.distance); }
         }
     }
     return wall;
@@ -184,7 +184,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let fade = smoothstep(FADE.x, FADE.y, sum.weight / full);
 
         let wall = nearest_wall(x);
-        let solid = cap(wall.xyz, wall.w / around.support);
+        let solid = cap(wall.normal, wall.distance / around.support);
         let weight = sum.weight + solid.weight + 1.0;
         let mean = (sum.first + solid.first) / weight;
         let inverse = 1.0 / (0.15 * weight);
@@ -205,12 +205,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         out.centre = x + fade * SMOOTHING * around.support * mean;
 
         // What lies at a wall reaches a little into it, and is cut there (`at_glass.wgsl`).
-        let at_wall = fade * (1.0 - smoothstep(0.75 * d, 1.25 * d, wall.w));
-        let extent = length(apply(Symmetric(out.diagonal, out.others), wall.xyz));
-        let gap = wall.w + dot(out.centre - x, wall.xyz);
-        out.centre += wall.xyz * ((extent - INTO_WALL * d - gap) * at_wall);
+        let at_wall = fade * (1.0 - smoothstep(0.75 * d, 1.25 * d, wall.distance));
+        let extent = length(apply(Symmetric(out.diagonal, out.others), wall.normal));
+        let gap = wall.distance + dot(out.centre - x, wall.normal);
+        out.centre += wall.normal * ((extent - INTO_WALL * d - gap) * at_wall);
 
-        let deep = length(mean) < 0.05 && weight > 0.85 * full && wall.w > 1.25 * d;
+        let deep = length(mean) < 0.05 && weight > 0.85 * full && wall.distance > 1.25 * d;
         out.visible = select(1.0, 0.0, deep);
     }
     if (is_taken_out(particle)) { out.visible = -1.0; }
