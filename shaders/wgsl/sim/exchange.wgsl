@@ -103,21 +103,32 @@ fn towards(up: f32, weight: f32) -> f32 {
 /// Where fewer neighbours than this are above, over a full neighbourhood's, vapour leaves.
 const COVERED: f32 = 0.7;
 
-/// What a particle's neighbours bring it, and where they are.
-struct Sums {
-    /// Acid (V0·ρ0), enthalpy (J per V0·ρ0), pairs that were cut short.
-    flux: vec3<f32>,
+/// What a particle receives from its neighbours, and where they are.
+struct Received {
+    /// V0·ρ0.
+    acid: f32,
+    /// J per V0·ρ0.
+    enthalpy: f32,
+    /// Pairs that were cut short.
+    cut: f32,
+    /// Vapour that came from below, V0·ρ0, and its enthalpy.
+    vapour: f32,
+    vapour_enthalpy: f32,
+    /// What covers this particle, over a full neighbourhood's upper half.
+    cover: f32,
     /// Σ ∇W: where there is liquid, and by its lack the surface.
     open: vec3<f32>,
-    /// Vapour that came from below, its enthalpy, and what covers this particle.
-    bubbles: vec3<f32>,
 }
 
-/// For lane 0, but all lanes must ask. A particle whose list is full exchanges nothing.
-fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Sums {
+/// Line 26: what comes from the neighbours. For lane 0, but all lanes must ask. A particle whose list
+/// is full exchanges nothing.
+fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Received {
     let x = position[i].xyz;
     let v = new_velocity[i].xyz;
-    var sums: Sums;
+    // Acid, enthalpy, pairs cut; vapour, its enthalpy, cover.
+    var flux = vec3<f32>(0.0);
+    var bubbles = vec3<f32>(0.0);
+    var open = vec3<f32>(0.0);
     let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
         let four = list[g * COUNT + i];
@@ -134,22 +145,22 @@ fn sum_neighbours(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> 
             let rates = rates_of(eddies, q, own, other, whole);
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
-            sums.flux += vec3<f32>(
+            flux += vec3<f32>(
                 rates.carried * (other.acid - own.acid), enthalpy, rates.cut);
-            if (LOSSES) { sums.open += offset * (per_distance * spline_slope(q)); }
+            if (LOSSES) { open += offset * (per_distance * spline_slope(q)); }
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
                 let kernel = spline(q);
                 let come = vapour_in(near) * towards(up, kernel) * whole;
-                sums.bubbles += vec3<f32>(
+                bubbles += vec3<f32>(
                     come, come * steam_enthalpy(other.temperature), towards(-up, kernel) * whole);
             }
         }
     }
-    sums.flux = lane_sum3(sums.flux);
-    if (BUBBLE_SPEED > 0.0) { sums.bubbles = lane_sum3(sums.bubbles) * vec3<f32>(rising(), rising(), 1.0); }
-    if (LOSSES) { sums.open = lane_sum3(sums.open) * (weight_scale() / SUPPORT); }
-    return sums;
+    flux = lane_sum3(flux);
+    if (BUBBLE_SPEED > 0.0) { bubbles = lane_sum3(bubbles) * vec3<f32>(rising(), rising(), 1.0); }
+    if (LOSSES) { open = lane_sum3(open) * (weight_scale() / SUPPORT); }
+    return Received(flux.x, flux.y, flux.z, bubbles.x, bubbles.y, bubbles.z, open);
 }
 
 /// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0.
@@ -157,6 +168,60 @@ fn heat_from_around(own: Potential, glass: vec3<f32>, open: vec3<f32>) -> f32 {
     let capacity = own.mass * own.capacity;
     let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(capacity, 1e-3);
     return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
+}
+
+/// What line 26 changes of a particle.
+struct State {
+    content: Content,
+    account: Account,
+    /// c and h, and what they lack by rounding.
+    acid: Compensated,
+    enthalpy: Compensated,
+    /// What may become motion, J/kg.
+    budget: f32,
+}
+
+/// Line 26: adds what neighbours and surroundings bring.
+fn take_up(before: State, i: u32, own: Potential, received: Received) -> State {
+    var state = before;
+    var taken = received.enthalpy;
+    if (LOSSES) {
+        let gained = heat_from_around(own, wall_gradient(boundary[i]), received.open);
+        taken += gained;
+        state.account.heat += gained;
+    }
+    state.acid = compensated(state.acid, received.acid / state.content.mass);
+    state.enthalpy = compensated(state.enthalpy, taken / state.content.mass);
+    return state;
+}
+
+/// Line 26: bubbles rise to the particles above, and leave where there are none. Only there does
+/// their vapour push the liquid out of the air's way. `vapour` is what the particle holds of it; of
+/// one whose list is not `whole`, what is above is not looked for.
+fn pass_vapour_on(before: State, own: Potential, vapour: f32, received: Received, whole: bool) -> State {
+    var state = before;
+    let specific = steam_enthalpy(own.temperature);
+    let passed = vapour * rising() * received.cover;
+    var gone = vapour * rising() * max(1.0 - received.cover / COVERED, 0.0);
+    if (!whole) { gone = 0.0; }
+    let gained = received.vapour - passed - gone;
+    let mass = rounded(state.content.mass + gained);
+    // What the rounded mass became, and increments: where none rises, c and h keep their bits.
+    let change = mass - state.content.mass;
+    state.acid = compensated(state.acid, -state.acid.value * change / mass);
+    let carried = received.vapour_enthalpy - (passed + gone) * specific;
+    state.enthalpy = compensated(state.enthalpy, (carried - state.enthalpy.value * change) / mass);
+    state.account.steam += vec2<f32>(gone, gone * specific);
+    if (BOILING) { state.budget = AGITATION * (gone / state.content.mass) * (own.temperature - ABSOLUTE_ZERO); }
+    state.content.vapour = max((state.content.vapour * state.content.mass + gained) / mass, 0.0);
+    state.content.mass = mass;
+    return state;
+}
+
+/// Line 26: vapour of a particle's content after a substep of boiling or condensing.
+fn boiled(content: Content) -> f32 {
+    return content.vapour + (equilibrium(content.acid, content.enthalpy, content.vapour) - content.vapour)
+        * (1.0 - exp(-step.time / SUPERHEAT_TIME));
 }
 
 /// XSPH coefficient over the substep's with the liquid's own viscosity.
@@ -178,54 +243,27 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = unpack_potential(heat[i]);
     let full = full_from(atomicLoad(&counters.list_overflows));
     let listed = list_counts[i];
-    let sums = sum_neighbours(i, lane, own, listed, full);
+    let received = receive(i, lane, own, listed, full);
     if (lane != 0u) { return; }
     let tag = tags[i];
     if (tag.x == REMOVED) { return; }
-    if (sums.flux.z > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
+    if (received.cut > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
 
-    var content = unpack_content(matter[i]);
-    var account = unpack_account(ledger[tag.y]);
     let extent = unpack_bulk(bulk[i]);
-    var taken = sums.flux.y;
-    if (LOSSES) {
-        let gained = heat_from_around(own, wall_gradient(boundary[i]), sums.open);
-        taken += gained;
-        account.heat += gained;
-    }
     let lacking = unpack_rests(extent.rests);
-    var acid = compensated(Compensated(content.acid, lacking.acid), sums.flux.x / content.mass);
-    var enthalpy = compensated(Compensated(content.enthalpy, lacking.enthalpy), taken / content.mass);
-
-    var budget = 0.0;
-    if (BUBBLE_SPEED > 0.0) {
-        // Bubbles rise to the particles above, and leave where there are none: only there does
-        // their vapour push the liquid out of the air's way.
-        let specific = steam_enthalpy(own.temperature);
-        let passed = extent.vapour * rising() * sums.bubbles.z;
-        var gone = extent.vapour * rising() * max(1.0 - sums.bubbles.z / COVERED, 0.0);
-        // What is above it is not looked for.
-        if (listed >= full) { gone = 0.0; }
-        let gained = sums.bubbles.x - passed - gone;
-        let mass = rounded(content.mass + gained);
-        // What the rounded mass became, and increments: where none rises, c and h keep their bits.
-        let change = mass - content.mass;
-        acid = compensated(acid, -acid.value * change / mass);
-        let carried = sums.bubbles.y - (passed + gone) * specific;
-        enthalpy = compensated(enthalpy, (carried - enthalpy.value * change) / mass);
-        account.steam += vec2<f32>(gone, gone * specific);
-        if (BOILING) { budget = AGITATION * (gone / content.mass) * (own.temperature - ABSOLUTE_ZERO); }
-        content.vapour = max((content.vapour * content.mass + gained) / mass, 0.0);
-        content.mass = mass;
-    }
-    content.acid = clamp(acid.value, 0.0, 1.0);
-    content.enthalpy = enthalpy.value;
-    if (EVAPORATION) {
-        content.vapour += (equilibrium(content.acid, content.enthalpy, content.vapour) - content.vapour)
-            * (1.0 - exp(-step.time / SUPERHEAT_TIME));
-    }
+    var state: State;
+    state.content = unpack_content(matter[i]);
+    state.account = unpack_account(ledger[tag.y]);
+    state.acid = Compensated(state.content.acid, lacking.acid);
+    state.enthalpy = Compensated(state.content.enthalpy, lacking.enthalpy);
+    state = take_up(state, i, own, received);
+    if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }
+    var content = state.content;
+    content.acid = clamp(state.acid.value, 0.0, 1.0);
+    content.enthalpy = state.enthalpy.value;
+    if (EVAPORATION) { content.vapour = boiled(content); }
     matter[i] = pack_content(content);
-    ledger[tag.y] = pack_account(account);
+    ledger[tag.y] = pack_account(state.account);
 
     if (DENSITY || VISCOSITY) {
         if (own.temperature < TABLES_FROM || own.temperature > TABLES_TO) {
@@ -234,11 +272,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var mixed: Mixing;
     if (BOILING) {
-        if (budget > 0.0) { mixed.growth = bounded_growth(budget, agitation[tag.y]); }
+        if (state.budget > 0.0) { mixed.growth = bounded_growth(state.budget, agitation[tag.y]); }
         if (mixed.growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
     }
     mixed.coefficient = select(coefficient_of(own), 0.0, mixed.growth > 0.0);
     mixed.mass = content.mass;
-    mixed.rests = pack_rests(Rests(acid.value - content.acid + acid.lacking, enthalpy.lacking));
+    mixed.rests = pack_rests(Rests(
+        state.acid.value - content.acid + state.acid.lacking, state.enthalpy.lacking));
     mixing[i] = pack_mixing(mixed);
 }
