@@ -60,7 +60,8 @@ struct Rates {
     carried: f32,
     /// Per difference of T: conducted heat, less what of it the acid's enthalpy has already.
     conducted: f32,
-    /// Whether they were cut short.
+    /// 1 where they were cut short. Not a bool: with one in this record NVIDIA's driver (580.159.04) gives
+    /// other enthalpies, and `against_the_reference` fails there.
     cut: f32,
 }
 
