@@ -164,10 +164,17 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
     return Received(flux.x, flux.y, flux.z, bubbles.x, bubbles.y, bubbles.z, open);
 }
 
-/// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0.
+/// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
+const INSIDE: f32 = 0.45;
+const SURFACE: f32 = 0.7;
+
+/// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0. Over 2V0, its areas
+/// are the two gradients, of which that of the free surface counts no disorder.
 fn heat_from_around(own: Potential, glass: vec3<f32>, open: vec3<f32>) -> f32 {
+    let disorder = length(glass + open);
+    let surface = disorder * smoothstep(INSIDE, SURFACE, 2.0 * SPACING * disorder);
     let capacity = own.mass * own.capacity;
-    let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * length(glass + open)) / max(capacity, 1e-3);
+    let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * surface) / max(capacity, 1e-3);
     return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
 }
 

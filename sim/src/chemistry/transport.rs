@@ -168,7 +168,7 @@ impl Losses {
     }
 
     /// Enthalpy that a particle gets from around it in `time` seconds, J,
-    /// where `glass` and `surface` are its areas (m², see [`contact_area`]).
+    /// where `glass` and `surface` are its areas (m², see [`contact_area`] and [`surface_area`]).
     ///
     /// By the exponential of its own decay, so that no time is too long.
     pub fn gain(&self, particle: &Potential, glass: f64, surface: f64, time: f64) -> f64 {
@@ -180,13 +180,32 @@ impl Losses {
 
 /// Area of a boundary that belongs to a particle of volume `volume` (m³),
 /// m², where `gradient` (1/m) is that of the boundary's part of the density
-/// sum: |∇V_b| for glass, |Σ_j V₀∇W_ij + ∇V_b| for the free surface.
+/// sum, |∇V_b| for glass.
 ///
 /// Over the depth of a plane boundary ∫|∇V| ds = V(0) = ½, so the areas of
 /// all its particles sum to its own.
 pub fn contact_area(volume: f64, gradient: f64) -> f64 {
     2.0 * volume * gradient
 }
+
+/// Area of the free surface that belongs to a particle of volume `volume`
+/// (m³), m², where `gradient` (1/m) is |Σ_j V₀∇W_ij + ∇V_b|.
+///
+/// That is [`contact_area`] at a surface, about d² a particle, and not zero
+/// inside: up to 0.1 d² in liquid at rest, 0.4 of a shaken lattice, and 0.5 d²
+/// along glass, where particles stand a little nearer than the density says.
+/// A glass of 800 particles would have 3.1 times its surface. So what is below
+/// 0.45 d² is none, and from 0.7 d² on all is.
+pub fn surface_area(volume: f64, gradient: f64) -> f64 {
+    let area = contact_area(volume, gradient);
+    let share = (area / volume.powf(2.0 / 3.0) - INSIDE) / (SURFACE - INSIDE);
+    let t = share.clamp(0.0, 1.0);
+    area * t * t * (3.0 - 2.0 * t)
+}
+
+/// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
+const INSIDE: f64 = 0.45;
+const SURFACE: f64 = 0.7;
 
 impl std::iter::Sum for Flux {
     fn sum<I: Iterator<Item = Self>>(fluxes: I) -> Self {

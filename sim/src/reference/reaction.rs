@@ -5,7 +5,7 @@ use super::dilution::Pairs;
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use super::surroundings::WallSum;
-use crate::chemistry::transport::contact_area;
+use crate::chemistry::transport::{contact_area, surface_area};
 use glam::DVec3;
 
 impl Reference {
@@ -43,7 +43,7 @@ impl Reference {
                 let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
                     let open = (wall.gradient + liquid).length();
                     let glass = contact_area(volume, wall.gradient.length());
-                    (glass, contact_area(volume, open))
+                    (glass, surface_area(volume, open))
                 };
                 let surfaces: Vec<_> = walls.iter().zip(&slopes).map(areas).collect();
                 physical.dilute(&pairs, &self.parameters, &self.velocities, &surfaces);

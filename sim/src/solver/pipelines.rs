@@ -167,6 +167,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         ("CALM", flag(p.viscosity > 0.0)),
         ("SOLUTION_INTERVALS", INTERVALS as f64),
         ("REST_DENSITY", p.rest_density),
+        ("SPACING", p.spacing),
         ("DENSITY", flag(physical.density)),
         ("VISCOSITY", flag(physical.viscosity)),
         ("MIXING", physical.mixing.turbulence),
@@ -177,7 +178,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         own.extend([("EVAPORATION", 1.0), ("SUPERHEAT_TIME", time)]);
     }
     if let Some(speed) = physical.bubble_speed {
-        own.extend([("BUBBLE_SPEED", speed), ("SPACING", p.spacing)]);
+        own.push(("BUBBLE_SPEED", speed));
     }
     if let Some(share) = physical.work_share {
         let per_kelvin = share * GAS_CONSTANT / WATER_MOLAR_MASS;

@@ -5,12 +5,14 @@ use super::super::paper::{AntiViscosity, Dilution};
 use super::super::physical::Content;
 use super::super::table::SolutionTable;
 use super::super::thomsen;
-use super::super::transport::{Losses, Mixing, Potential, contact_area, flux};
+use super::super::transport::{Losses, Mixing, Potential, contact_area, flux, surface_area};
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 use crate::scene::Scene;
+use glam::DVec3;
 use proptest::prelude::*;
 use std::f64::consts::PI;
+use vitriol_tests::random::Random;
 
 /// The paper's world.
 fn world() -> Parameters {
@@ -248,6 +250,48 @@ fn areas_of_a_plane_sum_to_its_own() {
         .iter()
         .sum();
     assert!((area / (d * d) - 1.0).abs() < 1e-9, "{area}");
+}
+
+/// A cubic lattice with a level surface, each particle moved by up to `shake` d along each axis: the
+/// surface's area a site, and what is counted below the first two layers.
+fn lattice_areas(shake: f64) -> [f64; 2] {
+    let kernel = Kernel::new(2.0);
+    let mut random = Random(4);
+    let side = 12;
+    let sites: Vec<[usize; 3]> = (0..side * side * side)
+        .map(|i| [i % side, i / side % side, i / side / side])
+        .collect();
+    let places: Vec<DVec3> = sites
+        .iter()
+        .map(|site| DVec3::from_array(site.map(|k| k as f64)) + random.point(shake))
+        .collect();
+    let gradient = |at: DVec3| -> DVec3 {
+        let apart = places.iter().map(|&place| at - place);
+        let near = apart.filter(|apart| apart.length_squared() < 4.0);
+        near.map(|apart| apart.normalize_or_zero() * kernel.dw(apart.length()))
+            .sum()
+    };
+    // Far from the sides, whose surfaces are not asked for.
+    let middle = |k: usize| (3..side - 3).contains(&k);
+    let mut areas = [0.0; 2];
+    for (site, &at) in sites.iter().zip(&places) {
+        if middle(site[0]) && middle(site[1]) && site[2] >= 3 {
+            let layer = usize::from(site[2] < side - 2);
+            areas[layer] += surface_area(1.0, gradient(at).length());
+        }
+    }
+    areas.map(|area| area / (side - 6).pow(2) as f64)
+}
+
+/// Disorder inside is no surface: of a lattice shaken by a seventh of d, |Σ V∇W| alone counts 0.3 d² a particle.
+#[test]
+fn disorder_is_no_surface() {
+    for shake in [0.0, 0.05, 0.1] {
+        let [surface, inside] = lattice_areas(shake);
+        assert!((surface - 1.0).abs() < 0.1, "{shake}: {surface}");
+        // Over seven layers.
+        assert!(inside < 0.07, "{shake}: {inside}");
+    }
 }
 
 #[test]
