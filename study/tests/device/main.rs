@@ -6,4 +6,5 @@ mod dam_break;
 mod extremes;
 mod fidelity;
 mod fig5;
+mod orders;
 mod trade;
