@@ -63,7 +63,7 @@ fn figure_6_has_its_order() {
             for (k, &flask) in flasks.iter().enumerate() {
                 boiling[k] += superheat.in_flasks.get(flask).copied().unwrap_or(0);
                 let [_, most] = heat.temperatures_in_flasks[flask];
-                hottest[k] = hottest[k].max(f64::from(most));
+                hottest[k] = hottest[k].max(most);
             }
         }
     }
