@@ -59,7 +59,7 @@ fn diffuse(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// No new extrema and no drift, for any D, Δt and disorder.
     #[test]
@@ -283,7 +283,7 @@ fn lattice_areas(shake: f64) -> [f64; 2] {
     areas.map(|area| area / (side - 6).pow(2) as f64)
 }
 
-/// Disorder inside is no surface: of a lattice shaken by a seventh of d, |Σ V∇W| alone counts 0.3 d² a particle.
+/// Disorder inside is no surface: of a lattice shaken by a tenth of d, |Σ V∇W| alone counts 0.2 d² a particle.
 #[test]
 fn disorder_is_no_surface() {
     for shake in [0.0, 0.05, 0.1] {
