@@ -4,6 +4,7 @@
 //!include common/chemistry/boiling.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
+//!include common/chemistry/evaporation.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/ledger.wgsl
@@ -33,10 +34,11 @@ override BUBBLE_SPEED: f32 = 0.0;
 override SPACING: f32 = 0.0025;
 /// η: share of the vapour's work that becomes motion, times R/M (J/(kg K)).
 override AGITATION: f32 = 0.0;
-/// Heat transfer to glass and at the surface over ρ0, W m/(kg K); T of what is around, °C.
+/// Heat transfer to glass and at the surface over ρ0, W m/(kg K).
 override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
-override AMBIENT: f32 = 20.0;
+/// 1/ρ0, m³/kg.
+override SPECIFIC_VOLUME: f32 = 0.001;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 /// (membership, identity)
@@ -168,14 +170,28 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
 const INSIDE: f32 = 0.45;
 const SURFACE: f32 = 0.7;
 
-/// Heat that a particle takes in a substep through glass and surface, J per V0·ρ0. Over 2V0, its areas
-/// are the two gradients, of which that of the free surface counts no disorder.
-fn heat_from_around(own: Potential, glass: vec3<f32>, open: vec3<f32>) -> f32 {
+/// Area of the free surface of a particle over 2V0, 1/m: the gradient there, but for that of disorder.
+fn surface_of(glass: vec3<f32>, open: vec3<f32>) -> f32 {
     let disorder = length(glass + open);
-    let surface = disorder * smoothstep(INSIDE, SURFACE, 2.0 * SPACING * disorder);
+    return disorder * smoothstep(INSIDE, SURFACE, 2.0 * SPACING * disorder);
+}
+
+/// Heat that a particle takes in a substep through glass and surface, of these areas over 2V0, J per V0·ρ0.
+fn heat_from_around(own: Potential, glass: f32, surface: f32) -> f32 {
     let capacity = own.mass * own.capacity;
-    let rate = 2.0 * (GLASS_LOSS * length(glass) + SURFACE_LOSS * surface) / max(capacity, 1e-3);
+    let rate = 2.0 * (GLASS_LOSS * glass + SURFACE_LOSS * surface) / max(capacity, 1e-3);
     return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
+}
+
+/// Most of a particle's liquid that evaporates in a substep.
+const MOST_EVAPORATED: f32 = 0.01;
+
+/// Water that a particle loses to the air in a substep below its boiling point, V0·ρ0; `surface` is its
+/// area over 2V0.
+fn evaporated(own: Potential, surface: f32) -> f32 {
+    if (surface <= 0.0 || own.temperature <= AMBIENT) { return 0.0; }
+    let flux = evaporation_flux(row_at(own.acid), own.temperature);
+    return min(2.0 * SPECIFIC_VOLUME * surface * flux * step.time, MOST_EVAPORATED * (1.0 - own.acid) * own.mass);
 }
 
 /// What line 26 changes of a particle.
@@ -189,17 +205,35 @@ struct State {
     budget: f32,
 }
 
-/// Line 26: adds what neighbours and surroundings bring.
+/// Line 26: adds what neighbours and surroundings bring, and takes what evaporates.
 fn take_up(before: State, i: u32, own: Potential, received: Received) -> State {
     var state = before;
     var taken = received.enthalpy;
+    var gone = 0.0;
     if (LOSSES) {
-        let gained = heat_from_around(own, wall_gradient(boundary[i]), received.open);
+        let glass = wall_gradient(boundary[i]);
+        let surface = surface_of(glass, received.open);
+        let gained = heat_from_around(own, length(glass), surface);
         taken += gained;
         state.account.heat += gained;
+        if (EVAPORATION) { gone = evaporated(own, surface); }
     }
     state.acid = compensated(state.acid, received.acid / state.content.mass);
     state.enthalpy = compensated(state.enthalpy, taken / state.content.mass);
+    if (gone > 0.0) { state = without_water(state, gone, gone * steam_enthalpy(own.temperature)); }
+    return state;
+}
+
+/// Water vapour that leaves the liquid for good, and its enthalpy; a particle's vapour stays what it is.
+fn without_water(before: State, gone: f32, enthalpy: f32) -> State {
+    var state = before;
+    let mass = rounded(state.content.mass - gone);
+    let change = mass - state.content.mass;
+    state.acid = compensated(state.acid, -state.acid.value * change / mass);
+    state.enthalpy = compensated(state.enthalpy, -(enthalpy + state.enthalpy.value * change) / mass);
+    state.content.vapour *= state.content.mass / mass;
+    state.content.mass = mass;
+    state.account.steam += vec2<f32>(-change, enthalpy);
     return state;
 }
 

@@ -13,6 +13,7 @@ pub mod adiabatic;
 mod constants;
 pub mod curve;
 mod error;
+pub mod evaporation;
 pub mod exchange;
 mod model;
 pub mod paper;

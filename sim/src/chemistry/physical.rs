@@ -126,6 +126,15 @@ impl Content {
         change
     }
 
+    /// Takes away water that evaporates; the vapour in bubbles stays.
+    pub fn take_out_water(&mut self, gone: &Steam) {
+        let mass = self.mass - gone.mass;
+        self.acid *= self.mass / mass;
+        self.enthalpy = (self.mass * self.enthalpy - gone.enthalpy) / mass;
+        self.vapour *= self.mass / mass;
+        self.mass = mass;
+    }
+
     /// Vapour that comes; what leaves is negative. No more can leave than is
     /// there; beyond that it is water that goes.
     pub fn take_up(&mut self, steam: &Steam) {

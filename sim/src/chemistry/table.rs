@@ -83,6 +83,13 @@ impl Row {
         self.enthalpy_slope + self.capacity_slope * warmth + rise * square
     }
 
+    /// Enthalpy that it takes to evaporate water from the liquid at
+    /// `temperature` (°C), J/kg of water: h_v − (h − c·∂h/∂c).
+    pub fn latent_heat(&self, temperature: f64) -> f64 {
+        let partial = self.enthalpy_at(temperature) - self.acid * self.slope_at(temperature);
+        steam_enthalpy(temperature) - partial
+    }
+
     /// T in °C of a mixture of this liquid and the mass fraction `vapour` of
     /// steam whose enthalpy is `enthalpy` J/kg. Closed form, as cp is linear
     /// in T.
@@ -208,14 +215,6 @@ impl SolutionTable {
     /// `temperature` (°C), J/kg over the pure liquids at 25 °C.
     pub fn enthalpy(&self, acid: f64, temperature: f64) -> f64 {
         self.at(acid).enthalpy_at(temperature)
-    }
-
-    /// Enthalpy that it takes to evaporate water from the boiling liquid at
-    /// `temperature` (°C), J/kg of water: h_v − (h − c·∂h/∂c).
-    pub fn latent_heat(&self, acid: f64, temperature: f64) -> f64 {
-        let row = self.at(acid);
-        let partial = row.enthalpy_at(temperature) - row.acid * row.slope_at(temperature);
-        steam_enthalpy(temperature) - partial
     }
 }
 

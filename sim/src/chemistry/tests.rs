@@ -4,6 +4,7 @@
 
 mod air;
 mod enthalpy;
+mod evaporation;
 mod model;
 mod pairs;
 mod phases;

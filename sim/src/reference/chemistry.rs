@@ -3,6 +3,7 @@
 use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::surroundings::WallSum;
+use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
@@ -239,6 +240,11 @@ impl Physical {
             None => vec![Rise::default(); self.contents.len()],
             Some(speed) => bubbles::rise(parameters, speed, pairs, &self.contents, &potentials),
         };
+        let evaporates = self
+            .law
+            .losses
+            .filter(|_| self.law.superheat_time.is_some());
+        let air = evaporates.map(|losses| StillAir::at(&self.table, losses.ambient));
         for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
             let (glass, surface) = surfaces[i];
             let gained = self.law.losses.map_or(0.0, |losses| {
@@ -248,6 +254,12 @@ impl Physical {
             let content = &mut self.contents[i];
             content.acid += acid / content.mass;
             content.enthalpy += (enthalpy + gained) / content.mass;
+            if let Some(air) = &air {
+                let gone = evaporated(&self.table, air, &potentials[i], surface, time);
+                content.take_out_water(&gone);
+                self.ledger.steam.mass += gone.mass;
+                self.ledger.steam.enthalpy += gone.enthalpy;
+            }
             let Rise { gained, gone } = rises[i];
             // Only where bubbles leave does their vapour push the liquid out of
             // the air's way.

@@ -2,8 +2,9 @@
 
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
+use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
-use crate::chemistry::table::INTERVALS;
+use crate::chemistry::table::{INTERVALS, SolutionTable};
 use crate::chemistry::thomsen::JOULES_PER_CALORIE;
 use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
 use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
@@ -188,6 +189,11 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         own.extend([
             ("LOSSES", 1.0),
             ("AMBIENT", losses.ambient),
+            (
+                "AIR_VAPOUR",
+                StillAir::at(&SolutionTable::new(), losses.ambient).vapour(),
+            ),
+            ("SPECIFIC_VOLUME", 1.0 / p.rest_density),
             ("GLASS_LOSS", losses.glass / p.rest_density),
             ("SURFACE_LOSS", losses.surface / p.rest_density),
         ]);

@@ -237,7 +237,7 @@ fn steam_of_ten_kelvin_throws_as_a_balance_says() {
     let row = table.at(0.63);
     let boiling = row.boiling_point;
     let content = Content::liquid(&table, 1.0, 0.63, boiling + 10.0).unwrap();
-    let (capacity, latent) = (row.capacity_at(boiling), table.latent_heat(0.63, boiling));
+    let (capacity, latent) = (row.capacity_at(boiling), row.latent_heat(boiling));
     let evaporated = 10.0 * capacity / latent;
     assert!((evaporated - 0.0090).abs() < 0.0002, "{evaporated}");
     let rise = 0.63 * (table.at(0.64).boiling_point - table.at(0.62).boiling_point) / 0.02;
