@@ -35,6 +35,7 @@ fn heat(t: f64) -> HeatSample {
         temperature_p99_c: 30.0 + 20.0 * t,
         temperature_max_c: 40.0 + 20.0 * t,
         temperatures_in_flasks_c: BTreeMap::new(),
+        temperatures_of_glass_c: BTreeMap::new(),
         acid_mean: 0.5,
         acid_min: 0.0,
         acid_max: 0.98,

@@ -349,6 +349,7 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             .into_iter()
             .filter(|(_, [least, most])| least <= most)
             .collect(),
+        temperatures_of_glass_c: by_flask(scene, &heat.temperatures_of_glass),
         acid_mean: heat.acid_mean,
         acid_min: heat.acid_min,
         acid_max: heat.acid_max,

@@ -72,6 +72,8 @@ pub struct HeatSample {
     pub temperature_max_c: f64,
     /// Least and highest temperature in each flask that holds liquid, °C.
     pub temperatures_in_flasks_c: BTreeMap<String, [f64; 2]>,
+    /// Least and highest temperature of each flask's glass, °C; empty where none takes up heat.
+    pub temperatures_of_glass_c: BTreeMap<String, [f64; 2]>,
     /// Mean acid mass fraction.
     pub acid_mean: f64,
     /// Least acid fraction.

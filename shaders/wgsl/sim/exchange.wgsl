@@ -12,6 +12,8 @@
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/rests.wgsl
 //!include common/chemistry/solution.wgsl
+//!include common/glass/glass_rows.wgsl
+//!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
@@ -34,7 +36,7 @@ override BUBBLE_SPEED: f32 = 0.0;
 override SPACING: f32 = 0.0025;
 /// η: share of the vapour's work that becomes motion, times R/M (J/(kg K)).
 override AGITATION: f32 = 0.0;
-/// Heat transfer to glass and at the surface over ρ0, W m/(kg K).
+/// Heat transfer of drops through what they lie on, and at the surface, over ρ0, W m/(kg K).
 override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
 /// 1/ρ0, m³/kg.
@@ -55,6 +57,9 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 @group(0) @binding(10) var<storage, read> agitation: array<f32>;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
 @group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
+/// By flask and ring: T (°C), and quanta of heat that the liquid took in this frame.
+@group(0) @binding(13) var<storage, read> glass: array<vec2<f32>>;
+@group(0) @binding(14) var<storage, read_write> glass_taken: array<atomic<i32>>;
 
 /// What a pair exchanges in a substep.
 struct Rates {
@@ -176,11 +181,33 @@ fn surface_of(glass: vec3<f32>, open: vec3<f32>) -> f32 {
     return disorder * smoothstep(INSIDE, SURFACE, 2.0 * SPACING * disorder);
 }
 
-/// Heat that a particle takes in a substep through glass and surface, of these areas over 2V0, J per V0·ρ0.
-fn heat_from_around(own: Potential, glass: f32, surface: f32) -> f32 {
+/// Heat that a particle takes in a substep from what has the temperature `around` (°C), by a transfer over ρ0
+/// (W m/(kg K)) and an area over 2V0 (1/m), J per V0·ρ0.
+fn heat_from(own: Potential, around: f32, transfer_area: f32) -> f32 {
     let capacity = own.mass * own.capacity;
-    let rate = 2.0 * (GLASS_LOSS * glass + SURFACE_LOSS * surface) / max(capacity, 1e-3);
-    return (AMBIENT - own.temperature) * capacity * decayed(rate * step.time);
+    let rate = 2.0 * transfer_area / max(capacity, 1e-3);
+    return (around - own.temperature) * capacity * decayed(rate * step.time);
+}
+
+/// Most quanta of a particle and a substep.
+const MOST_QUANTA: f32 = 4194304.0;
+
+/// Heat that a particle takes in a substep from the glass of its flask, in whole quanta, as sums of integers
+/// do not depend on order; drops elsewhere lose theirs to what is around.
+fn heat_from_glass(own: Potential, membership: u32, x: vec3<f32>, gradient: vec3<f32>) -> f32 {
+    let slope = length(gradient);
+    if (slope <= 0.0) { return 0.0; }
+    if (membership == NOBODYS || membership > FLASKS) { return heat_from(own, AMBIENT, GLASS_LOSS * slope); }
+    let k = membership - 1u;
+    // Where it touches, half a spacing away.
+    let y = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope)).y;
+    let place = (y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_ROWS);
+    let ring = k * GLASS_ROWS + u32(clamp(place, 0.0, f32(GLASS_ROWS - 1u)));
+    let row = glass_rows[ring];
+    let wanted = heat_from(own, glass[ring].x, row.to_liquid * slope);
+    let quanta = clamp(round(wanted / row.quantum_per_mass), -MOST_QUANTA, MOST_QUANTA);
+    atomicAdd(&glass_taken[ring], i32(quanta));
+    return quanta * row.quantum_per_mass;
 }
 
 /// Most of a particle's liquid that evaporates in a substep.
@@ -206,14 +233,15 @@ struct State {
 }
 
 /// Line 26: adds what neighbours and surroundings bring, and takes what evaporates.
-fn take_up(before: State, i: u32, own: Potential, received: Received) -> State {
+fn take_up(before: State, i: u32, membership: u32, own: Potential, received: Received) -> State {
     var state = before;
     var taken = received.enthalpy;
     var gone = 0.0;
     if (LOSSES) {
         let glass = wall_gradient(boundary[i]);
         let surface = surface_of(glass, received.open);
-        let gained = heat_from_around(own, length(glass), surface);
+        let gained = heat_from_glass(own, membership, position[i].xyz, glass)
+            + heat_from(own, AMBIENT, SURFACE_LOSS * surface);
         taken += gained;
         state.account.heat += gained;
         if (EVAPORATION) { gone = evaporated(own, surface); }
@@ -298,7 +326,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     state.account = unpack_account(ledger[tag.y]);
     state.acid = Compensated(state.content.acid, lacking.acid);
     state.enthalpy = Compensated(state.content.enthalpy, lacking.enthalpy);
-    state = take_up(state, i, own, received);
+    state = take_up(state, i, tag.x, own, received);
     if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }
     var content = state.content;
     content.acid = clamp(state.acid.value, 0.0, 1.0);

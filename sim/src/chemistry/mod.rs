@@ -15,6 +15,7 @@ pub mod curve;
 mod error;
 pub mod evaporation;
 pub mod exchange;
+pub mod glass;
 mod model;
 pub mod paper;
 pub mod physical;

@@ -5,6 +5,7 @@
 mod air;
 mod enthalpy;
 mod evaporation;
+mod glass;
 mod model;
 mod pairs;
 mod phases;

@@ -146,7 +146,7 @@ fn harmonic(a: f64, b: f64) -> f64 {
 pub struct Losses {
     /// Ambient temperature T_a, °C.
     pub ambient: f64,
-    /// Through glass, W/(m² K).
+    /// From glass to the air, W/(m² K).
     pub glass: f64,
     /// From the free surface, W/(m² K).
     pub surface: f64,
@@ -154,7 +154,7 @@ pub struct Losses {
 
 /// Natural convection of air and radiation around a vessel that is warm to
 /// the hand, W/(m² K) (Incropera: 2 to 25 for convection, 6 for radiation at
-/// 50 °C); 2 mm of glass have 500 and add nothing.
+/// 50 °C).
 pub const AIR_TRANSFER: f64 = 12.0;
 
 impl Losses {
@@ -166,16 +166,16 @@ impl Losses {
             surface: AIR_TRANSFER,
         }
     }
+}
 
-    /// Enthalpy that a particle gets from around it in `time` seconds, J,
-    /// where `glass` and `surface` are its areas (m², see [`contact_area`] and [`surface_area`]).
-    ///
-    /// By the exponential of its own decay, so that no time is too long.
-    pub fn gain(&self, particle: &Potential, glass: f64, surface: f64, time: f64) -> f64 {
-        let capacity = particle.heat_capacity();
-        let rate = (self.glass * glass + self.surface * surface) / capacity;
-        capacity * (particle.temperature - self.ambient) * (-rate * time).exp_m1()
-    }
+/// Heat that a particle gets in `time` seconds from what is at `around` °C
+/// through `conductance` (W/K), J.
+///
+/// By the exponential of its own decay, so that no time is too long.
+pub fn heat_from(particle: &Potential, around: f64, conductance: f64, time: f64) -> f64 {
+    let capacity = particle.heat_capacity();
+    let rate = conductance / capacity;
+    capacity * (particle.temperature - around) * (-rate * time).exp_m1()
 }
 
 /// Area of a boundary that belongs to a particle of volume `volume` (m³),

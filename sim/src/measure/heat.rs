@@ -3,6 +3,7 @@
 
 use super::percentile::percentile;
 use crate::chemistry::Chemistry;
+use crate::chemistry::glass::ROWS;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use crate::solver::SolverState;
@@ -23,6 +24,8 @@ pub struct HeatMeasurement {
     /// Least and highest temperature in each flask, °C, up to the last one that
     /// holds any; of one that is empty, infinite.
     pub temperatures_in_flasks: Vec<[f64; 2]>,
+    /// Least and highest temperature of each flask's glass, °C, where heat is lost to it.
+    pub temperatures_of_glass: Vec<[f64; 2]>,
     /// Mean acid mass fraction.
     pub acid_mean: f64,
     /// Standard deviation of the acid fraction.
@@ -89,6 +92,13 @@ impl Ledger {
     }
 }
 
+fn range(rings: &[[f32; 2]]) -> [f64; 2] {
+    let temperatures = rings.iter().map(|ring| f64::from(ring[0]));
+    temperatures.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| {
+        [low.min(t), high.max(t)]
+    })
+}
+
 /// Heat that warms water by 1 K at 20 °C, J/kg.
 const WATER_KELVIN: f64 = 4184.0;
 
@@ -115,6 +125,7 @@ pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasu
         temperature_p99: percentile(&sorted, 0.99),
         temperature_max: temperature.max,
         temperatures_in_flasks: by_flask(state, &present),
+        temperatures_of_glass: state.glass.chunks(ROWS).map(range).collect(),
         acid_mean: acid.mean,
         acid_spread: acid.deviation,
         acid_min: acid.min,

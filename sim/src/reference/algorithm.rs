@@ -25,6 +25,7 @@ impl Reference {
                 .collect();
             self.substep();
         }
+        self.warm_glass();
     }
 
     fn substep(&mut self) {

@@ -2,12 +2,13 @@
 
 use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
+use super::glass::{Glass, Touch};
 use super::surroundings::WallSum;
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Flux, Potential, flux};
+use crate::chemistry::transport::{Flux, Potential, flux, heat_from};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 use glam::DVec3;
@@ -179,6 +180,8 @@ pub struct Physical {
     pub viscosities: Vec<f64>,
     /// Balance since the start.
     pub ledger: Ledger,
+    /// The flasks' glass, from the first substep on, where heat is lost to it.
+    pub glass: Option<Glass>,
 }
 
 impl Physical {
@@ -205,18 +208,18 @@ impl Physical {
             contents,
             table,
             ledger: Ledger::default(),
+            glass: None,
         })
     }
 
     /// Line 26: acid and enthalpy between particles, heat to what is around,
-    /// bubbles that rise, boiling. `surfaces` are each particle's areas of
-    /// glass and of free surface, m².
+    /// bubbles that rise, boiling.
     pub fn dilute(
         &mut self,
         pairs: &Pairs,
         parameters: &Parameters,
         velocities: &[DVec3],
-        surfaces: &[(f64, f64)],
+        touches: &[Touch],
     ) {
         let (support, time) = (parameters.support_radius, parameters.substep_time());
         let potentials: Vec<_> = self
@@ -246,16 +249,13 @@ impl Physical {
             .filter(|_| self.law.superheat_time.is_some());
         let air = evaporates.map(|losses| StillAir::at(&self.table, losses.ambient));
         for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
-            let (glass, surface) = surfaces[i];
-            let gained = self.law.losses.map_or(0.0, |losses| {
-                losses.gain(&potentials[i], glass, surface, time)
-            });
+            let gained = self.heat_from_around(&potentials[i], &touches[i], time);
             self.ledger.exchanged += gained;
             let content = &mut self.contents[i];
             content.acid += acid / content.mass;
             content.enthalpy += (enthalpy + gained) / content.mass;
             if let Some(air) = &air {
-                let gone = evaporated(&self.table, air, &potentials[i], surface, time);
+                let gone = evaporated(&self.table, air, &potentials[i], touches[i].surface, time);
                 content.take_out_water(&gone);
                 self.ledger.steam.mass += gone.mass;
                 self.ledger.steam.enthalpy += gone.enthalpy;
@@ -277,6 +277,24 @@ impl Physical {
                 self.viscosities[i] = row.viscosity_at(temperature) / row.density_at(temperature);
             }
         }
+    }
+
+    /// Heat that a particle takes through glass and surface in `time` seconds, J.
+    fn heat_from_around(&mut self, own: &Potential, touch: &Touch, time: f64) -> f64 {
+        let Some(losses) = self.law.losses else {
+            return 0.0;
+        };
+        let through_air = |transfer: f64| heat_from(own, losses.ambient, transfer, time);
+        let of_glass = match (touch.ring, &mut self.glass) {
+            (Some(ring), Some(glass)) => {
+                let (temperature, transfer) = glass.ring(ring);
+                let gained = heat_from(own, temperature, transfer * touch.glass, time);
+                glass.taken[ring.0][ring.1] -= gained;
+                gained
+            }
+            _ => through_air(losses.glass * touch.glass),
+        };
+        of_glass + through_air(losses.surface * touch.surface)
     }
 
     /// V_i, m³, and ρ₀/ρ_i of the liquid for ρ₀ = `rest_density` (kg/m³).

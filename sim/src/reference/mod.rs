@@ -14,8 +14,10 @@ pub mod chemistry;
 pub mod density;
 pub mod dilution;
 pub mod forces;
+pub mod glass;
 pub mod measure;
-pub mod motion;
+
+mod motion;
 pub mod neighbours;
 pub mod placement;
 mod reaction;

@@ -2,6 +2,7 @@
 
 use super::chemistry::Chemistry;
 use super::dilution::Pairs;
+use super::glass::{Glass, Touch};
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use super::surroundings::WallSum;
@@ -40,16 +41,33 @@ impl Reference {
                     let apart = self.positions[i] - self.positions[j];
                     apart.normalize_or_zero() * (volume * kernel.dw(apart.length()))
                 });
-                let areas = |(wall, &liquid): (&WallSum, &DVec3)| {
+                let touch = |(i, (wall, &liquid)): (usize, (&WallSum, &DVec3))| {
                     let open = (wall.gradient + liquid).length();
-                    let glass = contact_area(volume, wall.gradient.length());
-                    (glass, surface_area(volume, open))
+                    Touch {
+                        glass: contact_area(volume, wall.gradient.length()),
+                        surface: surface_area(volume, open),
+                        ring: self.ring_of(i, wall),
+                    }
                 };
-                let surfaces: Vec<_> = walls.iter().zip(&slopes).map(areas).collect();
-                physical.dilute(&pairs, &self.parameters, &self.velocities, &surfaces);
+                let touches: Vec<_> = walls.iter().zip(&slopes).enumerate().map(touch).collect();
+                if let (Some(losses), None) = (&physical.law.losses, &physical.glass) {
+                    let vessels = &self.surroundings.vessels;
+                    let glass = Glass::new(vessels, losses, self.parameters.frame_time);
+                    physical.glass = Some(glass);
+                }
+                physical.dilute(&pairs, &self.parameters, &self.velocities, &touches);
             }
         }
         self.chemistry = Some(chemistry);
+    }
+
+    /// The end of a frame: the glass takes what the liquid gave it.
+    pub(super) fn warm_glass(&mut self) {
+        if let Some(Chemistry::Physical(physical)) = &mut self.chemistry
+            && let (Some(glass), Some(losses)) = (&mut physical.glass, &physical.law.losses)
+        {
+            glass.advance(losses.ambient, self.parameters.frame_time);
+        }
     }
 
     /// Line 27 with a coefficient per particle.

@@ -2,6 +2,7 @@
 //! every array is the same; it changes when the list is rebuilt.
 
 use super::counters::Counters;
+use super::glass;
 use super::pipelines::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
@@ -65,6 +66,9 @@ pub(super) struct Buffers {
     pub(super) bulk: Buffer,
     pub(super) sorted_bulk: Buffer,
     pub(super) solution: Buffer,
+    /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
+    pub(super) glass: Buffer,
+    pub(super) glass_taken: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
     pub(super) wall_push: Buffer,
@@ -96,6 +100,7 @@ impl Buffers {
         } else {
             Vec::new()
         };
+        let rings = glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
         let confined = spec.parameters.vorticity > 0.0;
         Ok(Self {
             position: words("position", 4 * n)?,
@@ -130,6 +135,8 @@ impl Buffers {
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
             solution: upload(gpu, "solution", &table)?,
+            glass: words("glass", 2 * rings)?,
+            glass_taken: words("glass_taken", rings)?,
             poses: Buffer::storage(
                 gpu,
                 "poses",
@@ -143,7 +150,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 17] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 20] {
         [
             &self.position,
             &self.velocity,
@@ -179,12 +186,15 @@ impl Buffers {
             &self.block_sums,
             &self.list_args,
             &self.solution,
+            &self.glass,
+            &self.glass_taken,
             &self.poses,
             &self.loads,
             &vessels.flasks,
             &vessels.radii,
             &vessels.maps,
             &vessels.distances,
+            &vessels.glass_rows,
             &vessels.plane,
             &vessels.pulls,
             &vessels.solids.cells,

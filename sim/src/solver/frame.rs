@@ -84,6 +84,11 @@ impl Solver {
             let forces = if last { &p.last_forces } else { &p.forces };
             self.over_particles(rec, forces, &step)?;
         }
+        if let Some(glass) = &p.glass {
+            self.pass(rec, glass)
+                .constants(&self.step(substeps - 1))
+                .workgroups([self.flasks as u32, 1, 1])?;
+        }
         if let Some(steam) = &self.steam {
             steam.record(rec, &self.buffers)?;
         }

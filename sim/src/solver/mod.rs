@@ -14,6 +14,7 @@ mod buffers;
 mod counters;
 mod error;
 mod frame;
+mod glass;
 mod matter;
 mod pipelines;
 mod reading;
@@ -101,6 +102,7 @@ impl Solver {
             spec.particles,
             &solver.grid,
             &spec.parameters,
+            spec.flasks.len(),
         ))?;
         Ok(solver)
     }

@@ -1,5 +1,6 @@
 //! The passes, specialised for what the scene asks for.
 
+use super::glass;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
 use crate::chemistry::evaporation::StillAir;
@@ -78,6 +79,8 @@ pub(super) struct Pipelines {
     pub(super) forces: SolverPass,
     /// Of a frame's last substep: predicts none.
     pub(super) last_forces: SolverPass,
+    /// Where heat is lost to flasks.
+    pub(super) glass: Option<SolverPass>,
     pub(super) load: SolverPass,
     pub(super) density: SolverPass,
 }
@@ -129,6 +132,10 @@ impl Pipelines {
             vorticity,
             forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[pull])?,
+            glass: match glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
+                0 => None,
+                _ => Some(make(sim::GLASS, &[])?),
+            },
             load: make(sim::LOAD, &[])?,
             density: make(sim::DENSITY, &[])?,
         })
@@ -214,6 +221,7 @@ impl Constants {
         let margin = grid.cell - p.support_radius;
         let mut all = vec![
             ("COUNT", f64::from(count)),
+            ("FRAME_TIME", p.frame_time),
             ("LIST_CAPACITY", f64::from(grid.list_capacity)),
             ("LANES", f64::from(lanes)),
             ("SUPPORT", p.support_radius),

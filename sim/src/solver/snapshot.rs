@@ -1,5 +1,6 @@
 //! The solver's state, taken from a device and put on one again.
 
+use super::glass;
 use super::steam::{Steam, SteamState};
 use super::transfer::{read, write};
 use super::{Counters, Solver, SolverError, SolverState};
@@ -24,6 +25,7 @@ impl Solver {
             ledger: read(gpu, &b.ledger, matter)?,
             agitation: read(gpu, &b.agitation, matter)?,
             bulk: read(gpu, &b.bulk, matter)?,
+            glass: read(gpu, &b.glass, self.rings())?,
             steam: match &self.steam {
                 Some(steam) => steam.snapshot(gpu, n)?,
                 None => SteamState::default(),
@@ -57,6 +59,7 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
+            ("glass", state.glass.len(), self.rings()),
             ("puffs", steam.puffs.len(), start.puffs.len()),
             ("vented steam", steam.vented.len(), start.vented.len()),
             ("vents", steam.made.len(), start.made.len()),
@@ -81,6 +84,7 @@ impl Solver {
         write(gpu, &b.ledger, &state.ledger)?;
         write(gpu, &b.agitation, &state.agitation)?;
         write(gpu, &b.bulk, &state.bulk)?;
+        write(gpu, &b.glass, &state.glass)?;
         if let Some(steam) = &self.steam {
             steam.restore(gpu, &state.steam)?;
         }
@@ -90,6 +94,7 @@ impl Solver {
         write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
+        rec.fill(&b.glass_taken, 0)?;
         // Nothing is stale yet; y and z of the dispatch sizes are 1.
         rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
         gpu.submit(rec)?.wait()?;
@@ -102,6 +107,10 @@ impl Solver {
         let chemistry = self.parameters.chemistry.as_ref();
         let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
         [of(chemistry.is_some()), of(physical)]
+    }
+
+    fn rings(&self) -> usize {
+        glass::rings(self.parameters.chemistry.as_ref(), self.flasks)
     }
 
     /// Reads the counters; waits for the device.

@@ -1,6 +1,7 @@
 //! The solver's state on the host: what it is at the start, and what it tells of a particle.
 
 use super::counters::Counters;
+use super::glass;
 use super::matter::Start;
 use super::pipelines::Grid;
 use super::spec::Particle;
@@ -44,6 +45,8 @@ pub struct SolverState {
     pub(super) agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     pub(super) bulk: Vec<[f32; 4]>,
+    /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
+    pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
 }
 
@@ -52,7 +55,14 @@ const REMOVED: u32 = u32::MAX;
 
 impl SolverState {
     /// The state before the first frame: a list that is stale for all.
-    pub(super) fn start(particles: &[Particle], grid: &Grid, parameters: &Parameters) -> Self {
+    pub(super) fn start(
+        particles: &[Particle],
+        grid: &Grid,
+        parameters: &Parameters,
+        flasks: usize,
+    ) -> Self {
+        let chemistry = parameters.chemistry.as_ref();
+        let ambient = glass::losses(chemistry).map_or(0.0, |losses| losses.ambient);
         let n = particles.len();
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
@@ -71,6 +81,7 @@ impl SolverState {
             ledger: Vec::new(),
             agitation: Vec::new(),
             bulk: Vec::new(),
+            glass: vec![[ambient as f32, 0.0]; glass::rings(chemistry, flasks)],
             steam: Steam::start(parameters, n),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
@@ -101,7 +112,7 @@ impl SolverState {
     }
 
     /// Hash of what a replay must repeat: every particle's bits of position,
-    /// velocity, membership, heat and content, in the order of their identities.
+    /// velocity, membership, heat and content, in the order of their identities, and of the glass's heat.
     pub fn hash(&self) -> u64 {
         let mut order: Vec<usize> = (0..self.tags.len()).collect();
         order.sort_by_key(|&slot| self.tags[slot][1]);
@@ -117,6 +128,7 @@ impl SolverState {
                 hash.update(bytemuck::bytes_of(matter));
             }
         }
+        hash.update(bytemuck::cast_slice(&self.glass));
         hash.digest()
     }
 

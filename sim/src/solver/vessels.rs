@@ -1,5 +1,6 @@
 //! Flasks, table and floor as the shaders' buffers.
 
+use super::glass;
 use super::solids::Solids;
 use super::spec::SolverSpec;
 use super::transfer::upload;
@@ -19,6 +20,7 @@ pub struct Vessels {
     pub(super) radii: Buffer,
     pub(super) maps: Buffer,
     pub(super) distances: Buffer,
+    pub(super) glass_rows: Buffer,
     pub(super) plane: Buffer,
     pub(super) pulls: Buffer,
     pub(super) solids: Solids,
@@ -74,6 +76,7 @@ impl Vessels {
             radii: upload(gpu, "radii", &radii)?,
             maps: upload(gpu, "maps", &maps)?,
             distances: upload(gpu, "distances", &distances)?,
+            glass_rows: upload(gpu, "glass_rows", &glass::constants(spec))?,
             plane: upload(gpu, "plane", &plane)?,
             pulls: upload(gpu, "pulls", &pulls)?,
             solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,

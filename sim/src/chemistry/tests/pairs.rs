@@ -5,7 +5,7 @@ use super::super::paper::{AntiViscosity, Dilution};
 use super::super::physical::Content;
 use super::super::table::SolutionTable;
 use super::super::thomsen;
-use super::super::transport::{Losses, Mixing, Potential, contact_area, flux, surface_area};
+use super::super::transport::{Mixing, Potential, contact_area, flux, heat_from, surface_area};
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 use crate::scene::Scene;
@@ -216,22 +216,18 @@ fn uniform_liquid_exchanges_nothing() {
 #[test]
 fn losses_stop_at_ambient() {
     let table = SolutionTable::new();
-    let losses = Losses {
-        surface: 30.0,
-        ..Losses::to_air(20.0)
-    };
     for temperature in [-20.0, 20.0, 150.0, 1e6] {
         let content = Content::liquid(&table, 1.6e-5, 0.5, temperature).unwrap();
         let hot = Potential::of(&table, &content);
-        let at_once = losses.gain(&hot, 6e-6, 6e-6, 1e9);
+        let at_once = heat_from(&hot, 20.0, 30.0 * 6e-6, 1e9);
         let all = hot.heat_capacity() * (20.0 - temperature);
         assert!(
             (at_once - all).abs() <= 1e-9 * all.abs() + 1e-12,
             "{temperature}"
         );
-        // 12 W/(m² K) to glass and 30 at the surface over a short time, by hand.
-        let soon = losses.gain(&hot, 6e-6, 2e-6, 1e-3);
-        let by_hand = (12.0 * 6e-6 + 30.0 * 2e-6) * (20.0 - temperature) * 1e-3;
+        // 30 W/(m² K) over a short time, by hand.
+        let soon = heat_from(&hot, 20.0, 30.0 * 2e-6, 1e-3);
+        let by_hand = 30.0 * 2e-6 * (20.0 - temperature) * 1e-3;
         assert!(
             (soon - by_hand).abs() <= 1e-4 * by_hand.abs() + 1e-15,
             "{soon} {by_hand}"

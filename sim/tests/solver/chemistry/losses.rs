@@ -3,56 +3,131 @@
 use super::setup::*;
 use crate::common::*;
 use std::f64::consts::PI;
-use vitriol_sim::chemistry::transport::Losses;
+use vitriol_gpu::Gpu;
+use vitriol_sim::chemistry::adiabatic::{Feed, mix};
+use vitriol_sim::chemistry::evaporation::StillAir;
+use vitriol_sim::chemistry::glass::ROWS;
+use vitriol_sim::chemistry::table::SolutionTable;
+use vitriol_sim::chemistry::transport::{Losses, Mixing};
 use vitriol_sim::chemistry::{Chemistry, Physical};
+use vitriol_sim::flask::glass::find;
+use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::{Solver, SolverState};
 use vitriol_tests::gpu;
 
-/// A glass of water at 80 °C that has come to rest loses what Newton's law has for its surface,
-/// πr², and for the glass that it wets, πr² + 2πr·level.
-///
-/// A tenth is allowed of the surface (a particle is 0.2 r wide), and 12 % of the glass: in the corner of wall
-/// and floor two gradients add as vectors and not as areas, which takes 5 % off in so small a glass.
+/// A glass of water at 80 °C that has come to rest loses what Newton's law has for its surface, πr². A tenth
+/// is allowed: a particle is 0.2 r wide.
 #[test]
-fn a_glass_loses_heat_by_its_surface_and_its_wall() {
+fn a_glass_loses_heat_by_its_surface() {
     let device = gpu::device();
     let (radius, transfer) = (0.013, 200.0);
-    for (glass, surface, allowed) in [(0.0, transfer, 0.10), (transfer, 0.0, 0.12)] {
-        let law = Physical {
-            losses: Some(Losses {
-                ambient: 20.0,
-                glass,
-                surface,
-            }),
-            ..mixing_alone()
-        };
-        let p = with(Chemistry::Physical(law), parameters());
-        let (unit, frame_time) = (p.particle_mass(), p.frame_time);
-        let volume = 800.0 * p.particle_volume();
-        let particles = glass_of(800, |_| (80.0, 0.0));
-        let solver = Setup::new(p, vec![narrow_glass()], particles).solver(&device);
-        frames(&device, &solver, &[Pose::IDENTITY], 40);
-        let lost = || -unit * sum(&solver.snapshot().unwrap().ledger, |row| row[1]);
-        let mean = || {
-            let heat = solver.snapshot().unwrap().heat;
-            sum(&heat, |row| row[0]) / heat.len() as f64
-        };
-        let (before, warmth) = (lost(), mean() - 20.0);
-        frames(&device, &solver, &[Pose::IDENTITY], 5);
-        let power = (lost() - before) / (5.0 * frame_time);
-        let level = volume / (PI * radius * radius);
-        let wetted = PI * radius * radius + 2.0 * PI * radius * level;
-        let area = if glass > 0.0 {
-            wetted
-        } else {
-            PI * radius * radius
-        };
-        let found = power / (transfer * warmth * area);
+    let law = Physical {
+        losses: Some(Losses {
+            ambient: 20.0,
+            glass: 0.0,
+            surface: transfer,
+        }),
+        ..mixing_alone()
+    };
+    let solver = hot_glass(&device, law, 80.0);
+    frames(&device, &solver, &[Pose::IDENTITY], 40);
+    let unit = solver.parameters().particle_mass();
+    let at = || {
+        let state = solver.snapshot().unwrap();
+        let lost = -unit * sum(&state.ledger, |row| row[1]);
+        let given = in_glass(&state) - in_glass_at(20.0);
+        (lost - given, mean_temperature(&state))
+    };
+    let before = at();
+    frames(&device, &solver, &[Pose::IDENTITY], 5);
+    let after = at();
+    let power = (after.0 - before.0) / (5.0 * solver.parameters().frame_time);
+    let found = power / (transfer * (before.1 - 20.0) * PI * radius * radius);
+    assert!((found - 1.0).abs() < 0.10, "{found} of the area");
+}
+
+/// What the liquid gives, the glass has; and it gives what Newton's law has for the glass that it wets, πr² +
+/// 2πr·level, through a film of 700 W/(m² K) and half of 2 mm of glass of 1.2 W/(m K).
+///
+/// 12 % are allowed: in the corner of wall and floor two gradients add as vectors and not as areas, which takes
+/// 5 % off in so small a glass.
+#[test]
+fn what_the_liquid_gives_the_glass_has() {
+    let device = gpu::device();
+    let radius = 0.013;
+    let law = Physical {
+        losses: Some(Losses {
+            ambient: 20.0,
+            glass: 0.0,
+            surface: 0.0,
+        }),
+        ..mixing_alone()
+    };
+    let solver = hot_glass(&device, law, 80.0);
+    frames(&device, &solver, &[Pose::IDENTITY], 40);
+    let p = solver.parameters();
+    let unit = p.particle_mass();
+    let level = 800.0 * p.particle_volume() / (PI * radius * radius);
+    let at = || {
+        let state = solver.snapshot().unwrap();
+        let lost = -unit * sum(&state.ledger, |row| row[1]);
+        let given = in_glass(&state) - in_glass_at(20.0);
+        // The rings' volumes are sums over 16 slices.
         assert!(
-            (found - 1.0).abs() < allowed,
-            "{glass} {surface}: {found} of the area"
+            (lost / given - 1.0).abs() < 1e-3,
+            "{lost} J are lost, {given} J in the glass"
         );
-    }
+        let wall: f64 = (0..ROWS)
+            .map(|ring| {
+                let reach = 0.06 / ROWS as f64;
+                let wetted = (level - ring as f64 * reach).clamp(0.0, reach);
+                let base = if ring == 0 { PI * radius * radius } else { 0.0 };
+                let area = 2.0 * PI * radius * wetted + base;
+                area * (mean_temperature(&state) - f64::from(state.glass[ring][0]))
+            })
+            .sum();
+        (lost, wall / (1.0 / 700.0 + 1e-3 / 1.2))
+    };
+    let before = at();
+    frames(&device, &solver, &[Pose::IDENTITY], 5);
+    let after = at();
+    let power = (after.0 - before.0) / (5.0 * p.frame_time);
+    let found = power / (0.5 * (before.1 + after.1));
+    assert!((found - 1.0).abs() < 0.12, "{found} of the area");
+}
+
+/// 800 particles of water of that temperature (°C) in the narrow glass.
+fn hot_glass(device: &Gpu, law: Physical, temperature: f64) -> Solver {
+    let p = with(Chemistry::Physical(law), parameters());
+    let particles = glass_of(800, |_| (temperature, 0.0));
+    Setup::new(p, vec![narrow_glass()], particles).solver(device)
+}
+
+fn mean_temperature(state: &SolverState) -> f64 {
+    sum(&state.heat, |row| row[0]) / state.heat.len() as f64
+}
+
+/// Heat in the rings of the narrow glass, J over 0 °C: borosilicate of 2230 kg/m³ and 830 J/(kg K), 2 mm of it around and
+/// under 60 mm of 26 mm inner diameter.
+fn in_rings(glass: &[[f32; 2]]) -> f64 {
+    let ring = PI * (0.015f64.powi(2) - 0.013f64.powi(2)) * 0.06 / ROWS as f64;
+    // A disc, and a quarter of a circle around it.
+    let corner = 0.25 * PI * 0.002f64.powi(2);
+    let base = PI * 0.013f64.powi(2) * 0.002 + corner * 2.0 * PI * (0.013 + 0.008 / (3.0 * PI));
+    let of = |(k, row): (usize, &[f32; 2])| {
+        let volume = if k == 0 { ring + base } else { ring };
+        2230.0 * 830.0 * volume * f64::from(row[0])
+    };
+    glass.iter().enumerate().map(of).sum()
+}
+
+fn in_glass(state: &SolverState) -> f64 {
+    in_rings(&state.glass)
+}
+
+fn in_glass_at(temperature: f32) -> f64 {
+    in_rings(&[[temperature, 0.0]; ROWS])
 }
 
 /// Open water in a full glass evaporates at the rate of a handbook's tanks in still air of 60 °F ('Heat Loss
@@ -72,24 +147,28 @@ fn open_water_evaporates_at_the_published_rate() {
             }),
             ..mixing_alone()
         };
-        let p = with(Chemistry::Physical(law), parameters());
+        let solver = hot_glass(&device, law, temperature);
+        let p = solver.parameters();
         let (unit, frame_time) = (p.particle_mass(), p.frame_time);
-        let particles = glass_of(800, |_| (temperature, 0.0));
-        let solver = Setup::new(p, vec![narrow_glass()], particles).solver(&device);
         frames(&device, &solver, &[Pose::IDENTITY], 40);
         let totals = || {
             let state = solver.snapshot().unwrap();
             let steam = [2, 3].map(|k| unit * sum(&state.ledger, |row| row[k]));
             let mass = unit * sum(&state.matter, |row| row[3]);
             let enthalpy = unit * sum(&state.matter, |row| row[3] * row[1]);
-            (steam, mass, enthalpy)
+            (steam, mass, enthalpy, in_glass(&state))
         };
-        let (before, mass, enthalpy) = totals();
+        let (before, mass, enthalpy, given) = totals();
         frames(&device, &solver, &[Pose::IDENTITY], 5);
-        let (after, less, lower) = totals();
+        let (after, less, lower, taken) = totals();
         let gone = after[0] - before[0];
-        let power = (after[1] - before[1] + lower - enthalpy) / (5.0 * frame_time);
-        assert!(power.abs() < 1e-2, "{power} W came from nowhere");
+        // What the glass gives or takes is the other term.
+        let power = (after[1] - before[1] + lower - enthalpy + taken - given) / (5.0 * frame_time);
+        let through = (taken - given) / (5.0 * frame_time);
+        assert!(
+            power.abs() < 1e-3 * through,
+            "{power} W of {through} came from nowhere"
+        );
         assert!(
             (mass - less - gone).abs() < 1e-2 * gone,
             "{mass} {less} {gone}"
@@ -101,5 +180,118 @@ fn open_water_evaporates_at_the_published_rate() {
             (flux / known - 1.0).abs() < 0.25,
             "{temperature} °C: {flux} W/m²"
         );
+    }
+}
+
+/// 100 mL of acid and 100 mL of water at 20 °C in a beaker of 400 mL, stirred: what a heat balance has for one
+/// body of liquid in one of glass, within 2 K all the time.
+///
+/// Reported is 19.2 → 131 °C within a minute, of which glass and acid are not stated: it lies between what the
+/// balance has for 95 and for 98 % acid with what a glass of 50 to 112 J/K takes.
+#[test]
+fn a_stirred_mix_in_glass_cools_as_a_heat_balance_says() {
+    let device = gpu::device();
+    let law = Physical {
+        mixing: Mixing { turbulence: 1.0 },
+        work_share: None,
+        viscosity: false,
+        ..built_in()
+    };
+    let d = 0.005;
+    let p = Parameters {
+        spacing: d,
+        support_radius: 2.0 * d,
+        margin: 0.002 * d,
+        frame_time: 1.0 / 30.0,
+        substeps: 6,
+        ..with(Chemistry::Physical(law), parameters())
+    };
+    let profile = find("beaker-400").unwrap().profile(1.0).unwrap();
+    let of_acid = (1e-4 / p.particle_volume()).round() as usize;
+    let mut particles = water(&profile, 0, Pose::IDENTITY, 2 * of_acid);
+    particles.sort_by(|a, b| a.position.y.total_cmp(&b.position.y));
+    for (i, particle) in particles.iter_mut().enumerate() {
+        particle.temperature = 20.0;
+        particle.acid = if i < of_acid { 0.98 } else { 0.0 };
+    }
+    let solver = Setup::new(p, vec![profile], particles).solver(&device);
+    let mut random = Random(3);
+    let mut balance = Balance::of_half_and_half(0.98, 0.0376, 0.0406, 2.0);
+    for second in 0..30 {
+        for _ in 0..5 {
+            stir(&device, &solver, &mut random, 0.3);
+            frames(&device, &solver, &[Pose::IDENTITY], 5);
+            balance.advance(0.2);
+        }
+        let found = mean_temperature(&solver.snapshot().unwrap());
+        let expected = balance.liquid;
+        assert!(
+            (found - expected).abs() < 2.0,
+            "{second} s: {found} {expected} °C"
+        );
+    }
+    let after = |acid: f64, glass: f64| {
+        let mut balance = Balance::of_half_and_half(acid, 0.0376, 0.0406, 2.0);
+        balance.capacities[1] = glass;
+        balance.advance(60.0);
+        balance.liquid
+    };
+    let (least, most) = (after(0.95, 112.0), after(0.98, 50.0));
+    assert!(least < 131.0 && 131.0 < most, "{least} to {most} °C");
+}
+
+/// Liquid and glass, each of one temperature.
+struct Balance {
+    /// °C.
+    liquid: f64,
+    glass: f64,
+    /// Acid fraction.
+    acid: f64,
+    /// kg of liquid, and J/K of glass that it wets.
+    capacities: [f64; 2],
+    /// Surface, wetted glass and its outside, m².
+    areas: [f64; 3],
+}
+
+impl Balance {
+    /// 100 mL of acid of that fraction and 100 mL of water, mixed at once, in a beaker of that inner radius,
+    /// filled to a level, whose wall is `wall` mm thick.
+    fn of_half_and_half(acid: f64, radius: f64, level: f64, wall: f64) -> Self {
+        let table = SolutionTable::new();
+        let feed = |acid: f64| Feed {
+            mass: 1e-4 * table.at(acid).density_at(20.0),
+            acid,
+            temperature: 20.0,
+        };
+        let mixed = mix(&table, &[feed(acid), feed(0.0)]).unwrap();
+        let base = PI * radius * radius;
+        let wetted = base + 2.0 * PI * radius * level;
+        Self {
+            liquid: mixed.temperature,
+            glass: 20.0,
+            acid: mixed.acid,
+            capacities: [mixed.mass, 2230.0 * 830.0 * wetted * wall * 1e-3],
+            areas: [base, wetted, wetted],
+        }
+    }
+
+    fn advance(&mut self, time: f64) {
+        let table = SolutionTable::new();
+        let air = StillAir::at(&table, 20.0);
+        let step = 0.02;
+        for _ in 0..(time / step).round() as usize {
+            let row = table.at(self.acid);
+            let gone = air.flux(&row, self.liquid) * self.areas[0];
+            let to_glass = self.areas[1] * (self.liquid - self.glass) / (1.0 / 700.0 + 1e-3 / 1.2);
+            let power = gone * row.latent_heat(self.liquid)
+                + 12.0 * self.areas[0] * (self.liquid - 20.0)
+                + to_glass;
+            self.liquid -= step * power / (self.capacities[0] * row.capacity_at(self.liquid));
+            let kept = to_glass - 12.0 * self.areas[2] * (self.glass - 20.0);
+            self.glass += step * kept / self.capacities[1];
+            let left = self.capacities[0] - gone * step;
+            self.acid *= self.capacities[0] / left;
+            self.capacities[0] = left;
+        }
     }
 }

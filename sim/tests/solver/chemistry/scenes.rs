@@ -45,6 +45,7 @@ fn expected(p: &Parameters, loads: bool, line_26: Option<&str>) -> Vec<String> {
         all.push("forces");
     }
     if let Some(Chemistry::Physical(physical)) = &p.chemistry {
+        all.extend(physical.losses.map(|_| "glass"));
         all.extend(
             physical
                 .bubble_speed

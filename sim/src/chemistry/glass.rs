@@ -1,0 +1,119 @@
+//! The heat of a flask's glass: rings of its wall, each of one temperature.
+//!
+//! A 400 mL beaker holds 112 J/K against 630 J/K of 200 mL of acid and water,
+//! and warms within seconds: what the liquid gives to the air goes through it.
+
+use super::transport::Losses;
+use crate::flask::Profile;
+use crate::flask::glass::BOROSILICATE;
+use std::f64::consts::PI;
+
+/// Rings of equal height from the inner floor up to the rim; the lowest has the base.
+pub const ROWS: usize = 32;
+
+/// Specific heat capacity of borosilicate glass 3.3, J/(kg K) (Schott: 830
+/// from 20 to 100 °C).
+pub const CAPACITY: f64 = 830.0;
+
+/// Its thermal conductivity at 90 °C, W/(m K) (ISO 3585).
+pub const CONDUCTIVITY: f64 = 1.2;
+
+/// Heat transfer between liquid and glass, W/(m² K): natural convection of
+/// water at 80 °C with 10 K between the two, Nu = 0.1 Ra^⅓ (Incropera, Eq.
+/// 9.24). Stirred it is three times that; then half a wall resists as much.
+pub const FILM: f64 = 700.0;
+
+/// Greatest difference of temperature between liquid and glass for which the
+/// device's integer sums have room, K.
+const WIDEST: f64 = 2000.0;
+
+/// Slices of a ring by which it is measured.
+const SLICES: u32 = 16;
+
+/// One ring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Heat capacity, J/K.
+    pub capacity: f64,
+    /// Heat that the air takes, W/K.
+    pub to_air: f64,
+    /// Heat that is conducted to the next ring above, W/K; 0 at the rim.
+    pub upwards: f64,
+    /// Heat that the liquid takes per area of contact, W/(m² K).
+    pub to_liquid: f64,
+    /// Least heat that the device counts, J.
+    pub quantum: f64,
+}
+
+/// Index of the row that the glass at the height `y` (flask's frame, m) belongs to.
+pub fn row_at(profile: &Profile, y: f64) -> usize {
+    let (floor, rim) = (profile.floor_height(), profile.rim_height());
+    let place = (y - floor) / (rim - floor) * ROWS as f64;
+    place.clamp(0.0, (ROWS - 1) as f64) as usize
+}
+
+/// The rows of a flask in air, for steps of `time` seconds.
+///
+/// Half the wall and the liquid's film lie between the two temperatures. A
+/// wall that is thinner than a step can follow takes up at most what brings
+/// it to the liquid's temperature.
+pub fn rows(profile: &Profile, losses: &Losses, time: f64) -> Vec<Row> {
+    let (floor, rim) = (profile.floor_height(), profile.rim_height());
+    let ring = (rim - floor) / ROWS as f64;
+    let areal = BOROSILICATE * CAPACITY * profile.wall();
+    let film = 1.0 / (1.0 / FILM + 0.5 * profile.wall() / CONDUCTIVITY);
+    let share = -(-film * time / areal).exp_m1();
+    let to_liquid = share * areal / time;
+    let row = |k: usize| {
+        let low = floor + k as f64 * ring;
+        let (mut volume, mut outside) = measured(profile, low, low + ring);
+        if k == 0 {
+            let (base, edge) = measured(profile, 0.0, floor);
+            volume += base;
+            outside += edge + PI * profile.outer_radius_at(0.0).powi(2);
+        }
+        let conducted = CONDUCTIVITY * section(profile, low + ring) / ring;
+        let capacity = BOROSILICATE * CAPACITY * volume;
+        let most = 0.2 * capacity / time;
+        Row {
+            capacity,
+            to_air: (losses.glass * outside).min(most),
+            upwards: if k + 1 < ROWS {
+                conducted.min(most)
+            } else {
+                0.0
+            },
+            to_liquid,
+            quantum: capacity * 4.0 * share * WIDEST / f64::from(i32::MAX),
+        }
+    };
+    (0..ROWS).map(row).collect()
+}
+
+/// Area of the glass in a level plane, m².
+fn section(profile: &Profile, y: f64) -> f64 {
+    let [inner, outer] = [profile.inner_radius(y), profile.outer_radius_at(y)];
+    PI * (outer * outer - inner * inner).max(0.0)
+}
+
+/// Volume of the glass (m³) and area of its outside (m²) between two heights.
+fn measured(profile: &Profile, low: f64, high: f64) -> (f64, f64) {
+    let step = (high - low) / f64::from(SLICES);
+    let middles = (0..SLICES).map(|i| low + (f64::from(i) + 0.5) * step);
+    middles.fold((0.0, 0.0), |(volume, outside), y| {
+        let edge = 2.0 * PI * profile.outer_radius_at(y) * step;
+        (volume + section(profile, y) * step, outside + edge)
+    })
+}
+
+/// Temperatures of `rows` (°C) after `time` seconds in which the liquid gave each `taken` joules.
+pub fn advance(rows: &[Row], temperatures: &mut [f64], taken: &[f64], ambient: f64, time: f64) {
+    let old = temperatures.to_vec();
+    let between = |k: usize| rows[k].upwards * (old[k + 1] - old[k]);
+    for (k, row) in rows.iter().enumerate() {
+        let above = if k + 1 < rows.len() { between(k) } else { 0.0 };
+        let below = if k > 0 { between(k - 1) } else { 0.0 };
+        let power = above - below + row.to_air * (ambient - old[k]);
+        temperatures[k] += (taken[k] + time * power) / row.capacity;
+    }
+}

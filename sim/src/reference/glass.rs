@@ -1,0 +1,72 @@
+//! The heat of the flasks' glass, with line 26 of the physical chemistry.
+
+use super::state::Reference;
+use super::surroundings::{Vessel, WallSum};
+use crate::chemistry::glass::{Row, advance, row_at, rows};
+use crate::chemistry::transport::Losses;
+use glam::DVec3;
+
+/// Where a particle touches glass or air.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Touch {
+    /// Area of glass, m².
+    pub glass: f64,
+    /// Area of free surface, m².
+    pub surface: f64,
+    /// Flask and ring that the glass belongs to; `None` for what is solid and no flask of its own.
+    pub ring: Option<(usize, usize)>,
+}
+
+/// The rings of all flasks.
+#[derive(Clone, Debug, Default)]
+pub struct Glass {
+    rows: Vec<Vec<Row>>,
+    /// T of each flask's rings, °C.
+    pub temperatures: Vec<Vec<f64>>,
+    /// Heat that the liquid gave them in this frame, J.
+    pub(super) taken: Vec<Vec<f64>>,
+}
+
+impl Glass {
+    /// Glass of the temperature of the air.
+    pub(super) fn new(vessels: &[Vessel], losses: &Losses, frame_time: f64) -> Self {
+        let rows: Vec<_> = vessels
+            .iter()
+            .map(|vessel| rows(&vessel.profile, losses, frame_time))
+            .collect();
+        let each = |value: f64| rows.iter().map(|rows| vec![value; rows.len()]).collect();
+        Self {
+            temperatures: each(losses.ambient),
+            taken: each(0.0),
+            rows,
+        }
+    }
+
+    /// Temperature, and heat transfer to liquid (W/(m² K)), of a ring.
+    pub(super) fn ring(&self, (flask, ring): (usize, usize)) -> (f64, f64) {
+        (
+            self.temperatures[flask][ring],
+            self.rows[flask][ring].to_liquid,
+        )
+    }
+
+    /// The end of a frame: rings take what the liquid gave, conduct it and lose it to air of `ambient` °C.
+    pub(super) fn advance(&mut self, ambient: f64, frame_time: f64) {
+        let flasks = self.rows.iter().zip(&mut self.temperatures);
+        for ((rows, temperatures), taken) in flasks.zip(&mut self.taken) {
+            advance(rows, temperatures, taken, ambient, frame_time);
+            taken.fill(0.0);
+        }
+    }
+}
+
+impl Reference {
+    /// Ring that particle `i` touches, half a spacing away along the wall's gradient.
+    pub(super) fn ring_of(&self, i: usize, wall: &WallSum) -> Option<(usize, usize)> {
+        let flask = self.membership[i]?;
+        let away: DVec3 = wall.gradient.normalize_or_zero() * (0.5 * self.parameters.spacing);
+        let local = self.motion[flask].after.to_flask(self.positions[i] + away);
+        let profile = &self.surroundings.vessels[flask].profile;
+        Some((flask, row_at(profile, local.y)))
+    }
+}
