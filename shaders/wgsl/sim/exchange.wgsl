@@ -4,6 +4,7 @@
 //!include common/chemistry/boiling.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
+//!include common/chemistry/eddies.wgsl
 //!include common/chemistry/evaporation.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
@@ -23,8 +24,6 @@
 //!include common/liquid/step.wgsl
 //!include common/maths/decay.wgsl
 
-/// C_t: diffusivity of the eddies over h·|v_ij|.
-override MIXING: f32 = 0.0;
 /// Molecular diffusivities of acid and of heat, m²/s.
 override ACID_DIFFUSIVITY: f32 = 0.0;
 override THERMAL_DIFFUSIVITY: f32 = 0.0;
@@ -49,7 +48,7 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 @group(0) @binding(3) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(4) var<storage, read> boundary: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> heat: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> new_velocity: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> eddies: array<vec2<f32>>;
 @group(0) @binding(7) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> mixing: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> ledger: array<vec4<f32>>;
@@ -124,7 +123,7 @@ struct Received {
     vapour_enthalpy: f32,
     /// What covers this particle, over a full neighbourhood's upper half.
     cover: f32,
-    /// Σ ∇W: where there is liquid, and by its lack the surface.
+    /// Σ V∇W: where there is liquid, and by its lack the surface.
     open: vec3<f32>,
 }
 
@@ -132,7 +131,7 @@ struct Received {
 /// is full exchanges nothing.
 fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Received {
     let x = position[i].xyz;
-    let v = new_velocity[i].xyz;
+    let own_eddies = unpack_eddies(eddies[i]).diffusivity;
     // Acid, enthalpy, pairs cut; vapour, its enthalpy, cover.
     var flux = vec3<f32>(0.0);
     var bubbles = vec3<f32>(0.0);
@@ -149,13 +148,17 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let q = square * per_distance * INVERSE_SUPPORT;
             let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
-            let eddies = MIXING * SUPPORT * length(new_velocity[j].xyz - v);
-            let rates = rates_of(eddies, q, own, other, whole);
+            let mean = 0.5 * (own_eddies + unpack_eddies(eddies[j]).diffusivity);
+            let rates = rates_of(mean, q, own, other, whole);
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             flux += vec3<f32>(
                 rates.carried * (other.acid - own.acid), enthalpy, rates.cut);
-            if (LOSSES) { open += offset * (per_distance * spline_slope(q)); }
+            if (LOSSES) {
+                var volume = 1.0;
+                if (DENSITY) { volume = unpack_bulk(bulk[j]).volume; }
+                open += offset * (volume * per_distance * spline_slope(q));
+            }
             if (BUBBLE_SPEED > 0.0) {
                 let up = offset.y * per_distance;
                 let kernel = spline(q);
@@ -175,10 +178,13 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
 const INSIDE: f32 = 0.45;
 const SURFACE: f32 = 0.7;
 
-/// Area of the free surface of a particle over 2V0, 1/m: the gradient there, but for that of disorder.
-fn surface_of(glass: vec3<f32>, open: vec3<f32>) -> f32 {
+/// Area of the free surface of a particle of that volume (over V0) over 2V0, 1/m: the gradient there, but for
+/// that of disorder.
+fn surface_of(volume: f32, glass: vec3<f32>, open: vec3<f32>) -> f32 {
     let disorder = length(glass + open);
-    return disorder * smoothstep(INSIDE, SURFACE, 2.0 * SPACING * disorder);
+    // Over d² of its own spacing.
+    let area = 2.0 * SPACING * pow(volume, 1.0 / 3.0) * disorder;
+    return volume * disorder * smoothstep(INSIDE, SURFACE, area);
 }
 
 /// Heat that a particle takes in a substep from what has the temperature `around` (°C), by a transfer over ρ0
@@ -194,17 +200,17 @@ const MOST_QUANTA: f32 = 4194304.0;
 
 /// Heat that a particle takes in a substep from the glass of its flask, in whole quanta, as sums of integers
 /// do not depend on order; drops elsewhere lose theirs to what is around.
-fn heat_from_glass(own: Potential, membership: u32, x: vec3<f32>, gradient: vec3<f32>) -> f32 {
+fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, gradient: vec3<f32>) -> f32 {
     let slope = length(gradient);
     if (slope <= 0.0) { return 0.0; }
-    if (membership == NOBODYS || membership > FLASKS) { return heat_from(own, AMBIENT, GLASS_LOSS * slope); }
+    if (membership == NOBODYS || membership > FLASKS) { return heat_from(own, AMBIENT, GLASS_LOSS * volume * slope); }
     let k = membership - 1u;
     // Where it touches, half a spacing away.
     let y = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope)).y;
     let place = (y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_ROWS);
     let ring = k * GLASS_ROWS + u32(clamp(place, 0.0, f32(GLASS_ROWS - 1u)));
     let row = glass_rows[ring];
-    let wanted = heat_from(own, glass[ring].x, row.to_liquid * slope);
+    let wanted = heat_from(own, glass[ring].x, row.to_liquid * volume * slope);
     let quanta = clamp(round(wanted / row.quantum_per_mass), -MOST_QUANTA, MOST_QUANTA);
     atomicAdd(&glass_taken[ring], i32(quanta));
     return quanta * row.quantum_per_mass;
@@ -233,14 +239,14 @@ struct State {
 }
 
 /// Line 26: adds what neighbours and surroundings bring, and takes what evaporates.
-fn take_up(before: State, i: u32, membership: u32, own: Potential, received: Received) -> State {
+fn take_up(before: State, i: u32, membership: u32, volume: f32, own: Potential, received: Received) -> State {
     var state = before;
     var taken = received.enthalpy;
     var gone = 0.0;
     if (LOSSES) {
         let glass = wall_gradient(boundary[i]);
-        let surface = surface_of(glass, received.open);
-        let gained = heat_from_glass(own, membership, position[i].xyz, glass)
+        let surface = surface_of(volume, glass, received.open);
+        let gained = heat_from_glass(own, volume, membership, position[i].xyz, glass)
             + heat_from(own, AMBIENT, SURFACE_LOSS * surface);
         taken += gained;
         state.account.heat += gained;
@@ -294,15 +300,15 @@ fn boiled(content: Content) -> f32 {
         * (1.0 - exp(-step.time / SUPERHEAT_TIME));
 }
 
-/// XSPH coefficient over the substep's with the liquid's own viscosity.
-fn coefficient_of(own: Potential) -> f32 {
-    var coefficient = CALM;
+/// XSPH coefficient over the substep's with the liquid's own viscosity and its eddies'.
+fn coefficient_of(own: Potential, eddies: Eddies) -> f32 {
+    var diffusivity = SCHMIDT * eddies.diffusivity;
     if (VISCOSITY) {
-        let diffusivity = viscosity_of(own.acid, own.temperature) / density_of(own.acid, own.temperature);
-        let real = decayed(diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
-        coefficient = (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
+        diffusivity += viscosity_of(own.acid, own.temperature) / density_of(own.acid, own.temperature);
     }
-    return coefficient;
+    if (diffusivity <= 0.0) { return CALM; }
+    let real = decayed(diffusivity * step.time / (XSPH_MOMENT * SUPPORT * SUPPORT));
+    return (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
 }
 
 @compute @workgroup_size(64)
@@ -326,7 +332,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     state.account = unpack_account(ledger[tag.y]);
     state.acid = Compensated(state.content.acid, lacking.acid);
     state.enthalpy = Compensated(state.content.enthalpy, lacking.enthalpy);
-    state = take_up(state, i, tag.x, own, received);
+    state = take_up(state, i, tag.x, extent.volume, own, received);
     if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }
     var content = state.content;
     content.acid = clamp(state.acid.value, 0.0, 1.0);
@@ -345,7 +351,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (state.budget > 0.0) { mixed.growth = bounded_growth(state.budget, agitation[tag.y]); }
         if (mixed.growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
     }
-    mixed.coefficient = select(coefficient_of(own), 0.0, mixed.growth > 0.0);
+    mixed.coefficient = select(coefficient_of(own, unpack_eddies(eddies[i])), 0.0, mixed.growth > 0.0);
     mixed.mass = content.mass;
     mixed.rests = pack_rests(Rests(
         state.acid.value - content.acid + state.acid.lacking, state.enthalpy.lacking));

@@ -33,6 +33,8 @@
 @group(0) @binding(19) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(27) var<storage, read> sorted_bulk: array<vec4<f32>>;
 @group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
+@group(0) @binding(32) var<storage, read> sorted_eddies: array<vec2<f32>>;
+@group(0) @binding(33) var<storage, read_write> eddies: array<vec2<f32>>;
 
 /// Whether two particles of different membership see each other past the glass.
 fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
@@ -207,5 +209,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (HEAT) { heat[i] = sorted_heat[i]; }
     if (PHYSICAL) { matter[i] = sorted_matter[i]; }
     if (PHYSICAL) { bulk[i] = sorted_bulk[i]; }
+    if (PHYSICAL) { eddies[i] = sorted_eddies[i]; }
     if (i == 0u) { atomicAdd(&counters.rebuilds, 1u); }
 }

@@ -24,6 +24,8 @@
 @group(0) @binding(16) var<storage, read_write> sorted_matter: array<vec4<f32>>;
 @group(0) @binding(17) var<storage, read> bulk: array<vec4<f32>>;
 @group(0) @binding(18) var<storage, read_write> sorted_bulk: array<vec4<f32>>;
+@group(0) @binding(19) var<storage, read> eddies: array<vec2<f32>>;
+@group(0) @binding(31) var<storage, read_write> sorted_eddies: array<vec2<f32>>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -47,4 +49,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (HEAT) { sorted_heat[to] = heat[i]; }
     if (PHYSICAL) { sorted_matter[to] = matter[i]; }
     if (PHYSICAL) { sorted_bulk[to] = bulk[i]; }
+    if (PHYSICAL) { sorted_eddies[to] = eddies[i]; }
 }

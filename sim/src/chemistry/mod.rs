@@ -12,6 +12,7 @@
 pub mod adiabatic;
 mod constants;
 pub mod curve;
+pub mod eddies;
 mod error;
 pub mod evaporation;
 pub mod exchange;

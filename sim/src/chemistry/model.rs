@@ -1,7 +1,8 @@
 //! What of the chemistry a scene models, and with which numbers.
 
+use super::eddies::Mixing;
 use super::paper::Boiling;
-use super::transport::{Losses, Mixing};
+use super::transport::Losses;
 use crate::scene::{Feature, PaperChemistry, PhysicalChemistry, Scene};
 
 /// Chemistry of a scene that models heat.
@@ -118,6 +119,7 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
     Some(Physical {
         mixing: Mixing {
             turbulence: physical.mixing?,
+            width: physical.eddy_width?,
         },
         density: scene.models(Feature::Density),
         viscosity: scene.models(Feature::Viscosity),

@@ -4,21 +4,6 @@ use super::exchange::Exchange;
 use super::physical::Content;
 use super::table::{SolutionTable, steam_enthalpy};
 
-/// How liquids mix below the size of a particle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mixing {
-    /// C_t: the eddies' diffusivity over h·|v_ij|.
-    pub turbulence: f64,
-}
-
-impl Default for Mixing {
-    /// Smagorinsky's eddy viscosity (0.17·h)²·|S| (Lilly 1967) with
-    /// |S| = |v_ij|/h, over a turbulent Schmidt number of 0.7.
-    fn default() -> Self {
-        Self { turbulence: 0.041 }
-    }
-}
-
 /// Diffusivity of sulfuric acid in water, m²/s (25 °C, CRC Handbook).
 pub const ACID_DIFFUSIVITY: f64 = 1.7e-9;
 
@@ -36,12 +21,11 @@ pub struct Diffusivities {
     pub heat: f64,
 }
 
-impl Mixing {
-    /// Those of a pair with the relative speed `speed` (m/s) for the support
-    /// radius `support` (m).
-    pub fn diffusivities(&self, support: f64, speed: f64) -> Diffusivities {
-        Diffusivities {
-            eddies: self.turbulence * support * speed,
+impl Diffusivities {
+    /// Molecules, and eddies of the diffusivity `eddies` (m²/s).
+    pub fn with(eddies: f64) -> Self {
+        Self {
+            eddies,
             acid: ACID_DIFFUSIVITY,
             heat: THERMAL_DIFFUSIVITY,
         }

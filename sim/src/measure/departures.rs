@@ -91,7 +91,8 @@ mod tests {
         let fields = (
             (positions, &none, tags, &none, &words, &words, &words),
             (&none, &none, &none, &plain, &none),
-            // Steam's three.
+            // Eddies and glass, and steam's three.
+            (&none, &none),
             (&none, &none, &words),
         );
         postcard::from_bytes(&postcard::to_allocvec(&fields).unwrap()).unwrap()

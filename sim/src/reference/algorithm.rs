@@ -26,6 +26,7 @@ impl Reference {
             self.substep();
         }
         self.warm_glass();
+        self.find_eddies();
     }
 
     fn substep(&mut self) {

@@ -4,14 +4,14 @@ use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::glass::{Glass, Touch};
 use super::surroundings::WallSum;
+use crate::chemistry::eddies::{Eddies, SCHMIDT};
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Flux, Potential, flux, heat_from};
+use crate::chemistry::transport::{Diffusivities, Flux, Potential, flux, heat_from};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
-use glam::DVec3;
 
 /// What line 27 needs to know of each particle.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,7 @@ impl Chemistry {
                 retain(&mut physical.agitation, keep);
                 retain(&mut physical.budgets, keep);
                 retain(&mut physical.viscosities, keep);
+                retain(&mut physical.eddies, keep);
             }
         }
     }
@@ -178,6 +179,8 @@ pub struct Physical {
     pub budgets: Vec<f64>,
     /// ν at the substep's start, m²/s; 0 where it does not follow composition.
     pub viscosities: Vec<f64>,
+    /// What the flow of the frame before leaves unresolved.
+    pub eddies: Vec<Eddies>,
     /// Balance since the start.
     pub ledger: Ledger,
     /// The flasks' glass, from the first substep on, where heat is lost to it.
@@ -205,6 +208,7 @@ impl Physical {
             agitation: vec![0.0; contents.len()],
             budgets: vec![0.0; contents.len()],
             viscosities: vec![0.0; contents.len()],
+            eddies: vec![Eddies::default(); contents.len()],
             contents,
             table,
             ledger: Ledger::default(),
@@ -214,22 +218,16 @@ impl Physical {
 
     /// Line 26: acid and enthalpy between particles, heat to what is around,
     /// bubbles that rise, boiling.
-    pub fn dilute(
-        &mut self,
-        pairs: &Pairs,
-        parameters: &Parameters,
-        velocities: &[DVec3],
-        touches: &[Touch],
-    ) {
-        let (support, time) = (parameters.support_radius, parameters.substep_time());
+    pub fn dilute(&mut self, pairs: &Pairs, parameters: &Parameters, touches: &[Touch]) {
+        let time = parameters.substep_time();
         let potentials: Vec<_> = self
             .contents
             .iter()
             .map(|content| Potential::of(&self.table, content))
             .collect();
         let fluxes = pairs.sums(|i, j| {
-            let speed = velocities[i].distance(velocities[j]);
-            let diffusivities = self.law.mixing.diffusivities(support, speed);
+            let eddies = 0.5 * (self.eddies[i].diffusivity + self.eddies[j].diffusivity);
+            let diffusivities = Diffusivities::with(eddies);
             let distance = pairs.distance(i, j);
             flux(
                 pairs.exchange,
@@ -297,11 +295,18 @@ impl Physical {
         of_glass + through_air(losses.surface * touch.surface)
     }
 
-    /// V_i, m³, and ρ₀/ρ_i of the liquid for ρ₀ = `rest_density` (kg/m³).
-    pub fn bulk(&self, rest_density: f64) -> (Vec<f64>, Vec<f64>) {
+    /// V_i, m³, and ρ₀/ρ_i of the liquid; V₀ and 1 where density does not
+    /// follow composition.
+    pub fn bulk_of(&self, parameters: &Parameters) -> (Vec<f64>, Vec<f64>) {
         let of = |content: &Content| {
+            if !self.law.density {
+                return (parameters.particle_volume(), 1.0);
+            }
             let volume = content.liquid_volume(&self.table);
-            (volume, rest_density * volume / content.liquid_mass())
+            (
+                volume,
+                parameters.rest_density * volume / content.liquid_mass(),
+            )
         };
         self.contents.iter().map(of).unzip()
     }
@@ -318,10 +323,12 @@ impl Physical {
             .zip(&self.agitation)
             .map(|(&budget, &agitation)| paper::bounded_growth(budget, agitation))
             .collect();
-        let viscosity = growth.iter().zip(&self.viscosities).map(|(&growth, nu)| {
+        let liquid = self.viscosities.iter().zip(&self.eddies);
+        let viscosity = growth.iter().zip(liquid).map(|(&growth, (nu, eddies))| {
             if growth > 0.0 {
                 0.0
             } else {
+                let nu = nu + SCHMIDT * eddies.diffusivity;
                 1.0 - (1.0 - usual) * (-nu * per_area).exp()
             }
         });

@@ -13,6 +13,7 @@ pub mod bubbles;
 pub mod chemistry;
 pub mod density;
 pub mod dilution;
+mod eddies;
 pub mod forces;
 pub mod glass;
 pub mod measure;

@@ -35,17 +35,17 @@ impl Reference {
                 paper.dilute(&pairs, &walls, &densities);
             }
             Chemistry::Physical(physical) => {
-                let volume = self.parameters.particle_volume();
                 let kernel = self.kernel();
+                let (volumes, _) = physical.bulk_of(&self.parameters);
                 let slopes = pairs.sums(|i, j| {
                     let apart = self.positions[i] - self.positions[j];
-                    apart.normalize_or_zero() * (volume * kernel.dw(apart.length()))
+                    apart.normalize_or_zero() * (volumes[j] * kernel.dw(apart.length()))
                 });
                 let touch = |(i, (wall, &liquid)): (usize, (&WallSum, &DVec3))| {
                     let open = (wall.gradient + liquid).length();
                     Touch {
-                        glass: contact_area(volume, wall.gradient.length()),
-                        surface: surface_area(volume, open),
+                        glass: contact_area(volumes[i], wall.gradient.length()),
+                        surface: surface_area(volumes[i], open),
                         ring: self.ring_of(i, wall),
                     }
                 };
@@ -55,7 +55,7 @@ impl Reference {
                     let glass = Glass::new(vessels, losses, self.parameters.frame_time);
                     physical.glass = Some(glass);
                 }
-                physical.dilute(&pairs, &self.parameters, &self.velocities, &touches);
+                physical.dilute(&pairs, &self.parameters, &touches);
             }
         }
         self.chemistry = Some(chemistry);

@@ -71,9 +71,7 @@ impl Reference {
     /// follow composition.
     pub(super) fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
         match &self.chemistry {
-            Some(Chemistry::Physical(physical)) if physical.law.density => {
-                physical.bulk(self.parameters.rest_density)
-            }
+            Some(Chemistry::Physical(physical)) => physical.bulk_of(&self.parameters),
             _ => {
                 let count = self.positions.len();
                 (

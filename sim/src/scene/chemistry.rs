@@ -40,9 +40,11 @@ pub struct PaperChemistry {
 pub struct PhysicalChemistry {
     /// Temperature of the surroundings, °C; with `heat`.
     pub ambient: Option<f64>,
-    /// Mixing by motion finer than a particle: the eddies' diffusivity in
-    /// units of h·|v_ij|; with `dilution`.
+    /// Mixing by eddies that are not resolved: their diffusivity over Δ²·|S|;
+    /// with `dilution`.
     pub mixing: Option<f64>,
+    /// Δ: width over which the flow is filtered for it, m; with `dilution`.
+    pub eddy_width: Option<f64>,
     /// Time in which a superheat decays by evaporation, s; with `evaporation`.
     pub superheat_time: Option<f64>,
     /// Speed at which bubbles rise through the liquid, m/s; with `steam`.
@@ -69,6 +71,7 @@ const TEMPERATURE: Must = (
 );
 const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
 const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
+const LENGTH: Must = (|value| value > 0.0, "above zero (m)");
 const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
 
 impl PaperChemistry {
@@ -86,12 +89,13 @@ impl PaperChemistry {
 }
 
 impl PhysicalChemistry {
-    pub(super) fn fields(&self) -> [Field; 7] {
+    pub(super) fn fields(&self) -> [Field; 8] {
         use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Steam};
         let p = self;
         [
             ("ambient", Heat, p.ambient, TEMPERATURE),
             ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
+            ("eddy_width", Dilution, p.eddy_width, LENGTH),
             ("superheat_time", Evaporation, p.superheat_time, DURATION),
             ("bubble_speed", Steam, p.bubble_speed, SPEED),
             ("agitation", Boiling, p.agitation, NOT_NEGATIVE),

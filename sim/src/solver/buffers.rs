@@ -15,7 +15,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 28;
+pub(super) const OF_PARTICLES: usize = 30;
 
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
@@ -65,6 +65,9 @@ pub(super) struct Buffers {
     /// Volume, density and vapour.
     pub(super) bulk: Buffer,
     pub(super) sorted_bulk: Buffer,
+    /// What the flow leaves unresolved.
+    pub(super) eddies: Buffer,
+    pub(super) sorted_eddies: Buffer,
     pub(super) solution: Buffer,
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
@@ -134,6 +137,8 @@ impl Buffers {
             agitation: words("agitation", held)?,
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
+            eddies: words("eddies", 2 * held)?,
+            sorted_eddies: words("sorted_eddies", 2 * held)?,
             solution: upload(gpu, "solution", &table)?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
@@ -178,6 +183,8 @@ impl Buffers {
             &self.agitation,
             &self.bulk,
             &self.sorted_bulk,
+            &self.eddies,
+            &self.sorted_eddies,
             &self.wall_push,
             &self.density,
             &self.counters,

@@ -84,6 +84,9 @@ impl Solver {
             let forces = if last { &p.last_forces } else { &p.forces };
             self.over_particles(rec, forces, &step)?;
         }
+        for pass in &p.eddies {
+            self.pass(rec, pass).invocations(self.count * self.lanes)?;
+        }
         if let Some(glass) = &p.glass {
             self.pass(rec, glass)
                 .constants(&self.step(substeps - 1))

@@ -79,6 +79,8 @@ pub(super) struct Pipelines {
     pub(super) forces: SolverPass,
     /// Of a frame's last substep: predicts none.
     pub(super) last_forces: SolverPass,
+    /// The physical chemistry's eddies at a frame's end: the flow's filter, and its strain.
+    pub(super) eddies: Vec<SolverPass>,
     /// Where heat is lost to flasks.
     pub(super) glass: Option<SolverPass>,
     pub(super) load: SolverPass,
@@ -132,6 +134,7 @@ impl Pipelines {
             vorticity,
             forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[pull])?,
+            eddies: eddies(gpu, library, spec, constants, buffers)?,
             glass: match glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
                 0 => None,
                 _ => Some(make(sim::GLASS, &[])?),
@@ -140,6 +143,43 @@ impl Pipelines {
             density: make(sim::DENSITY, &[])?,
         })
     }
+}
+
+/// The passes that find the eddies; none where nothing mixes by them.
+fn eddies(
+    gpu: &Gpu,
+    library: &Library,
+    spec: &SolverSpec<'_>,
+    constants: &Constants,
+    buffers: &[&Buffer],
+) -> Result<Vec<SolverPass>, SolverError> {
+    let mixing = match &spec.parameters.chemistry {
+        Some(Chemistry::Physical(physical)) if physical.mixing.turbulence > 0.0 => physical.mixing,
+        _ => return Ok(Vec::new()),
+    };
+    let (passes, share) = mixing.smoothing(spec.parameters.support_radius);
+    // Between frames these two are free; each pass reads what the one before wrote.
+    let memory = |pass: u32| {
+        if pass.is_multiple_of(2) {
+            "solved"
+        } else {
+            "new_velocity"
+        }
+    };
+    let make = |shader, pass: u32| {
+        let names = [("flow", memory(pass + 1)), ("smoothed", memory(pass))];
+        let own = [("SHARE", share), ("FIRST", flag(pass == 0))];
+        let own = if shader == sim::SMOOTH {
+            &own[..]
+        } else {
+            &own[1..]
+        };
+        constants.pass_with(gpu, library, buffers, shader, own, &names)
+    };
+    let smoothing = (0..passes).map(|pass| make(sim::SMOOTH, pass));
+    smoothing
+        .chain([make(sim::STRAIN, passes)])
+        .collect::<Result<_, _>>()
 }
 
 /// Constants of the paper's chemistry.
@@ -178,7 +218,10 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         ("SPACING", p.spacing),
         ("DENSITY", flag(physical.density)),
         ("VISCOSITY", flag(physical.viscosity)),
-        ("MIXING", physical.mixing.turbulence),
+        (
+            "EDDY_AREA",
+            physical.mixing.turbulence * physical.mixing.width.powi(2),
+        ),
         ("ACID_DIFFUSIVITY", ACID_DIFFUSIVITY),
         ("THERMAL_DIFFUSIVITY", THERMAL_DIFFUSIVITY),
     ];
@@ -288,6 +331,19 @@ impl Constants {
         shader: ShaderId,
         extra: &[(&'static str, f64)],
     ) -> Result<SolverPass, SolverError> {
+        self.pass_with(gpu, library, buffers, shader, extra, &[])
+    }
+
+    /// The same, where what the shader calls the first of `names` is the buffer that is called the second.
+    pub(super) fn pass_with(
+        &self,
+        gpu: &Gpu,
+        library: &Library,
+        buffers: &[&Buffer],
+        shader: ShaderId,
+        extra: &[(&'static str, f64)],
+        names: &[(&str, &str)],
+    ) -> Result<SolverPass, SolverError> {
         let declared = library.constants(&shader)?;
         let mut own = self.0.clone();
         own.retain(|(name, _)| declared.iter().any(|known| known == name));
@@ -298,7 +354,10 @@ impl Constants {
                 // What is dead during a rebuild lends its memory.
                 "sorted_trial" => "solved",
                 "sorted_velocity" => "new_velocity",
-                name => name,
+                name => {
+                    let other = names.iter().find(|(own, _)| *own == name);
+                    other.map_or(name, |(_, label)| label)
+                }
             };
             let place = buffers.iter().position(|buffer| buffer.label() == label);
             let place = place.ok_or_else(|| GpuError::Binding {

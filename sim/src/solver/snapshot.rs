@@ -25,6 +25,7 @@ impl Solver {
             ledger: read(gpu, &b.ledger, matter)?,
             agitation: read(gpu, &b.agitation, matter)?,
             bulk: read(gpu, &b.bulk, matter)?,
+            eddies: read(gpu, &b.eddies, matter)?,
             glass: read(gpu, &b.glass, self.rings())?,
             steam: match &self.steam {
                 Some(steam) => steam.snapshot(gpu, n)?,
@@ -59,6 +60,7 @@ impl Solver {
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
+            ("eddies", state.eddies.len(), matter),
             ("glass", state.glass.len(), self.rings()),
             ("puffs", steam.puffs.len(), start.puffs.len()),
             ("vented steam", steam.vented.len(), start.vented.len()),
@@ -84,6 +86,7 @@ impl Solver {
         write(gpu, &b.ledger, &state.ledger)?;
         write(gpu, &b.agitation, &state.agitation)?;
         write(gpu, &b.bulk, &state.bulk)?;
+        write(gpu, &b.eddies, &state.eddies)?;
         write(gpu, &b.glass, &state.glass)?;
         if let Some(steam) = &self.steam {
             steam.restore(gpu, &state.steam)?;

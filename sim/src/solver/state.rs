@@ -45,6 +45,8 @@ pub struct SolverState {
     pub(super) agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     pub(super) bulk: Vec<[f32; 4]>,
+    /// (K in m²/s, ε in W/kg) of the eddies at each particle, by slot.
+    pub eddies: Vec<[f32; 2]>,
     /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
     pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
@@ -81,6 +83,7 @@ impl SolverState {
             ledger: Vec::new(),
             agitation: Vec::new(),
             bulk: Vec::new(),
+            eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::rings(chemistry, flasks)],
             steam: Steam::start(parameters, n),
             list_origin: vec![[f32::NAN; 4]; n],
@@ -105,6 +108,7 @@ impl SolverState {
                     state.bulk.push(start.bulk);
                 }
                 state.ledger = vec![[0.0; 4]; n];
+                state.eddies = vec![[0.0; 2]; n];
                 state.agitation = vec![0.0; n];
             }
         }

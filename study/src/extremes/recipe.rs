@@ -202,7 +202,8 @@ impl Recipe {
             ),
             Base::Physical => write!(
                 t,
-                "[physical]\nambient = 20.0\nmixing = {:?}\nsuperheat_time = 0.4\n\
+                "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\n\
+                 superheat_time = 0.4\n\
                  bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
                 0.005 * self.k_v

@@ -137,11 +137,11 @@ fn equilibrium(acid: f32, enthalpy: f32, start: f32) -> f32 {
     return vapour;
 }
 
-/// Temperatures between which densities follow their table, °C.
+/// Temperatures between which densities follow their law, °C (`chemistry/table.rs`).
 const TABLES_FROM: f32 = 0.0;
-const TABLES_TO: f32 = 150.0;
+const TABLES_TO: f32 = 200.0;
 
-/// ρ, kg/m³. Above 150 °C that of 150 °C: the table ends at 100 °C.
+/// ρ, kg/m³. Above 200 °C that of 200 °C.
 fn density_of(acid: f32, temperature: f32) -> f32 {
     let place = clamp(acid, 0.0, 1.0) * f32(SOLUTION_INTERVALS);
     let i = min(u32(place), SOLUTION_INTERVALS - 1u);

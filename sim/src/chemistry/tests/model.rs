@@ -1,7 +1,8 @@
 //! Each number of a scene arrives where it belongs.
 
+use super::super::eddies::Mixing;
 use super::super::paper::Boiling;
-use super::super::transport::{Losses, Mixing};
+use super::super::transport::Losses;
 use super::super::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
 use crate::scene::{Feature, Scene};
 
@@ -38,13 +39,17 @@ fn the_physical_chemistrys_numbers_arrive() {
     // No two alike.
     physical.ambient = Some(1.0);
     physical.mixing = Some(2.0);
+    physical.eddy_width = Some(0.004);
     physical.superheat_time = Some(4.0);
     physical.bubble_speed = Some(5.0);
     physical.agitation = Some(6.0);
     physical.glass_loss = Some(7.0);
     physical.surface_loss = Some(8.0);
     let all = Physical {
-        mixing: Mixing { turbulence: 2.0 },
+        mixing: Mixing {
+            turbulence: 2.0,
+            width: 0.004,
+        },
         density: true,
         viscosity: true,
         superheat_time: Some(4.0),

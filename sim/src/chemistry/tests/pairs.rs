@@ -5,7 +5,9 @@ use super::super::paper::{AntiViscosity, Dilution};
 use super::super::physical::Content;
 use super::super::table::SolutionTable;
 use super::super::thomsen;
-use super::super::transport::{Mixing, Potential, contact_area, flux, heat_from, surface_area};
+use super::super::transport::{
+    Diffusivities, Potential, contact_area, flux, heat_from, surface_area,
+};
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
 use crate::scene::Scene;
@@ -133,7 +135,7 @@ proptest! {
             content.boil(&table, 1.0, 1.0);
         });
         let potentials: Vec<_> = contents.iter().map(|c| Potential::of(&table, c)).collect();
-        let d = Mixing::default().diffusivities(0.1, speed);
+        let d = Diffusivities::with(0.0041 * speed);
         let (mut acid, mut enthalpy, mut size) = (0.0, 0.0, 0.0);
         for i in 0..points.len() {
             let mut gained = contents[i].mass * contents[i].acid;
@@ -206,7 +208,7 @@ fn uniform_liquid_exchanges_nothing() {
     let table = SolutionTable::new();
     let content = Content::liquid(&table, 0.125, 0.3, 80.0).unwrap();
     let potential = Potential::of(&table, &content);
-    let d = Mixing::default().diffusivities(0.1, 1.0);
+    let d = Diffusivities::with(0.0041);
     let got = flux(&exchange, &d, 0.05, &potential, &potential);
     // Exactly: else a scene at rest would not stay as it is.
     assert_eq!((got.acid, got.enthalpy), (0.0, 0.0));

@@ -4,7 +4,8 @@ use super::{Random, in_the_open, parameters};
 use crate::chemistry::OutOfRange;
 use crate::chemistry::Physical as Law;
 use crate::chemistry::adiabatic::{Feed, mix};
-use crate::chemistry::transport::{Losses, Mixing};
+use crate::chemistry::eddies::{Eddies, Mixing};
+use crate::chemistry::transport::Losses;
 use crate::parameters::Parameters;
 use crate::reference::Reference;
 use crate::reference::chemistry::{Chemistry, Physical};
@@ -63,6 +64,16 @@ fn totals(physical: &Physical) -> [f64; 3] {
     ]
 }
 
+/// Eddies of that diffusivity (m²/s) everywhere.
+pub fn stir(reference: &mut Reference, diffusivity: f64) {
+    if let Some(Chemistry::Physical(physical)) = &mut reference.chemistry {
+        physical.eddies.fill(Eddies {
+            diffusivity,
+            dissipation: 0.0,
+        });
+    }
+}
+
 #[test]
 fn a_stirred_box_ends_where_the_formula_does_whichever_is_above() {
     let end = |water_below: bool| {
@@ -75,12 +86,10 @@ fn a_stirred_box_ends_where_the_formula_does_whichever_is_above() {
             };
             (20.0, if acid { 0.98 } else { 0.0 })
         });
-        let mut random = Random(7);
         let neighbours = reference.neighbours(&reference.positions);
         let before = totals(physical(&reference));
+        stir(&mut reference, 8e-4);
         for _ in 0..2000 {
-            // Stirred: 4 m/s between neighbours.
-            reference.velocities = random.points(216, 4.0);
             reference.dilute(&neighbours);
         }
         let physical = physical(&reference);
@@ -119,6 +128,7 @@ fn the_ledger_closes_while_it_boils() {
     };
     let mut reference = block(law, |height| (110.0, 1.0 - height));
     reference.velocities = Random(9).points(216, 1.0);
+    stir(&mut reference, 2e-4);
     let before = totals(physical(&reference));
     let neighbours = reference.neighbours(&reference.positions);
     let mut injected = 0.0;
@@ -126,10 +136,12 @@ fn the_ledger_closes_while_it_boils() {
         reference.dilute(&neighbours);
         // Without ordinary viscosity, whose heat is in no book.
         reference.parameters.viscosity = 0.0;
+        stir(&mut reference, 0.0);
         let start = reference.clone();
         let kinetic = energy(&start);
         reference.smooth(&neighbours);
         injected += energy(&reference) - kinetic;
+        stir(&mut reference, 2e-4);
     }
     let physical = physical(&reference);
     let after = totals(physical);

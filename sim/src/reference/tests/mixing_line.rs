@@ -4,8 +4,8 @@
 //! most 159.9 °C hot: by the tables of heats of mixing, heat capacities and boiling points,
 //! without a particle. With water at 60 °C it is 38 K above, with acid at 60 °C 23 K.
 
-use super::mixing::{closed, physical};
-use super::{Random, in_the_open, parameters};
+use super::mixing::{closed, physical, stir};
+use super::{in_the_open, parameters};
 use crate::chemistry::Physical as Law;
 use crate::reference::Reference;
 use crate::reference::chemistry::{Chemistry, Physical};
@@ -41,13 +41,12 @@ fn cube(
 }
 
 /// Largest superheat (K) and temperature (°C) of any particle until the acid is even to 0.01,
-/// stirred by velocities up to `speed` (m/s) that change with each substep.
-fn stirred(mut reference: Reference, speed: f64) -> [f64; 2] {
+/// stirred by eddies of that diffusivity (m²/s).
+fn stirred(mut reference: Reference, diffusivity: f64) -> [f64; 2] {
     let neighbours = reference.neighbours(&reference.positions);
-    let mut random = Random(5);
+    stir(&mut reference, diffusivity);
     let mut most = [f64::NEG_INFINITY; 2];
     for _ in 0..20_000 {
-        reference.velocities = random.points(reference.positions.len(), speed);
         reference.dilute(&neighbours);
         let physical = physical(&reference);
         let mut acid = [f64::INFINITY, f64::NEG_INFINITY];
@@ -80,15 +79,16 @@ fn drops_and_layers_reach_the_mixing_line_and_do_not_pass_it() {
             ("a plane", cube(6, |[_, y, _]| y < 3, inner, outer)),
         ];
         for (name, start) in cases {
-            // Eddies of some 1e-4 m²/s, a thousand times what conducts heat: at 1e-5 conduction takes
-            // up to a degree from a single particle.
-            for speed in [0.3, 1.0] {
+            // A thousand times what conducts heat: at 1e-5 conduction takes up to a degree from a
+            // single particle.
+            for eddies in [8e-5, 2e-4] {
                 // With pairs that are cut short, a single particle passes the peak in one step.
-                if speed == 1.0 && name == "a particle" {
+                if eddies > 1e-4 && name == "a particle" {
                     continue;
                 }
-                let [superheat, temperature] = stirred(start.clone(), speed);
-                let case = format!("{name} of {inner:?} at {speed} m/s: {superheat} {temperature}");
+                let [superheat, temperature] = stirred(start.clone(), eddies);
+                let case =
+                    format!("{name} of {inner:?} by {eddies} m²/s: {superheat} {temperature}");
                 assert!((8.0..=10.0).contains(&superheat), "{case}");
                 assert!((temperature - 159.9).abs() <= 0.5, "{case}");
             }
@@ -101,7 +101,7 @@ fn drops_and_layers_reach_the_mixing_line_and_do_not_pass_it() {
 fn warm_feeds_reach_their_own_line() {
     for (water, acid, line) in [(60.0, 20.0, 38.0), (20.0, 60.0, 23.0)] {
         let start = cube(6, |[_, y, _]| y < 3, (acid, 0.98), (water, 0.0));
-        let [superheat, _] = stirred(start, 1.0);
+        let [superheat, _] = stirred(start, 3e-4);
         // To what the line's figure is rounded, and half a kelvin of conduction.
         assert!(
             (superheat - line).abs() <= 1.0,

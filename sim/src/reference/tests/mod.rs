@@ -6,6 +6,7 @@ mod boiling;
 mod chaos;
 mod contact;
 mod dilution;
+mod eddies;
 mod mixing;
 mod mixing_line;
 mod passes;

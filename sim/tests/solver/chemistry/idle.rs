@@ -3,6 +3,7 @@
 
 use super::setup::*;
 use crate::common::*;
+use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::transport::Losses;
@@ -78,6 +79,12 @@ fn physical() {
             )
         };
         let none = shaken(with(None, parameters()), 20.0, 0.3, lanes);
+        // Eddies carry momentum too, whatever they mix.
+        let mixing = Mixing {
+            turbulence: 0.0,
+            ..Mixing::default()
+        };
+        let of = |law: Physical| of(Physical { mixing, ..law });
         let plain = of(mixing_alone());
         same_motion(&none, &plain, "mixing of a liquid with itself");
         let evaporation = Physical {

@@ -2,8 +2,8 @@
 
 use super::setup::*;
 use crate::common::*;
+use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::table::SolutionTable;
-use vitriol_sim::chemistry::transport::Mixing;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_tests::gpu;
 
@@ -13,7 +13,10 @@ fn stirred(turbulence: f64, water: f64, acid: f64, acid_below: bool) -> [f64; 2]
     let device = gpu::device();
     let table = SolutionTable::new();
     let law = Physical {
-        mixing: Mixing { turbulence },
+        mixing: Mixing {
+            turbulence,
+            ..Mixing::default()
+        },
         ..mixing_alone()
     };
     let p = with(Chemistry::Physical(law), parameters());

@@ -5,8 +5,8 @@ use super::setup::*;
 use crate::common::*;
 use crate::leaning_glass::*;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
+use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::table::SolutionTable;
-use vitriol_sim::chemistry::transport::Mixing;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -21,6 +21,8 @@ struct Errors {
     changed: [f64; 4],
     temperature: f64,
     velocity: f64,
+    /// Of the eddies' diffusivity, over its largest.
+    eddies: f64,
     /// J and kg per kg of a particle at rest density: (kinetic, exchanged,
     /// steam, its enthalpy), by the GPU and by the reference.
     ledger: [[f64; 4]; 2],
@@ -34,9 +36,19 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
     };
     let poses = [glass_pose()];
     let solver = setup.solver(&device);
-    let before = solver.snapshot().unwrap();
+    let mut before = solver.snapshot().unwrap();
     let start = by_identity(&before, &before.matter);
     let mut truth = leaning_reference(&setup, &poses);
+    // No two alike.
+    let Some(reference::Chemistry::Physical(physical)) = &mut truth.chemistry else {
+        panic!("has the physical chemistry")
+    };
+    for (eddies, tag) in before.eddies.iter_mut().zip(&before.tags) {
+        let i = tag[1] as usize;
+        *eddies = [1e-5 * (2.0 + (i as f32).sin()), 0.0];
+        physical.eddies[i].diffusivity = eddies[0].into();
+    }
+    solver.restore(&before).unwrap();
     for _ in 0..count {
         frame(&device, &solver, &poses, &poses);
         truth.step(&poses, &poses);
@@ -70,6 +82,22 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
             (heat[i][0] - truth).abs()
         })
         .0,
+        eddies: {
+            let largest = physical
+                .eddies
+                .iter()
+                .fold(0.0, |a: f64, e| a.max(e.diffusivity));
+            let rows: Vec<_> = state
+                .eddies
+                .iter()
+                .map(|&[k, e]| [k, e, 0.0, 0.0])
+                .collect();
+            let found = by_identity(&state, &rows);
+            worst(all.clone(), |i| {
+                (found[i][0] - physical.eddies[i].diffusivity).abs()
+            })
+            .0 / largest
+        },
         velocity: worst(all, |i| found[i].velocity.distance(truth.velocities[i])).0,
         ledger: [own, theirs_ledger.map(|value| value / unit)],
     }
@@ -91,6 +119,8 @@ fn against_the_reference() {
         // f32.
         assert!(vapour < 1e-6 && mass < 2e-7, "{lanes} {one:?}");
         assert!(one.velocity < PLACE / SUBSTEP, "{lanes} {one:?}");
+        // A root of a difference of velocities, each within PLACE a substep.
+        assert!(one.eddies < 1e-3, "{lanes} {one:?}");
         assert!(one.changed[0] > 5e-4 && one.changed[1] > 500.0, "{one:?}");
         assert!(one.changed[2] > 1e-4, "{one:?}");
         for count in [2, 12] {
@@ -157,12 +187,17 @@ fn the_ledger_closes_while_it_boils() {
 #[test]
 fn motion_is_paid_for() {
     let device = gpu::device();
+    // Eddies would take some of the motion for heat that is in no book.
     let p = Parameters {
         gravity: [0.0; 3],
         viscosity: 0.0,
         ..with(
             Chemistry::Physical(Physical {
                 viscosity: false,
+                mixing: Mixing {
+                    turbulence: 0.0,
+                    ..Mixing::default()
+                },
                 ..boiling()
             }),
             parameters(),
@@ -197,7 +232,10 @@ fn the_order_of_pouring_does_not_matter() {
     let table = SolutionTable::new();
     // Mixing by eddies as fast as pairs may: the end is what is asked for.
     let law = Physical {
-        mixing: Mixing { turbulence: 10.0 },
+        mixing: Mixing {
+            turbulence: 10.0,
+            ..Mixing::default()
+        },
         density: true,
         ..mixing_alone()
     };

@@ -45,6 +45,9 @@ fn expected(p: &Parameters, loads: bool, line_26: Option<&str>) -> Vec<String> {
         all.push("forces");
     }
     if let Some(Chemistry::Physical(physical)) = &p.chemistry {
+        let (smoothing, _) = physical.mixing.smoothing(p.support_radius);
+        all.extend(["smooth"].repeat(smoothing as usize));
+        all.push("strain");
         all.extend(physical.losses.map(|_| "glass"));
         all.extend(
             physical
@@ -169,9 +172,9 @@ fn chemistry_costs_memory_where_it_is_asked_for() {
     // after diffusion.
     let own = bytes(Some(paper(Some(dilution()), Some(boils))));
     assert_eq!(own - none, 3 * 16 + 8);
-    // In their place matter and bulk with copies, ledger and agitation.
+    // In their place matter, bulk and eddies with copies, ledger and agitation.
     let own = bytes(Some(Chemistry::Physical(mixing_alone())));
-    assert_eq!(own - none, 3 * 16 + 5 * 16 + 4);
+    assert_eq!(own - none, 3 * 16 + 5 * 16 + 4 + 2 * 8);
     // Room for 24 more neighbours where the liquid contracts.
     let dense = bytes(Some(Chemistry::Physical(boiling())));
     assert_eq!(dense - own, 24 * 4);

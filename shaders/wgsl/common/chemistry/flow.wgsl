@@ -1,0 +1,18 @@
+// The flow that is filtered at a frame's end: velocity (m/s), and density over the rest density.
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
+
+/// Whether nothing has smoothed it yet.
+override FIRST: bool = false;
+
+@group(0) @binding(10) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(11) var<storage, read> bulk: array<vec4<f32>>;
+/// What the pass before made of it.
+@group(0) @binding(12) var<storage, read> flow: array<vec4<f32>>;
+
+fn flow_at(j: u32) -> vec4<f32> {
+    if (!FIRST) { return flow[j]; }
+    var density = 1.0;
+    if (DENSITY) { density = 1.0 / unpack_bulk(bulk[j]).lightness; }
+    return vec4<f32>(velocity[j].xyz, density);
+}

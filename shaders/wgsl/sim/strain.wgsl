@@ -1,0 +1,64 @@
+// The eddies that the next frame's liquid mixes by: Smagorinsky's, of the filtered flow's rate of strain and
+// stratification. `reference/eddies.rs` and `chemistry/eddies.rs` are the same in f64.
+//!include common/chemistry/eddies.wgsl
+//!include common/chemistry/flow.wgsl
+//!include common/liquid/kernel.wgsl
+//!include common/liquid/particle.wgsl
+
+/// C_s²/Sc_t, times Δ² (m²).
+override EDDY_AREA: f32 = 0.0;
+override GRAVITY_X: f32 = 0.0;
+override GRAVITY_Y: f32 = -9.81;
+override GRAVITY_Z: f32 = 0.0;
+/// Least part of a full neighbourhood's first moment by which a gradient is normalised.
+const LEAST_MOMENT: f32 = 0.2;
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> list_counts: array<u32>;
+@group(0) @binding(2) var<storage, read> list: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read_write> eddies: array<vec2<f32>>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
+    if (i >= COUNT) { return; }
+    let x = position[i].xyz;
+    let own = flow_at(i);
+    // ∇v by its diagonal and what mirrors itself across it, ∇ρ, and the first moment.
+    var along = vec3<f32>(0.0);
+    var across = vec3<f32>(0.0);
+    var density = vec3<f32>(0.0);
+    var moment = 0.0;
+    let count = list_counts[i];
+    for (var g = lane; g * 4u < count; g += LANES) {
+        let four = list[g * COUNT + i];
+        for (var n = 0u; n < 4u; n++) {
+            let j = four[n];
+            let offset = x - position[j].xyz;
+            let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
+            let per_distance = inverseSqrt(square);
+            let slope = per_distance * spline_slope(square * per_distance * INVERSE_SUPPORT);
+            let change = flow_at(j) - own;
+            along += change.xyz * offset * slope;
+            across += (change.yzx * offset.zxy + change.zxy * offset.yzx) * slope;
+            density += offset * (slope * change.w);
+            moment -= slope * dot(offset, offset);
+        }
+    }
+    let scale = weight_scale() / SUPPORT;
+    moment = lane_sum(moment) * scale / 3.0;
+    let per_moment = scale / max(moment, LEAST_MOMENT);
+    along = lane_sum3(along) * per_moment;
+    across = lane_sum3(across) * per_moment;
+    density = lane_sum3(density) * per_moment;
+    if (lane != 0u) { return; }
+    // Without what expands.
+    along -= vec3<f32>((along.x + along.y + along.z) / 3.0);
+    // 2 S:S, where an element beside the diagonal is half of `across` and is there twice.
+    let strain = 2.0 * dot(along, along) + dot(across, across);
+    let buoyancy = dot(vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), density) / own.w;
+    let rate = sqrt(max(strain - buoyancy / SCHMIDT, 0.0));
+    let diffusivity = EDDY_AREA * rate;
+    eddies[i] = pack_eddies(Eddies(diffusivity, SCHMIDT * diffusivity * rate * rate));
+}
