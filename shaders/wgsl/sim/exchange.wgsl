@@ -12,6 +12,7 @@
 //!include common/chemistry/matter.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/rests.wgsl
+//!include common/chemistry/segregation.wgsl
 //!include common/chemistry/solution.wgsl
 //!include common/glass/glass_rows.wgsl
 //!include common/glass/vessel.wgsl
@@ -24,8 +25,7 @@
 //!include common/liquid/step.wgsl
 //!include common/maths/decay.wgsl
 
-/// Molecular diffusivities of acid and of heat, m²/s.
-override ACID_DIFFUSIVITY: f32 = 0.0;
+/// Molecular diffusivity of heat, m²/s.
 override THERMAL_DIFFUSIVITY: f32 = 0.0;
 /// Time constant of boiling and condensing, s.
 override SUPERHEAT_TIME: f32 = 1.0;
@@ -64,6 +64,8 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 struct Rates {
     /// Per difference of c and of h: liquid that eddies exchange, with its enthalpy, and acid by itself.
     carried: f32,
+    /// Of that, what eddies exchange.
+    stirred: f32,
     /// Per difference of T: conducted heat, less what of it the acid's enthalpy has already.
     conducted: f32,
     /// 1 where they were cut short. Not a bool: with one in this record NVIDIA's driver (580.159.04) gives
@@ -90,7 +92,7 @@ fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32) -
     if (cut > 0.0) { kept = min(most.x / fastest.x, most.y / fastest.y); }
     let brought = ACID_DIFFUSIVITY * shares.x * (0.5 * (own.capacity + other.capacity));
     return Rates(
-        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
+        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * eddies * shares.x, kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
 }
 
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
@@ -118,6 +120,8 @@ struct Received {
     enthalpy: f32,
     /// Pairs that were cut short.
     cut: f32,
+    /// Σ (c − c_i)² of what came less that of what went, V0·ρ0.
+    variance: f32,
     /// Vapour that came from below, V0·ρ0, and its enthalpy.
     vapour: f32,
     vapour_enthalpy: f32,
@@ -131,7 +135,8 @@ struct Received {
 /// is full exchanges nothing.
 fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Received {
     let x = position[i].xyz;
-    let own_eddies = unpack_eddies(eddies[i]).diffusivity;
+    let stirred = unpack_eddies(eddies[i]);
+    var variance = 0.0;
     // Acid, enthalpy, pairs cut; vapour, its enthalpy, cover.
     var flux = vec3<f32>(0.0);
     var bubbles = vec3<f32>(0.0);
@@ -148,12 +153,16 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let q = square * per_distance * INVERSE_SUPPORT;
             let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
-            let mean = 0.5 * (own_eddies + unpack_eddies(eddies[j]).diffusivity);
-            let rates = rates_of(mean, q, own, other, whole);
+            let others = unpack_eddies(eddies[j]);
+            let rates = rates_of(0.5 * (stirred.diffusivity + others.diffusivity), q, own, other, whole);
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             flux += vec3<f32>(
                 rates.carried * (other.acid - own.acid), enthalpy, rates.cut);
+            if (SEGREGATION) {
+                let apart = other.acid - own.acid;
+                variance += rates.stirred * (others.variance - stirred.variance + apart * apart);
+            }
             if (LOSSES) {
                 var volume = 1.0;
                 if (DENSITY) { volume = unpack_bulk(bulk[j]).volume; }
@@ -169,9 +178,10 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
         }
     }
     flux = lane_sum3(flux);
+    if (SEGREGATION) { variance = lane_sum(variance); }
     if (BUBBLE_SPEED > 0.0) { bubbles = lane_sum3(bubbles) * vec3<f32>(rising(), rising(), 1.0); }
     if (LOSSES) { open = lane_sum3(open) * (weight_scale() / SUPPORT); }
-    return Received(flux.x, flux.y, flux.z, bubbles.x, bubbles.y, bubbles.z, open);
+    return Received(flux.x, flux.y, flux.z, variance, bubbles.x, bubbles.y, bubbles.z, open);
 }
 
 /// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
@@ -234,6 +244,8 @@ struct State {
     /// c and h, and what they lack by rounding.
     acid: Compensated,
     enthalpy: Compensated,
+    /// s².
+    variance: f32,
     /// What may become motion, J/kg.
     budget: f32,
 }
@@ -252,10 +264,20 @@ fn take_up(before: State, i: u32, membership: u32, volume: f32, own: Potential, 
         state.account.heat += gained;
         if (EVAPORATION) { gone = evaporated(own, surface); }
     }
+    if (SEGREGATION) { state.variance = segregated(i, own, received); }
     state.acid = compensated(state.acid, received.acid / state.content.mass);
     state.enthalpy = compensated(state.enthalpy, taken / state.content.mass);
     if (gone > 0.0) { state = without_water(state, gone, gone * steam_enthalpy(own.temperature)); }
     return state;
+}
+
+/// Line 26: what eddies bring arrives unmixed, and what is unmixed is mixed by eddies and molecules.
+fn segregated(i: u32, own: Potential, received: Received) -> f32 {
+    let stirred = unpack_eddies(eddies[i]);
+    let gained = received.acid / own.mass;
+    let brought = received.variance / own.mass - gained * gained;
+    let variance = clamp(stirred.variance + brought, 0.0, own.acid * (1.0 - own.acid));
+    return variance * exp(-decay_rate(own.acid, own.temperature, stirred) * step.time);
 }
 
 /// Water vapour that leaves the liquid for good, and its enthalpy; a particle's vapour stays what it is.
@@ -263,6 +285,12 @@ fn without_water(before: State, gone: f32, enthalpy: f32) -> State {
     var state = before;
     let mass = rounded(state.content.mass - gone);
     let change = mass - state.content.mass;
+    if (SEGREGATION) {
+        let acid = liquid_acid(state.acid.value, state.content.vapour);
+        let share = -change / (state.content.mass * (1.0 - state.content.vapour));
+        let poorest = poorest_of(acid, state.variance);
+        state.variance = without_lamellar_water(state.variance, acid, poorest, share);
+    }
     state.acid = compensated(state.acid, -state.acid.value * change / mass);
     state.enthalpy = compensated(state.enthalpy, -(enthalpy + state.enthalpy.value * change) / mass);
     state.content.vapour *= state.content.mass / mass;
@@ -294,10 +322,17 @@ fn pass_vapour_on(before: State, own: Potential, vapour: f32, received: Received
     return state;
 }
 
-/// Line 26: vapour of a particle's content after a substep of boiling or condensing.
-fn boiled(content: Content) -> f32 {
-    return content.vapour + (equilibrium(content.acid, content.enthalpy, content.vapour) - content.vapour)
-        * (1.0 - exp(-step.time / SUPERHEAT_TIME));
+/// Line 26: a particle's vapour and variance after a substep of boiling or condensing.
+fn boiled(content: Content, variance: f32) -> Boiled {
+    let share = 1.0 - exp(-step.time / SUPERHEAT_TIME);
+    if (SEGREGATION && variance > 0.0) {
+        let poorest = poorest_of(liquid_acid(content.acid, content.vapour), variance);
+        let wanted = flash(content.acid, content.enthalpy, content.vapour, variance, poorest);
+        let vapour = content.vapour + (wanted - content.vapour) * share;
+        return boiled_to(content.acid, content.vapour, variance, poorest, vapour);
+    }
+    let wanted = equilibrium(content.acid, content.enthalpy, content.vapour);
+    return Boiled(content.vapour + (wanted - content.vapour) * share, 0.0);
 }
 
 /// XSPH coefficient over the substep's with the liquid's own viscosity and its eddies'.
@@ -337,7 +372,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var content = state.content;
     content.acid = clamp(state.acid.value, 0.0, 1.0);
     content.enthalpy = state.enthalpy.value;
-    if (EVAPORATION) { content.vapour = boiled(content); }
+    if (EVAPORATION) {
+        let after = boiled(content, state.variance);
+        content.vapour = after.vapour;
+        state.variance = after.variance;
+    }
     matter[i] = pack_content(content);
     ledger[tag.y] = pack_account(state.account);
 
@@ -352,6 +391,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (mixed.growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
     }
     mixed.coefficient = select(coefficient_of(own, unpack_eddies(eddies[i])), 0.0, mixed.growth > 0.0);
+    mixed.variance = state.variance;
     mixed.mass = content.mass;
     mixed.rests = pack_rests(Rests(
         state.acid.value - content.acid + state.acid.lacking, state.enthalpy.lacking));

@@ -60,6 +60,7 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(12) var<storage, read_write> agitation: array<f32>;
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> counters: Counters;
+@group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
 
 /// What the neighbours add up to.
 struct Sums {
@@ -179,7 +180,10 @@ fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
         ledger[identity][KINETIC] += content.mass * paid;
         agitation[identity] = 0.5 * sums.agitation;
     }
-    let potential = potential_of(content);
+    let potential = potential_of(content, own.variance);
+    if (SEGREGATION) {
+        eddies[i] = pack_eddies(Eddies(unpack_eddies(eddies[i]).diffusivity, own.variance));
+    }
     heat[i] = pack_potential(potential);
     var extent = Bulk(1.0, 1.0, content.mass * content.vapour, rests);
     if (DENSITY) {

@@ -5,8 +5,6 @@
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
 
-/// C_s²/Sc_t, times Δ² (m²).
-override EDDY_AREA: f32 = 0.0;
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = -9.81;
 override GRAVITY_Z: f32 = 0.0;
@@ -59,6 +57,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let strain = 2.0 * dot(along, along) + dot(across, across);
     let buoyancy = dot(vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), density) / own.w;
     let rate = sqrt(max(strain - buoyancy / SCHMIDT, 0.0));
-    let diffusivity = EDDY_AREA * rate;
-    eddies[i] = pack_eddies(Eddies(diffusivity, SCHMIDT * diffusivity * rate * rate));
+    eddies[i] = pack_eddies(Eddies(EDDY_AREA * rate, unpack_eddies(eddies[i]).variance));
 }

@@ -56,6 +56,7 @@ pub fn mix(table: &SolutionTable, feeds: &[Feed]) -> Result<Mixture, OutOfRange>
         acid: acid / mass,
         enthalpy: enthalpy / mass,
         vapour: 0.0,
+        variance: 0.0,
     };
     let temperature_unboiled = all.temperature(table);
     all.vapour = all.equilibrium(table, STEPS);

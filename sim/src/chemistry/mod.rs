@@ -22,6 +22,7 @@ pub mod paper;
 pub mod physical;
 pub mod properties;
 pub mod puff;
+pub mod segregation;
 pub mod table;
 pub mod thomsen;
 pub mod transport;

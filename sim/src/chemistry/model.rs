@@ -62,6 +62,9 @@ pub struct Physical {
     pub bubble_speed: Option<f64>,
     /// η, where boiling moves the liquid.
     pub work_share: Option<f64>,
+    /// δ: thickness of lamellae that no eddy engulfs any more, m, where
+    /// liquid stays unmixed below a particle's size.
+    pub lamella: Option<f64>,
     /// Heat that leaves, where it does.
     pub losses: Option<Losses>,
 }
@@ -126,6 +129,7 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
         superheat_time: where_modelled(Feature::Evaporation, physical.superheat_time),
         bubble_speed: where_modelled(Feature::Steam, physical.bubble_speed),
         work_share: where_modelled(Feature::Boiling, physical.agitation),
+        lamella: where_modelled(Feature::Segregation, physical.lamella),
         losses: losses().filter(|_| scene.models(Feature::Losses)),
     })
 }

@@ -3,6 +3,7 @@
 use super::constants::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
 use super::error::{OutOfRange, check_content};
 use super::properties::AZEOTROPE;
+use super::segregation::{Lamellae, without_water};
 use super::table::{Row, STEAM_CAPACITY, SolutionTable, steam_enthalpy};
 
 /// Newton's steps towards the equilibrium of liquid and vapour. From the
@@ -15,6 +16,12 @@ pub const FLASH_STEPS: u32 = 3;
 /// temperature, however hot.
 const MOST_VAPOUR: f64 = 0.99;
 
+/// Least change of y of which a secant is taken, and the slopes dS/dy (K) that one may have: of water it
+/// is −540 K, of acid more than ten times that.
+const SECANT_FROM: f64 = 1e-5;
+const FLATTEST: f64 = 300.0;
+const STEEPEST: f64 = 2e4;
+
 /// What a particle holds: liquid, and vapour in bubbles that have not left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Content {
@@ -26,6 +33,8 @@ pub struct Content {
     pub enthalpy: f64,
     /// y: vapour over that mass.
     pub vapour: f64,
+    /// s²: variance of the acid fraction within the liquid.
+    pub variance: f64,
 }
 
 /// Vapour on its way.
@@ -57,6 +66,7 @@ impl Content {
             acid,
             enthalpy: table.enthalpy(acid, temperature),
             vapour: 0.0,
+            variance: 0.0,
         })
     }
 
@@ -70,9 +80,9 @@ impl Content {
         liquid_acid(self.acid, self.vapour)
     }
 
-    /// Properties of the liquid.
+    /// Properties of the liquid and its lamellae.
     pub fn liquid_row(&self, table: &SolutionTable) -> Row {
-        table.at(self.liquid_acid())
+        table.of_lamellae(self.liquid_acid(), self.variance)
     }
 
     /// T of liquid and vapour, °C.
@@ -81,7 +91,7 @@ impl Content {
             .temperature_with_steam(self.enthalpy, self.vapour)
     }
 
-    /// S = T − T_b(c/(1 − y)), K.
+    /// S = T − T_b, K, of the liquid's most watery part.
     pub fn superheat(&self, table: &SolutionTable) -> f64 {
         self.temperature(table) - self.liquid_row(table).boiling_point
     }
@@ -99,7 +109,12 @@ impl Content {
     /// (1 − y)·h(c_l, T_b(c_l)) + y·h_v(T_b(c_l)) with c_l = c/(1 − y), is
     /// convex in y: the iteration overshoots once at most and then comes
     /// down. It ends at the azeotrope, however hot the liquid is.
+    ///
+    /// Of a liquid with lamellae it is their water that boils, see [`Self::flash`].
     pub fn equilibrium(&self, table: &SolutionTable, steps: u32) -> f64 {
+        if self.variance > 0.0 {
+            return self.flash(table, steps);
+        }
         let most = (1.0 - self.acid / AZEOTROPE).clamp(0.0, MOST_VAPOUR);
         let mut vapour = self.vapour.clamp(0.0, most);
         for _ in 0..steps {
@@ -116,19 +131,66 @@ impl Content {
         vapour
     }
 
+    /// y at which the most watery part of the lamellae has its boiling point, by
+    /// secants from the present y: their slope is first that of a particle
+    /// whose latent heat and boiling point are as they are now.
+    fn flash(&self, table: &SolutionTable, steps: u32) -> f64 {
+        let most = (1.0 - self.acid / AZEOTROPE).clamp(0.0, MOST_VAPOUR);
+        let superheat = |vapour: f64| {
+            let row = self.boiled_to(vapour).liquid_row(table);
+            row.temperature_with_steam(self.enthalpy, vapour) - row.boiling_point
+        };
+        let row = self.liquid_row(table);
+        let latent = steam_enthalpy(row.boiling_point) - row.enthalpy_at(row.boiling_point);
+        let first = latent / row.capacity_at(row.boiling_point) + row.boiling_slope * row.acid;
+        let (mut slope, mut vapour) = (-first, self.vapour);
+        let mut here = superheat(vapour);
+        for _ in 0..steps {
+            let next = (vapour - here / slope).clamp(0.0, most);
+            let there = superheat(next);
+            let found = (there - here) / (next - vapour);
+            if (next - vapour).abs() > SECANT_FROM && (-STEEPEST..-FLATTEST).contains(&found) {
+                slope = found;
+            }
+            (vapour, here) = (next, there);
+        }
+        vapour
+    }
+
+    /// This with the vapour fraction `vapour`, whose water came from or went to the most watery part.
+    fn boiled_to(&self, vapour: f64) -> Self {
+        let gone = (vapour - self.vapour) / (1.0 - self.vapour);
+        Self {
+            vapour,
+            variance: self.variance_without(gone),
+            ..*self
+        }
+    }
+
+    /// s² after the share `gone` of the liquid has left its most watery part as water.
+    fn variance_without(&self, gone: f64) -> f64 {
+        if self.variance <= 0.0 {
+            return 0.0;
+        }
+        let acid = self.liquid_acid();
+        let depth = Lamellae::get().excess(acid, self.variance).depth;
+        without_water(self.variance, acid, acid - depth, gone)
+    }
+
     /// Boils, or lets vapour condense, for `time` seconds: y goes towards its
     /// equilibrium with the time constant `settling` (s). Returns the change
     /// of y.
     pub fn boil(&mut self, table: &SolutionTable, time: f64, settling: f64) -> f64 {
         let way = self.equilibrium(table, FLASH_STEPS) - self.vapour;
         let change = way * -(-time / settling).exp_m1();
-        self.vapour += change;
+        *self = self.boiled_to(self.vapour + change);
         change
     }
 
     /// Takes away water that evaporates; the vapour in bubbles stays.
     pub fn take_out_water(&mut self, gone: &Steam) {
         let mass = self.mass - gone.mass;
+        self.variance = self.variance_without(gone.mass / self.liquid_mass());
         self.acid *= self.mass / mass;
         self.enthalpy = (self.mass * self.enthalpy - gone.enthalpy) / mass;
         self.vapour *= self.mass / mass;

@@ -42,6 +42,8 @@ pub struct Row {
     pub capacity: f64,
     /// d/dc of it over the interval, J/(kg K).
     pub capacity_slope: f64,
+    /// dcp/dT, J/(kg K²).
+    pub capacity_rise: f64,
     /// Boiling point, °C.
     pub boiling_point: f64,
     /// d/dc of it over the interval, K.
@@ -55,21 +57,16 @@ pub struct Row {
 }
 
 impl Row {
-    /// dcp/dT, J/(kg K²).
-    fn capacity_rise(&self) -> f64 {
-        CAPACITY_SLOPE * (self.acid / CAPACITY_SLOPE_FROM).min(1.0)
-    }
-
     /// cp(T), J/(kg K).
     pub fn capacity_at(&self, temperature: f64) -> f64 {
-        self.capacity + self.capacity_rise() * (temperature - CAPACITY_AT)
+        self.capacity + self.capacity_rise * (temperature - CAPACITY_AT)
     }
 
     /// h(T) in J/kg over the pure liquids at 25 °C: minus the heat of mixing,
     /// plus ∫ cp dT.
     pub fn enthalpy_at(&self, temperature: f64) -> f64 {
         let (warmth, square) = warmth(temperature);
-        self.enthalpy + self.capacity * warmth + self.capacity_rise() * square
+        self.enthalpy + self.capacity * warmth + self.capacity_rise * square
     }
 
     /// ∂h/∂c at `temperature`, J/kg.
@@ -97,7 +94,7 @@ impl Row {
         let liquid = 1.0 - vapour;
         let zero = liquid * self.enthalpy + vapour * STEAM_ENTHALPY;
         let linear = liquid * self.capacity + vapour * STEAM_CAPACITY;
-        let square = 0.5 * liquid * self.capacity_rise();
+        let square = 0.5 * liquid * self.capacity_rise;
         // With t = T − 20: square·(t² − 25) + linear·(t − 5) = enthalpy − zero.
         let offset = ENTHALPY_ZERO - CAPACITY_AT;
         let level = enthalpy - zero + linear * offset + square * offset * offset;
@@ -205,6 +202,7 @@ impl SolutionTable {
             enthalpy_slope: slope(0),
             capacity: value(1),
             capacity_slope: slope(1),
+            capacity_rise: CAPACITY_SLOPE * (acid / CAPACITY_SLOPE_FROM).min(1.0),
             boiling_point: value(2),
             boiling_slope: slope(2),
             density: value(3),

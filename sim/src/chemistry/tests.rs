@@ -9,3 +9,4 @@ mod glass;
 mod model;
 mod pairs;
 mod phases;
+mod segregation;

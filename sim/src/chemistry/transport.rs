@@ -45,6 +45,8 @@ pub struct Potential {
     pub enthalpy: f64,
     /// Specific heat capacity of its liquid at T, J/(kg K).
     pub capacity: f64,
+    /// s²: variance of the acid fraction within its liquid.
+    pub variance: f64,
 }
 
 impl Potential {
@@ -59,6 +61,7 @@ impl Potential {
             temperature,
             enthalpy: (content.enthalpy - steam) / (1.0 - content.vapour),
             capacity: row.capacity_at(temperature),
+            variance: content.variance,
         }
     }
 
@@ -75,6 +78,9 @@ pub struct Flux {
     pub acid: f64,
     /// Enthalpy, J.
     pub enthalpy: f64,
+    /// Σ (c − c_i)² of what comes less that of what goes, kg. What i and j get
+    /// of it is no opposite: what eddies bring arrives unmixed.
+    pub variance: f64,
 }
 
 /// What i gets from j at `distance` (m) in a substep; j gets the opposite,
@@ -117,6 +123,7 @@ pub fn flux(
     Flux {
         acid: carried * (j.acid - i.acid),
         enthalpy: carried * (j.enthalpy - i.enthalpy) + conducted * (j.temperature - i.temperature),
+        variance: kept * eddies * of_mass * (j.variance - i.variance + (j.acid - i.acid).powi(2)),
     }
 }
 
@@ -196,6 +203,7 @@ impl std::iter::Sum for Flux {
         fluxes.fold(Self::default(), |a, b| Self {
             acid: a.acid + b.acid,
             enthalpy: a.enthalpy + b.enthalpy,
+            variance: a.variance + b.variance,
         })
     }
 }

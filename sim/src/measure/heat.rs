@@ -187,8 +187,13 @@ fn superheat(chemistry: &Chemistry, state: &SolverState, present: &[usize]) -> O
         }
         Chemistry::Physical(_) => {
             let table = SolutionTable::new();
-            // A particle's acid fraction there is that of its liquid.
-            Box::new(move |slot| table.at(state.heat[slot][1].into()).boiling_point)
+            // A particle's acid fraction there is that of its liquid, of which the most watery part boils.
+            Box::new(move |slot| {
+                let variance = state.eddies[slot][1].into();
+                table
+                    .of_lamellae(state.heat[slot][1].into(), variance)
+                    .boiling_point
+            })
         }
     };
     let mut found: Option<Superheat> = None;

@@ -8,6 +8,7 @@ use crate::chemistry::eddies::{Eddies, SCHMIDT};
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
+use crate::chemistry::segregation::decay_rate;
 use crate::chemistry::table::SolutionTable;
 use crate::chemistry::transport::{Diffusivities, Flux, Potential, flux, heat_from};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
@@ -246,9 +247,11 @@ impl Physical {
             .losses
             .filter(|_| self.law.superheat_time.is_some());
         let air = evaporates.map(|losses| StillAir::at(&self.table, losses.ambient));
-        for (i, Flux { acid, enthalpy }) in fluxes.into_iter().enumerate() {
+        for (i, flux) in fluxes.into_iter().enumerate() {
+            let Flux { acid, enthalpy, .. } = flux;
             let gained = self.heat_from_around(&potentials[i], &touches[i], time);
             self.ledger.exchanged += gained;
+            self.segregate(i, &potentials[i], &flux, time);
             let content = &mut self.contents[i];
             content.acid += acid / content.mass;
             content.enthalpy += (enthalpy + gained) / content.mass;
@@ -275,6 +278,18 @@ impl Physical {
                 self.viscosities[i] = row.viscosity_at(temperature) / row.density_at(temperature);
             }
         }
+    }
+
+    /// Line 26: what eddies bring arrives unmixed, and what is unmixed is mixed by eddies and molecules.
+    fn segregate(&mut self, i: usize, own: &Potential, flux: &Flux, time: f64) {
+        let Some(lamella) = self.law.lamella else {
+            return;
+        };
+        let row = self.table.at(own.acid);
+        let rate = decay_rate(&row, own.temperature, self.eddies[i].dissipation, lamella);
+        let brought = flux.variance / own.mass - (flux.acid / own.mass).powi(2);
+        let variance = (own.variance + brought).clamp(0.0, own.acid * (1.0 - own.acid));
+        self.contents[i].variance = variance * (-rate * time).exp();
     }
 
     /// Heat that a particle takes through glass and surface in `time` seconds, J.

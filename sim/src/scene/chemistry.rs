@@ -52,7 +52,9 @@ pub struct PhysicalChemistry {
     /// η: the share of the work R·T/M of the water that evaporates which
     /// becomes motion; with `boiling`.
     pub agitation: Option<f64>,
-    /// Heat transfer through glass, W/(m²·K); with `losses`.
+    /// δ: thickness of the lamellae that eddies leave to molecules, m; with `segregation`.
+    pub lamella: Option<f64>,
+    /// Heat transfer from glass to air, W/(m²·K); with `losses`.
     pub glass_loss: Option<f64>,
     /// Heat transfer at the free surface, W/(m²·K); with `losses`.
     pub surface_loss: Option<f64>,
@@ -89,8 +91,8 @@ impl PaperChemistry {
 }
 
 impl PhysicalChemistry {
-    pub(super) fn fields(&self) -> [Field; 8] {
-        use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Steam};
+    pub(super) fn fields(&self) -> [Field; 9] {
+        use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Segregation, Steam};
         let p = self;
         [
             ("ambient", Heat, p.ambient, TEMPERATURE),
@@ -99,6 +101,7 @@ impl PhysicalChemistry {
             ("superheat_time", Evaporation, p.superheat_time, DURATION),
             ("bubble_speed", Steam, p.bubble_speed, SPEED),
             ("agitation", Boiling, p.agitation, NOT_NEGATIVE),
+            ("lamella", Segregation, p.lamella, LENGTH),
             ("glass_loss", Losses, p.glass_loss, NOT_NEGATIVE),
             ("surface_loss", Losses, p.surface_loss, NOT_NEGATIVE),
         ]
@@ -177,6 +180,7 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
         (Feature::Viscosity, Feature::Dilution),
         (Feature::Evaporation, Feature::Dilution),
         (Feature::Losses, Feature::Dilution),
+        (Feature::Segregation, Feature::Dilution),
     ];
     if physical {
         needs.extend([
@@ -220,6 +224,7 @@ fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
         Feature::Evaporation,
         Feature::Steam,
         Feature::Losses,
+        Feature::Segregation,
     ];
     for feature in beyond_paper {
         if model.contains(&feature) && !physical {

@@ -8,6 +8,7 @@ use super::spec::SolverSpec;
 use super::transfer::upload;
 use super::vessels::Vessels;
 use crate::chemistry::Chemistry;
+use crate::chemistry::segregation::Lamellae;
 use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 
@@ -69,6 +70,7 @@ pub(super) struct Buffers {
     pub(super) eddies: Buffer,
     pub(super) sorted_eddies: Buffer,
     pub(super) solution: Buffer,
+    pub(super) lamellae: Buffer,
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
     pub(super) glass_taken: Buffer,
@@ -102,6 +104,12 @@ impl Buffers {
             SolutionTable::new().rows()
         } else {
             Vec::new()
+        };
+        let lamellae = match chemistry {
+            Some(Chemistry::Physical(physical)) if physical.lamella.is_some() => {
+                Lamellae::get().rows()
+            }
+            _ => Vec::new(),
         };
         let rings = glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
         let confined = spec.parameters.vorticity > 0.0;
@@ -140,6 +148,7 @@ impl Buffers {
             eddies: words("eddies", 2 * held)?,
             sorted_eddies: words("sorted_eddies", 2 * held)?,
             solution: upload(gpu, "solution", &table)?,
+            lamellae: upload(gpu, "lamellae", &lamellae)?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
             poses: Buffer::storage(
@@ -155,7 +164,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 20] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 21] {
         [
             &self.position,
             &self.velocity,
@@ -193,6 +202,7 @@ impl Buffers {
             &self.block_sums,
             &self.list_args,
             &self.solution,
+            &self.lamellae,
             &self.glass,
             &self.glass_taken,
             &self.poses,

@@ -235,6 +235,9 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         let per_kelvin = share * GAS_CONSTANT / WATER_MOLAR_MASS;
         own.extend([("BOILING", 1.0), ("AGITATION", per_kelvin)]);
     }
+    if let Some(lamella) = physical.lamella {
+        own.extend([("SEGREGATION", 1.0), ("LAMELLA", lamella)]);
+    }
     if let Some(losses) = &physical.losses {
         own.extend([
             ("LOSSES", 1.0),

@@ -45,7 +45,7 @@ pub struct SolverState {
     pub(super) agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     pub(super) bulk: Vec<[f32; 4]>,
-    /// (K in m²/s, ε in W/kg) of the eddies at each particle, by slot.
+    /// (K in m²/s of the eddies, variance of the acid fraction within the liquid) of each particle, by slot.
     pub eddies: Vec<[f32; 2]>,
     /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
     pub glass: Vec<[f32; 2]>,

@@ -15,5 +15,7 @@ override DENSITY: bool = false;
 override VISCOSITY: bool = false;
 /// Physical: whether water boils out of the liquid and condenses in it.
 override EVAPORATION: bool = false;
+/// Physical: whether liquid stays unmixed below a particle's size.
+override SEGREGATION: bool = false;
 /// Physical: whether heat is lost to glass and air.
 override LOSSES: bool = false;

@@ -39,6 +39,8 @@ struct Row {
     value: Heats,
     /// Slopes in c over the interval.
     slope: Heats,
+    /// dcp/dT, J/(kg K²).
+    rise: f32,
 }
 
 fn unpack_heats(words: vec3<f32>) -> Heats {
@@ -68,15 +70,13 @@ fn row_at(acid: f32) -> Row {
     let low = heats_of_node(i);
     let rise = heats_of_node(i + 1u) - low;
     let value = low + (place - f32(i)) * rise;
-    return Row(acid, unpack_heats(value), unpack_heats(rise * f32(SOLUTION_INTERVALS)));
-}
-
-fn capacity_rise(acid: f32) -> f32 {
-    return CAPACITY_SLOPE * min(acid / CAPACITY_SLOPE_FROM, 1.0);
+    return Row(
+        acid, unpack_heats(value), unpack_heats(rise * f32(SOLUTION_INTERVALS)),
+        CAPACITY_SLOPE * min(acid / CAPACITY_SLOPE_FROM, 1.0));
 }
 
 fn capacity_at(row: Row, temperature: f32) -> f32 {
-    return row.value.capacity + capacity_rise(row.acid) * (temperature - CAPACITY_AT);
+    return row.value.capacity + row.rise * (temperature - CAPACITY_AT);
 }
 
 /// ∫ dT and ∫ (T − 20) dT from 25 °C.
@@ -87,7 +87,7 @@ fn warmth(temperature: f32) -> vec2<f32> {
 
 fn enthalpy_at(row: Row, temperature: f32) -> f32 {
     let w = warmth(temperature);
-    return row.value.enthalpy + row.value.capacity * w.x + capacity_rise(row.acid) * w.y;
+    return row.value.enthalpy + row.value.capacity * w.x + row.rise * w.y;
 }
 
 /// ∂h/∂c at a temperature.
@@ -105,7 +105,7 @@ fn steam_enthalpy(temperature: f32) -> f32 {
 fn temperature_with_steam(row: Row, enthalpy: f32, vapour: f32) -> f32 {
     let liquid = 1.0 - vapour;
     let linear = liquid * row.value.capacity + vapour * STEAM_CAPACITY;
-    let square = 0.5 * liquid * capacity_rise(row.acid);
+    let square = 0.5 * liquid * row.rise;
     let offset = ENTHALPY_ZERO - CAPACITY_AT;
     let zero = liquid * row.value.enthalpy + vapour * STEAM_ENTHALPY;
     let level = (enthalpy - zero) + offset * (linear + square * offset);

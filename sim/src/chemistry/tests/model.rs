@@ -45,6 +45,7 @@ fn the_physical_chemistrys_numbers_arrive() {
     physical.agitation = Some(6.0);
     physical.glass_loss = Some(7.0);
     physical.surface_loss = Some(8.0);
+    physical.lamella = Some(9.0);
     let all = Physical {
         mixing: Mixing {
             turbulence: 2.0,
@@ -55,6 +56,7 @@ fn the_physical_chemistrys_numbers_arrive() {
         superheat_time: Some(4.0),
         bubble_speed: Some(5.0),
         work_share: Some(6.0),
+        lamella: Some(9.0),
         losses: Some(Losses {
             ambient: 1.0,
             glass: 7.0,
@@ -68,7 +70,8 @@ fn the_physical_chemistrys_numbers_arrive() {
     assert_eq!(of(&scene), all);
     // What a scene does not model is off, and nothing else.
     type Off = fn(&mut Physical);
-    let features: [(Feature, Off); 6] = [
+    let features: [(Feature, Off); 7] = [
+        (Feature::Segregation, |law| law.lamella = None),
         (Feature::Density, |law| law.density = false),
         (Feature::Viscosity, |law| law.viscosity = false),
         (Feature::Evaporation, |law| law.superheat_time = None),

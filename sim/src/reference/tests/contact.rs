@@ -106,6 +106,7 @@ fn contact_error(layers: usize) -> [f64; 2] {
             temperature: value,
             enthalpy: 0.0,
             capacity: capacity / mass,
+            variance: 0.0,
         })
         .collect();
     let still = Diffusivities {

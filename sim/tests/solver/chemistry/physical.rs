@@ -5,7 +5,7 @@ use super::setup::*;
 use crate::common::*;
 use crate::leaning_glass::*;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
-use vitriol_sim::chemistry::eddies::Mixing;
+use vitriol_sim::chemistry::eddies::{Eddies, Mixing};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
@@ -23,6 +23,8 @@ struct Errors {
     velocity: f64,
     /// Of the eddies' diffusivity, over its largest.
     eddies: f64,
+    /// Of the variance of c, and its largest change.
+    variance: [f64; 2],
     /// J and kg per kg of a particle at rest density: (kinetic, exchanged,
     /// steam, its enthalpy), by the GPU and by the reference.
     ledger: [[f64; 4]; 2],
@@ -37,18 +39,32 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
     let poses = [glass_pose()];
     let solver = setup.solver(&device);
     let mut before = solver.snapshot().unwrap();
-    let start = by_identity(&before, &before.matter);
     let mut truth = leaning_reference(&setup, &poses);
     // No two alike.
     let Some(reference::Chemistry::Physical(physical)) = &mut truth.chemistry else {
         panic!("has the physical chemistry")
     };
-    for (eddies, tag) in before.eddies.iter_mut().zip(&before.tags) {
-        let i = tag[1] as usize;
-        *eddies = [1e-5 * (2.0 + (i as f32).sin()), 0.0];
-        physical.eddies[i].diffusivity = eddies[0].into();
+    for slot in 0..before.tags.len() {
+        let i = before.tags[slot][1] as usize;
+        let eddies = &mut before.eddies[slot];
+        let content = &mut physical.contents[i];
+        let variance = 0.15 * content.acid * (0.98 - content.acid).max(0.0);
+        *eddies = [1e-5 * (2.0 + (i as f32).sin()), variance as f32];
+        let rate = f64::from(eddies[0]) / (law.mixing.turbulence * law.mixing.width.powi(2));
+        physical.eddies[i] = Eddies {
+            diffusivity: eddies[0].into(),
+            dissipation: 0.7 * f64::from(eddies[0]) * rate * rate,
+        };
+        content.variance = eddies[1].into();
+        // Of the same temperature.
+        let row = physical.table.of_lamellae(content.acid, content.variance);
+        let enthalpy = row.enthalpy_at(setup.particles[i].temperature) as f32;
+        content.enthalpy = enthalpy.into();
+        before.matter[slot][1] = enthalpy;
+        before.heat[slot][3] = enthalpy;
     }
     solver.restore(&before).unwrap();
+    let start = by_identity(&before, &before.matter);
     for _ in 0..count {
         frame(&device, &solver, &poses, &poses);
         truth.step(&poses, &poses);
@@ -98,6 +114,27 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
             })
             .0 / largest
         },
+        variance: {
+            let rows: Vec<_> = state
+                .eddies
+                .iter()
+                .map(|&[k, s]| [k, s, 0.0, 0.0])
+                .collect();
+            let found = by_identity(&state, &rows);
+            let first: Vec<_> = before
+                .eddies
+                .iter()
+                .map(|&[k, s]| [k, s, 0.0, 0.0])
+                .collect();
+            let first = by_identity(&before, &first);
+            [
+                worst(all.clone(), |i| {
+                    (found[i][1] - physical.contents[i].variance).abs()
+                })
+                .0,
+                worst(all.clone(), |i| (found[i][1] - first[i][1]).abs()).0,
+            ]
+        },
         velocity: worst(all, |i| found[i].velocity.distance(truth.velocities[i])).0,
         ledger: [own, theirs_ledger.map(|value| value / unit)],
     }
@@ -119,6 +156,10 @@ fn against_the_reference() {
         // f32.
         assert!(vapour < 1e-6 && mass < 2e-7, "{lanes} {one:?}");
         assert!(one.velocity < PLACE / SUBSTEP, "{lanes} {one:?}");
+        assert!(
+            one.variance[0] < 1e-6 && one.variance[1] > 1e-4,
+            "{lanes} {one:?}"
+        );
         // A root of a difference of velocities, each within PLACE a substep.
         assert!(one.eddies < 1e-3, "{lanes} {one:?}");
         assert!(one.changed[0] > 5e-4 && one.changed[1] > 500.0, "{one:?}");

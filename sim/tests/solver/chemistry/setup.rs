@@ -46,7 +46,7 @@ pub fn built_in() -> Physical {
     }
 }
 
-/// Nothing but mixing: an insulated vessel whose liquid does not boil.
+/// Nothing but mixing, at once and whole: an insulated vessel whose liquid does not boil.
 pub fn mixing_alone() -> Physical {
     Physical {
         density: false,
@@ -55,6 +55,7 @@ pub fn mixing_alone() -> Physical {
         bubble_speed: None,
         work_share: None,
         losses: None,
+        lamella: None,
         ..built_in()
     }
 }
