@@ -181,6 +181,8 @@ pub enum TradePart {
     Solver,
     /// Calorimeter, and water poured into acid
     Chemistry,
+    /// What the constants of the physical chemistry change when they are halved and doubled
+    Constants,
     /// Convergence, and the f64 reference
     Truth,
 }
@@ -191,7 +193,7 @@ pub struct TradeArgs {
     /// Few settings of 4,000 particles: minutes on two cores
     #[arg(long)]
     pub quick: bool,
-    /// One part only; without it all three
+    /// One part only; without it all four
     #[arg(long, value_enum, value_name = "PART")]
     pub part: Option<TradePart>,
     /// Seconds after which no further setting is begun

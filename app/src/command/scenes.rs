@@ -75,7 +75,7 @@ struct Costs {
 }
 
 /// All that a scene may model.
-const FEATURES: [Feature; 10] = [
+const FEATURES: [Feature; 11] = [
     Feature::Heat,
     Feature::Dilution,
     Feature::Boiling,
@@ -84,6 +84,7 @@ const FEATURES: [Feature; 10] = [
     Feature::Evaporation,
     Feature::Steam,
     Feature::Losses,
+    Feature::Segregation,
     Feature::Cohesion,
     Feature::Vorticity,
 ];

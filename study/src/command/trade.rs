@@ -11,6 +11,7 @@ use super::calorimeter::resolution;
 use crate::calorimeter::{self, Feed};
 use crate::cli::{TradeArgs, TradePart};
 use crate::several::at_a_time;
+use crate::trade::constants::{CONSTANTS, Change};
 use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
     Errors, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page, rest, sweep,
@@ -25,6 +26,8 @@ const PAGE: &str = "trade.html";
 const SCENE: &str = "beaker";
 /// What is poured into acid, by which track.
 const BOILING: (&str, &str) = ("water-into-acid", "two-flasks");
+/// The same with acid poured into water.
+const REVERSED: &str = "acid-into-water";
 /// Seeds of chaotic runs; of those that leave a feature out.
 const SEEDS: [u64; 2] = [10, 4];
 
@@ -66,6 +69,9 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
     }
     if wanted(TradePart::Chemistry) {
         work.chemistry()?;
+    }
+    if wanted(TradePart::Constants) {
+        work.constants()?;
     }
     if wanted(TradePart::Solver) {
         work.solver()?;
@@ -168,11 +174,47 @@ impl Work<'_> {
             Feature::Evaporation,
             Feature::Steam,
             Feature::Losses,
+            Feature::Segregation,
         ] {
             let (less, gone) = balanced.without(feature);
             let names: Vec<String> = gone.iter().map(|feature| feature.name()).collect();
             let name = format!("balanced without {}", names.join(", "));
             self.seeds(&name, &less, &track, (SEEDS[1], whole))?;
+        }
+        Ok(())
+    }
+
+    /// Both orders of pouring, with each constant as it is, halved and doubled.
+    fn constants(&mut self) -> Result<(), Failure> {
+        let track = track::load(BOILING.1)?;
+        let (seeds, seconds, take) = if self.args.quick {
+            (1, 3.0, 1)
+        } else {
+            (SEEDS[1], track.duration(), CONSTANTS.len())
+        };
+        for name in [BOILING.0, REVERSED] {
+            let scene = Scene::load(name).other()?.with_preset(Preset::Balanced);
+            let changed = CONSTANTS.iter().take(take).flat_map(|constant| {
+                let value = constant.of(&scene);
+                let times = [0.5, 2.0].into_iter();
+                times.filter_map(move |times| Some((Some(*constant), value?, times)))
+            });
+            for (constant, value, times) in std::iter::once((None, 1.0, 1.0)).chain(changed) {
+                if self.late() {
+                    self.found.skipped += 1;
+                    continue;
+                }
+                let other = constant.map_or_else(|| scene.clone(), |c| c.times(&scene, times));
+                let all: Vec<u64> = (1..=seeds).collect();
+                let boil = |&seed: &u64| Ok(boil(self.gpu, &other, &track, seconds, seed)?.0);
+                let found = at_a_time(AT_ONCE, &all, boil)?;
+                self.found.constants.push(Change {
+                    constant,
+                    value,
+                    times,
+                    seeds: Seeds::of(name.to_owned(), found),
+                });
+            }
         }
         Ok(())
     }

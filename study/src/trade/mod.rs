@@ -2,6 +2,7 @@
 //! comes of it is from what is known without it.
 
 mod boil;
+pub mod constants;
 mod exact;
 mod front;
 mod order;

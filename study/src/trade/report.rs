@@ -7,6 +7,7 @@ use vitriol_experiment::DeviceStatement;
 use vitriol_experiment::units::percent;
 
 use super::boil::{Quartiles, Seeds};
+use super::constants::Change;
 use super::order::Convergence;
 use super::setting::{Knob, Setting};
 use super::tank::{Cost, Rested, Tipped};
@@ -31,6 +32,8 @@ pub struct Trade {
     pub boiling: Vec<Seeds>,
     /// Frame times of these.
     pub boiling_costs: Vec<Cost>,
+    /// What the chemistry's constants change.
+    pub constants: Vec<Change>,
     /// The finest setting by the f64 reference.
     pub vouched: Option<Vouched>,
     /// What each effect that plain water leaves out would change of a pour.
@@ -180,6 +183,9 @@ pub fn describe(trade: &Trade) -> String {
             show(&seeds.steam),
             show(&seeds.temperature)
         );
+    }
+    if !trade.constants.is_empty() {
+        t += &super::constants::describe(&trade.constants);
     }
     if let Some(v) = &trade.vouched {
         let _ = writeln!(

@@ -227,3 +227,48 @@ fn molecules_conduct_heat_as_water_does() {
     assert!((still.heat / known - 1.0).abs() < 0.03, "{still:?}");
     assert_eq!((still.eddies, still.acid), (0.0, ACID_DIFFUSIVITY));
 }
+
+/// Layers left alone: ρΔc·√(Dt/π) of acid crosses unit area (Crank 1975, Eq. 2.14), where a particle is a
+/// quarter of √(Dt) wide.
+#[test]
+fn acid_crosses_a_contact_as_fast_as_it_diffuses() {
+    let bar = Bar::new(40);
+    let pairs = bar.pairs();
+    let only_acid = Diffusivities {
+        eddies: 0.0,
+        acid: 1.0,
+        heat: 0.0,
+    };
+    let mut state: Vec<_> = bar
+        .positions
+        .iter()
+        .map(|at| Potential {
+            mass: 1.0,
+            acid: if at.x < 0.0 { 0.5 } else { 0.3 },
+            temperature: 20.0,
+            enthalpy: 0.0,
+            capacity: 3000.0,
+            variance: 0.0,
+        })
+        .collect();
+    for _ in 0..bar.steps {
+        let fluxes = pairs.sums(|i, j| {
+            let distance = pairs.distance(i, j);
+            flux(pairs.exchange, &only_acid, distance, &state[i], &state[j])
+        });
+        for (_, middle) in bar.middles() {
+            let acid = state[middle].acid + fluxes[middle].acid;
+            let layer = middle / 25 * 25;
+            state[layer..layer + 25]
+                .iter_mut()
+                .for_each(|p| p.acid = acid);
+        }
+    }
+    let crossed: f64 = bar
+        .middles()
+        .filter(|(x, _)| *x > 0.0)
+        .map(|(_, i)| (state[i].acid - 0.3) / 40.0)
+        .sum();
+    let known = 0.2 * (0.01 / std::f64::consts::PI).sqrt();
+    assert!((crossed / known - 1.0).abs() < 0.05, "{crossed} {known}");
+}

@@ -5,6 +5,7 @@ mod conserved;
 mod extremes;
 mod figures;
 mod idle;
+mod layers;
 mod losses;
 mod mixing_line;
 mod paper;

@@ -1,0 +1,103 @@
+//! Acid under water mixes no faster than molecules while it is left alone, and no more than is paid for when
+//! it is stirred.
+
+use super::setup::*;
+use crate::common::*;
+use std::f64::consts::PI;
+use vitriol_sim::chemistry::eddies::Mixing;
+use vitriol_sim::chemistry::table::SolutionTable;
+use vitriol_sim::chemistry::transport::ACID_DIFFUSIVITY;
+use vitriol_sim::chemistry::{Chemistry, Physical};
+use vitriol_sim::parameters::Parameters;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::SolverState;
+use vitriol_tests::gpu;
+
+/// A lower half of 50 % acid, an upper one of 30 %, and what else the scenes have but losses and boiling.
+fn layers(turbulence: f64) -> (Parameters, Setup) {
+    let law = Physical {
+        density: true,
+        viscosity: true,
+        mixing: Mixing {
+            turbulence,
+            ..Mixing::default()
+        },
+        ..mixing_alone()
+    };
+    let p = with(Chemistry::Physical(law), parameters());
+    let particles = glass_of(700, |height| (20.0, if height < 0.5 { 0.5 } else { 0.3 }));
+    (p.clone(), Setup::new(p, vec![narrow_glass()], particles))
+}
+
+/// Acid that is above where it was, kg: of the particles that were of the upper layer.
+fn risen(state: &SolverState, start: &SolverState, unit: f64) -> f64 {
+    let by_start = by_identity(start, &start.matter);
+    let now = by_identity(state, &state.matter);
+    let gained = now
+        .iter()
+        .zip(&by_start)
+        .filter(|(_, first)| first[0] < 0.4);
+    unit * gained
+        .map(|(now, first)| now[0] * now[3] - first[0] * first[3])
+        .sum::<f64>()
+}
+
+/// Molecules alone bring ρΔc·√(Dt/π) of acid across unit area (Crank 1975, Eq. 2.14). Particles of 2.5 mm,
+/// which do not resolve that, may bring less and not more; what jitters between them would bring a hundred
+/// times as much.
+#[test]
+fn layers_at_rest_mix_no_faster_than_molecules() {
+    let device = gpu::device();
+    let (p, setup) = layers(Mixing::default().turbulence);
+    let solver = setup.solver(&device);
+    // Until the filling has come to rest.
+    frames(&device, &solver, &[Pose::IDENTITY], 90);
+    let start = solver.snapshot().unwrap();
+    let time = 6.0;
+    frames(
+        &device,
+        &solver,
+        &[Pose::IDENTITY],
+        (time / p.frame_time) as usize,
+    );
+    let end = solver.snapshot().unwrap();
+    let area = PI * 0.013 * 0.013;
+    let table = SolutionTable::new();
+    let density = 0.5 * (table.at(0.3).density_at(20.0) + table.at(0.5).density_at(20.0));
+    let most = density * 0.2 * (ACID_DIFFUSIVITY * time / PI).sqrt() * area;
+    let found = risen(&end, &start, p.particle_mass());
+    assert!(found > 0.0 && found < most, "{found} of {most} kg");
+}
+
+/// Stirred layers gain less potential energy by mixing than they were given in motion. What they gain by mixing
+/// is what a glass without eddies does not have.
+#[test]
+fn stirring_pays_for_what_it_lifts() {
+    let device = gpu::device();
+    for speed in [0.05, 0.15] {
+        let mut given = 0.0;
+        let [mixed, unmixed] = [Mixing::default().turbulence, 0.0].map(|turbulence| {
+            let (p, setup) = layers(turbulence);
+            let solver = setup.solver(&device);
+            frames(&device, &solver, &[Pose::IDENTITY], 45);
+            let mut random = Random(8);
+            stir(&device, &solver, &mut random, speed);
+            let unit = p.particle_mass();
+            given = 0.0;
+            // As `stir` gives each particle.
+            let mut random = Random(8);
+            let state = solver.snapshot().unwrap();
+            for slot in 0..state.tags.len() {
+                let v = random.point(speed).length_squared();
+                given += 0.5 * unit * state.mass_of(slot) * v;
+            }
+            frames(&device, &solver, &[Pose::IDENTITY], 90);
+            let state = solver.snapshot().unwrap();
+            let rows = state.positions.iter().zip(&state.matter);
+            let potential = rows.map(|(x, matter)| f64::from(x[1]) * f64::from(matter[3]));
+            9.81 * unit * potential.sum::<f64>()
+        });
+        let gained = mixed - unmixed;
+        assert!(gained < given, "{speed} m/s: {gained} J of {given} J");
+    }
+}

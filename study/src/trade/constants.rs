@@ -1,0 +1,159 @@
+//! What the numbers of the physical chemistry that no table has come from, and
+//! what each changes when it is halved and doubled.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_sim::scene::{PhysicalChemistry, Scene};
+
+use super::boil::Seeds;
+
+/// A number of `[physical]`, and where it comes from.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Constant {
+    /// Its key in scenes.
+    pub key: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its source, or what it was fitted to.
+    pub source: &'static str,
+    #[serde(skip)]
+    value: fn(&mut PhysicalChemistry) -> &mut Option<f64>,
+}
+
+/// All of them but the room's temperature.
+pub const CONSTANTS: [Constant; 8] = [
+    Constant {
+        key: "mixing",
+        unit: "1",
+        source: "Lilly 1967 over a turbulent Schmidt number of 0.7",
+        value: |p| &mut p.mixing,
+    },
+    Constant {
+        key: "eddy_width",
+        unit: "m",
+        source: "chosen: what the coarsest particles of real size resolve",
+        value: |p| &mut p.eddy_width,
+    },
+    Constant {
+        key: "lamella",
+        unit: "m",
+        source: "chosen: a fraction of a millimetre, what folds of a beaker's size come to",
+        value: |p| &mut p.lamella,
+    },
+    Constant {
+        key: "superheat_time",
+        unit: "s",
+        source: "Plesset & Zwick 1954: bubbles of 2 mm at 10 K",
+        value: |p| &mut p.superheat_time,
+    },
+    Constant {
+        key: "bubble_speed",
+        unit: "m/s",
+        source: "Clift, Grace & Weber 1978: bubbles of millimetres",
+        value: |p| &mut p.bubble_speed,
+    },
+    Constant {
+        key: "agitation",
+        unit: "1",
+        source: "fitted: acid is thrown out of the beaker and not to the ceiling",
+        value: |p| &mut p.agitation,
+    },
+    Constant {
+        key: "glass_loss",
+        unit: "W/(m² K)",
+        source: "Incropera: still air 2 to 25",
+        value: |p| &mut p.glass_loss,
+    },
+    Constant {
+        key: "surface_loss",
+        unit: "W/(m² K)",
+        source: "Incropera: still air 2 to 25",
+        value: |p| &mut p.surface_loss,
+    },
+];
+
+impl Constant {
+    /// Its value in `scene`; `None` where the scene has none.
+    pub fn of(&self, scene: &Scene) -> Option<f64> {
+        let mut physical = scene.physical?;
+        *(self.value)(&mut physical)
+    }
+
+    /// `scene` with `times` its value.
+    pub fn times(&self, scene: &Scene, times: f64) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(value) = scene.physical.as_mut().map(self.value)
+            && let Some(value) = value
+        {
+            *value *= times;
+        }
+        scene
+    }
+}
+
+/// What a scene comes to with a constant changed.
+#[derive(Clone, Debug, Serialize)]
+pub struct Change {
+    /// The constant; none where all are as they are.
+    pub constant: Option<Constant>,
+    /// Its value in the scene.
+    pub value: f64,
+    /// Times that value.
+    pub times: f64,
+    /// What came of it.
+    pub seeds: Seeds,
+}
+
+/// The table: medians, of each scene in a block.
+pub fn describe(changes: &[Change]) -> String {
+    let mut t = format!(
+        "\n{:<16} {:>7} {:>9}  {:>9} {:>9} {:>9} {:>9}  scene; source\n",
+        "constant", "times", "value", "thrown g", "steam g", "hot K", "end °C"
+    );
+    for change in changes {
+        let key = change.constant.map_or("all as they are", |c| c.key);
+        let source = change.constant.map_or("", |c| c.source);
+        let median = |of: &super::boil::Quartiles| of.0[1];
+        let seeds = &change.seeds;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            t,
+            "{key:<16} {:>7.2} {:>9.3e}  {:>9.3} {:>9.3} {:>9.1} {:>9.1}  {}; {source}",
+            change.times,
+            change.value * change.times,
+            median(&seeds.thrown),
+            median(&seeds.steam),
+            median(&seeds.superheat),
+            median(&seeds.temperature),
+            seeds.name,
+        );
+    }
+    t
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn every_number_of_a_scene_is_a_constant_but_the_rooms_temperature() {
+        let scene = Scene::load("water-into-acid").unwrap();
+        let fields = serde_json::to_value(scene.physical.unwrap()).unwrap();
+        let keys: Vec<_> = fields.as_object().unwrap().keys().cloned().collect();
+        assert_eq!(keys.len(), CONSTANTS.len() + 1, "{keys:?}");
+        for constant in CONSTANTS {
+            assert!(
+                keys.iter().any(|key| key == constant.key),
+                "{}",
+                constant.key
+            );
+            let value = constant.of(&scene).unwrap();
+            let doubled = constant.times(&scene, 2.0);
+            assert_eq!(constant.of(&doubled), Some(2.0 * value));
+            // And nothing else.
+            assert_eq!(constant.times(&doubled, 0.5).physical, scene.physical);
+        }
+    }
+}
