@@ -8,8 +8,8 @@
 override GRAVITY_X: f32 = 0.0;
 override GRAVITY_Y: f32 = -9.81;
 override GRAVITY_Z: f32 = 0.0;
-/// Least part of a full neighbourhood's first moment by which a gradient is normalised.
-const LEAST_MOMENT: f32 = 0.2;
+/// Least part of a full neighbourhood's first moment by which a gradient is normalised: a level surface's.
+const LEAST_MOMENT: f32 = 0.6;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> list_counts: array<u32>;

@@ -10,8 +10,9 @@ use glam::{DMat3, DVec3};
 type Flow = (DVec3, f64);
 
 /// Least part of a full neighbourhood's first moment by which a gradient is
-/// normalised: what has hardly any neighbours has no gradient.
-const LEAST_MOMENT: f64 = 0.2;
+/// normalised, which is about what a level surface has: drops that fly side by
+/// side are no flow.
+const LEAST_MOMENT: f64 = 0.6;
 
 impl Reference {
     /// The eddies of every particle at the present positions and velocities.

@@ -165,7 +165,7 @@ impl Recipe {
             Base::Paper => "\"heat\", \"dilution\", \"boiling\"",
             Base::Physical => {
                 "\"heat\", \"dilution\", \"boiling\", \"density\", \"viscosity\", \
-                 \"evaporation\", \"steam\", \"losses\""
+                 \"evaporation\", \"steam\", \"losses\", \"segregation\""
             }
         };
         let relaxation = ["jacobi", "chebyshev"][usize::from(self.chebyshev)];
@@ -203,7 +203,7 @@ impl Recipe {
             Base::Physical => write!(
                 t,
                 "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\n\
-                 superheat_time = 0.4\n\
+                 superheat_time = 0.03\nlamella = 0.0003\n\
                  bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
                 0.005 * self.k_v

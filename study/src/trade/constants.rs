@@ -38,13 +38,13 @@ pub const CONSTANTS: [Constant; 8] = [
     Constant {
         key: "lamella",
         unit: "m",
-        source: "chosen: a fraction of a millimetre, what folds of a beaker's size come to",
+        source: "chosen: a fraction of a millimetre",
         value: |p| &mut p.lamella,
     },
     Constant {
         key: "superheat_time",
         unit: "s",
-        source: "Plesset & Zwick 1954: bubbles of 2 mm at 10 K",
+        source: "Plesset & Zwick 1954: bubbles at 10 K, chosen 8 mm apart",
         value: |p| &mut p.superheat_time,
     },
     Constant {
