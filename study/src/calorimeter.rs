@@ -38,6 +38,8 @@ const FROUDE: f64 = 2.2;
 const WAVE: f64 = 2.0;
 /// Δt_s over its limit 0.4 d/√(gH) (see [`Parameters`]).
 const SUBSTEP: f64 = 0.7;
+/// Width of the filter for eddies over the particles' spacing: that of real size, 6 and 2.5 mm.
+const EDDIES: f64 = 2.4;
 /// Substeps between two looks at the liquid.
 const SUBSTEPS: u32 = 4;
 /// The longest that is waited, turns.
@@ -321,6 +323,7 @@ impl Vessel {
             physical: Some(PhysicalChemistry {
                 ambient: Some(20.0),
                 mixing: Some(0.041),
+                eddy_width: Some(EDDIES * self.spacing),
                 superheat_time: Some(0.01),
                 ..PhysicalChemistry::default()
             }),

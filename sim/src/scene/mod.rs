@@ -245,6 +245,7 @@ impl Scene {
         scene.check_fall()?;
         scene.check_fill("liquid")?;
         scene.check_reach()?;
+        scene.check_carry()?;
         scene.check_substep()?;
         for (preset, overrides) in &scene.presets {
             let changed = scene.with_preset(*preset);
@@ -262,6 +263,7 @@ impl Scene {
                 }
                 changed.check_fill(&field)?;
             }
+            changed.check_carry().map_err(within)?;
             changed.check_substep().map_err(within)?;
         }
         Ok(scene)

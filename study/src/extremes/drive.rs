@@ -50,7 +50,8 @@ pub(super) struct Run {
     pub end_speed: f64,
     /// Particles in the flask at the end.
     pub members: usize,
-    /// Particles above their boiling point in the second half of the rest.
+    /// Particles above their boiling point in the second half of the rest; at least one where vapour
+    /// pushed the liquid then.
     pub boiling: u64,
     /// Σ c or Σ m c, relative change; mass with what left; the enthalpy's.
     pub drifts: [f64; 3],
@@ -282,6 +283,10 @@ impl Watch {
         }
         self.declared += self.boiled(&state, time);
         if let Some(ledger) = self.amounts(world, &state).ledger {
+            // What boils within milliseconds is above its boiling point at no look.
+            if self.late && ledger.kinetic > self.paid {
+                self.run.boiling = self.run.boiling.max(1);
+            }
             self.declared += ledger.kinetic - self.paid;
             self.paid = ledger.kinetic;
         }

@@ -204,3 +204,20 @@ fn missing_file_is_named_with_the_builtin_scenes() {
         "{message}"
     );
 }
+
+/// Acid under water jitters at 5 cm/s with half of its multipliers carried, and at 2 with a fiftieth.
+#[test]
+fn unlike_liquids_carry_little() {
+    let scene = include_str!("../../../scenes/water-into-acid.toml");
+    let much = scene.replacen("carry = 0.005", "carry = 0.5", 1);
+    let message = Scene::parse(&much, "bad.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("solver.carry") && message.contains("0.1 or less"),
+        "{message}"
+    );
+    let little = scene.replacen("carry = 0.005", "carry = 0.1", 1);
+    Scene::parse(&little, "good.toml").unwrap();
+    let preset = scene.replacen("carry = 0.003", "carry = 0.5", 1);
+    let message = Scene::parse(&preset, "bad.toml").unwrap_err().to_string();
+    assert!(message.contains("preset.fast: solver.carry"), "{message}");
+}
