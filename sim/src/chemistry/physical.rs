@@ -110,7 +110,7 @@ impl Content {
     /// convex in y: the iteration overshoots once at most and then comes
     /// down. It ends at the azeotrope, however hot the liquid is.
     ///
-    /// Of a liquid with lamellae it is their water that boils, see [`Self::flash`].
+    /// Of a liquid with lamellae it is their water that boils.
     pub fn equilibrium(&self, table: &SolutionTable, steps: u32) -> f64 {
         if self.variance > 0.0 {
             return self.flash(table, steps);
