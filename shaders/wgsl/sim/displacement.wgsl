@@ -40,7 +40,8 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(11) var<storage, read> list_origin: array<vec4<f32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
-@group(0) @binding(14) var<storage, read> bulk: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> bulk: array<vec4<f32>>;
+@group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
 
 /// Line 19: Σ (dλ_i + dλ_j) ∇W over the neighbours, but for the kernel's scale.
 fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
@@ -101,6 +102,10 @@ fn within_list(i: u32, x_star: vec3<f32>) -> vec3<f32> {
 /// Takes a particle out that turned non-finite. Its neighbours still have it on their lists.
 fn take_out(i: u32, identity: u32) {
     if (HEAT) { heat[i] = vec4<f32>(0.0); }
+    if (PHYSICAL) {
+        eddies[i] = vec2<f32>(0.0);
+        bulk[i] = pack_bulk(Bulk(1.0, 1.0, 0.0, 0.0));
+    }
     tags[i].x = REMOVED;
     position[i] = pack_taken_out(parked(identity));
     new_velocity[i] = vec4<f32>(0.0);

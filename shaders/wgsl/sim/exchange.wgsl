@@ -205,15 +205,15 @@ fn heat_from(own: Potential, around: f32, transfer_area: f32) -> f32 {
     return (around - own.temperature) * capacity * decayed(rate * step.time);
 }
 
-/// Most quanta of a particle and a substep.
-const MOST_QUANTA: f32 = 4194304.0;
+/// Most quanta of a particle and a substep: 2048 such fit into a ring's sum.
+const MOST_QUANTA: f32 = 1048575.0;
 
 /// Heat that a particle takes in a substep from the glass of its flask, in whole quanta, as sums of integers
 /// do not depend on order; drops elsewhere lose theirs to what is around.
 fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, gradient: vec3<f32>) -> f32 {
     let slope = length(gradient);
     if (slope <= 0.0) { return 0.0; }
-    if (membership == NOBODYS || membership > FLASKS) { return heat_from(own, AMBIENT, GLASS_LOSS * volume * slope); }
+    if (membership == NOBODYS) { return heat_from(own, AMBIENT, GLASS_LOSS * volume * slope); }
     let k = membership - 1u;
     // Where it touches, half a spacing away.
     let y = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope)).y;
@@ -277,7 +277,8 @@ fn segregated(i: u32, own: Potential, received: Received) -> f32 {
     let gained = received.acid / own.mass;
     let brought = received.variance / own.mass - gained * gained;
     let variance = clamp(stirred.variance + brought, 0.0, own.acid * (1.0 - own.acid));
-    return variance * exp(-decay_rate(own.acid, own.temperature, stirred) * step.time);
+    let left = variance * exp(-decay_rate(own.acid, own.temperature, stirred) * step.time);
+    return select(0.0, left, left > MIXED);
 }
 
 /// Water vapour that leaves the liquid for good, and its enthalpy; a particle's vapour stays what it is.

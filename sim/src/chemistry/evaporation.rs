@@ -87,7 +87,8 @@ impl StillAir {
     /// Water that leaves the liquid `row` of `temperature` (°C), kg/(m² s), by the temperature at which its
     /// surface gets as much heat from below as the vapour takes.
     pub fn flux(&self, row: &Row, temperature: f64) -> f64 {
-        let latent = row.latent_heat(temperature);
+        // None is left of it above 1,000 °C.
+        let latent = row.latent_heat(temperature).max(0.0);
         let mut colder = 0.0;
         let mut flux = self.flux_from_surface(row, temperature);
         for _ in 0..SKIN_STEPS {

@@ -22,6 +22,9 @@ pub const FEED: f64 = 0.98;
 /// With them temperatures are within 0.7 K of the profile's own (16 by 16; 8 by 8: 4 K).
 pub const INTERVALS: usize = 16;
 
+/// Variance below which a liquid counts as mixed: 1e-4 of its acid fraction.
+pub const MIXED: f64 = 1e-8;
+
 /// Rate of engulfment over (ε/ν)^½ (Baldyga & Bourne 1989).
 pub const ENGULFMENT: f64 = 0.058;
 

@@ -8,7 +8,7 @@ use crate::chemistry::eddies::{Eddies, SCHMIDT};
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
-use crate::chemistry::segregation::decay_rate;
+use crate::chemistry::segregation::{MIXED, decay_rate};
 use crate::chemistry::table::SolutionTable;
 use crate::chemistry::transport::{Diffusivities, Flux, Potential, flux, heat_from};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
@@ -289,7 +289,8 @@ impl Physical {
         let rate = decay_rate(&row, own.temperature, self.eddies[i].dissipation, lamella);
         let brought = flux.variance / own.mass - (flux.acid / own.mass).powi(2);
         let variance = (own.variance + brought).clamp(0.0, own.acid * (1.0 - own.acid));
-        self.contents[i].variance = variance * (-rate * time).exp();
+        let left = variance * (-rate * time).exp();
+        self.contents[i].variance = if left > MIXED { left } else { 0.0 };
     }
 
     /// Heat that a particle takes through glass and surface in `time` seconds, J.

@@ -54,7 +54,8 @@ fn flux_from_surface(row: Row, surface: f32) -> f32 {
 
 /// kg/(m² s) from a liquid of that temperature, whose surface is colder.
 fn evaporation_flux(row: Row, temperature: f32) -> f32 {
-    let latent = latent_heat(row, temperature);
+    // None is left of it above 1,000 °C.
+    let latent = max(latent_heat(row, temperature), 0.0);
     var colder = 0.0;
     var flux = flux_from_surface(row, temperature);
     for (var step = 0u; step < SKIN_STEPS; step++) {

@@ -1,6 +1,7 @@
 // The flow that is filtered at a frame's end: velocity (m/s), and density over the rest density.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/liquid/particle.wgsl
 
 /// Whether nothing has smoothed it yet.
 override FIRST: bool = false;
@@ -14,5 +15,7 @@ fn flow_at(j: u32) -> vec4<f32> {
     if (!FIRST) { return flow[j]; }
     var density = 1.0;
     if (DENSITY) { density = 1.0 / unpack_bulk(bulk[j]).lightness; }
-    return vec4<f32>(velocity[j].xyz, density);
+    // What turned non-finite is taken out in the next substep; until then it rests.
+    let known = is_finite(velocity[j].xyz) && is_finite(vec3<f32>(density));
+    return select(vec4<f32>(0.0, 0.0, 0.0, 1.0), vec4<f32>(velocity[j].xyz, density), known);
 }

@@ -11,6 +11,8 @@ override ACID_DIFFUSIVITY: f32 = 0.0;
 /// Acid fraction of the acid's layers, and intervals of the table over c and √Θ.
 const FEED: f32 = 0.98;
 const LAMELLAE_INTERVALS: u32 = 16u;
+/// Variance below which a liquid counts as mixed.
+const MIXED: f32 = 1e-8;
 const ENGULFMENT: f32 = 0.058;
 const WATER_VISCOSITY: f32 = 0.89e-3;
 const PI: f32 = 3.14159265358979;

@@ -109,3 +109,18 @@ fn nothing_evaporates_at_the_airs_temperature() {
         assert_eq!(air.flux(&table.at(0.0), temperature), 0.0);
     }
 }
+
+#[test]
+fn liquid_of_any_temperature_evaporates_by_a_number() {
+    let table = SolutionTable::new();
+    let air = StillAir::at(&table, 20.0);
+    for temperature in [200.0, 500.0, 1_000.0, 1_100.0, 1e4, 1e6] {
+        for acid in [0.0, 0.5, 1.0] {
+            let flux = air.flux(&table.at(acid), temperature);
+            assert!(
+                flux.is_finite() && flux >= 0.0,
+                "{acid} {temperature}: {flux}"
+            );
+        }
+    }
+}

@@ -6,7 +6,7 @@ use super::super::segregation::{FEED, Lamellae, decay_rate, diffusivity, without
 use super::super::table::{Row, SolutionTable};
 use vitriol_tests::random::Random;
 
-const MEANS: [f64; 7] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.86];
+const MEANS: [f64; 8] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.86, 0.9];
 const CELLS: usize = 48;
 
 /// Half of a pair of layers, in cells of one mass, from the middle of the water on.
@@ -257,4 +257,45 @@ fn molecules_and_eddies_mix_lamellae_in_their_time() {
     // Acid of 98 % and 20 °C is 25 times as viscous as water.
     let slow = diffusivity(&table.at(FEED), 20.0) / diffusivity(&water, 20.0);
     assert!((slow * 25.0 - 1.0).abs() < 0.03, "{slow}");
+}
+
+/// The device has three secant steps, from the vapour that is there. What they leave is left to the next
+/// substep: 2e-3 of the mass at 25 K.
+#[test]
+fn three_steps_find_the_vapour_of_lamellae() {
+    let table = SolutionTable::new();
+    for mean in [0.2, 0.4, 0.6, 0.8] {
+        for share in [0.9, 0.5, 0.1, 0.01, 1e-4] {
+            for superheat in [-20.0, -2.0, 1.0, 5.0, 25.0] {
+                let variance = share * mean * (FEED - mean);
+                let row = table.of_lamellae(mean, variance);
+                let content = Content {
+                    mass: 1.0,
+                    acid: mean,
+                    enthalpy: row.enthalpy_at(row.boiling_point + superheat),
+                    vapour: 0.0,
+                    variance,
+                };
+                let [few, many] = [3, 100].map(|steps| content.equilibrium(&table, steps));
+                let case = format!("{mean} {share} {superheat} K: {few} {many}");
+                assert!((few - many).abs() < 2e-3, "{case}");
+                assert!(superheat < 0.0 || many > 0.0, "{case}");
+                // And there the most watery part has its boiling point.
+                let boiled = Content {
+                    vapour: many,
+                    variance: without_water(
+                        variance,
+                        mean,
+                        mean - Lamellae::get().excess(mean, variance).depth,
+                        many,
+                    ),
+                    ..content
+                };
+                assert!(
+                    superheat < 0.0 || boiled.superheat(&table).abs() < 0.05,
+                    "{case}"
+                );
+            }
+        }
+    }
 }

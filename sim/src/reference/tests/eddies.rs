@@ -74,7 +74,7 @@ fn strain_of_a_linear_flow_is_its_own() {
         (|x| x * 25.0, 0.0),
     ];
     for (flow, known) in flows {
-        // On a lattice smoothing and gradient are exact; shaken by a fifth of a
+        // On a lattice smoothing and gradient are exact; shaken by a tenth of a
         // spacing they are off by a sixth of the flow's gradient.
         for (shake, within) in [(0.0, 1e-9), (0.2, 7.0)] {
             let found = rate(&cube(0.0025, 13, shake, flow, water), &mixing);
@@ -103,8 +103,8 @@ fn the_filter_is_as_wide_as_it_says() {
     assert!(errors[3].abs() < 0.02, "{errors:?}");
 }
 
-/// What jitters and does not flow: 2 mm/s from particle to particle, as liquid at rest has. As a difference of
-/// velocities over a spacing that is 1/s; filtered it is less, and the less the finer.
+/// What jitters and does not flow: 1 mm/s from particle to particle, as liquid at rest has. As a difference of
+/// velocities over a spacing that is 0.5/s; filtered it is less, and the less the finer.
 #[test]
 fn jitter_is_filtered() {
     let mixing = Mixing::default();

@@ -205,7 +205,7 @@ fn missing_file_is_named_with_the_builtin_scenes() {
     );
 }
 
-/// Acid under water jitters at 5 cm/s with half of its multipliers carried, and at 2 with a fiftieth.
+/// Acid under water jitters at up to 6 cm/s with half of its multipliers carried, and at 3 with a tenth.
 #[test]
 fn unlike_liquids_carry_little() {
     let scene = include_str!("../../../scenes/water-into-acid.toml");

@@ -198,7 +198,7 @@ fn open_water_evaporates_at_the_published_rate() {
 /// unmixed for longer boils more away.
 ///
 /// Reported is 19.2 → 131 °C within a minute, of which glass and acid are not stated: it lies between what the
-/// balance has for 95 and for 98 % acid with what a glass of 50 to 112 J/K takes.
+/// balance alone has for 95 and for 98 % acid with what a glass of 50 to 112 J/K takes.
 #[test]
 fn a_stirred_mix_in_glass_cools_as_a_heat_balance_says() {
     let device = gpu::device();

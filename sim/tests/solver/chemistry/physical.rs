@@ -23,6 +23,8 @@ struct Errors {
     velocity: f64,
     /// Of the eddies' diffusivity, over its largest.
     eddies: f64,
+    /// Of the rings' temperatures (K), and their largest rise.
+    glass: [f64; 2],
     /// Of the variance of c, and its largest change.
     variance: [f64; 2],
     /// J and kg per kg of a particle at rest density: (kinetic, exchanged,
@@ -114,6 +116,19 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
             })
             .0 / largest
         },
+        glass: {
+            let rings = physical
+                .glass
+                .iter()
+                .flat_map(|glass| glass.temperatures.iter().flatten());
+            let rings: Vec<_> = rings.copied().zip(&state.glass).collect();
+            let all = |of: &dyn Fn(f64, f64) -> f64| {
+                rings
+                    .iter()
+                    .fold(0.0, |a: f64, (t, own)| a.max(of(*t, own[0].into())))
+            };
+            [all(&|t, own| (own - t).abs()), all(&|t, _| t - 20.0)]
+        },
         variance: {
             let rows: Vec<_> = state
                 .eddies
@@ -174,6 +189,12 @@ fn against_the_reference() {
             assert!(enthalpy < grown * 2.0, "{lanes} {more:?}");
             assert!(vapour < grown * 1e-6, "{lanes} {more:?}");
             assert!(mass < grown * 2e-7, "{lanes} {more:?}");
+            // Of float temperatures, 8e-6 K; the wall is where it was before the last displacement.
+            let [error, rise] = more.glass;
+            assert!(
+                rise > 1e-3 && error < 2e-5 + 0.02 * rise,
+                "{lanes} {more:?}"
+            );
             let velocity = grown * PLACE / SUBSTEP;
             assert!(more.velocity < velocity, "{lanes} {more:?}");
             assert!(more.changed[3] > 1e-5, "{more:?}");
