@@ -30,6 +30,9 @@ pub mod transport;
 #[cfg(test)]
 mod tests;
 
-pub use constants::{ABSOLUTE_ZERO, ACID_MOLAR_MASS, GAS_CONSTANT, WATER_MOLAR_MASS};
+pub use constants::{
+    ABSOLUTE_ZERO, ACID_DIFFUSIVITY, ACID_MOLAR_MASS, GAS_CONSTANT, THERMAL_DIFFUSIVITY,
+    WATER_MOLAR_MASS,
+};
 pub use error::{OutOfRange, check_content};
 pub use model::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};

@@ -9,9 +9,8 @@
 //! variance: the profile knows how much heat of mixing has come already,
 //! and how much acid has reached the middle of the water.
 
-use super::constants::ABSOLUTE_ZERO;
+use super::constants::{ABSOLUTE_ZERO, ACID_DIFFUSIVITY};
 use super::table::{Row, SolutionTable};
-use super::transport::ACID_DIFFUSIVITY;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 

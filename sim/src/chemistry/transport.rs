@@ -1,14 +1,9 @@
 //! Exchange of acid and enthalpy between particles, and heat that leaves.
 
+use super::constants::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
 use super::exchange::Exchange;
 use super::physical::Content;
 use super::table::{SolutionTable, steam_enthalpy};
-
-/// Diffusivity of sulfuric acid in water, m²/s (25 °C, CRC Handbook).
-pub const ACID_DIFFUSIVITY: f64 = 1.7e-9;
-
-/// Thermal diffusivity of water, m²/s (20 °C); 98 % acid has 1.3e-7.
-pub const THERMAL_DIFFUSIVITY: f64 = 1.4e-7;
 
 /// What carries acid and heat between two particles, m²/s.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,8 @@
 //! The heat of the flasks' glass, with line 26 of the physical chemistry.
 
-use super::state::Reference;
-use super::surroundings::{Vessel, WallSum};
-use crate::chemistry::glass::{Row, advance, row_at, rows};
+use super::surroundings::Vessel;
+use crate::chemistry::glass::{Row, advance, rows};
 use crate::chemistry::transport::Losses;
-use glam::DVec3;
 
 /// Where a particle touches glass or air.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,16 +55,5 @@ impl Glass {
             advance(rows, temperatures, taken, ambient, frame_time);
             taken.fill(0.0);
         }
-    }
-}
-
-impl Reference {
-    /// Ring that particle `i` touches, half a spacing away along the wall's gradient.
-    pub(super) fn ring_of(&self, i: usize, wall: &WallSum) -> Option<(usize, usize)> {
-        let flask = self.membership[i]?;
-        let away: DVec3 = wall.gradient.normalize_or_zero() * (0.5 * self.parameters.spacing);
-        let local = self.motion[flask].after.to_flask(self.positions[i] + away);
-        let profile = &self.surroundings.vessels[flask].profile;
-        Some((flask, row_at(profile, local.y)))
     }
 }

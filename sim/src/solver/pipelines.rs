@@ -7,8 +7,10 @@ use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
 use crate::chemistry::thomsen::JOULES_PER_CALORIE;
-use crate::chemistry::transport::{ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY};
-use crate::chemistry::{Chemistry, GAS_CONSTANT, Paper, Physical, WATER_MOLAR_MASS};
+use crate::chemistry::{
+    ACID_DIFFUSIVITY, Chemistry, GAS_CONSTANT, Paper, Physical, THERMAL_DIFFUSIVITY,
+    WATER_MOLAR_MASS,
+};
 use crate::parameters::Parameters;
 use crate::surface_tension::PULL_SAMPLES;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};

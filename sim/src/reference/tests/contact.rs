@@ -2,10 +2,11 @@
 //! the exchange of a pair must add up to.
 
 use super::parameters;
+use crate::chemistry::ACID_DIFFUSIVITY;
 use crate::chemistry::exchange::Exchange;
 use crate::chemistry::physical::Content;
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{ACID_DIFFUSIVITY, Diffusivities, Potential, flux};
+use crate::chemistry::transport::{Diffusivities, Potential, flux};
 use crate::parameters::Parameters;
 use crate::reference::dilution::Pairs;
 use crate::reference::neighbours::{Neighbours, find};

@@ -4,9 +4,9 @@
 use super::setup::*;
 use crate::common::*;
 use std::f64::consts::PI;
+use vitriol_sim::chemistry::ACID_DIFFUSIVITY;
 use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::table::SolutionTable;
-use vitriol_sim::chemistry::transport::ACID_DIFFUSIVITY;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
