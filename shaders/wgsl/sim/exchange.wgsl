@@ -74,9 +74,9 @@ struct Rates {
 }
 
 /// Those of a pair with eddies of the diffusivity `eddies` (m²/s), of which the other counts where
-/// `whole` is 1. The kernel's part is `diffusion_weight`; with the two harmonic means it needs one
-/// division instead of three.
-fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32) -> Rates {
+/// `whole` is 1; neither has more than so many `neighbours`. The kernel's part is `diffusion_weight`;
+/// with the two harmonic means it needs one division instead of three.
+fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, neighbours: u32) -> Rates {
     let a = vec2<f32>(own.mass, own.mass * own.capacity);
     let b = vec2<f32>(other.mass, other.mass * other.capacity) * whole;
     let sums = max(a + b, vec2<f32>(1e-12));
@@ -85,7 +85,7 @@ fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32) -
     // Of liquid and of its heat, per diffusivity.
     let shares = (step.time * weight * (a * b)) * sums.yx;
     let fastest = (eddies + max(ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY)) * shares;
-    let most = min(a, b) * (1.0 / f32(LIST_CAPACITY));
+    let most = min(a, b) * (1.0 / f32(max(neighbours, 1u)));
     let cut = select(0.0, 1.0, any(fastest > most));
     var kept = 1.0;
     // From all alike: else a cut mixture would leave its line.
@@ -154,7 +154,7 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
             let others = unpack_eddies(eddies[j]);
-            let rates = rates_of(0.5 * (stirred.diffusivity + others.diffusivity), q, own, other, whole);
+            let rates = rates_of(0.5 * (stirred.diffusivity + others.diffusivity), q, own, other, whole, max(listed, list_counts[j]));
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             flux += vec3<f32>(

@@ -43,6 +43,15 @@ impl Exchange {
         }
     }
 
+    /// This for a pair of which neither has more than `neighbours` on its list: N is then that number, which
+    /// bounds both sums as well and cuts a fifth as many of a pour's exchanges.
+    pub fn of_lists(self, neighbours: usize) -> Self {
+        Self {
+            limit: 1.0 / neighbours.max(1) as f64,
+            ..self
+        }
+    }
+
     /// k_ij = 2V₀·|x·∇W|/(x² + 0.01h²), 1/m², at distance `distance`: Eq. 5
     /// with 4m/(ρ_i + ρ_j) at rest density.
     ///

@@ -226,12 +226,15 @@ impl Physical {
             .iter()
             .map(|content| Potential::of(&self.table, content))
             .collect();
+        let listed: Vec<_> = (0..self.contents.len())
+            .map(|i| pairs.neighbours.of(i).count())
+            .collect();
         let fluxes = pairs.sums(|i, j| {
             let eddies = 0.5 * (self.eddies[i].diffusivity + self.eddies[j].diffusivity);
             let diffusivities = Diffusivities::with(eddies);
             let distance = pairs.distance(i, j);
             flux(
-                pairs.exchange,
+                &pairs.exchange.of_lists(listed[i].max(listed[j])),
                 &diffusivities,
                 distance,
                 &potentials[i],

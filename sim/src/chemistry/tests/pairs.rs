@@ -202,6 +202,42 @@ fn a_wall_takes_what_the_integral_over_a_half_space_does() {
     }
 }
 
+/// Lists of unlike length, eddies of any strength: what each has is a weighted mean of what there was.
+#[test]
+fn lists_of_any_length_make_no_new_extremes() {
+    let exchange = exchange_in(&world());
+    let table = SolutionTable::new();
+    let mut random = Random(7);
+    for count in [2, 5, 40] {
+        // In one place, where pairs exchange most; each knows the first ones, and these know all.
+        let known = |i: usize, j: usize| i != j && (i < 2 || j < 2);
+        let lists: Vec<_> = (0..count)
+            .map(|i| (0..count).filter(|&j| known(i, j)).count())
+            .collect();
+        let particles: Vec<_> = (0..count)
+            .map(|i| {
+                let acid = if i % 2 == 0 { 0.2 } else { 0.6 };
+                let content = Content::liquid(&table, 1.0 + random.point(1.0).x, acid, 50.0);
+                Potential::of(&table, &content.unwrap())
+            })
+            .collect();
+        let gained = |i: usize| -> f64 {
+            let near = (0..count).filter(|&j| known(i, j));
+            near.map(|j| {
+                let pair = exchange.of_lists(lists[i].max(lists[j]));
+                let fast = Diffusivities::with(1e9);
+                flux(&pair, &fast, 0.02, &particles[i], &particles[j]).acid
+            })
+            .sum()
+        };
+        for (i, particle) in particles.iter().enumerate() {
+            let acid = particle.acid + gained(i) / particle.mass;
+            let range = 0.2 - 1e-12..=0.6 + 1e-12;
+            assert!(range.contains(&acid), "{count} {i}: {acid}");
+        }
+    }
+}
+
 #[test]
 fn uniform_liquid_exchanges_nothing() {
     let exchange = exchange_in(&world());

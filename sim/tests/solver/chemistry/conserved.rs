@@ -178,6 +178,7 @@ fn no_eddies_make_new_extremes() {
             assert!((acid - 0.4).abs() < 1e-6, "{times}: {acid}");
         }
         let limited = solver.counters().unwrap().diffusion_limited;
-        assert_eq!(limited > 0, times > 0.0, "{times}: {limited}");
+        // As fast as they should, they mix less than pairs may swap.
+        assert_eq!(limited > 0, times > 1.0, "{times}: {limited}");
     }
 }
