@@ -14,7 +14,7 @@
 //!include common/chemistry/rests.wgsl
 //!include common/chemistry/segregation.wgsl
 //!include common/chemistry/solution.wgsl
-//!include common/glass/glass_rows.wgsl
+//!include common/glass/glass_rings.wgsl
 //!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
@@ -92,7 +92,8 @@ fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, n
     if (cut > 0.0) { kept = min(most.x / fastest.x, most.y / fastest.y); }
     let brought = ACID_DIFFUSIVITY * shares.x * (0.5 * (own.capacity + other.capacity));
     return Rates(
-        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * eddies * shares.x, kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
+        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * eddies * shares.x,
+        kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
 }
 
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
@@ -154,7 +155,8 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let other = unpack_potential(heat[j]);
             let whole = has_whole_list(j, i, full);
             let others = unpack_eddies(eddies[j]);
-            let rates = rates_of(0.5 * (stirred.diffusivity + others.diffusivity), q, own, other, whole, max(listed, list_counts[j]));
+            let mean = 0.5 * (stirred.diffusivity + others.diffusivity);
+            let rates = rates_of(mean, q, own, other, whole, max(listed, list_counts[j]));
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             flux += vec3<f32>(
@@ -217,13 +219,13 @@ fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, g
     let k = membership - 1u;
     // Where it touches, half a spacing away.
     let y = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope)).y;
-    let place = (y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_ROWS);
-    let ring = k * GLASS_ROWS + u32(clamp(place, 0.0, f32(GLASS_ROWS - 1u)));
-    let row = glass_rows[ring];
-    let wanted = heat_from(own, glass[ring].x, row.to_liquid * volume * slope);
-    let quanta = clamp(round(wanted / row.quantum_per_mass), -MOST_QUANTA, MOST_QUANTA);
-    atomicAdd(&glass_taken[ring], i32(quanta));
-    return quanta * row.quantum_per_mass;
+    let place = (y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_RINGS);
+    let place_of_ring = k * GLASS_RINGS + u32(clamp(place, 0.0, f32(GLASS_RINGS - 1u)));
+    let ring = glass_rings[place_of_ring];
+    let wanted = heat_from(own, glass[place_of_ring].x, ring.to_liquid * volume * slope);
+    let quanta = clamp(round(wanted / ring.quantum_per_mass), -MOST_QUANTA, MOST_QUANTA);
+    atomicAdd(&glass_taken[place_of_ring], i32(quanta));
+    return quanta * ring.quantum_per_mass;
 }
 
 /// Most of a particle's liquid that evaporates in a substep.

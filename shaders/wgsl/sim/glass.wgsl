@@ -1,7 +1,7 @@
 // What the liquid did to the glass in a frame: its rings warm, conduct and lose heat to the air. One workgroup
 // a flask. `chemistry/glass.rs` is the same in f64.
 //!include common/chemistry/compensated.wgsl
-//!include common/glass/glass_rows.wgsl
+//!include common/glass/glass_rings.wgsl
 
 /// Δt_f, s.
 override FRAME_TIME: f32 = 0.0111;
@@ -13,18 +13,18 @@ override AMBIENT: f32 = 20.0;
 /// Quanta of heat that the liquid took from it.
 @group(0) @binding(1) var<storage, read_write> glass_taken: array<atomic<i32>>;
 
-var<workgroup> temperatures: array<f32, GLASS_ROWS>;
+var<workgroup> temperatures: array<f32, GLASS_RINGS>;
 
 @compute @workgroup_size(32)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) k: u32) {
     let own = glass[id.x];
     temperatures[k] = own.x;
     workgroupBarrier();
-    let row = glass_rows[id.x];
-    var power = row.to_air * (AMBIENT - own.x);
-    if (k + 1u < GLASS_ROWS) { power += row.upwards * (temperatures[k + 1u] - own.x); }
-    if (k > 0u) { power += glass_rows[id.x - 1u].upwards * (temperatures[k - 1u] - own.x); }
-    let given = -f32(atomicExchange(&glass_taken[id.x], 0)) * row.quantum;
-    let sum = compensated(Compensated(own.x, own.y), (given + FRAME_TIME * power) / row.capacity);
+    let ring = glass_rings[id.x];
+    var power = ring.to_air * (AMBIENT - own.x);
+    if (k + 1u < GLASS_RINGS) { power += ring.upwards * (temperatures[k + 1u] - own.x); }
+    if (k > 0u) { power += glass_rings[id.x - 1u].upwards * (temperatures[k - 1u] - own.x); }
+    let given = -f32(atomicExchange(&glass_taken[id.x], 0)) * ring.quantum;
+    let sum = compensated(Compensated(own.x, own.y), (given + FRAME_TIME * power) / ring.capacity);
     glass[id.x] = vec2<f32>(sum.value, sum.lacking);
 }

@@ -9,8 +9,8 @@
 use crate::parameters::XSPH_MOMENT;
 
 /// Turbulent Schmidt and Prandtl number: eddies carry momentum 0.7 times as
-/// well as acid and heat (free shear flows: 0.5 to 0.9; Tominaga &
-/// Stathopoulos 2007).
+/// well as acid and heat (0.2 to 1.3 are in use; Tominaga & Stathopoulos
+/// 2007).
 pub const SCHMIDT: f64 = 0.7;
 
 /// Smagorinsky's constant (Lilly 1967), squared, over [`SCHMIDT`].
@@ -41,15 +41,6 @@ impl Default for Mixing {
     }
 }
 
-/// What the eddies at a particle do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Eddies {
-    /// K: diffusivity of acid and heat, m²/s.
-    pub diffusivity: f64,
-    /// ε: power that they take from the motion that is resolved, W/kg.
-    pub dissipation: f64,
-}
-
 impl Mixing {
     /// Passes over the neighbours, and the share of their mean that each puts
     /// in a velocity's place, which with the kernel of the gradient make a
@@ -67,19 +58,22 @@ impl Mixing {
         (passes as u32, wanted / passes)
     }
 
-    /// Of the filtered flow with |S|² = 2 S_ij S_ij = `strain` and
+    /// K of acid and heat, m²/s, in the filtered flow with |S|² = 2 S_ij S_ij = `strain` and
     /// N² = −(g/ρ)·∂ρ/∂z = `buoyancy` (both 1/s²).
     ///
     /// ν_t = (C_s Δ)²·√(|S|² − N²/Pr_t) (Lilly 1962): where heavy lies under
     /// light there is nothing from Ri = Pr_t on, and less before; where light
     /// lies under heavy there is more. What lifting the heavy takes,
     /// K·N², is then less than what the eddies take from the motion.
-    pub fn eddies(&self, strain: f64, buoyancy: f64) -> Eddies {
+    pub fn diffusivity(&self, strain: f64, buoyancy: f64) -> f64 {
         let rate = (strain - buoyancy / SCHMIDT).max(0.0).sqrt();
-        let diffusivity = self.turbulence * self.width * self.width * rate;
-        Eddies {
-            diffusivity,
-            dissipation: SCHMIDT * diffusivity * rate * rate,
-        }
+        self.turbulence * self.width * self.width * rate
+    }
+
+    /// ε: power that eddies of the diffusivity `diffusivity` (m²/s) take from
+    /// the motion that is resolved, W/kg.
+    pub fn dissipation(&self, diffusivity: f64) -> f64 {
+        let rate = diffusivity / (self.turbulence * self.width * self.width).max(1e-12);
+        SCHMIDT * diffusivity * rate * rate
     }
 }

@@ -9,7 +9,7 @@ use crate::flask::glass::BOROSILICATE;
 use std::f64::consts::PI;
 
 /// Rings of equal height from the inner floor up to the rim; the lowest has the base.
-pub const ROWS: usize = 32;
+pub const RINGS: usize = 32;
 
 /// Specific heat capacity of borosilicate glass 3.3, J/(kg K) (Schott: 830
 /// from 20 to 100 °C).
@@ -32,7 +32,7 @@ const SLICES: u32 = 16;
 
 /// One ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct Ring {
     /// Heat capacity, J/K.
     pub capacity: f64,
     /// Heat that the air takes, W/K.
@@ -45,40 +45,40 @@ pub struct Row {
     pub quantum: f64,
 }
 
-/// Index of the row that the glass at the height `y` (flask's frame, m) belongs to.
-pub fn row_at(profile: &Profile, y: f64) -> usize {
+/// Index of the ring that the glass at the height `y` (flask's frame, m) belongs to.
+pub fn ring_at(profile: &Profile, y: f64) -> usize {
     let (floor, rim) = (profile.floor_height(), profile.rim_height());
-    let place = (y - floor) / (rim - floor) * ROWS as f64;
-    place.clamp(0.0, (ROWS - 1) as f64) as usize
+    let place = (y - floor) / (rim - floor) * RINGS as f64;
+    place.clamp(0.0, (RINGS - 1) as f64) as usize
 }
 
-/// The rows of a flask in air, for steps of `time` seconds.
+/// The rings of a flask in air, for steps of `time` seconds.
 ///
 /// Half the wall and the liquid's film lie between the two temperatures. A
 /// wall that is thinner than a step can follow takes up at most what brings
 /// it to the liquid's temperature.
-pub fn rows(profile: &Profile, losses: &Losses, time: f64) -> Vec<Row> {
+pub fn rings(profile: &Profile, losses: &Losses, time: f64) -> Vec<Ring> {
     let (floor, rim) = (profile.floor_height(), profile.rim_height());
-    let ring = (rim - floor) / ROWS as f64;
+    let height = (rim - floor) / RINGS as f64;
     let areal = BOROSILICATE * CAPACITY * profile.wall();
     let film = 1.0 / (1.0 / FILM + 0.5 * profile.wall() / CONDUCTIVITY);
     let share = -(-film * time / areal).exp_m1();
     let to_liquid = share * areal / time;
-    let row = |k: usize| {
-        let low = floor + k as f64 * ring;
-        let (mut volume, mut outside) = measured(profile, low, low + ring);
+    let ring = |k: usize| {
+        let low = floor + k as f64 * height;
+        let (mut volume, mut outside) = measured(profile, low, low + height);
         if k == 0 {
             let (base, edge) = measured(profile, 0.0, floor);
             volume += base;
             outside += edge + PI * profile.outer_radius_at(0.0).powi(2);
         }
-        let conducted = CONDUCTIVITY * section(profile, low + ring) / ring;
+        let conducted = CONDUCTIVITY * section(profile, low + height) / height;
         let capacity = BOROSILICATE * CAPACITY * volume;
         let most = 0.2 * capacity / time;
-        Row {
+        Ring {
             capacity,
             to_air: (losses.glass * outside).min(most),
-            upwards: if k + 1 < ROWS {
+            upwards: if k + 1 < RINGS {
                 conducted.min(most)
             } else {
                 0.0
@@ -87,7 +87,7 @@ pub fn rows(profile: &Profile, losses: &Losses, time: f64) -> Vec<Row> {
             quantum: capacity * 4.0 * share * WIDEST / f64::from(i32::MAX),
         }
     };
-    (0..ROWS).map(row).collect()
+    (0..RINGS).map(ring).collect()
 }
 
 /// Area of the glass in a level plane, m².
@@ -106,14 +106,14 @@ fn measured(profile: &Profile, low: f64, high: f64) -> (f64, f64) {
     })
 }
 
-/// Temperatures of `rows` (°C) after `time` seconds in which the liquid gave each `taken` joules.
-pub fn advance(rows: &[Row], temperatures: &mut [f64], taken: &[f64], ambient: f64, time: f64) {
+/// Temperatures of `rings` (°C) after `time` seconds in which the liquid gave each `taken` joules.
+pub fn advance(rings: &[Ring], temperatures: &mut [f64], taken: &[f64], ambient: f64, time: f64) {
     let old = temperatures.to_vec();
-    let between = |k: usize| rows[k].upwards * (old[k + 1] - old[k]);
-    for (k, row) in rows.iter().enumerate() {
-        let above = if k + 1 < rows.len() { between(k) } else { 0.0 };
+    let between = |k: usize| rings[k].upwards * (old[k + 1] - old[k]);
+    for (k, ring) in rings.iter().enumerate() {
+        let above = if k + 1 < rings.len() { between(k) } else { 0.0 };
         let below = if k > 0 { between(k - 1) } else { 0.0 };
-        let power = above - below + row.to_air * (ambient - old[k]);
-        temperatures[k] += (taken[k] + time * power) / row.capacity;
+        let power = above - below + ring.to_air * (ambient - old[k]);
+        temperatures[k] += (taken[k] + time * power) / ring.capacity;
     }
 }

@@ -41,7 +41,7 @@ pub struct Excess {
     pub enthalpy: f64,
     /// Likewise of the heat capacities at 20 °C, J/(kg K).
     pub capacity: f64,
-    /// Likewise of their slopes in T over the slope's largest value.
+    /// Likewise of their slopes in T, J/(kg K²).
     pub rise: f64,
     /// c less that of the middle of the water.
     pub depth: f64,

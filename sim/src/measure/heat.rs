@@ -3,7 +3,7 @@
 
 use super::percentile::percentile;
 use crate::chemistry::Chemistry;
-use crate::chemistry::glass::ROWS;
+use crate::chemistry::glass::RINGS;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use crate::solver::SolverState;
@@ -125,7 +125,7 @@ pub fn measure(parameters: &Parameters, state: &SolverState) -> Option<HeatMeasu
         temperature_p99: percentile(&sorted, 0.99),
         temperature_max: temperature.max,
         temperatures_in_flasks: by_flask(state, &present),
-        temperatures_of_glass: state.glass.chunks(ROWS).map(range).collect(),
+        temperatures_of_glass: state.glass.chunks(RINGS).map(range).collect(),
         acid_mean: acid.mean,
         acid_spread: acid.deviation,
         acid_min: acid.min,

@@ -4,7 +4,7 @@ use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::glass::{Glass, Touch};
 use super::surroundings::WallSum;
-use crate::chemistry::eddies::{Eddies, SCHMIDT};
+use crate::chemistry::eddies::SCHMIDT;
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
@@ -180,8 +180,8 @@ pub struct Physical {
     pub budgets: Vec<f64>,
     /// ν at the substep's start, m²/s; 0 where it does not follow composition.
     pub viscosities: Vec<f64>,
-    /// What the flow of the frame before leaves unresolved.
-    pub eddies: Vec<Eddies>,
+    /// K of the eddies that the flow of the frame before leaves unresolved, m²/s.
+    pub eddies: Vec<f64>,
     /// Balance since the start.
     pub ledger: Ledger,
     /// The flasks' glass, from the first substep on, where heat is lost to it.
@@ -209,7 +209,7 @@ impl Physical {
             agitation: vec![0.0; contents.len()],
             budgets: vec![0.0; contents.len()],
             viscosities: vec![0.0; contents.len()],
-            eddies: vec![Eddies::default(); contents.len()],
+            eddies: vec![0.0; contents.len()],
             contents,
             table,
             ledger: Ledger::default(),
@@ -230,7 +230,7 @@ impl Physical {
             .map(|i| pairs.neighbours.of(i).count())
             .collect();
         let fluxes = pairs.sums(|i, j| {
-            let eddies = 0.5 * (self.eddies[i].diffusivity + self.eddies[j].diffusivity);
+            let eddies = 0.5 * (self.eddies[i] + self.eddies[j]);
             let diffusivities = Diffusivities::with(eddies);
             let distance = pairs.distance(i, j);
             flux(
@@ -289,7 +289,8 @@ impl Physical {
             return;
         };
         let row = self.table.at(own.acid);
-        let rate = decay_rate(&row, own.temperature, self.eddies[i].dissipation, lamella);
+        let dissipation = self.law.mixing.dissipation(self.eddies[i]);
+        let rate = decay_rate(&row, own.temperature, dissipation, lamella);
         let brought = flux.variance / own.mass - (flux.acid / own.mass).powi(2);
         let variance = (own.variance + brought).clamp(0.0, own.acid * (1.0 - own.acid));
         let left = variance * (-rate * time).exp();
@@ -347,7 +348,7 @@ impl Physical {
             if growth > 0.0 {
                 0.0
             } else {
-                let nu = nu + SCHMIDT * eddies.diffusivity;
+                let nu = nu + SCHMIDT * eddies;
                 1.0 - (1.0 - usual) * (-nu * per_area).exp()
             }
         });

@@ -3,7 +3,7 @@
 use super::chemistry::Chemistry;
 use super::neighbours::Neighbours;
 use super::state::Reference;
-use crate::chemistry::eddies::{Eddies, Mixing};
+use crate::chemistry::eddies::Mixing;
 use glam::{DMat3, DVec3};
 
 /// Velocity (m/s) and density over the rest density.
@@ -15,8 +15,8 @@ type Flow = (DVec3, f64);
 const LEAST_MOMENT: f64 = 0.6;
 
 impl Reference {
-    /// The eddies of every particle at the present positions and velocities.
-    pub fn eddies(&self, mixing: &Mixing, neighbours: &Neighbours) -> Vec<Eddies> {
+    /// K of every particle's eddies, m²/s, at the present positions and velocities.
+    pub fn eddies(&self, mixing: &Mixing, neighbours: &Neighbours) -> Vec<f64> {
         let (passes, share) = mixing.smoothing(self.parameters.support_radius);
         let (_, lightness) = self.bulk();
         let densities = lightness.iter().map(|lightness| 1.0 / lightness);
@@ -26,7 +26,7 @@ impl Reference {
         }
         let of = |i: usize| {
             let (strain, buoyancy) = self.strain(&flow, i, neighbours);
-            mixing.eddies(strain, buoyancy)
+            mixing.diffusivity(strain, buoyancy)
         };
         (0..flow.len()).map(of).collect()
     }

@@ -1,7 +1,7 @@
 //! The heat of the flasks' glass, with line 26 of the physical chemistry.
 
 use super::surroundings::Vessel;
-use crate::chemistry::glass::{Row, advance, rows};
+use crate::chemistry::glass::{Ring, advance, rings};
 use crate::chemistry::transport::Losses;
 
 /// Where a particle touches glass or air.
@@ -18,7 +18,7 @@ pub struct Touch {
 /// The rings of all flasks.
 #[derive(Clone, Debug, Default)]
 pub struct Glass {
-    rows: Vec<Vec<Row>>,
+    rings: Vec<Vec<Ring>>,
     /// T of each flask's rings, °C.
     pub temperatures: Vec<Vec<f64>>,
     /// Heat that the liquid gave them in this frame, J.
@@ -28,15 +28,15 @@ pub struct Glass {
 impl Glass {
     /// Glass of the temperature of the air.
     pub(super) fn new(vessels: &[Vessel], losses: &Losses, frame_time: f64) -> Self {
-        let rows: Vec<_> = vessels
+        let rings: Vec<_> = vessels
             .iter()
-            .map(|vessel| rows(&vessel.profile, losses, frame_time))
+            .map(|vessel| rings(&vessel.profile, losses, frame_time))
             .collect();
-        let each = |value: f64| rows.iter().map(|rows| vec![value; rows.len()]).collect();
+        let each = |value: f64| rings.iter().map(|rings| vec![value; rings.len()]).collect();
         Self {
             temperatures: each(losses.ambient),
             taken: each(0.0),
-            rows,
+            rings,
         }
     }
 
@@ -44,15 +44,15 @@ impl Glass {
     pub(super) fn ring(&self, (flask, ring): (usize, usize)) -> (f64, f64) {
         (
             self.temperatures[flask][ring],
-            self.rows[flask][ring].to_liquid,
+            self.rings[flask][ring].to_liquid,
         )
     }
 
     /// The end of a frame: rings take what the liquid gave, conduct it and lose it to air of `ambient` °C.
     pub(super) fn advance(&mut self, ambient: f64, frame_time: f64) {
-        let flasks = self.rows.iter().zip(&mut self.temperatures);
-        for ((rows, temperatures), taken) in flasks.zip(&mut self.taken) {
-            advance(rows, temperatures, taken, ambient, frame_time);
+        let flasks = self.rings.iter().zip(&mut self.temperatures);
+        for ((rings, temperatures), taken) in flasks.zip(&mut self.taken) {
+            advance(rings, temperatures, taken, ambient, frame_time);
             taken.fill(0.0);
         }
     }

@@ -6,7 +6,7 @@ use super::glass::{Glass, Touch};
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use super::surroundings::WallSum;
-use crate::chemistry::glass::row_at;
+use crate::chemistry::glass::ring_at;
 use crate::chemistry::transport::{contact_area, surface_area};
 use glam::DVec3;
 
@@ -68,7 +68,7 @@ impl Reference {
         let away: DVec3 = wall.gradient.normalize_or_zero() * (0.5 * self.parameters.spacing);
         let local = self.motion[flask].after.to_flask(self.positions[i] + away);
         let profile = &self.surroundings.vessels[flask].profile;
-        Some((flask, row_at(profile, local.y)))
+        Some((flask, ring_at(profile, local.y)))
     }
 
     /// The end of a frame: the glass takes what the liquid gave it.

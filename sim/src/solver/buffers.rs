@@ -111,7 +111,7 @@ impl Buffers {
             }
             _ => Vec::new(),
         };
-        let rings = glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
+        let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
         let confined = spec.parameters.vorticity > 0.0;
         Ok(Self {
             position: words("position", 4 * n)?,
@@ -211,7 +211,7 @@ impl Buffers {
             &vessels.radii,
             &vessels.maps,
             &vessels.distances,
-            &vessels.glass_rows,
+            &vessels.glass_rings,
             &vessels.plane,
             &vessels.pulls,
             &vessels.solids.cells,

@@ -2,9 +2,9 @@
 
 use super::spec::SolverSpec;
 use crate::chemistry::Chemistry;
-use crate::chemistry::glass::{ROWS, rows};
+use crate::chemistry::glass::{RINGS, rings};
 use crate::chemistry::transport::Losses;
-use vitriol_shaders::layout::GlassRow;
+use vitriol_shaders::layout::GlassRing;
 
 /// What is lost to glass and air, where the scene models it.
 pub(super) fn losses(chemistry: Option<&Chemistry>) -> Option<&Losses> {
@@ -15,25 +15,25 @@ pub(super) fn losses(chemistry: Option<&Chemistry>) -> Option<&Losses> {
 }
 
 /// Rings of all flasks; 0 where heat is not lost.
-pub(super) fn rings(chemistry: Option<&Chemistry>, flasks: usize) -> usize {
-    losses(chemistry).map_or(0, |_| ROWS * flasks)
+pub(super) fn ring_count(chemistry: Option<&Chemistry>, flasks: usize) -> usize {
+    losses(chemistry).map_or(0, |_| RINGS * flasks)
 }
 
 /// The constants of all rings, flask by flask.
-pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<GlassRow> {
+pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<GlassRing> {
     let p = &spec.parameters;
     let Some(losses) = losses(p.chemistry.as_ref()) else {
         return Vec::new();
     };
     let all = spec.flasks.iter();
-    all.flat_map(|profile| rows(profile, losses, p.frame_time))
-        .map(|row| GlassRow {
-            capacity: row.capacity as f32,
-            to_air: row.to_air as f32,
-            upwards: row.upwards as f32,
-            to_liquid: (row.to_liquid / p.rest_density) as f32,
-            quantum: row.quantum as f32,
-            quantum_per_mass: (row.quantum / p.particle_mass()) as f32,
+    all.flat_map(|profile| rings(profile, losses, p.frame_time))
+        .map(|ring| GlassRing {
+            capacity: ring.capacity as f32,
+            to_air: ring.to_air as f32,
+            upwards: ring.upwards as f32,
+            to_liquid: (ring.to_liquid / p.rest_density) as f32,
+            quantum: ring.quantum as f32,
+            quantum_per_mass: (ring.quantum / p.particle_mass()) as f32,
         })
         .collect()
 }

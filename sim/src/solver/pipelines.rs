@@ -137,7 +137,7 @@ impl Pipelines {
             forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[pull])?,
             eddies: eddies(gpu, library, spec, constants, buffers)?,
-            glass: match glass::rings(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
+            glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
                 0 => None,
                 _ => Some(make(sim::GLASS, &[])?),
             },

@@ -113,7 +113,7 @@ impl Solver {
     }
 
     fn rings(&self) -> usize {
-        glass::rings(self.parameters.chemistry.as_ref(), self.flasks)
+        glass::ring_count(self.parameters.chemistry.as_ref(), self.flasks)
     }
 
     /// Reads the counters; waits for the device.

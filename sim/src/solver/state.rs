@@ -84,7 +84,7 @@ impl SolverState {
             agitation: Vec::new(),
             bulk: Vec::new(),
             eddies: Vec::new(),
-            glass: vec![[ambient as f32, 0.0]; glass::rings(chemistry, flasks)],
+            glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
             steam: Steam::start(parameters, n),
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],

@@ -1,5 +1,6 @@
 // The record `heat`: a particle's temperature and acid fraction, and what else its neighbours must know to
 // exchange them. Each chemistry has its own; both begin with T (°C) and c, which the picture draws.
+//!include common/chemistry/features.wgsl
 
 /// T (°C) and c of a record of either chemistry.
 fn temperature_in(heat: vec4<f32>) -> f32 {
@@ -10,8 +11,10 @@ fn acid_in(heat: vec4<f32>) -> f32 {
     return heat.y;
 }
 
-/// What must be finite in a record of either chemistry; the fourth word follows from these.
+/// What must be finite in a record of either chemistry; the other word follows from these. Of the physical one h
+/// tells, for T of an h that is no number is absolute zero.
 fn tested_in(heat: vec4<f32>) -> vec3<f32> {
+    if (PHYSICAL) { return heat.xyw; }
     return heat.xyz;
 }
 

@@ -1,6 +1,6 @@
 //! The heat of glass, by geometry and by the theory of conduction.
 
-use super::super::glass::{CAPACITY, CONDUCTIVITY, ROWS, advance, row_at, rows};
+use super::super::glass::{CAPACITY, CONDUCTIVITY, RINGS, advance, ring_at, rings};
 use super::super::transport::Losses;
 use crate::flask::Profile;
 use crate::flask::glass::{BOROSILICATE, GLASSWARE, find};
@@ -17,21 +17,25 @@ fn insulated() -> Losses {
 fn rings_hold_what_the_glass_holds() {
     for glass in &GLASSWARE {
         let profile = glass.profile(1.0).unwrap();
-        let rows = rows(&profile, &insulated(), 1.0 / 90.0);
-        let held: f64 = rows.iter().map(|row| row.capacity).sum();
+        let rings = rings(&profile, &insulated(), 1.0 / 90.0);
+        let held: f64 = rings.iter().map(|ring| ring.capacity).sum();
         let known = profile.glass_volume() * BOROSILICATE * CAPACITY;
         assert!(
             (held / known - 1.0).abs() < 0.01,
             "{}: {held} {known}",
             glass.name
         );
-        assert!(rows.iter().all(|row| row.quantum > 0.0), "{}", glass.name);
+        assert!(
+            rings.iter().all(|ring| ring.quantum > 0.0),
+            "{}",
+            glass.name
+        );
     }
     // A 400 mL beaker weighs 135 g (a supplier's table) with its wall of 1.7 mm and its spout; ours has 2 mm.
     let beaker = find("beaker-400").unwrap().profile(1.0).unwrap();
-    let held: f64 = rows(&beaker, &insulated(), 0.01)
+    let held: f64 = rings(&beaker, &insulated(), 0.01)
         .iter()
-        .map(|row| row.capacity)
+        .map(|ring| ring.capacity)
         .sum();
     assert!((112.0..135.0).contains(&held), "{held} J/K");
 }
@@ -42,26 +46,27 @@ fn a_wave_of_heat_along_a_tube_decays_as_fourier_says() {
     let length = 0.32;
     let profile = Profile::new(&[[0.0, 0.004], [length, 0.004]], 0.001).unwrap();
     let time = 1.0;
-    let rows = rows(&profile, &insulated(), time);
-    let wave = |k: usize| (PI * (k as f64 + 0.5) / ROWS as f64).cos();
-    let mut temperatures: Vec<_> = (0..ROWS).map(|k| 50.0 + 10.0 * wave(k)).collect();
+    let rings = rings(&profile, &insulated(), time);
+    let wave = |k: usize| (PI * (k as f64 + 0.5) / RINGS as f64).cos();
+    let mut temperatures: Vec<_> = (0..RINGS).map(|k| 50.0 + 10.0 * wave(k)).collect();
     let heat = |temperatures: &[f64]| -> f64 {
-        rows.iter()
+        rings
+            .iter()
             .zip(temperatures)
-            .map(|(row, t)| row.capacity * t)
+            .map(|(ring, t)| ring.capacity * t)
             .sum()
     };
     let before = heat(&temperatures);
     for _ in 0..10_000 {
-        advance(&rows, &mut temperatures, &[0.0; ROWS], 20.0, time);
+        advance(&rings, &mut temperatures, &[0.0; RINGS], 20.0, time);
     }
     let diffusivity = CONDUCTIVITY / (BOROSILICATE * CAPACITY);
     let expected = 10.0 * (-diffusivity * (PI / length).powi(2) * 1e4 * time).exp();
-    let amplitude: f64 = (0..ROWS)
+    let amplitude: f64 = (0..RINGS)
         .map(|k| (temperatures[k] - 50.0) * wave(k))
         .sum::<f64>()
         * 2.0
-        / ROWS as f64;
+        / RINGS as f64;
     assert!(
         (amplitude / expected - 1.0).abs() < 0.02,
         "{amplitude} {expected}"
@@ -74,13 +79,13 @@ fn hot_glass_cools_to_the_air() {
     // Newton: C dT/dt = h A (T_a − T) for the whole, as it is of one temperature where wall and base are.
     let profile = find("beaker-400").unwrap().profile(1.0).unwrap();
     let losses = Losses::to_air(20.0);
-    let rows = rows(&profile, &losses, 0.1);
-    let mut temperatures = vec![100.0; ROWS];
+    let rings = rings(&profile, &losses, 0.1);
+    let mut temperatures = vec![100.0; RINGS];
     for _ in 0..6000 {
-        advance(&rows, &mut temperatures, &[0.0; ROWS], 20.0, 0.1);
+        advance(&rings, &mut temperatures, &[0.0; RINGS], 20.0, 0.1);
     }
     // 2 mm of glass: ρ c t/h = 309 s, longer at the base's corner.
-    let middle = temperatures[ROWS / 2];
+    let middle = temperatures[RINGS / 2];
     let expected =
         20.0 + 80.0 * (-600.0 * 12.0 * 0.040 / (BOROSILICATE * CAPACITY * 0.002 * 0.039)).exp();
     assert!((middle - expected).abs() < 0.5, "{middle} {expected}");
@@ -90,18 +95,18 @@ fn hot_glass_cools_to_the_air() {
 fn walls_of_any_thickness_stay_between_the_temperatures() {
     for wall in [1e-4, 0.002, 0.02] {
         let profile = Profile::new(&[[0.0, 0.03], [0.1, 0.03]], wall).unwrap();
-        let rows = rows(&profile, &Losses::to_air(20.0), 1.0 / 60.0);
-        let mut temperatures = vec![20.0; ROWS];
+        let rings = rings(&profile, &Losses::to_air(20.0), 1.0 / 60.0);
+        let mut temperatures = vec![20.0; RINGS];
         for _ in 0..200 {
             // Liquid of 100 °C all over its inside.
-            let area = 2.0 * PI * 0.03 * 0.1 / ROWS as f64;
-            let taken: Vec<_> = (0..ROWS)
-                .map(|k| rows[k].to_liquid * area * (100.0 - temperatures[k]) / 60.0)
+            let area = 2.0 * PI * 0.03 * 0.1 / RINGS as f64;
+            let taken: Vec<_> = (0..RINGS)
+                .map(|k| rings[k].to_liquid * area * (100.0 - temperatures[k]) / 60.0)
                 .collect();
-            for (row, taken) in rows.iter().zip(&taken) {
-                assert!(taken / row.quantum < f64::from(i32::MAX), "{wall} m");
+            for (ring, taken) in rings.iter().zip(&taken) {
+                assert!(taken / ring.quantum < f64::from(i32::MAX), "{wall} m");
             }
-            advance(&rows, &mut temperatures, &taken, 20.0, 1.0 / 60.0);
+            advance(&rings, &mut temperatures, &taken, 20.0, 1.0 / 60.0);
             let within = temperatures.iter().all(|t| (19.99..100.01).contains(t));
             assert!(within, "{wall} m: {temperatures:?}");
         }
@@ -119,6 +124,6 @@ fn heights_belong_to_their_ring() {
         (0.3219, 31),
         (9.0, 31),
     ] {
-        assert_eq!(row_at(&profile, y), ring, "{y}");
+        assert_eq!(ring_at(&profile, y), ring, "{y}");
     }
 }

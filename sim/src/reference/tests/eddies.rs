@@ -54,7 +54,7 @@ fn rate(reference: &Reference, mixing: &Mixing) -> f64 {
         })
         .unwrap();
     let eddies = reference.eddies(mixing, &neighbours)[middle];
-    eddies.diffusivity / (mixing.turbulence * mixing.width.powi(2))
+    eddies / (mixing.turbulence * mixing.width.powi(2))
 }
 
 fn water(_: DVec3) -> f64 {
@@ -114,7 +114,7 @@ fn jitter_is_filtered() {
         jittering.velocities = Random(5).points(jittering.positions.len(), 0.002);
         let neighbours = jittering.neighbours(&jittering.positions);
         let eddies = jittering.eddies(&mixing, &neighbours);
-        let squares = eddies.iter().map(|eddies| eddies.diffusivity.powi(2));
+        let squares = eddies.iter().map(|k| k * k);
         let mean = (squares.sum::<f64>() / eddies.len() as f64).sqrt();
         mean / (mixing.turbulence * mixing.width.powi(2))
     });
@@ -172,10 +172,10 @@ fn lifting_is_paid_for() {
     for strain in [0.0, 1.0, 100.0, 1e4] {
         for richardson in [0.0, 0.1, 0.5, 0.69, 0.71, 5.0] {
             let buoyancy = richardson * strain;
-            let eddies = mixing.eddies(strain, buoyancy);
-            let lifted = eddies.diffusivity * buoyancy;
+            let diffusivity = mixing.diffusivity(strain, buoyancy);
+            let lifted = diffusivity * buoyancy;
             // From the mean flow: ν_t·S².
-            let taken = SCHMIDT * eddies.diffusivity * strain;
+            let taken = SCHMIDT * diffusivity * strain;
             assert!(lifted <= taken, "{strain} {richardson}: {lifted} {taken}");
         }
     }

@@ -4,7 +4,7 @@ use super::{Random, in_the_open, parameters};
 use crate::chemistry::OutOfRange;
 use crate::chemistry::Physical as Law;
 use crate::chemistry::adiabatic::{Feed, mix};
-use crate::chemistry::eddies::{Eddies, Mixing};
+use crate::chemistry::eddies::Mixing;
 use crate::chemistry::transport::Losses;
 use crate::parameters::Parameters;
 use crate::reference::Reference;
@@ -68,10 +68,7 @@ fn totals(physical: &Physical) -> [f64; 3] {
 /// Eddies of that diffusivity (m²/s) everywhere.
 pub fn stir(reference: &mut Reference, diffusivity: f64) {
     if let Some(Chemistry::Physical(physical)) = &mut reference.chemistry {
-        physical.eddies.fill(Eddies {
-            diffusivity,
-            dissipation: 0.0,
-        });
+        physical.eddies.fill(diffusivity);
     }
 }
 

@@ -113,3 +113,34 @@ fn one_particle_of_acid_in_water() {
         }
     }
 }
+
+/// A particle whose enthalpy is no number turns non-finite at a frame's end, after which the flow is filtered
+/// around it. It is taken out in the next frame, and nobody else is.
+#[test]
+fn a_particle_that_is_no_number_spoils_no_other() {
+    let device = gpu::device();
+    let p = with(Chemistry::Physical(boiling()), single_substeps());
+    let particles = glass_of(300, |height| (60.0, if height < 0.5 { 0.98 } else { 0.0 }));
+    let solver = Setup::new(p, vec![narrow_glass()], particles).solver(&device);
+    frames(&device, &solver, &[Pose::IDENTITY], 3);
+    let mut state = solver.snapshot().unwrap();
+    let bad = state.tags[150][1];
+    state.matter[150][1] = f32::NAN;
+    solver.restore(&state).unwrap();
+    for _ in 0..4 {
+        frames(&device, &solver, &[Pose::IDENTITY], 1);
+        let state = solver.snapshot().unwrap();
+        for slot in (0..state.tags.len()).filter(|&slot| state.tags[slot][1] != bad) {
+            let rows = [state.heat[slot], state.matter[slot], state.velocities[slot]];
+            // The third word of `heat` is two halves.
+            let finite = rows
+                .iter()
+                .all(|row| [0, 1, 3].iter().all(|&k| row[k].is_finite()));
+            assert!(
+                finite && state.eddies[slot][0].is_finite(),
+                "{slot}: {rows:?}"
+            );
+        }
+    }
+    assert_eq!(solver.counters().unwrap().nan_particles, 1);
+}

@@ -7,7 +7,7 @@ use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::evaporation::StillAir;
-use vitriol_sim::chemistry::glass::ROWS;
+use vitriol_sim::chemistry::glass::RINGS;
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::{Chemistry, Physical};
@@ -88,9 +88,9 @@ fn what_the_liquid_gives_the_glass_has() {
             .map(|(_, heat)| heat[0].into())
             .collect();
         let warmth = lying.iter().sum::<f64>() / lying.len() as f64;
-        let wall: f64 = (0..ROWS)
+        let wall: f64 = (0..RINGS)
             .map(|ring| {
-                let reach = 0.06 / ROWS as f64;
+                let reach = 0.06 / RINGS as f64;
                 let wetted = (level - ring as f64 * reach).clamp(0.0, reach);
                 let base = if ring == 0 { PI * radius * radius } else { 0.0 };
                 let area = 2.0 * PI * radius * wetted + base;
@@ -121,7 +121,7 @@ fn mean_temperature(state: &SolverState) -> f64 {
 /// Heat in the rings of the narrow glass, J over 0 °C: borosilicate of 2230 kg/m³ and 830 J/(kg K), 2 mm of it around and
 /// under 60 mm of 26 mm inner diameter.
 fn in_rings(glass: &[[f32; 2]]) -> f64 {
-    let ring = PI * (0.015f64.powi(2) - 0.013f64.powi(2)) * 0.06 / ROWS as f64;
+    let ring = PI * (0.015f64.powi(2) - 0.013f64.powi(2)) * 0.06 / RINGS as f64;
     // A disc, and a quarter of a circle around it.
     let corner = 0.25 * PI * 0.002f64.powi(2);
     let base = PI * 0.013f64.powi(2) * 0.002 + corner * 2.0 * PI * (0.013 + 0.008 / (3.0 * PI));
@@ -137,7 +137,7 @@ fn in_glass(state: &SolverState) -> f64 {
 }
 
 fn in_glass_at(temperature: f32) -> f64 {
-    in_rings(&[[temperature, 0.0]; ROWS])
+    in_rings(&[[temperature, 0.0]; RINGS])
 }
 
 /// Open water in a full glass evaporates at the rate of a handbook's tanks in still air of 60 °F ('Heat Loss

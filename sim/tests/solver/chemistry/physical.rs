@@ -5,7 +5,7 @@ use super::setup::*;
 use crate::common::*;
 use crate::leaning_glass::*;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
-use vitriol_sim::chemistry::eddies::{Eddies, Mixing};
+use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
@@ -52,11 +52,7 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
         let content = &mut physical.contents[i];
         let variance = 0.15 * content.acid * (0.98 - content.acid).max(0.0);
         *eddies = [1e-5 * (2.0 + (i as f32).sin()), variance as f32];
-        let rate = f64::from(eddies[0]) / (law.mixing.turbulence * law.mixing.width.powi(2));
-        physical.eddies[i] = Eddies {
-            diffusivity: eddies[0].into(),
-            dissipation: 0.7 * f64::from(eddies[0]) * rate * rate,
-        };
+        physical.eddies[i] = eddies[0].into();
         content.variance = eddies[1].into();
         // Of the same temperature.
         let row = physical.table.of_lamellae(content.acid, content.variance);
@@ -101,20 +97,14 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
         })
         .0,
         eddies: {
-            let largest = physical
-                .eddies
-                .iter()
-                .fold(0.0, |a: f64, e| a.max(e.diffusivity));
+            let largest = physical.eddies.iter().fold(0.0, |a: f64, e| a.max(*e));
             let rows: Vec<_> = state
                 .eddies
                 .iter()
                 .map(|&[k, e]| [k, e, 0.0, 0.0])
                 .collect();
             let found = by_identity(&state, &rows);
-            worst(all.clone(), |i| {
-                (found[i][0] - physical.eddies[i].diffusivity).abs()
-            })
-            .0 / largest
+            worst(all.clone(), |i| (found[i][0] - physical.eddies[i]).abs()).0 / largest
         },
         glass: {
             let rings = physical

@@ -1,10 +1,10 @@
 // The heat of the flasks' glass: rings of their walls (`chemistry/glass.rs`).
 
 /// Rings of a flask.
-const GLASS_ROWS: u32 = 32u;
+const GLASS_RINGS: u32 = 32u;
 
 /// Constants of a ring.
-struct GlassRow {
+struct GlassRing {
     /// Heat capacity, J/K.
     capacity: f32,
     /// Heat that the air takes, W/K.
@@ -19,4 +19,4 @@ struct GlassRow {
 }
 
 /// By flask and ring.
-@group(0) @binding(27) var<storage, read> glass_rows: array<GlassRow>;
+@group(0) @binding(27) var<storage, read> glass_rings: array<GlassRing>;
