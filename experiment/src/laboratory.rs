@@ -298,10 +298,7 @@ impl Experiment for Laboratory {
                 counted.list_limited,
             ),
             ("speed cut to v_max", counted.speed_limited),
-            (
-                "diffusion cut to what pairs may exchange",
-                counted.diffusion_limited,
-            ),
+            ("diffusion cut to what there is", counted.diffusion_limited),
             (
                 "boiling cut to 30 % of a relative velocity",
                 counted.growth_limited,

@@ -14,6 +14,7 @@
 //!include common/chemistry/rests.wgsl
 //!include common/chemistry/segregation.wgsl
 //!include common/chemistry/solution.wgsl
+//!include common/chemistry/transport.wgsl
 //!include common/glass/glass_rings.wgsl
 //!include common/glass/vessel.wgsl
 //!include common/glass/wall.wgsl
@@ -25,8 +26,6 @@
 //!include common/liquid/step.wgsl
 //!include common/maths/decay.wgsl
 
-/// Molecular diffusivity of heat, m²/s.
-override THERMAL_DIFFUSIVITY: f32 = 0.0;
 /// Time constant of boiling and condensing, s.
 override SUPERHEAT_TIME: f32 = 1.0;
 /// Speed of bubbles in the liquid, m/s; 0 where they stay with their particle.
@@ -59,6 +58,8 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 /// By flask and ring: T (°C), and quanta of heat that the liquid took in this frame.
 @group(0) @binding(13) var<storage, read> glass: array<vec2<f32>>;
 @group(0) @binding(14) var<storage, read_write> glass_taken: array<atomic<i32>>;
+/// What of its exchange a particle may keep (`sim/turnover.wgsl`).
+@group(0) @binding(15) var<storage, read> kept: array<f32>;
 
 /// What a pair exchanges in a substep.
 struct Rates {
@@ -68,32 +69,15 @@ struct Rates {
     stirred: f32,
     /// Per difference of T: conducted heat, less what of it the acid's enthalpy has already.
     conducted: f32,
-    /// 1 where they were cut short. Not a bool: with one in this record NVIDIA's driver (580.159.04) gives
-    /// other enthalpies, and `against_the_reference` fails there.
-    cut: f32,
 }
 
 /// Those of a pair with eddies of the diffusivity `eddies` (m²/s), of which the other counts where
-/// `whole` is 1; neither has more than so many `neighbours`. The kernel's part is `diffusion_weight`;
-/// with the two harmonic means it needs one division instead of three.
-fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, neighbours: u32) -> Rates {
-    let a = vec2<f32>(own.mass, own.mass * own.capacity);
-    let b = vec2<f32>(other.mass, other.mass * other.capacity) * whole;
-    let sums = max(a + b, vec2<f32>(1e-12));
-    let inverse = 1.0 / ((q * q + 0.01) * sums.x * sums.y);
-    let weight = (4.0 / (SUPPORT * SUPPORT)) * weight_scale() * (-spline_slope(q) * q) * inverse;
-    // Of liquid and of its heat, per diffusivity.
-    let shares = (step.time * weight * (a * b)) * sums.yx;
-    let fastest = (eddies + max(ACID_DIFFUSIVITY, THERMAL_DIFFUSIVITY)) * shares;
-    let most = min(a, b) * (1.0 / f32(max(neighbours, 1u)));
-    let cut = select(0.0, 1.0, any(fastest > most));
-    var kept = 1.0;
-    // From all alike: else a cut mixture would leave its line.
-    if (cut > 0.0) { kept = min(most.x / fastest.x, most.y / fastest.y); }
-    let brought = ACID_DIFFUSIVITY * shares.x * (0.5 * (own.capacity + other.capacity));
+/// `whole` is 1; `keeps` is cut from all alike, else a cut mixture would leave its line.
+fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, keeps: f32) -> Rates {
+    let swapped = keeps * swapped_by(q, own, other, whole);
+    let brought = ACID_DIFFUSIVITY * swapped.x * (0.5 * (own.capacity + other.capacity));
     return Rates(
-        kept * (eddies + ACID_DIFFUSIVITY) * shares.x, kept * eddies * shares.x,
-        kept * (THERMAL_DIFFUSIVITY * shares.y - brought), cut);
+        (eddies + ACID_DIFFUSIVITY) * swapped.x, eddies * swapped.x, THERMAL_DIFFUSIVITY * swapped.y - brought);
 }
 
 /// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
@@ -119,8 +103,6 @@ struct Received {
     acid: f32,
     /// J per V0·ρ0.
     enthalpy: f32,
-    /// Pairs that were cut short.
-    cut: f32,
     /// Σ (c − c_i)² of what came less that of what went, V0·ρ0.
     variance: f32,
     /// Vapour that came from below, V0·ρ0, and its enthalpy.
@@ -138,8 +120,9 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
     let x = position[i].xyz;
     let stirred = unpack_eddies(eddies[i]);
     var variance = 0.0;
-    // Acid, enthalpy, pairs cut; vapour, its enthalpy, cover.
-    var flux = vec3<f32>(0.0);
+    let keeps = kept[i];
+    // Acid, enthalpy; vapour, its enthalpy, cover.
+    var flux = vec2<f32>(0.0);
     var bubbles = vec3<f32>(0.0);
     var open = vec3<f32>(0.0);
     let count = select(listed, 0u, listed >= full);
@@ -156,11 +139,10 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let whole = has_whole_list(j, i, full);
             let others = unpack_eddies(eddies[j]);
             let mean = 0.5 * (stirred.diffusivity + others.diffusivity);
-            let rates = rates_of(mean, q, own, other, whole, max(listed, list_counts[j]));
+            let rates = rates_of(mean, q, own, other, whole, min(keeps, kept[j]));
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
-            flux += vec3<f32>(
-                rates.carried * (other.acid - own.acid), enthalpy, rates.cut);
+            flux += vec2<f32>(rates.carried * (other.acid - own.acid), enthalpy);
             if (SEGREGATION) {
                 let apart = other.acid - own.acid;
                 variance += rates.stirred * (others.variance - stirred.variance + apart * apart);
@@ -179,11 +161,11 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             }
         }
     }
-    flux = lane_sum3(flux);
+    flux = vec2<f32>(lane_sum(flux.x), lane_sum(flux.y));
     if (SEGREGATION) { variance = lane_sum(variance); }
     if (BUBBLE_SPEED > 0.0) { bubbles = lane_sum3(bubbles) * vec3<f32>(rising(), rising(), 1.0); }
     if (LOSSES) { open = lane_sum3(open) * (weight_scale() / SUPPORT); }
-    return Received(flux.x, flux.y, flux.z, variance, bubbles.x, bubbles.y, bubbles.z, open);
+    return Received(flux.x, flux.y, variance, bubbles.x, bubbles.y, bubbles.z, open);
 }
 
 /// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
@@ -361,7 +343,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (lane != 0u) { return; }
     let tag = tags[i];
     if (tag.x == REMOVED) { return; }
-    if (received.cut > 0.0) { atomicAdd(&counters.diffusion_limited, 1u); }
+    if (kept[i] < 1.0) { atomicAdd(&counters.diffusion_limited, 1u); }
 
     let extent = unpack_bulk(bulk[i]);
     let lacking = unpack_rests(extent.rests);

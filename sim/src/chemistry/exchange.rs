@@ -20,8 +20,9 @@ const WALL_FACTOR: f64 = 24.0;
 ///   leaves their range, for any D, Δt, h and any disorder.
 ///
 /// A bound on the lattice's ΣK would guarantee nothing where particles
-/// cluster, and one by each particle's own sum takes a pass to find. A limit
-/// for pairs needs neither. In the paper's world (D = 0.01 m²/s, 180 Hz, h =
+/// cluster, and one by each particle's own sum takes a pass to find: the
+/// physical chemistry, whose eddies are fast, pays for that
+/// ([`turnover`](super::transport::turnover)). A limit for pairs needs neither. In the paper's world (D = 0.01 m²/s, 180 Hz, h =
 /// 0.1 m) nearest neighbours on the lattice have K = 0.0102 and 1/N = 0.0139.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exchange {
@@ -40,15 +41,6 @@ impl Exchange {
             volume,
             time,
             limit: 1.0 / f64::from(capacity.max(1)),
-        }
-    }
-
-    /// This for a pair of which neither has more than `neighbours` on its list: N is then that number, which
-    /// bounds both sums as well and cuts a fifth as many of a pour's exchanges.
-    pub fn of_lists(self, neighbours: usize) -> Self {
-        Self {
-            limit: 1.0 / neighbours.max(1) as f64,
-            ..self
         }
     }
 

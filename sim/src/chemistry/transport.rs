@@ -78,8 +78,48 @@ pub struct Flux {
     pub variance: f64,
 }
 
-/// What i gets from j at `distance` (m) in a substep; j gets the opposite,
-/// bit for bit.
+/// Share of all that i has, of liquid or of heat, which it would swap with j at `distance` (m) in a substep.
+///
+/// Summed over its neighbours that is its turnover. Up to 1 its new state is a mean of old ones.
+pub fn turnover(
+    exchange: &Exchange,
+    diffusivities: &Diffusivities,
+    distance: f64,
+    i: &Potential,
+    j: &Potential,
+) -> f64 {
+    let fastest = diffusivities.eddies + diffusivities.heat.max(diffusivities.acid);
+    let swapped = Swapped::by(exchange, distance, i, j);
+    fastest * (swapped.liquid / i.mass).max(swapped.heat / i.heat_capacity())
+}
+
+/// What a pair of these turnovers keeps of its exchange: all of it unless either is above 1. Both have the same
+/// share, so that what one gives the other gets.
+pub fn kept(own: f64, other: f64) -> f64 {
+    1.0 / own.max(other).max(1.0)
+}
+
+/// What a pair swaps in a substep per diffusivity.
+struct Swapped {
+    /// kg·s/m².
+    liquid: f64,
+    /// J·s/(K m²).
+    heat: f64,
+}
+
+impl Swapped {
+    /// Masses and heat capacities enter by their harmonic mean.
+    fn by(exchange: &Exchange, distance: f64, i: &Potential, j: &Potential) -> Self {
+        let per_diffusivity = exchange.unlimited(1.0, distance);
+        Self {
+            liquid: per_diffusivity * harmonic(i.mass, j.mass),
+            heat: per_diffusivity * harmonic(i.heat_capacity(), j.heat_capacity()),
+        }
+    }
+}
+
+/// What i gets from j at `distance` (m) in a substep, of whose exchange they
+/// keep the share [`kept`]; j gets the opposite, bit for bit.
 ///
 /// Eddies carry liquid: with K·(c_j − c_i) of acid comes K·(h_j − h_i) of
 /// enthalpy, so a mixture stays on the straight line between what it was made
@@ -90,35 +130,27 @@ pub struct Flux {
 /// chord: across a fresh contact of water and acid it is +540 kJ/kg for −26,
 /// at any resolution.
 ///
-/// Masses and heat capacities enter by their harmonic mean. What the limit of
-/// [`Exchange`] cuts, it cuts from all three alike: else a cut mixture would
-/// leave its line.
+/// What is cut is cut from all alike: else a cut mixture would leave its line.
 pub fn flux(
     exchange: &Exchange,
     diffusivities: &Diffusivities,
     distance: f64,
     i: &Potential,
     j: &Potential,
+    kept: f64,
 ) -> Flux {
     let Diffusivities { eddies, acid, heat } = *diffusivities;
-    let (i_heat, j_heat) = (i.heat_capacity(), j.heat_capacity());
-    let per_diffusivity = exchange.unlimited(1.0, distance);
-    let of_mass = per_diffusivity * harmonic(i.mass, j.mass);
-    let of_heat = per_diffusivity * harmonic(i_heat, j_heat);
-    // No share of what a particle holds, of liquid or of heat, is above 1/N.
-    let fastest = eddies + heat.max(acid);
-    let kept_of = |wanted: f64, least: f64| {
-        let most = exchange.limit() * least;
-        if wanted > most { most / wanted } else { 1.0 }
-    };
-    let kept = kept_of(fastest * of_mass, i.mass.min(j.mass))
-        .min(kept_of(fastest * of_heat, i_heat.min(j_heat)));
-    let carried = kept * (eddies + acid) * of_mass;
-    let conducted = kept * (heat * of_heat - acid * of_mass * 0.5 * (i.capacity + j.capacity));
+    let swapped = Swapped::by(exchange, distance, i, j);
+    let carried = kept * (eddies + acid) * swapped.liquid;
+    let brought = acid * swapped.liquid * 0.5 * (i.capacity + j.capacity);
+    let conducted = kept * (heat * swapped.heat - brought);
     Flux {
         acid: carried * (j.acid - i.acid),
         enthalpy: carried * (j.enthalpy - i.enthalpy) + conducted * (j.temperature - i.temperature),
-        variance: kept * eddies * of_mass * (j.variance - i.variance + (j.acid - i.acid).powi(2)),
+        variance: kept
+            * eddies
+            * swapped.liquid
+            * (j.variance - i.variance + (j.acid - i.acid).powi(2)),
     }
 }
 

@@ -10,7 +10,9 @@ use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::physical::{Content, Steam, motion_budget};
 use crate::chemistry::segregation::{MIXED, decay_rate};
 use crate::chemistry::table::SolutionTable;
-use crate::chemistry::transport::{Diffusivities, Flux, Potential, flux, heat_from};
+use crate::chemistry::transport::{
+    Diffusivities, Flux, Potential, flux, heat_from, kept, turnover,
+};
 use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 
@@ -226,20 +228,18 @@ impl Physical {
             .iter()
             .map(|content| Potential::of(&self.table, content))
             .collect();
-        let listed: Vec<_> = (0..self.contents.len())
-            .map(|i| pairs.neighbours.of(i).count())
-            .collect();
-        let fluxes = pairs.sums(|i, j| {
-            let eddies = 0.5 * (self.eddies[i] + self.eddies[j]);
-            let diffusivities = Diffusivities::with(eddies);
+        let between =
+            |i: usize, j: usize| Diffusivities::with(0.5 * (self.eddies[i] + self.eddies[j]));
+        let turnovers: Vec<f64> = pairs.sums(|i, j| {
             let distance = pairs.distance(i, j);
-            flux(
-                &pairs.exchange.of_lists(listed[i].max(listed[j])),
-                &diffusivities,
-                distance,
-                &potentials[i],
-                &potentials[j],
-            )
+            let (own, other) = (&potentials[i], &potentials[j]);
+            turnover(pairs.exchange, &between(i, j), distance, own, other)
+        });
+        let fluxes = pairs.sums(|i, j| {
+            let distance = pairs.distance(i, j);
+            let (own, other) = (&potentials[i], &potentials[j]);
+            let kept = kept(turnovers[i], turnovers[j]);
+            flux(pairs.exchange, &between(i, j), distance, own, other, kept)
         });
         let rises = match self.law.bubble_speed {
             None => vec![Rise::default(); self.contents.len()],

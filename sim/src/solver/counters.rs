@@ -23,12 +23,13 @@ pub struct Counters {
     pub flask_constraints: u32,
     /// Particles taken out because they turned non-finite.
     pub nan_particles: u32,
-    /// Particles and substeps in which diffusion exchanged less than D and Δt ask for.
+    /// Particles and substeps in which diffusion exchanged less than D and Δt ask for: a pair more than 1/N
+    /// (paper), or a particle more than all that it has (physical).
     pub diffusion_limited: u32,
     /// Particles and substeps in which what boils was stirred less than its
     /// power asks for: at most 30 % are added to a relative velocity.
     pub growth_limited: u32,
     /// Particles and substeps in which a density was that of the end of its
-    /// table, 0 or 150 °C.
+    /// table, 0 or 200 °C.
     pub table_ends: u32,
 }

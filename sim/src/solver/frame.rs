@@ -71,7 +71,7 @@ impl Solver {
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
             // 26 of either chemistry, but for the heat of solution and what boiling costs.
-            if let Some(mixing) = &p.mixing {
+            for mixing in &p.mixing {
                 self.over_particles(rec, mixing, &step)?;
             }
             // 28, what its confinement needs of the neighbours.

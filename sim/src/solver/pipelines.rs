@@ -74,8 +74,8 @@ pub(super) struct Pipelines {
     pub(super) displacement: SolverPass,
     /// Of a substep's last iteration: goes on to lines 22 to 25.
     pub(super) last_displacement: SolverPass,
-    /// `diffusion` of the paper's chemistry, or `exchange` of the physical one.
-    pub(super) mixing: Option<SolverPass>,
+    /// `diffusion` of the paper's chemistry, or `turnover` and `exchange` of the physical one.
+    pub(super) mixing: Vec<SolverPass>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<SolverPass>,
     pub(super) forces: SolverPass,
@@ -115,9 +115,11 @@ impl Pipelines {
             _ => Some(make(sim::VORTICITY, &[])?),
         };
         let mixing = match spec.parameters.chemistry {
-            None => None,
-            Some(Chemistry::Paper(_)) => Some(make(sim::DIFFUSION, &[])?),
-            Some(Chemistry::Physical(_)) => Some(make(sim::EXCHANGE, &[])?),
+            None => Vec::new(),
+            Some(Chemistry::Paper(_)) => vec![make(sim::DIFFUSION, &[])?],
+            Some(Chemistry::Physical(_)) => {
+                vec![make(sim::TURNOVER, &[])?, make(sim::EXCHANGE, &[])?]
+            }
         };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
@@ -359,6 +361,8 @@ impl Constants {
                 // What is dead during a rebuild lends its memory.
                 "sorted_trial" => "solved",
                 "sorted_velocity" => "new_velocity",
+                // What is dead once x* is committed.
+                "kept" => "solved",
                 name => {
                     let other = names.iter().find(|(own, _)| *own == name);
                     other.map_or(name, |(_, label)| label)

@@ -212,10 +212,7 @@ fn limiters(run: &Run) -> BTreeMap<&'static str, u32> {
         ("neighbour list full", c.list_overflows),
         ("correction cut to the list's margin", c.list_limited),
         ("speed cut to v_max", c.speed_limited),
-        (
-            "diffusion cut to what pairs may exchange",
-            c.diffusion_limited,
-        ),
+        ("diffusion cut to what there is", c.diffusion_limited),
         (
             "boiling cut to 30 % of a relative velocity",
             c.growth_limited,

@@ -1,12 +1,11 @@
 // Liquid that is not mixed below a particle's size: `chemistry/segregation.rs` in f32.
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/molecules.wgsl
 //!include common/chemistry/solution.wgsl
 
 /// δ, m.
 override LAMELLA: f32 = 0.0003;
-/// Diffusivity of acid in water at 25 °C, m²/s.
-override ACID_DIFFUSIVITY: f32 = 0.0;
 
 /// Acid fraction of the acid's layers, and intervals of the table over c and √Θ.
 const FEED: f32 = 0.98;

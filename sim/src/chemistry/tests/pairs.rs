@@ -6,7 +6,7 @@ use super::super::physical::Content;
 use super::super::table::SolutionTable;
 use super::super::thomsen;
 use super::super::transport::{
-    Diffusivities, Potential, contact_area, flux, heat_from, surface_area,
+    Diffusivities, Potential, contact_area, flux, heat_from, kept, surface_area, turnover,
 };
 use crate::kernel::Kernel;
 use crate::parameters::Parameters;
@@ -35,6 +35,13 @@ fn cluster() -> impl Strategy<Value = Vec<([f64; 3], f64)>> {
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Σ_j of `share` for each of `particles`.
+fn turnovers_of(particles: &[Potential], share: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let all = 0..particles.len();
+    let of = |i: usize| all.clone().map(|j| share(i, j)).sum();
+    all.clone().map(of).collect()
 }
 
 /// One step on acid fractions: the new ones and every Δc_ij.
@@ -136,13 +143,18 @@ proptest! {
         });
         let potentials: Vec<_> = contents.iter().map(|c| Potential::of(&table, c)).collect();
         let d = Diffusivities::with(0.0041 * speed);
+        let turnovers = turnovers_of(&potentials, |i, j| {
+            let apart = distance(points[i].0, points[j].0);
+            turnover(&exchange, &d, apart, &potentials[i], &potentials[j])
+        });
         let (mut acid, mut enthalpy, mut size) = (0.0, 0.0, 0.0);
         for i in 0..points.len() {
             let mut gained = contents[i].mass * contents[i].acid;
             for j in 0..points.len() {
                 let apart = distance(points[i].0, points[j].0);
-                let got = flux(&exchange, &d, apart, &potentials[i], &potentials[j]);
-                let back = flux(&exchange, &d, apart, &potentials[j], &potentials[i]);
+                let (own, other) = (&potentials[i], &potentials[j]);
+                let got = flux(&exchange, &d, apart, own, other, kept(turnovers[i], turnovers[j]));
+                let back = flux(&exchange, &d, apart, other, own, kept(turnovers[j], turnovers[i]));
                 prop_assert_eq!((got.acid, got.enthalpy), (-back.acid, -back.enthalpy));
                 gained += got.acid;
                 acid += got.acid;
@@ -202,18 +214,16 @@ fn a_wall_takes_what_the_integral_over_a_half_space_does() {
     }
 }
 
-/// Lists of unlike length, eddies of any strength: what each has is a weighted mean of what there was.
+/// Eddies of any strength, particles of unlike mass, some of which many know: what each has is a weighted mean of
+/// what there was. Its turnover is 1 and more where it would not be, and else nothing is cut.
 #[test]
-fn lists_of_any_length_make_no_new_extremes() {
+fn no_turnover_makes_new_extremes() {
     let exchange = exchange_in(&world());
     let table = SolutionTable::new();
     let mut random = Random(7);
-    for count in [2, 5, 40] {
+    for (count, speed) in [(2, 1e9), (5, 1e9), (40, 1e9), (40, 0.03), (40, 0.001)] {
         // In one place, where pairs exchange most; each knows the first ones, and these know all.
         let known = |i: usize, j: usize| i != j && (i < 2 || j < 2);
-        let lists: Vec<_> = (0..count)
-            .map(|i| (0..count).filter(|&j| known(i, j)).count())
-            .collect();
         let particles: Vec<_> = (0..count)
             .map(|i| {
                 let acid = if i % 2 == 0 { 0.2 } else { 0.6 };
@@ -221,20 +231,49 @@ fn lists_of_any_length_make_no_new_extremes() {
                 Potential::of(&table, &content.unwrap())
             })
             .collect();
-        let gained = |i: usize| -> f64 {
+        let d = Diffusivities::with(speed);
+        let turnovers = turnovers_of(&particles, |i, j| {
+            let (own, other) = (&particles[i], &particles[j]);
+            f64::from(u8::from(known(i, j))) * turnover(&exchange, &d, 0.02, own, other)
+        });
+        let gained = |i: usize, cut: bool| -> f64 {
             let near = (0..count).filter(|&j| known(i, j));
             near.map(|j| {
-                let pair = exchange.of_lists(lists[i].max(lists[j]));
-                let fast = Diffusivities::with(1e9);
-                flux(&pair, &fast, 0.02, &particles[i], &particles[j]).acid
+                let keeps = if cut {
+                    kept(turnovers[i], turnovers[j])
+                } else {
+                    1.0
+                };
+                let (own, other) = (&particles[i], &particles[j]);
+                flux(&exchange, &d, 0.02, own, other, keeps).acid
             })
             .sum()
         };
+        let in_range = |acid: f64| (0.2 - 1e-12..=0.6 + 1e-12).contains(&acid);
         for (i, particle) in particles.iter().enumerate() {
-            let acid = particle.acid + gained(i) / particle.mass;
-            let range = 0.2 - 1e-12..=0.6 + 1e-12;
-            assert!(range.contains(&acid), "{count} {i}: {acid}");
+            let after = |cut| particle.acid + gained(i, cut) / particle.mass;
+            assert!(
+                in_range(after(true)),
+                "{count} {speed} {i}: {}",
+                after(true)
+            );
+            if speed < 0.01 {
+                assert_eq!(after(true), after(false));
+            }
         }
+        let uncut = (0..count).any(|i| {
+            let particle = &particles[i];
+            !in_range(particle.acid + gained(i, false) / particle.mass)
+        });
+        let most = turnovers
+            .iter()
+            .fold(0.0f64, |most, &turnover| most.max(turnover));
+        assert_eq!(most > 1.0, speed > 0.01, "{count} {speed}: {most}");
+        assert_eq!(
+            uncut,
+            speed > 0.01,
+            "{count} {speed}: the cut is for nothing"
+        );
     }
 }
 
@@ -245,7 +284,7 @@ fn uniform_liquid_exchanges_nothing() {
     let content = Content::liquid(&table, 0.125, 0.3, 80.0).unwrap();
     let potential = Potential::of(&table, &content);
     let d = Diffusivities::with(0.0041);
-    let got = flux(&exchange, &d, 0.05, &potential, &potential);
+    let got = flux(&exchange, &d, 0.05, &potential, &potential, 1.0);
     // Exactly: else a scene at rest would not stay as it is.
     assert_eq!((got.acid, got.enthalpy), (0.0, 0.0));
     assert_eq!(thomsen::secant(0.3, 0.3) - thomsen::secant(0.3, 0.3), 0.0);

@@ -127,6 +127,7 @@ fn contact_error(layers: usize) -> [f64; 2] {
                     distance,
                     &state[i],
                     &state[j],
+                    1.0,
                 )
             });
             for (layer, fluxes) in state.chunks_mut(25).zip(fluxes.chunks(25)) {
@@ -182,7 +183,7 @@ fn acid_brings_the_chord_of_the_tables() {
             let content = Content::liquid(&table, 1.6e-5, acid, temperature).unwrap();
             Potential::of(&table, &content)
         };
-        let got = flux(&exchange, &alone, 0.0025, &of(low), &of(high));
+        let got = flux(&exchange, &alone, 0.0025, &of(low), &of(high), 1.0);
         got.enthalpy / got.acid
     };
     let fresh = brought((0.0, 20.0), (0.98, 20.0));
@@ -255,7 +256,14 @@ fn acid_crosses_a_contact_as_fast_as_it_diffuses() {
     for _ in 0..bar.steps {
         let fluxes = pairs.sums(|i, j| {
             let distance = pairs.distance(i, j);
-            flux(pairs.exchange, &only_acid, distance, &state[i], &state[j])
+            flux(
+                pairs.exchange,
+                &only_acid,
+                distance,
+                &state[i],
+                &state[j],
+                1.0,
+            )
         });
         for (_, middle) in bar.middles() {
             let acid = state[middle].acid + fluxes[middle].acid;

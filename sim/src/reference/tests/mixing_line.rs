@@ -80,12 +80,8 @@ fn drops_and_layers_reach_the_mixing_line_and_do_not_pass_it() {
         ];
         for (name, start) in cases {
             // A thousand times what conducts heat: at 1e-5 conduction takes up to a degree from a
-            // single particle.
-            for eddies in [8e-5, 2e-4] {
-                // With pairs that are cut short, a single particle passes the peak in one step.
-                if eddies > 1e-4 && name == "a particle" {
-                    continue;
-                }
+            // single particle. Twice that again, and a drop passes the peak within a step.
+            for eddies in [8e-5, 1.6e-4] {
                 let [superheat, temperature] = stirred(start.clone(), eddies);
                 let case =
                     format!("{name} of {inner:?} by {eddies} m²/s: {superheat} {temperature}");
