@@ -2,7 +2,7 @@
 
 use crate::{Fov, Hand, Pose, PoseFrame, Side};
 
-use super::names;
+use super::{limits, names};
 
 /// One thing that is wrong with a frame.
 #[derive(Debug)]
@@ -51,6 +51,24 @@ pub fn frame(
     for (view, fov) in frame.info.fov.iter().enumerate() {
         field_of_view(fov, view)?;
     }
+    limits::at_most(
+        names::TF,
+        names::FLASK,
+        stage_from_flasks.len(),
+        limits::FLASKS,
+    )?;
+    for switch in &frame.scenario {
+        limits::switch(&switch.key, &switch.value)?;
+    }
+    for side in Side::BOTH {
+        let length = frame.hand(side).profile.len();
+        limits::at_most(
+            names::INPUT[side as usize],
+            "length of profile",
+            length,
+            limits::TEXT,
+        )?;
+    }
     if frame.scenario.iter().any(|switch| switch.key.is_empty()) {
         return Err(Flaw::new(
             names::SCENARIO,
@@ -77,6 +95,14 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
             "log_time",
             "is negative or beyond 292 years",
             "a track's clock is the simulation's, which starts at 0",
+        ));
+    }
+    if frame.time_ns > limits::SECONDS * 1_000_000_000 {
+        return Err(Flaw::new(
+            names::FRAME,
+            "log_time",
+            format!("is {} s", super::seconds(frame.time_ns)),
+            format!("a track ends after {} s at most", limits::SECONDS),
         ));
     }
     let Some((step, time_ns)) = before else {

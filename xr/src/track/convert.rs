@@ -1,4 +1,4 @@
-//! Tracks by name, and from one form to the other.
+//! Tracks by name, and to a file.
 
 use std::path::Path;
 
@@ -29,15 +29,13 @@ pub fn load(name: &str) -> Result<Track, TrackError> {
     Track::open(file)
 }
 
-/// Writes the track of that name (see [`load`]) to the MCAP file `output`. Nothing is created
-/// before the whole track was read and checked, and what a failed write leaves is removed.
+/// Writes `track` to the MCAP file `output`. What a failed write leaves is removed.
 ///
 /// # Errors
-/// What [`load`] and [`TrackWriter`] return.
-pub fn convert(name: &str, output: &Path, existing: Existing) -> Result<Written, TrackError> {
-    let track = load(name)?;
+/// What [`TrackWriter`] returns.
+pub fn save(track: &Track, output: &Path, existing: Existing) -> Result<Written, TrackError> {
     let writer = TrackWriter::create(output, &track.metadata, existing)?;
-    let written = fill(writer, &track);
+    let written = fill(writer, track);
     if written.is_err() {
         // The write's own error is the one to report.
         let _ = std::fs::remove_file(output);
@@ -49,5 +47,6 @@ fn fill(mut writer: TrackWriter, track: &Track) -> Result<Written, TrackError> {
     for (frame, flasks) in track.frames.iter().zip(&track.stage_from_flasks) {
         writer.write(frame, flasks)?;
     }
+    writer.conclude(&track.outcome)?;
     writer.finish()
 }

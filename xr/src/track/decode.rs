@@ -1,5 +1,6 @@
 //! From messages to frames.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -7,7 +8,7 @@ use prost::Message;
 
 use super::check::Flaw;
 use super::message::{self, FrameTransform, FrameTransforms};
-use super::names;
+use super::{limits, names};
 use crate::{Fov, FrameInfo, Hand, Pose, PoseFrame, SessionState, Side, Switch};
 
 /// The messages of one frame as they come in.
@@ -22,6 +23,7 @@ pub struct Partial {
 impl Partial {
     /// Takes in the message `data` of `topic`, which must be one of a track's own.
     pub fn add(&mut self, topic: &str, data: &[u8]) -> Result<(), Flaw> {
+        limits::at_most(topic, "length of message", data.len(), limits::MESSAGE)?;
         match topic {
             names::TF => once(topic, &mut self.transforms, data),
             names::FRAME => once(topic, &mut self.frame, data),
@@ -40,22 +42,30 @@ impl Partial {
         }
     }
 
-    /// The frame, and its flasks, once all of its messages are in.
-    pub fn finish(self, step: u64, time_ns: i64) -> Result<(PoseFrame, Vec<Pose>), Flaw> {
+    /// The frame, and its flasks, once all of its messages are in. `profiles` are those of the frame before,
+    /// which most frames share.
+    pub fn finish(
+        self,
+        step: u64,
+        time_ns: i64,
+        profiles: &mut [Arc<str>; 2],
+    ) -> Result<(PoseFrame, Vec<Pose>), Flaw> {
         let transforms = self
             .transforms
             .ok_or_else(|| incomplete(names::TF))?
             .transforms;
+        let transforms = by_child(&transforms)?;
         let info = self.frame.ok_or_else(|| incomplete(names::FRAME))?;
         let [left, right] = self.inputs;
+        let [of_left, of_right] = profiles;
         let stage_from_view = find(&transforms, names::VIEW)?;
         let frame = PoseFrame {
             step,
             time_ns,
             stage_from_view,
             hands: [
-                hand(left, &transforms, Side::Left)?,
-                hand(right, &transforms, Side::Right)?,
+                hand(left, &transforms, Side::Left, of_left)?,
+                hand(right, &transforms, Side::Right, of_right)?,
             ],
             scenario: self.scenario,
             info: frame_info(info)?,
@@ -98,10 +108,14 @@ fn incomplete(topic: &str) -> Flaw {
 
 fn hand(
     input: Option<message::Input>,
-    transforms: &[FrameTransform],
+    transforms: &ByChild<'_>,
     side: Side,
+    profile: &mut Arc<str>,
 ) -> Result<Hand, Flaw> {
     let input = input.ok_or_else(|| incomplete(names::INPUT[side as usize]))?;
+    if **profile != *input.profile() {
+        *profile = Arc::from(input.profile());
+    }
     Ok(Hand {
         active: input.active(),
         valid: input.valid(),
@@ -113,7 +127,7 @@ fn hand(
         thumbstick: [input.thumbstick_x(), input.thumbstick_y()],
         button_a: input.button_a(),
         button_b: input.button_b(),
-        profile: Arc::from(input.profile()),
+        profile: Arc::clone(profile),
     })
 }
 
@@ -149,22 +163,52 @@ fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
     })
 }
 
+/// A frame's own transforms by what they are of.
+type ByChild<'a> = BTreeMap<&'a str, &'a FrameTransform>;
+
+fn by_child(transforms: &[FrameTransform]) -> Result<ByChild<'_>, Flaw> {
+    limits::at_most(
+        names::TF,
+        "transforms",
+        transforms.len(),
+        limits::TRANSFORMS,
+    )?;
+    let mut by_child = ByChild::new();
+    for transform in transforms {
+        let child = transform.child_frame_id.as_str();
+        let before = by_child.insert(child, transform);
+        if before.is_some() && is_ours(child) {
+            return Err(Flaw::new(
+                names::TF,
+                child,
+                "is there twice",
+                "each frame has one transform a step",
+            ));
+        }
+    }
+    Ok(by_child)
+}
+
+/// Whether a track has the transform of this name, which other programs leave alone.
+fn is_ours(child: &str) -> bool {
+    let hands = names::GRIP.iter().chain(&names::AIM);
+    child == names::VIEW
+        || child.starts_with(names::FLASK)
+        || hands.into_iter().any(|&hand| hand == child)
+}
+
 /// All `flask_N`, in the order of N.
-fn flasks(transforms: &[FrameTransform]) -> Result<Vec<Pose>, Flaw> {
-    let count = transforms
-        .iter()
-        .filter(|transform| transform.child_frame_id.starts_with(names::FLASK))
-        .count();
-    (0..count)
+fn flasks(transforms: &ByChild<'_>) -> Result<Vec<Pose>, Flaw> {
+    let named = transforms
+        .keys()
+        .filter(|child| child.starts_with(names::FLASK));
+    (0..named.count())
         .map(|index| find(transforms, &format!("{}{index}", names::FLASK)))
         .collect()
 }
 
-fn find(transforms: &[FrameTransform], child: &str) -> Result<Pose, Flaw> {
-    let mut found = transforms
-        .iter()
-        .filter(|transform| transform.child_frame_id == child);
-    let Some(transform) = found.next() else {
+fn find(transforms: &ByChild<'_>, child: &str) -> Result<Pose, Flaw> {
+    let Some(transform) = transforms.get(child) else {
         return Err(Flaw::new(
             names::TF,
             child,
@@ -173,14 +217,6 @@ fn find(transforms: &[FrameTransform], child: &str) -> Result<Pose, Flaw> {
              numbered from 0 without gap",
         ));
     };
-    if found.next().is_some() {
-        return Err(Flaw::new(
-            names::TF,
-            child,
-            "is there twice",
-            "each frame has one transform a step",
-        ));
-    }
     if transform.parent_frame_id != names::STAGE {
         return Err(Flaw::new(
             names::TF,

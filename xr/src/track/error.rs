@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::files::FileError;
+
 /// A track that cannot be read, written or converted. Each message names the file, the place
 /// in it, and what would be right.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +19,9 @@ pub enum TrackError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// It is no file, too long a one, or cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The output is there already.
     #[error(
         "{file}: exists, and nothing is overwritten unasked; name another file, or ask for it to \
@@ -24,6 +29,12 @@ pub enum TrackError {
         file = file.display()
     )]
     Exists {
+        /// The file.
+        file: PathBuf,
+    },
+    /// So much waits for the disk that a frame was not taken.
+    #[error("{file}: the disk is full, and what waits for it fills its memory; make room", file = file.display())]
+    Full {
         /// The file.
         file: PathBuf,
     },

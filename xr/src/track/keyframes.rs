@@ -45,10 +45,10 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::TrackError;
 use super::ease::Ease;
 use super::path::{Key, Path as KeyPath};
-use crate::Switch;
+use super::{TrackError, limits};
+use crate::{Switch, files};
 
 /// A track in keyframes, read and checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,13 +184,9 @@ impl Keyframes {
     /// Reads a keyframe file.
     ///
     /// # Errors
-    /// As [`parse`](Self::parse), and [`TrackError::Io`] where the file cannot be read.
+    /// As [`parse`](Self::parse), and [`TrackError::File`] where the file cannot be read.
     pub fn open(file: &Path) -> Result<Self, TrackError> {
-        let text = std::fs::read_to_string(file).map_err(|source| TrackError::Io {
-            file: file.into(),
-            action: "read",
-            source,
-        })?;
+        let text = files::read_text(file, "keyframe file", limits::KEYFRAMES)?;
         Self::parse(&text, file)
     }
 
@@ -282,6 +278,15 @@ impl Reader<'_> {
                     format!("it is above 0 and at most {most} {unit}"),
                 ));
             }
+        }
+        let frames = document.duration.get_ref() * document.rate_hz.get_ref();
+        if frames >= limits::FRAMES as f64 {
+            return Err(self.flaw(
+                document.duration.span().start,
+                "duration",
+                format!("makes {frames} frames at rate_hz"),
+                format!("at most {} are made", limits::FRAMES),
+            ));
         }
         Ok(())
     }

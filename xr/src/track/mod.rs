@@ -15,18 +15,20 @@ mod encode;
 mod error;
 mod keyframes;
 mod lengths;
+pub mod limits;
 mod message;
 mod path;
 mod read;
 mod sample;
 mod source;
+mod stage;
 mod write;
 
 use std::collections::BTreeMap;
 
 use crate::{Pose, PoseFrame};
 
-pub use convert::{convert, load};
+pub use convert::{load, save};
 pub use error::TrackError;
 pub use keyframes::Keyframes;
 pub use source::TrackSource;
@@ -45,6 +47,17 @@ pub struct Track {
     pub stage_from_flasks: Vec<Vec<Pose>>,
     /// The file had no end, as after a crash; all up to its last whole chunk was read.
     pub recovered: bool,
+    /// What its recorder said at the end, such as the final state's hash; empty where it said nothing.
+    pub outcome: BTreeMap<String, String>,
+}
+
+/// Steps that a recording lacks: those between two of its frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hole {
+    /// The frame before it.
+    pub index: usize,
+    /// Steps missing.
+    pub steps: u64,
 }
 
 impl Track {
@@ -53,6 +66,28 @@ impl Track {
         self.frames
             .last()
             .map_or(0.0, |frame| seconds(frame.time_ns))
+    }
+
+    /// Where steps are missing, in their order.
+    pub fn holes(&self) -> impl Iterator<Item = Hole> + '_ {
+        let pairs = self.frames.windows(2).enumerate();
+        pairs.filter_map(|(index, pair)| {
+            let steps = pair[1].step - pair[0].step - 1;
+            (steps > 0).then_some(Hole { index, steps })
+        })
+    }
+
+    /// What of it is whole: all up to the first hole.
+    #[must_use]
+    pub fn up_to_the_first_hole(mut self) -> Self {
+        let first = self.holes().next();
+        if let Some(Hole { index, .. }) = first {
+            self.frames.truncate(index + 1);
+            self.stage_from_flasks.truncate(index + 1);
+            // What was said of the end is not true of this one.
+            self.outcome.clear();
+        }
+        self
     }
 }
 
@@ -67,6 +102,8 @@ pub struct TrackMetadata {
     pub parameters: BTreeMap<String, String>,
     /// Version of the program that recorded.
     pub program_version: String,
+    /// Texts of the scenes that it may bring up, by name; empty of a track that is no recording.
+    pub scenes: BTreeMap<String, String>,
 }
 
 /// Topics, frames and names in a track's file.
@@ -89,6 +126,13 @@ mod names {
     pub const SEED: &str = "seed";
     pub const PROGRAM_VERSION: &str = "program_version";
     pub const PARAMETER: &str = "parameter.";
+
+    pub const SCENE_RECORD: &str = "vitriol.scene";
+    pub const NAME: &str = "name";
+    pub const TOML: &str = "toml";
+    pub const HASH: &str = "xxh3_128";
+
+    pub const OUTCOME: &str = "vitriol.outcome";
 }
 
 /// Nanoseconds to seconds.

@@ -7,16 +7,20 @@
 //! record that is short or fails its checksum is damage. Where it is not, the recording was
 //! cut off, and all whole chunks before the cut count.
 
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
+use std::sync::Arc;
 
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
+use xxhash_rust::xxh3::xxh3_128;
 
 use super::check::{self, Flaw};
 use super::decode::Partial;
 use super::write::at;
-use super::{Track, TrackError, TrackMetadata, descriptor, lengths, names, seconds};
+use super::{Track, TrackError, TrackMetadata, descriptor, lengths, limits, names, seconds};
+use crate::files;
 
 /// Longest record and longest chunk accepted, B. Half a second of track is some 50 kB; a
 /// length with a flipped bit must not become an allocation of exabytes.
@@ -31,12 +35,7 @@ impl Track {
     /// # Errors
     /// [`TrackError`], which names file, topic, step, time and field, and what would be right.
     pub fn open(file: &Path) -> Result<Self, TrackError> {
-        let bytes = std::fs::read(file).map_err(|source| TrackError::Io {
-            file: file.into(),
-            action: "read",
-            source,
-        })?;
-        Self::parse(&bytes, file)
+        Self::parse(&files::read(file, "track", limits::FILE)?, file)
     }
 
     /// Like [`open`](Self::open), of bytes in memory; `file` is the name for messages.
@@ -51,16 +50,19 @@ impl Track {
     }
 }
 
-struct Channel {
-    id: u16,
-    topic: &'static str,
-}
-
 struct Reading<'a> {
     file: &'a Path,
-    schemas: Vec<(u16, String, String)>,
-    channels: Vec<Channel>,
+    /// Bytes of records so far.
+    read: u64,
+    /// Name and encoding by number.
+    schemas: HashMap<u16, (String, String)>,
+    /// Topics by number.
+    channels: HashMap<u16, &'static str>,
     metadata: Option<TrackMetadata>,
+    scenes: BTreeMap<String, String>,
+    switches: usize,
+    /// Of the frame before.
+    profiles: [Arc<str>; 2],
     partial: Option<(u64, i64, Partial)>,
     track: Track,
 }
@@ -69,15 +71,20 @@ impl<'a> Reading<'a> {
     fn new(file: &'a Path) -> Self {
         Self {
             file,
-            schemas: Vec::new(),
-            channels: Vec::new(),
+            read: 0,
+            schemas: HashMap::new(),
+            channels: HashMap::new(),
             metadata: None,
+            scenes: BTreeMap::new(),
+            switches: 0,
+            profiles: [Arc::from(""), Arc::from("")],
             partial: None,
             track: Track {
                 metadata: TrackMetadata::default(),
                 frames: Vec::new(),
                 stage_from_flasks: Vec::new(),
                 recovered: false,
+                outcome: BTreeMap::new(),
             },
         }
     }
@@ -118,6 +125,11 @@ impl<'a> Reading<'a> {
     }
 
     fn record(&mut self, opcode: u8, data: &[u8]) -> Result<(), TrackError> {
+        self.read += data.len() as u64;
+        if self.read > limits::RECORDS {
+            let most = limits::RECORDS;
+            return Err(self.damaged(format!("it unpacks to more than {most} bytes")));
+        }
         // Only the kinds that a track is made of are parsed: others are nobody's business,
         // and mcap 0.26 panics on an attachment record that is too short.
         if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA].contains(&opcode) {
@@ -128,7 +140,8 @@ impl<'a> Reading<'a> {
         }
         match mcap::parse_record(opcode, data).map_err(|error| self.damaged(error))? {
             Record::Schema { header, .. } => {
-                self.schemas.push((header.id, header.name, header.encoding));
+                let known = (header.name, header.encoding);
+                self.schemas.insert(header.id, known);
                 Ok(())
             }
             Record::Channel(channel) => self.channel(&channel),
@@ -136,13 +149,18 @@ impl<'a> Reading<'a> {
                 self.metadata = Some(metadata(record.metadata, self.file)?);
                 Ok(())
             }
-            Record::Message { header, data } => {
-                let known = self.channels.iter().find(|c| c.id == header.channel_id);
-                match known.map(|channel| channel.topic) {
-                    None | Some(names::TF_STATIC) => Ok(()),
-                    Some(topic) => self.message(topic, header.sequence, header.log_time, &data),
-                }
+            Record::Metadata(record) if record.name == names::SCENE_RECORD => {
+                self.scene(record.metadata)
             }
+            Record::Metadata(record) if record.name == names::OUTCOME => {
+                short(&record.metadata, self.file)?;
+                self.track.outcome = record.metadata;
+                Ok(())
+            }
+            Record::Message { header, data } => match self.channels.get(&header.channel_id) {
+                None | Some(&names::TF_STATIC) => Ok(()),
+                Some(&topic) => self.message(topic, header.sequence, header.log_time, &data),
+            },
             _ => Ok(()),
         }
     }
@@ -161,12 +179,12 @@ impl<'a> Reading<'a> {
             // Other programs may add topics of their own to a track.
             return Ok(());
         };
-        let schema = self.schemas.iter().find(|s| s.0 == channel.schema_id);
-        let fits = schema.is_some_and(|(_, name, encoding)| {
+        let schema = self.schemas.get(&channel.schema_id);
+        let fits = schema.is_some_and(|(name, encoding)| {
             name == expected && encoding == "protobuf" && channel.message_encoding == "protobuf"
         });
         if !fits {
-            let found = schema.map_or("no schema".into(), |(_, name, _)| {
+            let found = schema.map_or("no schema".into(), |(name, _)| {
                 format!("{name} in {}", channel.message_encoding)
             });
             return Err(TrackError::Schema {
@@ -176,10 +194,54 @@ impl<'a> Reading<'a> {
                 expected,
             });
         }
-        self.channels.push(Channel {
-            id: channel.id,
-            topic,
-        });
+        self.channels.insert(channel.id, topic);
+        Ok(())
+    }
+
+    /// A scene's text that the track carries.
+    fn scene(&mut self, mut map: BTreeMap<String, String>) -> Result<(), TrackError> {
+        let mut text = |field: &str| {
+            map.remove(field).ok_or_else(|| {
+                flawed(
+                    self.file,
+                    field,
+                    "is missing".into(),
+                    "a carried scene has name, toml and xxh3_128",
+                )
+            })
+        };
+        let (name, toml, hash) = (text(names::NAME)?, text(names::TOML)?, text(names::HASH)?);
+        for (field, length, most) in [
+            (names::NAME, name.len(), limits::TEXT),
+            (names::TOML, toml.len(), limits::SCENE),
+        ] {
+            if length > most {
+                return Err(flawed(
+                    self.file,
+                    field,
+                    format!("has {length} bytes"),
+                    &format!("a carried scene's has {most} at most"),
+                ));
+            }
+        }
+        if hash != scene_hash(&toml) {
+            return Err(flawed(
+                self.file,
+                names::HASH,
+                format!("is {hash:?} and not that of its text"),
+                "a carried scene is the recorded one",
+            ));
+        }
+        self.scenes.insert(name, toml);
+        if self.scenes.len() > limits::SCENES {
+            let problem = format!("are more than {}", limits::SCENES);
+            return Err(flawed(
+                self.file,
+                "carried scenes",
+                problem,
+                "a recording carries those that it may bring up",
+            ));
+        }
         Ok(())
     }
 
@@ -222,11 +284,14 @@ impl<'a> Reading<'a> {
         }
         let before = self.track.frames.last().map(|f| (f.step, f.time_ns));
         let (frame, flasks) = partial
-            .finish(step, time_ns)
+            .finish(step, time_ns, &mut self.profiles)
             .and_then(|(frame, flasks)| {
                 check::frame(&frame, &flasks, before)?;
                 Ok((frame, flasks))
             })
+            .map_err(|flaw| at(self.file, flaw, step, time_ns))?;
+        self.switches += frame.scenario.len();
+        limits::totals(self.switches, self.track.frames.len() + 1)
             .map_err(|flaw| at(self.file, flaw, step, time_ns))?;
         self.track.frames.push(frame);
         self.track.stage_from_flasks.push(flasks);
@@ -237,7 +302,7 @@ impl<'a> Reading<'a> {
     /// before its first message.
     fn topics(&self) -> Result<(), TrackError> {
         for topic in [names::TF, names::FRAME, names::INPUT[0], names::INPUT[1]] {
-            if !self.channels.iter().any(|channel| channel.topic == topic) {
+            if !self.channels.values().any(|known| *known == topic) {
                 return Err(self.missing(
                     format!("topic {topic}"),
                     "a pose track has /tf, /xr/frame, /xr/input/left and /xr/input/right",
@@ -250,7 +315,7 @@ impl<'a> Reading<'a> {
     fn finish(mut self, recovered: bool) -> Result<Track, TrackError> {
         self.end_frame()?;
         self.topics()?;
-        let Some(metadata) = self.metadata.take() else {
+        let Some(mut metadata) = self.metadata.take() else {
             return Err(self.missing(
                 format!("metadata record `{}`", names::METADATA),
                 "a pose track names its scene, seed and program version in one",
@@ -259,6 +324,7 @@ impl<'a> Reading<'a> {
         if self.track.frames.is_empty() {
             return Err(self.missing("frame".into(), "a pose track has at least one"));
         }
+        metadata.scenes = self.scenes;
         Ok(Track {
             metadata,
             recovered,
@@ -286,34 +352,56 @@ impl<'a> Reading<'a> {
     }
 }
 
-fn metadata(
-    map: std::collections::BTreeMap<String, String>,
-    file: &Path,
-) -> Result<TrackMetadata, TrackError> {
-    let flaw = |field: &str, problem: String, expected: &str| TrackError::Metadata {
+/// Hash of a scene's text, in hexadecimal.
+pub(super) fn scene_hash(text: &str) -> String {
+    format!("{:032x}", xxh3_128(text.as_bytes()))
+}
+
+fn flawed(file: &Path, field: &str, problem: String, expected: &str) -> TrackError {
+    TrackError::Metadata {
         file: file.into(),
         field: field.into(),
         problem,
         expected: expected.into(),
-    };
+    }
+}
+
+/// Whether a metadata record has few texts, and short ones.
+fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), TrackError> {
+    let longest = map
+        .iter()
+        .flat_map(|(key, value)| [key.len(), value.len()])
+        .max();
+    for (field, count, most) in [
+        ("number of entries", map.len(), limits::PARAMETERS),
+        ("longest text", longest.unwrap_or(0), limits::TEXT),
+    ] {
+        if count > most {
+            return Err(flawed(
+                file,
+                field,
+                format!("is {count}"),
+                &format!("at most {most} are read"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn metadata(map: BTreeMap<String, String>, file: &Path) -> Result<TrackMetadata, TrackError> {
+    short(&map, file)?;
     let text = |field: &str| {
         map.get(field).cloned().ok_or_else(|| {
-            flaw(
-                field,
-                "is missing".into(),
-                "a track names scene, seed and program_version",
-            )
+            let expected = "a track names scene, seed and program_version";
+            flawed(file, field, "is missing".into(), expected)
         })
     };
     let seed = text(names::SEED)?;
     Ok(TrackMetadata {
         scene: text(names::SCENE)?,
         seed: seed.parse().map_err(|_| {
-            flaw(
-                names::SEED,
-                format!("is `{seed}`"),
-                "a seed is a whole number from 0 to 2^64 - 1",
-            )
+            let expected = "a seed is a whole number from 0 to 2^64 - 1";
+            flawed(file, names::SEED, format!("is `{seed}`"), expected)
         })?,
         program_version: text(names::PROGRAM_VERSION)?,
         parameters: map
@@ -323,5 +411,6 @@ fn metadata(
                 Some((name.to_owned(), value.clone()))
             })
             .collect(),
+        scenes: BTreeMap::new(),
     })
 }

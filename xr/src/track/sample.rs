@@ -1,5 +1,7 @@
 //! From keyframes to frames at a fixed rate.
 
+use std::collections::BTreeMap;
+
 use super::keyframes::Keyframes;
 use super::{Track, TrackMetadata};
 use crate::{Fov, FrameInfo, Pose, PoseFrame, SessionState};
@@ -56,10 +58,12 @@ impl Keyframes {
                 seed: self.seed,
                 parameters: [("track".to_owned(), self.name.clone())].into(),
                 program_version: env!("CARGO_PKG_VERSION").into(),
+                scenes: BTreeMap::new(),
             },
             stage_from_flasks: vec![Vec::new(); frames.len()],
             frames,
             recovered: false,
+            outcome: BTreeMap::new(),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Writes a track.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
-use std::io::{BufWriter, ErrorKind};
+use std::fs::OpenOptions;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -12,7 +12,9 @@ use mcap::{Compression, McapError, WriteOptions, Writer};
 use prost::Message;
 
 use super::check::{self, Flaw};
-use super::{TrackError, TrackMetadata, descriptor, encode, names, seconds};
+use super::read::scene_hash;
+use super::stage::{Pending, Stage};
+use super::{TrackError, TrackMetadata, descriptor, encode, limits, names, seconds};
 use crate::{Pose, PoseFrame, Side};
 
 /// A crash loses what was written since the last flush. Half a second keeps the loss below
@@ -42,16 +44,21 @@ pub struct Written {
 /// happens to the program.
 ///
 /// It writes under the track's final name from the start and not under a temporary one: what
-/// a crash leaves must be found. Dropping it without [`finish`](Self::finish) ends the file
-/// properly too, but tells nobody where that failed.
+/// a crash leaves must be found. A disk that is full for a moment loses nothing: what could not
+/// be written waits in memory, the file ends with a whole chunk, and the next flush goes on there.
+/// Dropping it without [`finish`](Self::finish) ends the file properly too, but tells nobody
+/// where that failed.
 pub struct TrackWriter {
     file: PathBuf,
-    // NoSeek and a chunk buffer in memory: a chunk reaches the file whole, with its header,
-    // and not as a header of zeros to be filled in later, which a crash would leave behind.
-    mcap: Writer<NoSeek<BufWriter<File>>>,
+    // NoSeek: a chunk reaches the stage whole, with its header, and not as a header of zeros
+    // to be filled in later, which a crash would leave behind. `None` once it is finished.
+    mcap: Option<Writer<NoSeek<Stage>>>,
+    pending: Pending,
     channels: Channels,
     buffer: Vec<u8>,
+    /// Frames and switches taken.
     frames: u64,
+    switches: usize,
     last: Option<(u64, i64)>,
     flushed_ns: i64,
     flushed_at: Instant,
@@ -93,13 +100,16 @@ impl TrackWriter {
                 }
             }
         })?;
-        let (mcap, channels) = begin(handle, metadata).map_err(|error| failed(file, error))?;
+        let (pending, stage) = Pending::new(handle);
+        let (mcap, channels) = begin(stage, metadata).map_err(|error| failed(file, error))?;
         Ok(Self {
             file: file.into(),
-            mcap,
+            mcap: Some(mcap),
+            pending,
             channels,
             buffer: Vec::new(),
             frames: 0,
+            switches: 0,
             last: None,
             flushed_ns: 0,
             flushed_at: Instant::now(),
@@ -113,8 +123,9 @@ impl TrackWriter {
     /// # Errors
     /// [`TrackError::Message`] where a reader would refuse the frame: a pose that is not
     /// valid, a value out of its range, a step or a time not above the last frame's. Nothing
-    /// is written then, and the next frame may follow. [`TrackError::Io`] where the file
-    /// cannot be written; what was flushed before stays readable.
+    /// is written then, and the next frame may follow. [`TrackError::Full`] where so much waits
+    /// for the disk that this frame is not taken. [`TrackError::Io`] where the file cannot be
+    /// written now: the frame is taken, and waits.
     pub fn write(
         &mut self,
         frame: &PoseFrame,
@@ -122,12 +133,21 @@ impl TrackWriter {
     ) -> Result<(), TrackError> {
         check::frame(frame, stage_from_flasks, self.last)
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
+        let switches = self.switches + frame.scenario.len();
+        limits::totals(switches, self.frames as usize + 1)
+            .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
+        if self.pending.is_full() && self.flush().is_err() {
+            return Err(TrackError::Full {
+                file: self.file.clone(),
+            });
+        }
         self.put_frame(frame, stage_from_flasks)
             .map_err(|error| failed(&self.file, error))?;
         if self.frames == 0 {
             self.flushed_ns = frame.time_ns;
         }
         self.frames += 1;
+        self.switches = switches;
         self.last = Some((frame.step, frame.time_ns));
         let passed = Duration::from_nanos(frame.time_ns.abs_diff(self.flushed_ns));
         if passed >= FLUSH_AFTER || self.flushed_at.elapsed() >= FLUSH_AFTER {
@@ -139,37 +159,69 @@ impl TrackWriter {
     /// Hands all that was written to the operating system, so that it outlives the program.
     ///
     /// # Errors
-    /// [`TrackError::Io`] where the file cannot be written.
+    /// [`TrackError::Io`] where the file cannot be written now: all of it waits.
     pub fn flush(&mut self) -> Result<(), TrackError> {
-        self.mcap
-            .flush()
-            .map_err(|error| failed(&self.file, error))?;
+        // Also where that fails: the next try comes half a second later.
         self.flushed_ns = self.last.map_or(0, |(_, time_ns)| time_ns);
         self.flushed_at = Instant::now();
-        Ok(())
+        if let Some(mcap) = &mut self.mcap {
+            mcap.flush().map_err(|error| failed(&self.file, error))?;
+        }
+        self.write_out()
     }
 
-    /// Writes the index and the end of the file.
+    /// Frames that the file holds: they were handed to the operating system, which took them.
+    pub fn written(&self) -> u64 {
+        self.pending.frames()
+    }
+
+    /// Writes what is said of the end (see [`Track::outcome`](super::Track::outcome)).
     ///
     /// # Errors
-    /// [`TrackError::Io`] where the file cannot be written.
-    pub fn finish(mut self) -> Result<Written, TrackError> {
+    /// [`TrackError::Io`] after [`finish`](Self::finish).
+    pub fn conclude(&mut self, outcome: &BTreeMap<String, String>) -> Result<(), TrackError> {
+        let said = Metadata {
+            name: names::OUTCOME.into(),
+            metadata: outcome.clone(),
+        };
+        let concluded = match &mut self.mcap {
+            Some(mcap) if !outcome.is_empty() => mcap.write_metadata(&said),
+            Some(_) => Ok(()),
+            None => Err(finished()),
+        };
+        concluded.map_err(|error| failed(&self.file, error))
+    }
+
+    /// Writes the index and the end of the file, and waits until the disk has them.
+    ///
+    /// # Errors
+    /// [`TrackError::Io`] where the file cannot be written: it holds [`written`](Self::written) frames and no end.
+    pub fn finish(&mut self) -> Result<Written, TrackError> {
         self.flush()?;
-        self.mcap
-            .finish()
-            .map_err(|error| failed(&self.file, error))?;
-        // The buffer's own flush on drop would swallow an error.
-        std::io::Write::flush(&mut self.mcap.into_inner().into_inner()).map_err(|source| {
-            TrackError::Io {
-                file: self.file.clone(),
-                action: "write",
-                source,
-            }
-        })?;
+        if let Some(mut mcap) = self.mcap.take() {
+            let ended = mcap.finish();
+            ended.map_err(|error| failed(&self.file, error))?;
+        }
+        self.write_out()?;
+        let synced = self.pending.sync();
+        synced.map_err(|source| self.refused(source))?;
         Ok(Written {
             frames: self.frames,
             end_ns: self.last.map_or(0, |(_, time_ns)| time_ns),
         })
+    }
+
+    fn write_out(&mut self) -> Result<(), TrackError> {
+        let written = self.pending.write_out(self.frames);
+        written.map_err(|source| self.refused(source))
+    }
+
+    fn refused(&self, source: std::io::Error) -> TrackError {
+        TrackError::Io {
+            file: self.file.clone(),
+            action: "write",
+            source,
+        }
     }
 
     fn put_frame(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), McapError> {
@@ -205,21 +257,37 @@ impl TrackWriter {
             log_time: frame.time_ns as u64,
             publish_time: frame.time_ns as u64,
         };
-        self.mcap.write_to_known_channel(&header, &self.buffer)
+        match &mut self.mcap {
+            Some(mcap) => mcap.write_to_known_channel(&header, &self.buffer),
+            None => Err(finished()),
+        }
     }
 }
 
-type Begun = (Writer<NoSeek<BufWriter<File>>>, Channels);
+impl Drop for TrackWriter {
+    fn drop(&mut self) {
+        if let Some(mut mcap) = self.mcap.take() {
+            // Nobody is left to be told.
+            let _ = mcap.finish();
+            let _ = self.pending.write_out(self.frames);
+        }
+    }
+}
 
-fn begin(handle: File, metadata: &TrackMetadata) -> Result<Begun, McapError> {
+type Begun = (Writer<NoSeek<Stage>>, Channels);
+
+fn begin(stage: Stage, metadata: &TrackMetadata) -> Result<Begun, McapError> {
     let mut mcap = WriteOptions::new()
         .compression(Some(Compression::Lz4))
         // Only a flush ends a chunk, so that no frame is split between two.
         .chunk_size(None)
         .disable_seeking(true)
         .library(concat!("vitriol ", env!("CARGO_PKG_VERSION")))
-        .create(NoSeek::new(BufWriter::new(handle)))?;
+        .create(NoSeek::new(stage))?;
     mcap.write_metadata(&record(metadata))?;
+    for (name, text) in &metadata.scenes {
+        mcap.write_metadata(&scene_record(name, text))?;
+    }
 
     let transforms = mcap.add_schema(
         descriptor::FRAME_TRANSFORMS,
@@ -260,6 +328,22 @@ fn record(metadata: &TrackMetadata) -> Metadata {
         name: names::METADATA.into(),
         metadata: map,
     }
+}
+
+fn scene_record(name: &str, text: &str) -> Metadata {
+    let map = [
+        (names::NAME, name.to_owned()),
+        (names::TOML, text.to_owned()),
+        (names::HASH, scene_hash(text)),
+    ];
+    Metadata {
+        name: names::SCENE_RECORD.into(),
+        metadata: map.map(|(key, value)| (key.to_owned(), value)).into(),
+    }
+}
+
+fn finished() -> McapError {
+    std::io::Error::other("the track is finished").into()
 }
 
 fn failed(file: &Path, error: McapError) -> TrackError {

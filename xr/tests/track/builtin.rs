@@ -1,8 +1,9 @@
 //! The built-in tracks do what their comments derive: the flask, carried rigidly by the grip,
 //! stands where it is lifted, pours over the mouth of the other vessel and touches nothing.
 
+use crate::convert;
 use glam::{Quat, Vec3};
-use vitriol_xr::track::{Existing, Track, builtin, convert, load};
+use vitriol_xr::track::{Existing, Track, builtin, load};
 use vitriol_xr::{Pose, Side};
 
 const TABLE: f32 = 0.75;

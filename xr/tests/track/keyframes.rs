@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use crate::convert;
 use glam::{Quat, Vec3};
-use vitriol_xr::track::{Existing, Keyframes, TrackError, convert, load};
+use vitriol_xr::track::{Existing, Keyframes, TrackError, load};
 use vitriol_xr::{Pose, Side};
 
 const TEXT: &str = r#"

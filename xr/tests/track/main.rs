@@ -3,6 +3,7 @@
 
 mod builtin;
 mod damage;
+mod foreign;
 mod keyframes;
 mod kill;
 mod refuse;
@@ -14,7 +15,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use vitriol_xr::track::{Existing, Track, TrackMetadata, TrackWriter};
+use vitriol_xr::track::{
+    Existing, Track, TrackError, TrackMetadata, TrackWriter, Written, load, save,
+};
 use vitriol_xr::{Fov, FrameInfo, Hand, Pose, PoseFrame, SessionState, Side, Switch};
 
 /// Frame `step` of a movement in which every field differs from every other and from its
@@ -90,6 +93,7 @@ pub fn metadata() -> TrackMetadata {
         ]
         .into(),
         program_version: "0.1.0".into(),
+        scenes: [("mine.toml".to_owned(), "name = \"mine\"\n".to_owned())].into(),
     }
 }
 
@@ -109,7 +113,13 @@ pub fn track(frames: u64) -> Track {
             .collect(),
         frames,
         recovered: false,
+        outcome: [("state_hash".to_owned(), "0123456789abcdef".to_owned())].into(),
     }
+}
+
+/// Writes the track of that name to `file`.
+pub fn convert(name: &str, file: &Path, existing: Existing) -> Result<Written, TrackError> {
+    save(&load(name)?, file, existing)
 }
 
 /// Writes `track` to `file`.
@@ -118,6 +128,7 @@ pub fn write(file: &Path, track: &Track) {
     for (frame, flasks) in track.frames.iter().zip(&track.stage_from_flasks) {
         writer.write(frame, flasks).unwrap();
     }
+    writer.conclude(&track.outcome).unwrap();
     let written = writer.finish().unwrap();
     assert_eq!(written.frames as usize, track.frames.len());
 }

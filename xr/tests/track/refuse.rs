@@ -174,6 +174,48 @@ fn frames() {
     assert_says(&other, &["view.parent_frame_id is `world`", "`stage`"]);
 }
 
+/// Time is linear in what a frame holds: each transform is looked up once, and no frame has more than 256.
+#[test]
+fn many_transforms() {
+    let flask = |t: &[Transform], n: usize| {
+        let mut flask = t.iter().find(|t| t.child == "flask_0").unwrap().clone();
+        flask.child = format!("flask_{n}");
+        flask
+    };
+    let mut messages = good();
+    for raw in messages.iter_mut().filter(|raw| raw.topic == "/tf") {
+        let mut message = Transforms::decode(&raw.data[..]).unwrap();
+        for n in (2..64).rev() {
+            message.transforms.push(flask(&message.transforms, n));
+        }
+        raw.data = message.encode_to_vec();
+    }
+    let track = read(&messages, true).unwrap();
+    assert!(
+        track
+            .stage_from_flasks
+            .iter()
+            .all(|flasks| flasks.len() == 64)
+    );
+    let more = refusal_of_tf(|t| (2..65).for_each(|n| t.push(flask(t, n))));
+    assert_says(&more, &["flask_ has 65", "at most 64"]);
+    let others = refusal_of_tf(|t| {
+        for n in 0..260 {
+            t.push(Transform {
+                child: format!("remark_{n}"),
+                ..flask(t, 0)
+            });
+        }
+    });
+    assert_says(&others, &["transforms has 26", "at most 256"]);
+    let long = refusal(|raw| {
+        if raw.topic == "/xr/frame" {
+            raw.data = vec![0; 70_000];
+        }
+    });
+    assert_says(&long, &["length of message has 70000"]);
+}
+
 #[test]
 fn order() {
     // Step 7 has the time of step 5.

@@ -167,7 +167,7 @@ proptest! {
         }
         let (frames, stage_from_flasks) = frames.into_iter().unzip();
         let metadata = TrackMetadata { scene, seed, ..super::metadata() };
-        let track = Track { metadata, frames, stage_from_flasks, recovered: false };
+        let track = Track { metadata, frames, stage_from_flasks, recovered: false, outcome: Default::default() };
         let read = Track::parse(&super::bytes(&track), Path::new("x.mcap")).unwrap();
         prop_assert_eq!(&read, &track);
         for (a, b) in read.frames.iter().zip(&track.frames) {

@@ -1,0 +1,138 @@
+//! Files that a user names: read with a limit, and only where they are files.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// A file that is not read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// A folder, pipe, socket or device: the last three may never end.
+    #[error("{file}: is {kind} and no file; name a file", file = file.display())]
+    NotAFile {
+        /// What was named.
+        file: PathBuf,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// More than its kind of file ever holds.
+    #[error("{file}: is longer than {limit} bytes, which no {what} is; name another file", file = file.display())]
+    TooLong {
+        /// The file.
+        file: PathBuf,
+        /// The limit, B.
+        limit: u64,
+        /// What was looked for.
+        what: &'static str,
+    },
+    /// It holds what is no UTF-8.
+    #[error("{file}: is no text in UTF-8; name another file", file = file.display())]
+    NotText {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The operating system refused.
+    #[error("{file}: cannot be read: {source}", file = file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// What `file` holds, which is to be a `what` of at most `limit` bytes.
+///
+/// Its kind is asked for before it is opened: opening a pipe waits for a writer, and a device may be endless. One
+/// that is put in the file's place between the two is read up to the limit at most.
+///
+/// # Errors
+/// [`FileError`].
+pub fn read(file: &Path, what: &'static str, limit: u64) -> Result<Vec<u8>, FileError> {
+    let refused = |source| FileError::Io {
+        file: file.into(),
+        source,
+    };
+    let kind = fs::metadata(file).map_err(refused)?;
+    if !kind.is_file() {
+        return Err(FileError::NotAFile {
+            file: file.into(),
+            kind: if kind.is_dir() {
+                "a folder"
+            } else {
+                "a pipe or device"
+            },
+        });
+    }
+    let too_long = || FileError::TooLong {
+        file: file.into(),
+        limit,
+        what,
+    };
+    if kind.len() > limit {
+        return Err(too_long());
+    }
+    let mut bytes = Vec::new();
+    let opened = File::open(file).map_err(refused)?;
+    opened
+        .take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(refused)?;
+    if bytes.len() as u64 > limit {
+        return Err(too_long());
+    }
+    Ok(bytes)
+}
+
+/// The same of text.
+///
+/// # Errors
+/// [`FileError`].
+pub fn read_text(file: &Path, what: &'static str, limit: u64) -> Result<String, FileError> {
+    let bytes = read(file, what, limit)?;
+    String::from_utf8(bytes).map_err(|_| FileError::NotText { file: file.into() })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("x");
+        fs::write(&file, "12345").unwrap();
+        assert_eq!(read(&file, "scene", 5).unwrap(), b"12345");
+        let message = read(&file, "scene", 4).unwrap_err().to_string();
+        assert!(message.contains("longer than 4 bytes"), "{message}");
+        fs::write(&file, [0xff]).unwrap();
+        assert!(matches!(
+            read_text(&file, "scene", 4),
+            Err(FileError::NotText { .. })
+        ));
+        assert!(matches!(
+            read(&folder.path().join("y"), "scene", 4),
+            Err(FileError::Io { .. })
+        ));
+    }
+
+    /// A pipe that nobody writes to would keep whoever opens it waiting for ever.
+    #[cfg(unix)]
+    #[test]
+    fn folders_pipes_and_devices_are_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        for (path, kind) in [
+            (folder.path(), "a folder"),
+            (&pipe, "a pipe"),
+            (Path::new("/dev/zero"), "device"),
+        ] {
+            let message = read(path, "track", 4).unwrap_err().to_string();
+            assert!(message.contains(kind), "{message}");
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! How much a track may hold. A track may come from anyone, so each size has an end that no recording reaches.
+
+use super::check::Flaw;
+use super::names;
+
+/// Of a track's file, B: some three hours.
+pub const FILE: u64 = 1 << 30;
+/// Of all its records unpacked, B: a chunk may pack a thousand to one.
+pub(super) const RECORDS: u64 = 2 << 30;
+/// Of a keyframe file, B.
+pub(super) const KEYFRAMES: u64 = 16 << 20;
+/// Of a message, B. A frame of [`FLASKS`] takes 10 kB.
+pub(super) const MESSAGE: usize = 64 << 10;
+/// Frames: 2.8 hours at 100 Hz.
+pub const FRAMES: usize = 1_000_000;
+/// Time of the last frame, s.
+pub const SECONDS: i64 = 3 * 3600;
+/// Flasks of a frame.
+pub const FLASKS: usize = 64;
+/// Transforms of a frame, those of other programs among them.
+pub(super) const TRANSFORMS: usize = 256;
+/// Switches in all: each may bring up a scene.
+pub const SWITCHES: usize = 10_000;
+/// Scenes that it carries.
+pub const SCENES: usize = 64;
+/// Of a scene's text, B.
+pub const SCENE: usize = 256 << 10;
+/// Of a name, a parameter or a switch, B.
+pub(super) const TEXT: usize = 4096;
+/// Parameters, and what is said at the end.
+pub(super) const PARAMETERS: usize = 256;
+
+/// Whether there are at most so many.
+pub(super) fn at_most(topic: &str, field: &str, count: usize, most: usize) -> Result<(), Flaw> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Flaw::new(
+        topic,
+        field,
+        format!("has {count}"),
+        format!("at most {most} are read"),
+    ))
+}
+
+/// Whether a switch's texts are short.
+pub(super) fn switch(key: &str, value: &str) -> Result<(), Flaw> {
+    at_most(names::SCENARIO, "length of key", key.len(), TEXT)?;
+    at_most(names::SCENARIO, "length of value", value.len(), TEXT)
+}
+
+/// Whether a track has few enough switches and frames.
+pub(super) fn totals(switches: usize, frames: usize) -> Result<(), Flaw> {
+    at_most(names::SCENARIO, "switches", switches, SWITCHES)?;
+    at_most(names::FRAME, "frames", frames, FRAMES)
+}

@@ -1,0 +1,186 @@
+//! Tracks that come from others: what they may hold, and how much.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use vitriol_xr::track::{Existing, Track, TrackWriter, limits};
+use vitriol_xr::{Pose, Switch};
+
+/// What reading says of a file with `metadata` records before the frames of a good track.
+fn with_records(records: &[(&str, &[(&str, &str)])]) -> Result<Track, String> {
+    let good = super::bytes(&super::track(3));
+    let mut bytes = Vec::new();
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(&mut bytes)).unwrap();
+    let own = (
+        "vitriol",
+        &[("scene", "s"), ("seed", "1"), ("program_version", "v")][..],
+    );
+    for (name, map) in [own].iter().chain(records) {
+        let pairs = map.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()));
+        let metadata = mcap::records::Metadata {
+            name: (*name).into(),
+            metadata: pairs.collect(),
+        };
+        writer.write_metadata(&metadata).unwrap();
+    }
+    for message in mcap::MessageStream::new(&good).unwrap() {
+        writer.write(&message.unwrap()).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    Track::parse(&bytes, Path::new("bad.mcap")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_carried_scene_is_the_recorded_one() {
+    let text = "name = \"mine\"\n";
+    let hash = format!("{:032x}", xxhash_rust::xxh3::xxh3_128(text.as_bytes()));
+    let scene = |hash| {
+        (
+            "vitriol.scene",
+            [("name", "mine.toml"), ("toml", text), ("xxh3_128", hash)],
+        )
+    };
+    let read = |record: (&'static str, [(&str, &str); 3])| with_records(&[(record.0, &record.1)]);
+    let track = read(scene(&hash)).unwrap();
+    assert_eq!(track.metadata.scenes["mine.toml"], text);
+    let other = read(scene("0123")).unwrap_err();
+    assert!(other.contains("not that of its text"), "{other}");
+    let less = with_records(&[("vitriol.scene", &[("name", "x"), ("toml", text)])]).unwrap_err();
+    assert!(less.contains("xxh3_128 is missing"), "{less}");
+
+    let long = "#".repeat(limits::SCENE + 1);
+    let long = with_records(&[(
+        "vitriol.scene",
+        &[("name", "x"), ("toml", &long), ("xxh3_128", "0")],
+    )]);
+    assert!(long.unwrap_err().contains("at most"));
+    let names: Vec<_> = (0..=limits::SCENES).map(|n| n.to_string()).collect();
+    let scenes: Vec<_> = names
+        .iter()
+        .map(|name| [("name", name.as_str()), ("toml", text), ("xxh3_128", &hash)])
+        .collect();
+    let many: Vec<(&str, &[(&str, &str)])> = scenes
+        .iter()
+        .map(|map| ("vitriol.scene", &map[..]))
+        .collect();
+    let many = with_records(&many).unwrap_err();
+    assert!(many.contains("more than 64"), "{many}");
+}
+
+#[test]
+fn texts_and_parameters_have_an_end() {
+    let long = "x".repeat(5000);
+    let outcome = with_records(&[("vitriol.outcome", &[("state_hash", &long)])]).unwrap_err();
+    assert!(outcome.contains("longest text is 5000"), "{outcome}");
+    let names: Vec<_> = (0..300).map(|n| n.to_string()).collect();
+    let many: Vec<_> = names.iter().map(|name| (name.as_str(), "")).collect();
+    let many = with_records(&[("vitriol.outcome", &many)]).unwrap_err();
+    assert!(many.contains("number of entries is 300"), "{many}");
+}
+
+/// The writer holds to the limits that the reader has, so that what was recorded can be read.
+#[test]
+fn what_is_recorded_is_within_the_limits() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("x.mcap");
+    let mut writer = TrackWriter::create(&file, &super::metadata(), Existing::Refuse).unwrap();
+    let flasks = |count| vec![Pose::IDENTITY; count];
+    writer
+        .write(&super::frame(0), &flasks(limits::FLASKS))
+        .unwrap();
+    let mut refused = |step: u64, says: &str, change: &dyn Fn(&mut vitriol_xr::PoseFrame)| {
+        let mut frame = super::frame(step);
+        change(&mut frame);
+        let count = if says.contains("flask") {
+            limits::FLASKS + 1
+        } else {
+            0
+        };
+        let message = writer
+            .write(&frame, &flasks(count))
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains(says), "{says}: {message}");
+    };
+    let switch = || Switch {
+        key: "k".into(),
+        value: "v".into(),
+    };
+    refused(1, "flask_ has 65", &|_| {});
+    refused(1, "switches has 10001", &|frame| {
+        frame.scenario = vec![switch(); limits::SWITCHES + 1];
+    });
+    refused(1, "length of value has 5000", &|frame| {
+        frame.scenario = vec![Switch {
+            value: "v".repeat(5000),
+            ..switch()
+        }];
+    });
+    refused(1, "length of profile has 5000", &|frame| {
+        frame.hands[0].profile = "p".repeat(5000).into();
+    });
+    refused(1, "ends after 10800 s", &|frame| {
+        frame.time_ns = (limits::SECONDS + 1) * 1_000_000_000
+    });
+    writer.write(&super::frame(1), &[]).unwrap();
+    writer.finish().unwrap();
+    let track = Track::open(&file).unwrap();
+    assert_eq!(track.stage_from_flasks[0].len(), limits::FLASKS);
+}
+
+/// What unpacks to more than any track is not unpacked to its end.
+#[test]
+fn a_file_that_unpacks_without_end_is_left() {
+    let mut bytes = Vec::new();
+    let options = mcap::WriteOptions::new().compression(Some(mcap::Compression::Lz4));
+    let mut writer = options.create(std::io::Cursor::new(&mut bytes)).unwrap();
+    let schema = writer.add_schema("foxglove.Log", "protobuf", b"").unwrap();
+    let channel_id = writer
+        .add_channel(schema, "/remark", "protobuf", &BTreeMap::new())
+        .unwrap();
+    let zeros = vec![0; 32 << 20];
+    for sequence in 0..80 {
+        let header = mcap::records::MessageHeader {
+            channel_id,
+            sequence,
+            log_time: 0,
+            publish_time: 0,
+        };
+        writer.write_to_known_channel(&header, &zeros).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    assert!(bytes.len() < 16 << 20);
+    let message = Track::parse(&bytes, Path::new("bomb.mcap")).unwrap_err();
+    assert!(message.to_string().contains("unpacks to more"), "{message}");
+}
+
+#[test]
+fn a_file_that_is_too_long_is_not_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("long.mcap");
+    std::fs::File::create(&file)
+        .unwrap()
+        .set_len(limits::FILE + 1)
+        .unwrap();
+    let message = Track::open(&file).unwrap_err().to_string();
+    assert!(message.contains("longer than"), "{message}");
+}
+
+#[test]
+fn missing_steps_are_found() {
+    let mut track = super::track(10);
+    assert_eq!(track.holes().count(), 0);
+    for at in [7, 4, 3] {
+        track.frames.remove(at);
+        track.stage_from_flasks.remove(at);
+    }
+    let read = Track::parse(&super::bytes(&track), Path::new("x.mcap")).unwrap();
+    let holes: Vec<_> = read.holes().map(|hole| (hole.index, hole.steps)).collect();
+    assert_eq!(holes, [(2, 2), (4, 1)]);
+    let whole = read.up_to_the_first_hole();
+    assert_eq!(whole.frames, super::track(3).frames);
+    assert_eq!(whole.stage_from_flasks.len(), 3);
+    assert!(whole.outcome.is_empty());
+}
