@@ -248,10 +248,10 @@ mod tests {
 
     #[test]
     fn the_front_is_scaled_to_what_a_scene_has() {
-        let real = Scene::load("two-flasks").unwrap();
+        let real = Scene::builtin("two-flasks").unwrap();
         assert_eq!(points(balanced(&real)), FRONT);
         // The paper's 3 × 2.
-        let paper = Scene::load("single-dilution").unwrap();
+        let paper = Scene::builtin("single-dilution").unwrap();
         let points = points(balanced(&paper));
         assert_eq!(points[0], [5, 4]);
         // Of ten substeps three are left, of four iterations three; of eight two.
@@ -263,7 +263,7 @@ mod tests {
     /// Down the front from wherever a session begins, ever cheaper, and nothing that falls over.
     #[test]
     fn a_ladder_goes_down_to_what_stands_up() {
-        let real = Scene::load("two-flasks").unwrap();
+        let real = Scene::builtin("two-flasks").unwrap();
         assert_eq!(ladder(&real, [10, 3]), [[10, 3], [10, 2], [8, 2]]);
         let fine = real.with_effort([16, 6]);
         assert_eq!(ladder(&fine, [10, 3]), FRONT);
@@ -276,7 +276,7 @@ mod tests {
         assert!(small.with_effort([8, 2]).problem_of_substep().is_some());
         assert_eq!(rungs.last(), Some(&[10, 2]));
         // Where substeps are the boiling's power, they stay.
-        let mut soup = Scene::load("tomato-soup").unwrap();
+        let mut soup = Scene::builtin("tomato-soup").unwrap();
         soup.paper.as_mut().unwrap().literal_boiling = Some(true);
         let soup = soup.with_effort([3, 5]);
         let rungs = ladder(&soup, [3, 2]);
@@ -306,7 +306,7 @@ mod tests {
 
     #[test]
     fn a_budget_is_held_by_the_most_accurate_that_holds_it() {
-        let scene = Scene::load("two-flasks").unwrap();
+        let scene = Scene::builtin("two-flasks").unwrap();
         let none = Cache(None);
         for budget in [20.0, 9.7, 5.0, 4.9, 4.1, 3.3, 1.7] {
             let best = FRONT
@@ -328,7 +328,7 @@ mod tests {
     fn what_was_measured_is_kept() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache(Some(folder.path().join("vitriol").join("budget.json")));
-        let scene = Scene::load("two-flasks").unwrap();
+        let scene = Scene::builtin("two-flasks").unwrap();
         assert_eq!(found(&cache, &scene, 20.0).1, 1);
         assert_eq!(found(&cache, &scene, 20.0).1, 0);
         // From 9.6 ms down to 4 ms, of which the first is known.

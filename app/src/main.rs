@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use tracing::level_filters::LevelFilter;
 use vitriol::cli::Cli;
+use vitriol_experiment::escaped;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -23,7 +24,7 @@ fn main() -> ExitCode {
         Err(failure) => {
             // Not through the log: whoever silences that still has to learn why
             // it failed.
-            eprintln!("vitriol: {failure}");
+            eprintln!("vitriol: {}", escaped(&failure.to_string()));
             ExitCode::from(failure.exit_code())
         }
     }

@@ -450,7 +450,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         here,
         &["replay", ".", "--out", "new"],
         2,
-        &[".: cannot read"],
+        &[".: is a folder"],
     );
     assert!(!here.join("new").exists());
     // As the message says.

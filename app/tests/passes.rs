@@ -17,7 +17,7 @@ const SIZE: (u32, u32) = (320, 180);
 
 /// A beaker on a bench with few particles.
 fn scene() -> Scene {
-    let mut scene = Scene::load("beaker").unwrap();
+    let mut scene = Scene::builtin("beaker").unwrap();
     scene.scale.spacing *= 2.0;
     scene.solver.substeps = 4;
     scene

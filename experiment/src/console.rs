@@ -27,7 +27,7 @@ pub fn emit<T: Serialize>(
     text: impl FnOnce(&T) -> String,
 ) -> Result<(), Failure> {
     let mut out = match format {
-        Format::Text => text(object),
+        Format::Text => escaped(&text(object)),
         Format::Json => serde_json::to_string_pretty(object).other()?,
     };
     if !out.ends_with('\n') {
@@ -40,5 +40,36 @@ pub fn emit<T: Serialize>(
     {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error).other(),
         _ => Ok(()),
+    }
+}
+
+/// Text that a terminal only shows: what may come from a file's metadata could else move the cursor, rename the
+/// window or turn the direction of writing. Line breaks and tabs stay.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        // Marks and overrides of direction.
+        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        if (c.is_control() && !matches!(c, '\n' | '\t')) || turns {
+            out.extend(c.escape_unicode());
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_shown() {
+        assert_eq!(escaped("a\tµ\n"), "a\tµ\n");
+        assert_eq!(
+            escaped("\u{1b}[2J\r\u{9b}\u{7f}"),
+            r"\u{1b}[2J\u{d}\u{9b}\u{7f}"
+        );
+        assert_eq!(escaped("x\u{202e}y"), r"x\u{202e}y");
     }
 }

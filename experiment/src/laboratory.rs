@@ -17,6 +17,7 @@ use crate::device;
 use crate::experiment::{Counters, Experiment, Outcome, Taken};
 use crate::failure::{Blame, Failure};
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
+use crate::scenes::Scenes;
 use crate::stage::hands;
 use crate::switches::{self, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
 
@@ -25,8 +26,10 @@ use crate::switches::{self, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
 pub struct Setup<'a> {
     /// The scene, its preset applied.
     pub scene: &'a Scene,
-    /// Name or file that it was loaded from, for messages.
+    /// Its name, for messages.
     pub scene_name: &'a str,
+    /// Where scenes that the track switches to are looked up.
+    pub scenes: &'a Scenes,
     /// That preset, for scenes that the track switches to.
     pub preset: Preset,
     /// Seed of the initial jitter.
@@ -88,6 +91,7 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
         film,
         shot,
         preset: setup.preset,
+        scenes: setup.scenes.clone(),
         switched: None,
         follows_head: setup.head.is_some(),
         seed: setup.seed,
@@ -126,6 +130,7 @@ struct Laboratory {
     /// What the film's pictures are like, whatever the scene.
     shot: Option<Shot>,
     preset: Preset,
+    scenes: Scenes,
     /// The scene that a switch brought up.
     switched: Option<String>,
     follows_head: bool,
@@ -203,7 +208,7 @@ impl Laboratory {
     }
 
     fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
-        let scene = Scene::load(name).input()?.with_preset(self.preset);
+        let scene = self.scenes.get(name)?.with_preset(self.preset);
         let gpu = self.world.gpu().clone();
         self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
         self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;

@@ -1,8 +1,18 @@
 //! Pose tracks by name or file, and whose fault it is where one cannot be read.
 
+use vitriol_xr::files::FileError;
 use vitriol_xr::track::{self, Track, TrackError};
 
 use crate::failure::Failure;
+
+/// Names under which a recording says with what it was made, and how it ended.
+pub const PRESET: &str = "preset";
+/// The device's name.
+pub const DEVICE: &str = "device";
+/// Its driver and version.
+pub const DRIVER: &str = "driver";
+/// Hash of the final state, hexadecimal.
+pub const STATE_HASH: &str = "state_hash";
 
 /// Reads a track by name or file.
 ///
@@ -15,8 +25,10 @@ pub fn load(name: &str) -> Result<Track, Failure> {
 /// Whose fault a track's error is.
 pub fn blame(error: TrackError) -> Failure {
     match &error {
-        // A folder, or a file that this user may not read, was named.
-        TrackError::Io { action, .. } if *action != "read" => Failure::Other(error.into()),
+        // Such as a file that this user may not read.
+        TrackError::Io { .. } | TrackError::File(FileError::Io { .. }) => {
+            Failure::Other(error.into())
+        }
         _ => Failure::Input(error.into()),
     }
 }

@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_scenes_numbers_arrive() {
-        let mut scene = Scene::load("water-into-acid").unwrap();
+        let mut scene = Scene::builtin("water-into-acid").unwrap();
         let solver = &mut scene.solver;
         (solver.vorticity, solver.cohesion) = (Some(0.1), Some(0.2));
         (solver.adhesion, solver.viscosity) = (Some(0.3), 0.4);

@@ -86,6 +86,9 @@ pub struct ReplayArgs {
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,
+    /// Replay what is whole of a track that breaks off or lacks steps
+    #[arg(long)]
+    pub accept_truncated: bool,
 }
 
 /// Arguments of `vitriol picture`.

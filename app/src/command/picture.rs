@@ -6,10 +6,10 @@ use std::sync::Arc;
 use serde::Serialize;
 use vitriol_experiment::output::{self, ColorType, OutDir};
 use vitriol_experiment::{
-    Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit, track,
+    Blame, Colour, Experiment, Failure, Format, Observer, Scenes, Setup, Span, emit, track,
 };
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
@@ -51,10 +51,11 @@ pub fn run(
         output::new_dir(dir)?;
     }
     let mut track = track::load(&args.track)?;
-    let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
+    let mut scenes = Scenes::default();
+    let name = scene_of(&mut scenes, &args.track, args.scene.as_deref(), &track)?;
     own_solver((false, args.preset), &name, &mut track);
-    let scene = Scene::load(&name)
-        .input()?
+    let scene = scenes
+        .get(&name)?
         .with_preset(preset_of(args.preset, &track));
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
@@ -67,6 +68,7 @@ pub fn run(
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
+        scenes: &scenes,
         preset: preset_of(args.preset, &track),
         seed: track.metadata.seed,
         device: args.device.as_deref(),

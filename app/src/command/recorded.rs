@@ -1,45 +1,107 @@
 //! What a recording says of how it is to be replayed, and what is asked for instead.
 
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
+use vitriol_experiment::track::{DEVICE, DRIVER, PRESET};
 use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
-use vitriol_xr::track::Track;
+use vitriol_xr::track::{Hole, Track, TrackMetadata};
 
 use crate::cli::CameraName;
 
-/// Refuses a track that breaks off: what its film shows would not be what was
-/// recorded, and nothing would say so.
-pub fn whole(name: &str, track: &Track) -> Result<(), Failure> {
-    if !track.recovered {
-        return Ok(());
-    }
+/// The track, if all of it is there, or what of it is whole where that is `accepted`. Else what its film shows would
+/// not be what was recorded, and nothing would say so.
+pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure> {
+    let hole = track.holes().next();
+    let (lacks, save) = match hole {
+        None if !track.recovered => return Ok(track),
+        None => (
+            "the file was cut or its recorder stopped hard".to_owned(),
+            format!(", or save it with `vitriol track {name} -o NEW.mcap`"),
+        ),
+        Some(Hole { steps: 1, .. }) => ("a step is missing there".to_owned(), String::new()),
+        Some(Hole { steps, .. }) => (format!("{steps} steps are missing there"), String::new()),
+    };
+    let track = track.up_to_the_first_hole();
     let end = three_digits(track.duration());
+    if accepted {
+        tracing::warn!(
+            "{}: is replayed up to {end} s, since {lacks}",
+            escaped(name)
+        );
+        return Ok(track);
+    }
     Err(format!(
-        "{name}: breaks off after {end} s, since the file was cut or its recorder stopped hard; \
-         a track has an end: copy it again, or save what is there with `vitriol track {name} -o \
-         NEW.mcap`"
+        "{name}: breaks off after {end} s, since {lacks}; a track has an end: copy it again, or replay what is whole \
+         with --accept-truncated{save}"
     ))
     .input()
 }
 
-/// The scene that was asked for, or else the one that the track names.
-pub fn scene_of(name: &str, scene: Option<&str>, track: &Track) -> Result<String, Failure> {
-    match scene {
-        Some(scene) => Ok(scene.to_owned()),
-        None if track.metadata.scene.is_empty() => Err(format!(
-            "{name}: the track names no scene; give one with --scene (see `vitriol scenes`)"
-        ))
-        .input(),
-        None => Ok(track.metadata.scene.clone()),
+/// Name of the scene that was asked for, or else of the one that the track names; `scenes` has it then.
+pub fn scene_of(
+    scenes: &mut Scenes,
+    name: &str,
+    asked: Option<&str>,
+    track: &Track,
+) -> Result<String, Failure> {
+    let found = match asked {
+        Some(scene) => scenes.open(scene)?,
+        None if track.metadata.scene.is_empty() => {
+            return Err(format!(
+                "{name}: the track names no scene; give one with --scene (see `vitriol scenes`)"
+            ))
+            .input();
+        }
+        None => track.metadata.scene.clone(),
+    };
+    scenes.carry(&track.metadata);
+    Ok(found)
+}
+
+/// In what a replay differs from its recording, each in a sentence: its bits may differ then. Empty where nothing that
+/// is known does. `asked` are options that ask for something else.
+pub fn differences(
+    metadata: &TrackMetadata,
+    (name, scenes): (&str, &Scenes),
+    device: &DeviceStatement,
+    asked: &[&str],
+) -> Vec<String> {
+    let mut differs = Vec::new();
+    let version = env!("CARGO_PKG_VERSION");
+    if metadata.program_version != version {
+        let recorded = &metadata.program_version;
+        differs.push(format!(
+            "recorded by version {recorded}, replayed by {version}"
+        ));
     }
+    for (key, now) in [(DEVICE, &device.name), (DRIVER, &device.driver)] {
+        let recorded = metadata.parameters.get(key);
+        if let Some(recorded) = recorded.filter(|recorded| *recorded != now) {
+            differs.push(format!(
+                "recorded with the {key} {recorded}, replayed with {now}"
+            ));
+        }
+    }
+    if name != metadata.scene {
+        differs.push(format!(
+            "recorded with the scene {}, replayed with {name}",
+            metadata.scene
+        ));
+    } else if metadata.scenes.get(name).map(String::as_str) != scenes.text(name) {
+        differs.push(format!(
+            "the scene {name} has another text than the recorded one"
+        ));
+    }
+    differs.extend(asked.iter().map(|option| format!("replayed with {option}")));
+    differs
 }
 
 /// The preset that was asked for, or else the one that the track was recorded
 /// with, or else the default.
 pub fn preset_of(asked: Option<Preset>, track: &Track) -> Preset {
-    let recorded = track.metadata.parameters.get("preset");
+    let recorded = track.metadata.parameters.get(PRESET);
     let recorded =
         recorded.and_then(|name| Preset::ALL.into_iter().find(|preset| preset.name() == name));
     asked.or(recorded).unwrap_or(Preset::Balanced)
@@ -98,7 +160,7 @@ mod tests {
         let mut recorded = track::load("hands-off").unwrap();
         recorded.metadata.scene = "beaker".into();
         let parameters = &mut recorded.metadata.parameters;
-        parameters.insert("preset".into(), "fast".into());
+        parameters.insert(PRESET.into(), "fast".into());
         recorded.frames[0].scenario =
             vec![switch(SWITCH_SOLVER, "8x4"), switch(SWITCH_START, "beaker")];
         let repeats = |asked, scene| {

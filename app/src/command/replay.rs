@@ -9,16 +9,19 @@ use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, RE
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
 use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
-    Outcome, Sample, Setup, Span, device, emit, track,
+    Outcome, Sample, Scenes, Setup, Span, device, emit, track,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_xr::track::TrackSource;
+use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::budget;
 use crate::cli::{CameraName, ReplayArgs};
-use crate::command::recorded::{changes_scene, head, own_solver, preset_of, scene_of, whole};
-use crate::report::{FilmStatement, Report, SceneStatement, SolverStatement};
+use crate::command::recorded::{
+    changes_scene, differences, head, own_solver, preset_of, scene_of, whole,
+};
+use crate::report::{FilmStatement, RecordingStatement, Report, SceneStatement, SolverStatement};
+use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
 
 /// What `vitriol replay --json` prints: the report without its time series, and
 /// where things are.
@@ -40,9 +43,10 @@ pub fn run(
     format: Format,
     prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
-    let mut track = track::load(&args.track)?;
-    whole(&args.track, &track)?;
-    let name = scene_of(&args.track, args.scene.as_deref(), &track)?;
+    let track = track::load(&args.track)?;
+    let mut track = whole(&args.track, track, args.accept_truncated)?;
+    let mut scenes = Scenes::default();
+    let name = scene_of(&mut scenes, &args.track, args.scene.as_deref(), &track)?;
     let asked = args.solver.is_some() || args.budget_ms.is_some();
     if asked && changes_scene(&track) {
         // The scenes that it changes to have presets of their own.
@@ -59,7 +63,7 @@ pub fn run(
         );
     }
     let preset = preset_of(args.preset, &track);
-    let scene = Scene::load(&name).input()?.with_preset(preset);
+    let scene = scenes.get(&name)?.with_preset(preset);
     let gpu = || device::open(args.device.as_deref());
     let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
     let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
@@ -70,6 +74,7 @@ pub fn run(
     let mut experiment = prepare(&Setup {
         scene: &scene,
         scene_name: &name,
+        scenes: &scenes,
         preset,
         seed,
         device: args.device.as_deref(),
@@ -81,6 +86,7 @@ pub fn run(
         shaders: Arc::new(Library::watching()),
     })?;
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
+    let recorded = (track.metadata.clone(), track.outcome.clone());
     let span = Span::covering(seconds, scene.scale.frame_time);
 
     let [width, height] = FILM_SIZE;
@@ -101,15 +107,14 @@ pub fn run(
         out.adopt(film.clone());
     }
     let outcome = experiment.outcome()?;
+    let name_of_start = name.clone();
     let (name, scene) = match &outcome.scene {
-        Some(switched) => (
-            switched.clone(),
-            Scene::load(switched).input()?.with_preset(preset),
-        ),
+        Some(switched) => (switched.clone(), scenes.get(switched)?.with_preset(preset)),
         None => (name, scene),
     };
     let scene = scene.with_effort(outcome.effort);
-    let report = assemble(
+    let recording = recording(args, (&name_of_start, &scenes), &recorded, &outcome);
+    let mut report = assemble(
         (args, chosen),
         &colours,
         preset,
@@ -118,6 +123,7 @@ pub fn run(
         outcome,
         observations,
     );
+    report.recording = recording;
     // The page first and the numbers last: a folder with `report.json` is a whole run.
     out.write(REPORT_HTML, report.to_html().as_bytes())?;
     out.write(REPORT_JSON, &serde_json::to_vec_pretty(&report).other()?)?;
@@ -130,6 +136,53 @@ pub fn run(
     let folder = out.path.clone();
     out.complete();
     emit(format, &replayed, |done| describe(done, &folder))
+}
+
+/// How the run stands to the recording that it replays; `None` where the track is none.
+fn recording(
+    args: &ReplayArgs,
+    scene: (&str, &Scenes),
+    (metadata, said): &(TrackMetadata, BTreeMap<String, String>),
+    outcome: &Outcome,
+) -> Option<RecordingStatement> {
+    let device = metadata.parameters.get(DEVICE)?;
+    let options = [
+        ("--seconds", args.seconds.is_some()),
+        (
+            "--seed",
+            args.seed.is_some_and(|seed| seed != metadata.seed),
+        ),
+        ("--solver", args.solver.is_some()),
+        ("--budget-ms", args.budget_ms.is_some()),
+        (
+            "--preset",
+            args.preset.is_some_and(|preset| {
+                metadata.parameters.get(PRESET).map(String::as_str) != Some(preset.name())
+            }),
+        ),
+    ];
+    let asked: Vec<_> = options
+        .iter()
+        .filter_map(|&(option, given)| given.then_some(option))
+        .collect();
+    let state_hash = said.get(STATE_HASH).cloned();
+    let same = state_hash
+        .as_ref()
+        .map(|recorded| *recorded == format!("{:016x}", outcome.state_hash));
+    let differs = differences(metadata, scene, &outcome.device, &asked);
+    if same == Some(false) && differs.is_empty() {
+        tracing::warn!(
+            "the final state is not the recorded one, and nothing that is known differs; report it"
+        );
+    }
+    Some(RecordingStatement {
+        program_version: metadata.program_version.clone(),
+        device: device.clone(),
+        driver: metadata.parameters.get(DRIVER).cloned().unwrap_or_default(),
+        state_hash,
+        same_state: same,
+        differs,
+    })
 }
 
 /// What the films' colours stand for; the first is the film, the second, if
@@ -210,6 +263,7 @@ fn assemble(
         scene: SceneStatement::of(name, scene),
         solver: SolverStatement::of(scene),
         counters: outcome.counters,
+        recording: None,
         series: observations.samples,
     }
 }
@@ -242,10 +296,16 @@ fn command_line(args: &ReplayArgs, preset: Preset, seed: u64, solver: Option<[u3
         ("colour", args.colour.map(|it| it.name().to_owned())),
         ("filter", args.filter.map(|it| it.name().to_owned())),
     ];
+    let truncated = if args.accept_truncated {
+        " --accept-truncated"
+    } else {
+        ""
+    };
     let mut line = format!("vitriol replay {}", quoted(&args.track));
     for (name, value) in options {
         line.extend(value.map(|value| format!(" --{name} {value}")));
     }
+    line += truncated;
     if args.no_video {
         line += " --no-video";
     }
@@ -287,8 +347,9 @@ fn describe(done: &Replayed, out: &Path) -> String {
         ),
         format!("at the end: {}", places.join(", ")),
         format!("state {}", report.state_hash),
-        String::new(),
     ];
+    lines.extend(report.recording.iter().map(RecordingStatement::text));
+    lines.push(String::new());
     for film in report.film.iter().chain(&report.film_temperature) {
         lines.push(format!("film    {}", out.join(&film.path).display()));
     }

@@ -92,7 +92,7 @@ const FEATURES: [Feature; 11] = [
 fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
     let gpu = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let scenes = Scene::builtin_names().into_iter().map(|name| {
-        let scene = Scene::load(name).other()?.with_preset(args.preset);
+        let scene = Scene::builtin(name).other()?.with_preset(args.preset);
         let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;
         let [mut models, mut left_out] = [Vec::new(), Vec::new()];
         for feature in FEATURES {
@@ -154,7 +154,7 @@ fn describe_cost(cost: &SceneCost) -> String {
 }
 
 fn look_into(name: &str) -> Result<SceneInfo, Failure> {
-    let scene = Scene::load(name).other()?;
+    let scene = Scene::builtin(name).other()?;
     let presets = Preset::ALL.map(|preset| {
         let scene = scene.with_preset(preset);
         PresetInfo {

@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::Serialize;
 use vitriol_experiment::units::three_digits;
 use vitriol_experiment::{Failure, Format, emit, track};
+use vitriol_sim::scene::Scene;
 use vitriol_xr::track::{self as tracks, Existing, builtin};
 
 use crate::cli::TrackArgs;
@@ -22,8 +23,14 @@ struct TrackInfo {
     switches: usize,
     /// The file had no end, as after a crash, and was read as far as it goes.
     recovered: bool,
+    /// Steps that are missing.
+    missing_steps: u64,
     program_version: String,
     parameters: BTreeMap<String, String>,
+    /// Names of the scenes that it carries.
+    scenes: Vec<String>,
+    /// What its recorder said at the end.
+    outcome: BTreeMap<String, String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -53,7 +60,16 @@ pub fn run(args: &TrackArgs, format: Format) -> Result<(), Failure> {
 }
 
 fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
-    let written = tracks::convert(input, output, Existing::Refuse).map_err(track::blame)?;
+    let mut track = track::load(input)?;
+    // It stands alone then.
+    let name = &track.metadata.scene;
+    if let Some(text) = Scene::builtin_text(name) {
+        let scenes = &mut track.metadata.scenes;
+        scenes
+            .entry(name.clone())
+            .or_insert_with(|| text.to_owned());
+    }
+    let written = tracks::save(&track, output, Existing::Refuse).map_err(track::blame)?;
     let conversion = Conversion {
         input: input.to_owned(),
         output: output.display().to_string(),
@@ -78,6 +94,9 @@ fn look_into(name: &str) -> Result<TrackInfo, Failure> {
         frames: track.frames.len(),
         switches: track.frames.iter().map(|frame| frame.scenario.len()).sum(),
         recovered: track.recovered,
+        missing_steps: track.holes().map(|hole| hole.steps).sum(),
+        scenes: track.metadata.scenes.into_keys().collect(),
+        outcome: track.outcome,
         scene: track.metadata.scene,
         seed: track.metadata.seed,
         program_version: track.metadata.program_version,
@@ -91,12 +110,18 @@ fn line(info: &TrackInfo) -> String {
         info.track,
         three_digits(info.duration_s),
         info.frames,
-        info.scene
+        line_of(&info.scene)
     )
+}
+
+/// A text of the track without its line breaks, which could else pass for lines of this program.
+fn line_of(text: &str) -> String {
+    text.replace('\n', "\\n")
 }
 
 fn describe(info: &TrackInfo) -> String {
     let mut text = line(info);
+    let version = line_of(&info.program_version);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
@@ -106,11 +131,18 @@ fn describe(info: &TrackInfo) -> String {
         if info.program_version.is_empty() {
             "unknown"
         } else {
-            &info.program_version
+            &version
         }
     );
-    for (name, value) in &info.parameters {
-        let _ = writeln!(text, "  {name} = {value}");
+    for (name, value) in info.parameters.iter().chain(&info.outcome) {
+        let _ = writeln!(text, "  {} = {}", line_of(name), line_of(value));
+    }
+    if !info.scenes.is_empty() {
+        let scenes: Vec<_> = info.scenes.iter().map(|name| line_of(name)).collect();
+        let _ = writeln!(text, "carries the scenes {}", scenes.join(", "));
+    }
+    if info.missing_steps > 0 {
+        let _ = writeln!(text, "{} steps are missing.", info.missing_steps);
     }
     if info.recovered {
         text.push_str("The recording broke off; it was read as far as it goes.\n");
@@ -122,7 +154,6 @@ fn describe(info: &TrackInfo) -> String {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_sim::scene::Scene;
 
     #[test]
     fn each_built_in_track_names_a_built_in_scene() {

@@ -6,9 +6,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::Serialize;
 use vitriol_experiment::units::{grouped, three_digits};
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit, track};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, Scenes, device, emit, track};
 use vitriol_gpu::{Gpu, Timestamps};
-use vitriol_sim::scene::Scene;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
@@ -81,9 +80,11 @@ struct SessionReport {
 /// [`Failure::NoDevice`] without runtime or device; [`Failure::Input`] for a scene or track that is
 /// not there or a recording that is; [`Failure::Other`].
 pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
+    let mut scenes = Scenes::default();
     let options = Options {
         plan: Plan {
-            scene: args.scene.clone(),
+            scene: scenes.open(&args.scene)?,
+            scenes,
             preset: args.preset,
             seed: args.seed,
             solver: None,
@@ -154,7 +155,7 @@ fn begin(headset: &dyn Headset, options: Options, mirrored: bool) -> Result<Sess
 fn with_solver(args: &VrArgs, mut options: Options, gpu: &Gpu) -> Result<Options, Failure> {
     if args.solver.is_some() || args.budget_ms.is_some() {
         let plan = &mut options.plan;
-        let scene = Scene::load(&plan.scene).input()?.with_preset(plan.preset);
+        let scene = plan.scenes.get(&plan.scene)?.with_preset(plan.preset);
         let gpu = || Ok(gpu.clone());
         plan.solver = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
     }

@@ -254,6 +254,7 @@ impl Report {
             footer {
                 p { "Made by " (self.program) " with" }
                 pre { code { (self.command) } }
+                @if let Some(recording) = &self.recording { p { (recording.text()) } }
                 p { "Hash of the final state " code { (self.state_hash) } ". All numbers: "
                     a href=(REPORT_JSON) { (REPORT_JSON) } "." }
             }

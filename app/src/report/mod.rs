@@ -5,4 +5,4 @@ mod html;
 mod model;
 mod plot;
 
-pub use model::{FilmStatement, Report, SceneStatement, SolverStatement};
+pub use model::{FilmStatement, RecordingStatement, Report, SceneStatement, SolverStatement};

@@ -6,6 +6,42 @@ use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample};
 use vitriol_sim::scene::Scene;
 
+/// How a run stands to the recording that it replays.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordingStatement {
+    /// Version of the program that recorded.
+    pub program_version: String,
+    /// The device that it ran on.
+    pub device: String,
+    /// Its driver and version.
+    pub driver: String,
+    /// Hash of its final state, hexadecimal; `None` where its recorder stopped hard.
+    pub state_hash: Option<String>,
+    /// Whether the run ended in that state, to the bit.
+    pub same_state: Option<bool>,
+    /// In what the run is known to differ; its bits may differ then.
+    pub differs: Vec<String>,
+}
+
+impl RecordingStatement {
+    /// In a sentence or two.
+    pub fn text(&self) -> String {
+        let state = match self.same_state {
+            Some(true) => "the final state is the recorded one, to the bit",
+            Some(false) => "the final state is not the recorded one",
+            None => "the final state was not recorded",
+        };
+        let mut text = format!(
+            "recorded by version {} on {}: {state}",
+            self.program_version, self.device
+        );
+        if !self.differs.is_empty() {
+            text += &format!("\nbits may differ: {}", self.differs.join("; "));
+        }
+        text
+    }
+}
+
 /// The report of one run. SI units throughout.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -58,6 +94,9 @@ pub struct Report {
     pub scene: SceneStatement,
     /// The solver's settings.
     pub solver: SolverStatement,
+    /// How it stands to the recording, where the track is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recording: Option<RecordingStatement>,
     /// What was counted.
     pub counters: Counters,
     /// The run over time. Empty in what `vitriol replay --json` prints, whole

@@ -13,6 +13,8 @@ pub struct Info {
     pub slow: Option<u32>,
     /// Seconds that are recorded; `None` without a recording.
     pub recording: Option<u64>,
+    /// Whether the recording waits for a disk that refuses it.
+    pub waits_for_disk: bool,
     /// Steps that could not be recorded.
     pub unwritten: u64,
     /// Display periods without a frame.

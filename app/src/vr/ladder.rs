@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn rungs_fall_and_end_where_they_end() {
-        let mut scene = Scene::load("two-flasks").unwrap();
+        let mut scene = Scene::builtin("two-flasks").unwrap();
         for filter in [PictureFilter::NarrowRange, PictureFilter::CurvatureFlow] {
             scene.picture.filter = filter;
             let ladder = Ladder::of(&scene, [10, 3]);

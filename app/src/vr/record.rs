@@ -1,5 +1,6 @@
 //! Writes a session's steps to a pose track, on a thread of its own so that no frame waits for a disk.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,45 +19,60 @@ type Entry = (PoseFrame, Option<Vec<Pose>>);
 
 /// Where steps are written to.
 pub trait Sink: Send {
-    /// Writes a step.
+    /// Takes a step.
     ///
     /// # Errors
-    /// As for [`TrackWriter::write`].
+    /// As for [`TrackWriter::write`]: after [`TrackError::Io`] it waits for the disk, else it was not taken.
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError>;
 
-    /// Ends the file.
+    /// Frames that are in the file.
+    fn written(&self) -> u64;
+
+    /// Ends the file, which says this of the end.
     ///
     /// # Errors
     /// As for [`TrackWriter::finish`].
-    fn finish(self: Box<Self>) -> Result<(), TrackError>;
+    fn finish(&mut self, outcome: &Said) -> Result<(), TrackError>;
 }
+
+/// What is said of a recording's end, by name.
+pub type Said = BTreeMap<String, String>;
 
 impl Sink for TrackWriter {
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError> {
         Self::write(self, frame, flasks)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), TrackError> {
-        (*self).finish().map(|_| ())
+    fn written(&self) -> u64 {
+        Self::written(self)
+    }
+
+    fn finish(&mut self, outcome: &Said) -> Result<(), TrackError> {
+        self.conclude(outcome)?;
+        Self::finish(self).map(drop)
     }
 }
 
 /// How a recording stands, or ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RecordingStatus {
-    /// Steps written.
+    /// Steps that are in the file.
     pub steps: u64,
-    /// Steps that could not be written. A replay differs from the session from the first of them on.
+    /// Steps that wait for the disk.
+    pub waiting: u64,
+    /// Steps that are lost. A replay differs from the session from the first of them on.
     pub unwritten: u64,
-    /// Why the first of them could not.
+    /// Why the first of these is lost, or why some wait for long.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cause: Option<String>,
 }
 
 impl RecordingStatus {
-    fn fail(&mut self, cause: String) {
+    fn lose(&mut self, cause: String) {
+        if self.unwritten == 0 {
+            self.cause = Some(cause);
+        }
         self.unwritten += 1;
-        self.cause.get_or_insert(cause);
     }
 }
 
@@ -65,6 +81,7 @@ pub struct TrackRecording {
     queue: Option<SyncSender<Entry>>,
     thread: Option<JoinHandle<()>>,
     done: Arc<Mutex<RecordingStatus>>,
+    outcome: Arc<Mutex<Said>>,
     /// Switches of steps for which the queue was full. They go with the next step that is queued.
     switches: Vec<Switch>,
     /// The last step, for the frame that marks the end.
@@ -85,11 +102,15 @@ impl TrackRecording {
     pub fn into_sink(sink: Box<dyn Sink>, length: usize) -> Self {
         let (queue, entries) = sync_channel(length);
         let done = Arc::new(Mutex::new(RecordingStatus::default()));
-        let said = Arc::clone(&done);
+        let outcome = Arc::new(Mutex::new(Said::default()));
+        let (said, of_end) = (Arc::clone(&done), Arc::clone(&outcome));
         Self {
             queue: Some(queue),
-            thread: Some(std::thread::spawn(move || write(sink, &entries, &said))),
+            thread: Some(std::thread::spawn(move || {
+                Recorder::new(sink, &said).run(&entries, &of_end);
+            })),
             done,
+            outcome,
             switches: Vec::new(),
             last: None,
         }
@@ -109,7 +130,7 @@ impl TrackRecording {
             queue.try_send((frame, Some(flasks)))
         {
             self.switches = frame.scenario;
-            lock(&self.done).fail("the disk did not keep up".into());
+            lock(&self.done).lose("the disk did not keep up".into());
         }
     }
 
@@ -118,9 +139,11 @@ impl TrackRecording {
         lock(&self.done).clone()
     }
 
-    /// Marks the end and waits for the file. `step` and `time_ns` are those that the next step would have had: a
-    /// track's length is the time of its last frame, so without this one a replay would leave out the last step.
-    pub fn finish(mut self, step: u64, time_ns: i64) -> RecordingStatus {
+    /// Marks the end, of which the file is to say `outcome`, and waits for the file. `step` and `time_ns` are those
+    /// that the next step would have had: a track's length is the time of its last frame, so without this one a
+    /// replay would leave out the last step.
+    pub fn finish(mut self, step: u64, time_ns: i64, outcome: Said) -> RecordingStatus {
+        *self.outcome.lock().unwrap_or_else(PoisonError::into_inner) = outcome;
         if let (Some(last), Some(queue)) = (self.last.take(), &self.queue) {
             let end = PoseFrame {
                 step,
@@ -157,31 +180,99 @@ fn lock(done: &Mutex<RecordingStatus>) -> std::sync::MutexGuard<'_, RecordingSta
     done.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn write(mut sink: Box<dyn Sink>, entries: &Receiver<Entry>, done: &Mutex<RecordingStatus>) {
-    for (frame, flasks) in entries {
-        let is_step = flasks.is_some();
-        match sink.write(&frame, &flasks.unwrap_or_default()) {
-            Ok(()) => lock(done).steps += u64::from(is_step),
+/// The thread's part.
+struct Recorder<'a> {
+    sink: Box<dyn Sink>,
+    done: &'a Mutex<RecordingStatus>,
+    /// Steps that the sink took.
+    taken: u64,
+    /// Frames that are to be in the file before the disk counts as well again; `None` while it is.
+    recovers_at: Option<u64>,
+}
+
+impl<'a> Recorder<'a> {
+    fn new(sink: Box<dyn Sink>, done: &'a Mutex<RecordingStatus>) -> Self {
+        Self {
+            sink,
+            done,
+            taken: 0,
+            recovers_at: None,
+        }
+    }
+
+    fn run(mut self, entries: &Receiver<Entry>, outcome: &Mutex<Said>) {
+        for (frame, flasks) in entries {
+            let is_step = flasks.is_some();
+            let written = self.sink.write(&frame, &flasks.unwrap_or_default());
+            self.taken += u64::from(is_step);
+            match written {
+                Ok(()) => self.recover(),
+                Err(error @ TrackError::Io { .. }) => self.wait(&error),
+                Err(error) => {
+                    self.taken -= u64::from(is_step);
+                    if is_step {
+                        tracing::warn!("a step is not recorded: {}", chain(&error));
+                        lock(self.done).lose(chain(&error));
+                    }
+                }
+            }
+            self.count();
+        }
+        let outcome = outcome
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        let finished = self.sink.finish(&outcome);
+        self.count();
+        let mut done = lock(self.done);
+        done.unwritten += std::mem::take(&mut done.waiting);
+        match finished {
+            Ok(()) if done.unwritten == 0 => done.cause = None,
+            Ok(()) => {}
             Err(error) => {
-                say(done, &error);
-                lock(done).unwritten += u64::from(is_step);
+                tracing::warn!("the recording is not whole: {}", chain(&error));
+                done.cause.get_or_insert_with(|| chain(&error));
             }
         }
     }
-    if let Err(error) = sink.finish() {
-        say(done, &error);
+
+    /// The frame that marks the end is no step.
+    fn count(&mut self) {
+        let mut done = lock(self.done);
+        done.steps = self.sink.written().min(self.taken);
+        done.waiting = self.taken - done.steps;
+    }
+
+    fn wait(&mut self, error: &TrackError) {
+        if self.recovers_at.is_none() {
+            tracing::warn!("the recording waits for the disk: {}", chain(error));
+        }
+        self.recovers_at = Some(self.taken);
+        let mut done = lock(self.done);
+        if done.unwritten == 0 {
+            done.cause = Some(chain(error));
+        }
+    }
+
+    fn recover(&mut self) {
+        if self
+            .recovers_at
+            .is_some_and(|frames| self.sink.written() >= frames)
+        {
+            self.recovers_at = None;
+            tracing::warn!("the disk takes the recording again");
+            let mut done = lock(self.done);
+            if done.unwritten == 0 {
+                done.cause = None;
+            }
+        }
     }
 }
 
-/// Keeps the first cause, and logs it.
-fn say(done: &Mutex<RecordingStatus>, error: &TrackError) {
-    let cause = match std::error::Error::source(error) {
+/// An error with its cause.
+fn chain(error: &TrackError) -> String {
+    match std::error::Error::source(error) {
         Some(source) => format!("{error}: {source}"),
         None => error.to_string(),
-    };
-    let mut done = lock(done);
-    if done.cause.is_none() {
-        tracing::warn!("the recording is not whole: {cause}");
     }
-    done.cause.get_or_insert(cause);
 }

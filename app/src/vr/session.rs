@@ -15,6 +15,7 @@ mod track;
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
+use vitriol_experiment::device::statement;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Timestamps;
 use vitriol_xr::{Headset, Turn};
@@ -127,7 +128,8 @@ impl Session {
         let tally = Tally::new(counts, timed && (counts || pacing.report.on));
         let panel = Panel::new(gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
-        let mut track = SessionTrack::new(options.record.as_deref(), &options.plan)?;
+        let mut track =
+            SessionTrack::new(options.record.as_deref(), &options.plan, &statement(gpu))?;
         pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
         Ok(Self {
             benches,
@@ -224,7 +226,9 @@ impl Session {
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
         self.benches.current.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
-        let (time, recorded) = self.track.finish();
+        let world = &self.benches.current.world;
+        let hash = || Ok(world.snapshot().other()?.solver.hash());
+        let (time, recorded) = self.track.finish(hash)?;
         Ok(SessionOutcome {
             bench: self.benches.current,
             steps: time.steps(),

@@ -1,9 +1,9 @@
 //! The bench that the user works at: a world with its picture.
 
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Failure, Scenes};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{PictureFilter, Preset, Scene};
+use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_sim::world::{World, WorldError};
 
 use super::ladder::Ladder;
@@ -16,8 +16,10 @@ pub const TAKEN_UP: &str = "vitriol::vr::taken_up";
 /// What a bench is made of.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Name or file of the scene.
+    /// Name of the scene.
     pub scene: String,
+    /// Where it is looked up, and those that are chosen later.
+    pub scenes: Scenes,
     /// Trade of speed for accuracy.
     pub preset: Preset,
     /// Substeps and iterations in place of the preset's.
@@ -49,7 +51,7 @@ impl Workbench {
     /// [`Failure::Input`] for a scene that is not there or whose liquid does not fit; what the
     /// device says.
     pub fn new(gpu: &Gpu, library: &Library, plan: &Plan, eyes: &Eyes) -> Result<Self, Failure> {
-        let loaded = Scene::load(&plan.scene).input()?;
+        let loaded = plan.scenes.get(&plan.scene)?;
         let mut scene = loaded.with_preset(plan.preset);
         let of_preset = [scene.solver.substeps, scene.solver.iterations];
         scene = scene.with_effort(plan.solver.unwrap_or(of_preset));

@@ -154,7 +154,7 @@ pub struct Replayed {
 pub fn replay(track: &Track) -> Replayed {
     let gpu = Gpu::open(&mut PlainLoader::default(), &Options::default()).unwrap();
     let library = Arc::new(Library::embedded());
-    let scene = Scene::load(&track.metadata.scene)
+    let scene = Scene::builtin(&track.metadata.scene)
         .unwrap()
         .with_preset(Preset::Balanced);
     let mut world = World::new(&gpu, &library, &scene, track.metadata.seed).unwrap();

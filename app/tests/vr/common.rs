@@ -13,6 +13,7 @@ use vitriol::vr::placement::Posture;
 use vitriol::vr::session::{Options, Session, SessionOutcome};
 use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
 use vitriol::vr::workbench::Plan;
+use vitriol_experiment::Scenes;
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::wait::PATIENCE;
@@ -183,9 +184,11 @@ pub fn nobody() -> Receiver<Decision> {
 
 /// What a session is to be, recorded in `folder`.
 pub fn options(folder: &Path) -> Options {
+    let mut scenes = Scenes::default();
     Options {
         plan: Plan {
-            scene: scene(folder).to_str().unwrap().into(),
+            scene: scenes.open(scene(folder).to_str().unwrap()).unwrap(),
+            scenes,
             preset: Preset::Balanced,
             seed: 3,
             solver: None,
@@ -224,6 +227,13 @@ pub fn session_with(
     let track = Track::open(&file).unwrap();
     assert!(!track.recovered);
     (outcome, track)
+}
+
+/// The scenes that a recording carries.
+pub fn carried(track: &Track) -> Scenes {
+    let mut scenes = Scenes::default();
+    scenes.carry(&track.metadata);
+    scenes
 }
 
 /// Hash of the state that a session ended with.

@@ -1,12 +1,12 @@
 //! A runtime that goes away in mid-pour and comes back with another device.
 
-use crate::common::{Trouble, Worn, hash, nobody, pour, session};
+use crate::common::{Trouble, Worn, carried, hash, nobody, pour, session};
 use std::sync::Arc;
 use vitriol::vr::stand_in::StandIn;
 use vitriol_experiment::{Observer, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Track, TrackSource};
 use vitriol_xr::{HeadsetFrame, Turn};
@@ -14,12 +14,14 @@ use vitriol_xr::{HeadsetFrame, Turn};
 /// What `vitriol replay` makes of a track: the hash of its end.
 pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
     let name = track.metadata.scene.clone();
-    let scene = Scene::load(&name).unwrap();
+    let scenes = carried(&track);
+    let scene = scenes.get(&name).unwrap();
     let mut experiment = on_device(
         gpu,
         &Setup {
             scene: &scene,
             scene_name: &name,
+            scenes: &scenes,
             preset: Preset::Balanced,
             seed: track.metadata.seed,
             device: None,

@@ -30,6 +30,7 @@ fn info() -> Info {
         acid: true,
         slow: Some(60),
         recording: Some(75),
+        waits_for_disk: true,
         unwritten: 3,
         missed: 12,
         effort: Some(Effort {

@@ -1,12 +1,12 @@
 //! From a driven track through a session to its recording and that recording's replay.
 
-use crate::common::{Calm, Worn, apart, hash, nobody, pour, session};
+use crate::common::{Calm, Worn, apart, carried, hash, nobody, pour, session};
 use vitriol::vr::clock::MOST_STEPS;
 use vitriol::vr::stand_in::EPOCH;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::Preset;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
 use vitriol_xr::Side;
@@ -15,7 +15,7 @@ use vitriol_xr::track::Track;
 /// Steps a world through a track by hand, as who reads the docs would, and asks that its flasks are
 /// where the recording says, bit for bit; the hash of the end.
 fn replayed(gpu: &vitriol_gpu::Gpu, track: &Track) -> u64 {
-    let scene = Scene::load(&track.metadata.scene).unwrap();
+    let scene = carried(track).get(&track.metadata.scene).unwrap();
     let scene = scene.with_preset(Preset::Balanced);
     let library = Library::embedded();
     let mut world = World::new(gpu, &library, &scene, track.metadata.seed).unwrap();

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use vitriol::vr::record::{Sink, TrackRecording};
+use vitriol::vr::record::{Said, Sink, TrackRecording};
 use vitriol_tests::wait::own_time;
 use vitriol_xr::track::TrackError;
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
@@ -35,7 +35,11 @@ impl Sink for Disk {
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), TrackError> {
+    fn written(&self) -> u64 {
+        self.written.lock().unwrap().len() as u64
+    }
+
+    fn finish(&mut self, _: &Said) -> Result<(), TrackError> {
         Ok(())
     }
 }
@@ -98,7 +102,7 @@ fn a_full_queue_delays_nobody_and_is_counted() {
     assert_eq!((state.steps, state.unwritten), (0, 15));
     assert!(state.cause.unwrap().contains("did not keep up"));
     drop(hold.allow);
-    let state = recording.finish(20, 20);
+    let state = recording.finish(20, 20, Said::new());
     assert_eq!((state.steps, state.unwritten), (5, 15));
     let written = hold.written.lock().unwrap();
     let steps: Vec<u64> = written.iter().map(|frame| frame.step).collect();
@@ -115,7 +119,7 @@ fn a_full_disk_is_counted_and_said() {
     for step in 0..10 {
         recording.push(&frame(step, None), Vec::new());
     }
-    let state = recording.finish(10, 10);
+    let state = recording.finish(10, 10, Said::new());
     // Ten steps; the end, which was not written either, is none.
     assert_eq!((state.steps, state.unwritten), (3, 7));
     let cause = state.cause.unwrap();

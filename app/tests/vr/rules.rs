@@ -152,7 +152,7 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
     // on a face of the room or of the table, but for liquid and hands, which are small.
     let (panel, _) = shown.panel.unwrap();
     let stage_from_scene = panel.compose(&scene_from_panel().inverse());
-    let table = Scene::load("two-flasks").unwrap().table.unwrap();
+    let table = Scene::builtin("two-flasks").unwrap().table.unwrap();
     let room = SceneDesc::laboratory(Vec::new(), table.top as f32, 1.0);
     let room = room.room.unwrap();
     let [across, deep] = table.size.map(|side| 0.5 * side as f32);

@@ -14,7 +14,7 @@ pub const SIZE: (u32, u32) = (320, 180);
 
 /// A beaker on a bench with few particles: base at (0, 0.75, −0.40).
 pub fn scene() -> Scene {
-    let mut scene = Scene::load("beaker").unwrap();
+    let mut scene = Scene::builtin("beaker").unwrap();
     scene.scale.spacing *= 2.0;
     scene.solver.substeps = 4;
     scene
@@ -24,6 +24,7 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
     let setup = Setup {
         scene: &scene(),
         scene_name: "beaker",
+        scenes: &vitriol_experiment::Scenes::default(),
         preset: Preset::Balanced,
         seed: 1,
         device: None,

@@ -7,13 +7,16 @@ use crate::flask::{Profile, VolumeMap};
 use crate::pose::Pose;
 use glam::DVec3;
 
-/// Most particles that a flask may hold when it is full: what a device's
+/// Most particles that all flasks of a scene may hold when they are full: what a device's
 /// buffers hold, and the lattice is walked in seconds.
 const MOST_SITES: usize = 50_000_000;
 
 /// Most nodes of a flask's table of distances and boundary volumes, 16 bytes each: eight
 /// times what a cube of [`MOST_SITES`] takes.
 const MOST_NODES: f64 = 5e6;
+
+/// Most nodes of all flasks' tables.
+const MOST_NODES_IN_ALL: f64 = 4.0 * MOST_NODES;
 
 /// A vessel of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,16 +60,36 @@ pub struct StartParticle {
 }
 
 impl Flask {
-    /// Whether buffers hold a full flask and its table at the scale's spacing.
-    pub(super) fn check_size(&self, scale: &Scale) -> Result<(), Problem> {
-        let (name, spacing) = (&self.name, scale.spacing);
-        if fill::count_for_volume(self.profile.capacity(), spacing) > MOST_SITES {
+    /// Whether buffers hold full `flasks` and their tables at the scale's spacing.
+    pub(super) fn check_sizes(flasks: &[Self], scale: &Scale) -> Result<(), Problem> {
+        let spacing = scale.spacing;
+        let (mut sites, mut nodes) = (0_usize, 0.0);
+        for flask in flasks {
+            let full = fill::count_for_volume(flask.profile.capacity(), spacing);
+            sites = sites.saturating_add(full);
+            if sites > MOST_SITES {
+                let problem = format!(
+                    "{spacing} m puts more than {MOST_SITES} particles into full flasks (up to \
+                     {:?}); take a larger spacing",
+                    flask.name
+                );
+                return Err(Problem::new("scale.spacing", problem));
+            }
+            nodes += flask.checked_nodes(scale)?;
+        }
+        if nodes > MOST_NODES_IN_ALL {
             let problem = format!(
-                "{spacing} m puts more than {MOST_SITES} particles into a full flask ({name:?}); \
-                 take a larger spacing"
+                "{spacing} m is too small: the tables of all flasks' walls would have more than \
+                 {MOST_NODES_IN_ALL} nodes; take fewer flasks or a larger spacing"
             );
             return Err(Problem::new("scale.spacing", problem));
         }
+        Ok(())
+    }
+
+    /// Nodes of the flask's table, which are not too many.
+    fn checked_nodes(&self, scale: &Scale) -> Result<f64, Problem> {
+        let (name, spacing) = (&self.name, scale.spacing);
         let [columns, rows] = VolumeMap::size(&self.profile, scale.support());
         if columns * rows > MOST_NODES {
             let problem = format!(
@@ -78,6 +101,6 @@ impl Flask {
             );
             return Err(Problem::new("scale.spacing", problem));
         }
-        Ok(())
+        Ok(columns * rows)
     }
 }

@@ -6,13 +6,11 @@ use thiserror::Error;
 /// in it and what would be right.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SceneError {
-    /// Neither a built-in scene nor a file.
-    #[error("scene {name:?}: no such file ({reason}); give a path, or one of the built-in {known}")]
+    /// No built-in scene has this name.
+    #[error("scene {name:?}: not built in; take one of {known}")]
     NotFound {
         /// What was asked for.
         name: String,
-        /// The system's message.
-        reason: String,
         /// The built-in names.
         known: String,
     },

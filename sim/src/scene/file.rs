@@ -119,7 +119,7 @@ impl FlaskEntry {
             ),
             fixed: self.fixed,
         };
-        flask.check_size(scale)?;
+        Flask::check_sizes(std::slice::from_ref(&flask), scale)?;
         Ok(flask)
     }
 }

@@ -31,7 +31,6 @@ use crate::flask::particles::{self, BoundaryParticle};
 use error::Problem;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// A scene, validated.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,25 +73,24 @@ impl Scene {
         builtin::BUILTIN.iter().map(|(name, _)| *name).collect()
     }
 
-    /// A built-in scene by its name, or else the file at that path.
+    /// Text of the built-in scene of that name.
+    pub fn builtin_text(name: &str) -> Option<&'static str> {
+        let found = builtin::BUILTIN.iter().find(|(known, _)| *known == name);
+        found.map(|(_, text)| *text)
+    }
+
+    /// The built-in scene of that name. What a user names may be a file as well: `vitriol_experiment::scenes`.
     ///
     /// # Errors
     /// [`SceneError`] as for [`Scene::parse`], or `NotFound`.
-    pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
-        if let Some((name, text)) = builtin::BUILTIN
-            .iter()
-            .find(|(name, _)| *name == name_or_path)
-        {
-            return Self::parse(text, &format!("{name}.toml"));
-        }
-        let text = std::fs::read_to_string(Path::new(name_or_path)).map_err(|error| {
-            SceneError::NotFound {
-                name: name_or_path.to_owned(),
-                reason: error.to_string(),
+    pub fn builtin(name: &str) -> Result<Self, SceneError> {
+        let Some(text) = Self::builtin_text(name) else {
+            return Err(SceneError::NotFound {
+                name: name.to_owned(),
                 known: Self::builtin_names().join(", "),
-            }
-        })?;
-        Self::parse(&text, name_or_path)
+            });
+        };
+        Self::parse(text, &format!("{name}.toml"))
     }
 
     /// A scene from its TOML `text`; `file` is its name in messages.
@@ -210,6 +208,17 @@ impl Scene {
         }
         settings::finite("floor.height", &[raw.floor.height])?;
         settings::finite("origin", &raw.origin)?;
+        for (field, count, most) in [
+            ("flask", raw.flask.len(), MOST_FLASKS),
+            ("liquid", raw.liquid.len(), MOST_LIQUIDS),
+        ] {
+            if count > most {
+                return Err(Problem::new(
+                    field,
+                    format!("there are {count}; give {most} at most"),
+                ));
+            }
+        }
         let origin = DVec3::from_array(raw.origin);
         let scale = raw.scale;
         let flasks = (0..)
@@ -291,13 +300,13 @@ impl Scene {
 
     /// Whether each flask has room for its liquids.
     fn check_fill(&self, field: &str) -> Result<(), Problem> {
+        Flask::check_sizes(&self.flasks, &self.scale)?;
         for (index, flask) in self.flasks.iter().enumerate() {
             let of = || self.liquids.iter().filter(|liquid| liquid.flask == index);
             let wanted: usize = of().map(|liquid| self.particle_count(liquid)).sum();
             let spacing = self.scale.spacing;
             let volume: f64 = of().map(|liquid| liquid.volume).sum();
             let capacity = flask.profile.capacity();
-            flask.check_size(&self.scale)?;
             // Before the lattice is walked: a volume that is absurd must not
             // cost memory.
             let sites = if volume > capacity {
@@ -320,6 +329,12 @@ impl Scene {
         Ok(())
     }
 }
+
+/// Flasks of a scene, as many as a pose track holds: each two are compared.
+const MOST_FLASKS: usize = 64;
+
+/// Liquids of a scene.
+const MOST_LIQUIDS: usize = 256;
 
 fn check_flasks(flasks: &[Flask]) -> Result<(), Problem> {
     for (j, b) in flasks.iter().enumerate() {

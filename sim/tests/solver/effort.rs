@@ -16,7 +16,7 @@ const AWAY: StepInput = StepInput {
 /// `beaker` with twice its spacing and half its substeps, at which the substep is as near to its
 /// limit, and half its water: 880 particles.
 fn scene() -> Scene {
-    let mut scene = Scene::load("beaker").unwrap();
+    let mut scene = Scene::builtin("beaker").unwrap();
     scene.scale.spacing *= 2.0;
     scene.solver.substeps = 5;
     for liquid in &mut scene.liquids {

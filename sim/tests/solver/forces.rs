@@ -301,7 +301,7 @@ fn cohesion_joins_two_drops() {
 fn no_strength_is_no_force() {
     let device = gpu::device();
     let run = |model: &[Feature], strength: Option<f64>| {
-        let mut scene = Scene::load("beaker").unwrap();
+        let mut scene = Scene::builtin("beaker").unwrap();
         scene.liquids[0].volume = 5e-6;
         scene.model = model.to_vec();
         let solver = &mut scene.solver;

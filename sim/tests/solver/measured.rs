@@ -24,7 +24,7 @@ fn only(state: &mut SolverState, count: usize) {
 #[test]
 fn each_particle_is_where_it_is() {
     let device = gpu::device();
-    let mut scene = Scene::load("beaker").unwrap();
+    let mut scene = Scene::builtin("beaker").unwrap();
     scene.liquids[0].volume = 5e-6;
     let world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
     // The beaker is 33 mm wide within and 35 mm without, 95 mm high, and stands on the

@@ -171,7 +171,7 @@ fn maps_keep_the_volume_that_solids_do_not() {
 fn a_scene_may_ask_for_solids() {
     let device = gpu::device();
     let run = |boundary: Boundary| {
-        let mut scene = Scene::load("beaker").unwrap();
+        let mut scene = Scene::builtin("beaker").unwrap();
         scene.liquids[0].volume = 5e-6;
         scene.solver.boundary = boundary;
         let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();

@@ -1,6 +1,6 @@
 //! What each feature of a scene costs.
 
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
@@ -23,7 +23,7 @@ pub fn costs(
     name: &str,
     args: &BenchArgs,
 ) -> Result<Vec<FeatureRow>, Failure> {
-    let scene = Scene::load(name).input()?.with_preset(args.preset);
+    let scene = scenes::load(name)?.with_preset(args.preset);
     let whole = settled(plain, &scene)?;
     let dispatches = dispatches(timed, &scene)?;
     scene

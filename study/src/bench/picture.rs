@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use glam::Vec3;
-use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot};
+use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_gpu::{Gpu, QueueKind, Ticket};
 use vitriol_render::{Fov, View};
 use vitriol_shaders::Library;
@@ -36,7 +36,7 @@ pub fn rows(
     name: &str,
     args: &BenchArgs,
 ) -> Result<Vec<RenderRow>, Failure> {
-    let scene = Scene::load(name).input()?.with_preset(args.preset);
+    let scene = scenes::load(name)?.with_preset(args.preset);
     let row = |&(views, extent): &(u32, [u32; 2])| {
         let (world, camera) = ready(timed, &scene, args, views, extent)?;
         let (passes, total) = passes(timed, &world, &camera, args.frames)?;

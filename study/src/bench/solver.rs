@@ -1,6 +1,6 @@
 //! What a frame's solution takes, of a scene at rest in its flasks.
 
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Blame, Failure, scenes};
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::{Boundary, Scene};
 
@@ -14,7 +14,7 @@ use crate::cli::BenchArgs;
 /// # Errors
 /// [`Failure::Input`] for a scene that is not there; what the device says.
 pub fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Failure> {
-    let scene = Scene::load(name).input()?.with_preset(args.preset);
+    let scene = scenes::load(name)?.with_preset(args.preset);
     let world = settled(plain, &scene)?;
     let (mut total, mut cpu) = (Vec::new(), Vec::new());
     for _ in 0..args.frames.div_ceil(QUEUED) {

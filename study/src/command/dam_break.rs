@@ -85,7 +85,7 @@ pub struct Comparison {
 pub fn run(args: &DamBreakArgs, format: Format) -> Result<(), Failure> {
     let figure = output::new_files(args.out.as_deref(), [FIGURE])?;
     let gpu = device::open(args.device.as_deref())?;
-    let scene = Scene::load(SCENE).input()?.with_preset(args.preset);
+    let scene = Scene::builtin(SCENE).input()?.with_preset(args.preset);
     let resolution = resolution(args.preset);
     let columns = compare(&gpu, &scene, resolution, Column::LAST_TIME)?;
     if let Some([path]) = &figure {

@@ -63,7 +63,7 @@ pub fn run(args: &Fig5Args, format: Format) -> Result<(), Failure> {
     let names = ["fig5-without.png", "fig5-with.png"];
     let pictures = output::new_files(args.out.as_deref(), names)?;
     let gpu = device::open(args.device.as_deref())?;
-    let scene = Scene::load(SCENE).input()?;
+    let scene = Scene::builtin(SCENE).input()?;
     let result = compare(&gpu, &scene, pictures.as_ref())?;
     emit(format, &result, describe)
 }

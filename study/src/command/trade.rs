@@ -99,7 +99,7 @@ impl Work<'_> {
     }
 
     fn solver(&mut self) -> Result<(), Failure> {
-        let scene = Scene::load(SCENE).other()?;
+        let scene = Scene::builtin(SCENE).other()?;
         let seconds = if self.args.quick { 0.6 } else { 1.5 };
         // The device's clocks rise with the first work that it gets.
         rest(self.gpu, &scene, &Setting::of(&scene, Preset::Fast), 0.5)?;
@@ -147,7 +147,7 @@ impl Work<'_> {
                 self.found.calorimetry.push(found);
             }
         }
-        let scene = Scene::load(BOILING.0).other()?;
+        let scene = Scene::builtin(BOILING.0).other()?;
         let track = track::load(BOILING.1)?;
         if quick {
             let coarse = vitriol_sim::scene::PresetOverrides {
@@ -193,7 +193,7 @@ impl Work<'_> {
             (SEEDS[1], track.duration(), CONSTANTS.len())
         };
         for name in [BOILING.0, REVERSED] {
-            let scene = Scene::load(name).other()?.with_preset(Preset::Balanced);
+            let scene = Scene::builtin(name).other()?.with_preset(Preset::Balanced);
             let changed = CONSTANTS.iter().take(take).flat_map(|constant| {
                 let value = constant.of(&scene);
                 let times = [0.5, 2.0].into_iter();
@@ -246,7 +246,7 @@ impl Work<'_> {
     }
 
     fn truth(&mut self) -> Result<(), Failure> {
-        let scene = Scene::load(SCENE).other()?;
+        let scene = Scene::builtin(SCENE).other()?;
         self.found.orders = convergence(self.gpu, self.args.quick)?;
         let (count, seconds) = if self.args.quick {
             (300, 0.1)

@@ -80,7 +80,7 @@ pub struct State {
 /// What scene, track or device say.
 pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, Failure> {
     let of = |&spec: &StateSpec| {
-        let scene = Scene::load(spec.scene).input()?.with_preset(preset);
+        let scene = Scene::builtin(spec.scene).input()?.with_preset(preset);
         let track = track::load(spec.track)?;
         let seed = track.metadata.seed;
         let mut source = TrackSource::new(track);

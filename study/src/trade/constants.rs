@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn every_number_of_a_scene_is_a_constant_but_the_rooms_temperature() {
-        let scene = Scene::load("water-into-acid").unwrap();
+        let scene = Scene::builtin("water-into-acid").unwrap();
         let fields = serde_json::to_value(scene.physical.unwrap()).unwrap();
         let keys: Vec<_> = fields.as_object().unwrap().keys().cloned().collect();
         assert_eq!(keys.len(), CONSTANTS.len() + 1, "{keys:?}");

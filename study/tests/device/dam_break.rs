@@ -12,7 +12,7 @@ const LAST: f64 = 2.0;
 #[test]
 fn the_front_runs_as_measured() {
     let device = gpu::device();
-    let scene = Scene::load("beaker").unwrap();
+    let scene = Scene::builtin("beaker").unwrap();
     let columns = compare(&device, &scene, RESOLUTION, LAST).unwrap();
     assert_eq!(columns.len(), 2);
     let spacing = 1.0 / f64::from(RESOLUTION);

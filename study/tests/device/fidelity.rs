@@ -35,7 +35,7 @@ impl Draw for Alike {
 fn what_is_drawn_is_the_surface_of_its_particles() {
     let device = gpu::device();
     let library = Library::embedded();
-    let mut scene = Scene::load("beaker").unwrap();
+    let mut scene = Scene::builtin("beaker").unwrap();
     scene.scale.spacing *= 2.0;
     scene.solver.substeps = 4;
     let mut world = World::new(&device, &library, &scene, 1).unwrap();

@@ -7,7 +7,7 @@ use vitriol_tests::gpu;
 #[test]
 fn only_the_constraint_keeps_liquid_in_a_jerked_flask() {
     let device = gpu::device();
-    let mut scene = Scene::load("moving-flask").unwrap();
+    let mut scene = Scene::builtin("moving-flask").unwrap();
     scene.scale.spacing *= 2.0;
     let result = compare(&device, &scene, None).unwrap();
     // An eighth of 10,925.

@@ -12,7 +12,7 @@ fn water_into_acid_throws_and_acid_into_water_does_not() {
     let device = gpu::device();
     let track = track::load("two-flasks").unwrap();
     let [wrong, right] = ["water-into-acid", "acid-into-water"].map(|name| {
-        let scene = Scene::load(name).unwrap().with_preset(Preset::Fast);
+        let scene = Scene::builtin(name).unwrap().with_preset(Preset::Fast);
         // The pour begins at 4.2 s, and a second and a half later most has been thrown.
         boil(&device, &scene, &track, 6.5, 1).unwrap().0
     });

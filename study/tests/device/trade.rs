@@ -17,7 +17,7 @@ fn errors_shrink_with_their_order() {
 /// Fewer iterations are worse, and what rests is where geometry has it.
 #[test]
 fn a_setting_is_judged_by_what_it_leaves() {
-    let scene = Scene::load("beaker").unwrap();
+    let scene = Scene::builtin("beaker").unwrap();
     let coarse = Setting::of(&scene, Preset::Balanced).with_particles(1500.0, 217e-6);
     let cold = Setting {
         carry: 0.0,

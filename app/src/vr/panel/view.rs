@@ -83,6 +83,10 @@ fn readings(ui: &mut Ui, info: &Info) {
         let text = format!("recording, {} min {:02} s", seconds / 60, seconds % 60);
         ui.label(RichText::new(text).color(RECORDING));
     }
+    if info.waits_for_disk {
+        let text = "the recording waits: make room on the disk";
+        ui.label(RichText::new(text).color(WARNING));
+    }
     if info.unwritten > 0 {
         let text = format!("{} steps not recorded", info.unwritten);
         ui.label(RichText::new(text).color(WARNING));

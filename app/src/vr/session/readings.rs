@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn each_flask_has_a_line_with_what_was_read_in_it() {
-        let mut scene = Scene::load("water-into-acid").unwrap();
+        let mut scene = Scene::builtin("water-into-acid").unwrap();
         let names: Vec<_> = scene.flasks.iter().map(|it| it.name.clone()).collect();
         let mut readings = Readings::default();
         let lines = readings.lines(&scene);

@@ -170,7 +170,7 @@ mod tests {
     /// A display of 30 Hz has three steps of 1/90 s in each frame, each with the hand where it was at its end.
     #[test]
     fn each_step_has_the_poses_of_its_own_time() {
-        let mut scene = Scene::load("two-flasks").unwrap();
+        let mut scene = Scene::builtin("two-flasks").unwrap();
         scene.origin = DVec3::new(0.0, 0.0, 0.5);
         let mut steps = Steps::new();
         let times: Vec<f64> = (0..5).map(|n| f64::from(n) / 30.0).collect();
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_pause_plans_nothing() {
-        let scene = Scene::load("two-flasks").unwrap();
+        let scene = Scene::builtin("two-flasks").unwrap();
         let mut steps = Steps::new();
         let mut placement = Placement::new(Posture::Seated);
         placement.recentre(&at(0.0));
@@ -213,7 +213,7 @@ mod tests {
     /// At 10 Hz nine steps are due in a frame, of which five are taken: 56 % of real time.
     #[test]
     fn slow_motion_is_said_to_the_next_five_per_cent() {
-        let scene = Scene::load("two-flasks").unwrap();
+        let scene = Scene::builtin("two-flasks").unwrap();
         let mut steps = Steps::new();
         let times: Vec<f64> = (0..200).map(|n| 0.1 * f64::from(n)).collect();
         let planned = planned(&mut steps, &scene, &times);

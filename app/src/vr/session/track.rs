@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use vitriol_experiment::{Failure, SimulatedTime, track};
+use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
+use vitriol_experiment::{DeviceStatement, Failure, SimulatedTime, track};
 use vitriol_xr::track::TrackMetadata;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
+use crate::vr::menu;
 use crate::vr::record::{RecordingStatus, TrackRecording};
 use crate::vr::workbench::Plan;
 
@@ -20,9 +22,13 @@ pub(super) struct SessionTrack {
 }
 
 impl SessionTrack {
-    /// The track of a session that begins with `plan`, recorded to a new `file` if one is named.
-    pub fn new(file: Option<&Path>, plan: &Plan) -> Result<Self, Failure> {
-        let recording = file.map(|file| TrackRecording::create(file, &metadata(plan)));
+    /// The track of a session that begins with `plan` on `device`, recorded to a new `file` if one is named.
+    pub fn new(
+        file: Option<&Path>,
+        plan: &Plan,
+        device: &DeviceStatement,
+    ) -> Result<Self, Failure> {
+        let recording = file.map(|file| TrackRecording::create(file, &metadata(plan, device)));
         Ok(Self {
             recording: recording.transpose().map_err(track::blame)?,
             ..Self::default()
@@ -54,20 +60,45 @@ impl SessionTrack {
         Some((self.time.seconds(), recording.state()))
     }
 
-    /// Marks the recording's end and waits for its file; the time at the end, and what became of the recording.
-    pub fn finish(self) -> (SimulatedTime, Option<RecordingStatus>) {
+    /// Marks the recording's end in the state of `hash`, and waits for its file; the time at the end, and what became
+    /// of the recording.
+    ///
+    /// # Errors
+    /// What `hash` returns, which is asked for where there is a recording.
+    pub fn finish(
+        self,
+        hash: impl FnOnce() -> Result<u64, Failure>,
+    ) -> Result<(SimulatedTime, Option<RecordingStatus>), Failure> {
         let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
-        let recorded = self.recording.map(|it| it.finish(steps, end_ns));
-        (self.time, recorded)
+        let Some(recording) = self.recording else {
+            return Ok((self.time, None));
+        };
+        let outcome = [(STATE_HASH.to_owned(), format!("{:016x}", hash()?))].into();
+        let recorded = recording.finish(steps, end_ns, outcome);
+        Ok((self.time, Some(recorded)))
     }
 }
 
-fn metadata(plan: &Plan) -> TrackMetadata {
+/// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
+fn metadata(plan: &Plan, device: &DeviceStatement) -> TrackMetadata {
+    let choices = menu::CHOICES.iter().map(|choice| choice.scene);
+    let scenes = choices.chain([plan.scene.as_str()]).filter_map(|name| {
+        let text = plan.scenes.text(name)?;
+        Some((name.to_owned(), text.to_owned()))
+    });
+    let parameters = [
+        (PRESET, plan.preset.name()),
+        (DEVICE, &device.name),
+        (DRIVER, &device.driver),
+    ];
     TrackMetadata {
         scene: plan.scene.clone(),
         seed: plan.seed,
-        parameters: [("preset".to_owned(), plan.preset.name().to_owned())].into(),
+        parameters: parameters
+            .map(|(name, value)| (name.to_owned(), value.to_owned()))
+            .into(),
         program_version: env!("CARGO_PKG_VERSION").into(),
+        scenes: scenes.collect(),
     }
 }
 
@@ -79,17 +110,27 @@ fn nanoseconds(time: &SimulatedTime) -> i64 {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_sim::scene::Preset;
+    use vitriol_experiment::Scenes;
+    use vitriol_sim::scene::{Preset, Scene};
     use vitriol_xr::track::Track;
     use vitriol_xr::{FrameInfo, Hand};
 
     fn plan() -> Plan {
         Plan {
             scene: "two-flasks".into(),
+            scenes: Scenes::default(),
             preset: Preset::Fast,
             solver: None,
             filter: None,
             seed: 7,
+        }
+    }
+
+    fn device() -> DeviceStatement {
+        DeviceStatement {
+            name: "a device".into(),
+            driver: "a driver 1.2".into(),
+            api: "1.3".into(),
         }
     }
 
@@ -116,7 +157,7 @@ mod tests {
     fn steps_are_numbered_and_carry_what_was_switched_before_them() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("x.mcap");
-        let mut track = SessionTrack::new(Some(&file), &plan()).unwrap();
+        let mut track = SessionTrack::new(Some(&file), &plan(), &device()).unwrap();
         track.switch(switch("a"));
         track.step(poses(), 0.01, Vec::new);
         track.step(poses(), 0.01, Vec::new);
@@ -124,13 +165,21 @@ mod tests {
         track.switch(switch("c"));
         // A scene with another step.
         track.step(poses(), 0.02, Vec::new);
-        let (time, recorded) = track.finish();
+        let (time, recorded) = track.finish(|| Ok(0xabc)).unwrap();
         assert_eq!((time.steps(), recorded.unwrap().steps), (3, 3));
         assert!((time.seconds() - 0.04).abs() < 1e-12);
 
         let track = Track::open(&file).unwrap();
         assert_eq!(track.metadata.scene, "two-flasks");
         assert_eq!(track.metadata.parameters["preset"], "fast");
+        assert_eq!(track.metadata.parameters["device"], "a device");
+        assert_eq!(track.metadata.parameters["driver"], "a driver 1.2");
+        assert_eq!(track.outcome["state_hash"], "0000000000000abc");
+        // Its own, and those that the user may choose.
+        for name in ["two-flasks", "acid-into-water", "vr-dilution"] {
+            let text = &track.metadata.scenes[name];
+            assert_eq!(text, Scene::builtin_text(name).unwrap());
+        }
         let frames = track.frames.iter();
         let said: Vec<_> = frames
             .map(|frame| {
@@ -153,7 +202,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("x.mcap");
         std::fs::write(&file, "mine").unwrap();
-        let made = SessionTrack::new(Some(&file), &plan());
+        let made = SessionTrack::new(Some(&file), &plan(), &device());
         assert!(matches!(made.err(), Some(Failure::Input(_))));
         assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
     }

@@ -8,7 +8,7 @@ use crate::scene::{Feature, Scene};
 
 #[test]
 fn table_1_arrives() {
-    let of = |name: &str| Chemistry::from_scene(&Scene::load(name).unwrap());
+    let of = |name: &str| Chemistry::from_scene(&Scene::builtin(name).unwrap());
     let boiling = PaperBoiling {
         boiling_point: 100.0,
         intensity: 1.0,
@@ -34,7 +34,7 @@ fn table_1_arrives() {
 
 #[test]
 fn the_physical_chemistrys_numbers_arrive() {
-    let mut scene = Scene::load("water-into-acid").unwrap();
+    let mut scene = Scene::builtin("water-into-acid").unwrap();
     let physical = scene.physical.as_mut().unwrap();
     // No two alike.
     physical.ambient = Some(1.0);

@@ -18,7 +18,7 @@ use vitriol_tests::random::Random;
 
 /// The paper's world.
 fn world() -> Parameters {
-    Parameters::from_scene(&Scene::load("single-dilution").unwrap())
+    Parameters::from_scene(&Scene::builtin("single-dilution").unwrap())
 }
 
 /// The exchange of a substep with the lists that `world` has.

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 fn hot(temperature: f64, intensity: f64, kind: Boiling, substeps: u32) -> Reference {
     let parameters = Parameters {
         substeps,
-        ..Parameters::from_scene(&Scene::load("tomato-soup").unwrap())
+        ..Parameters::from_scene(&Scene::builtin("tomato-soup").unwrap())
     };
     let mut random = Random(5);
     let mut positions = Vec::new();

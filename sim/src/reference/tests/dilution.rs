@@ -14,7 +14,7 @@ use glam::DVec3;
 
 /// Table 1 in the paper's world.
 fn world() -> Parameters {
-    Parameters::from_scene(&Scene::load("single-dilution").unwrap())
+    Parameters::from_scene(&Scene::builtin("single-dilution").unwrap())
 }
 
 fn law(scheme: Diffusion, parameters: &Parameters) -> DilutionLaw {
@@ -261,7 +261,7 @@ fn a_wall_of_the_map_cools_like_one_of_particles() {
 #[test]
 fn scenes_of_the_paper_start_with_their_chemistry() {
     let of = |name: &str| {
-        let scene = Scene::load(name).unwrap();
+        let scene = Scene::builtin(name).unwrap();
         Paper::of_scene(&scene, Some(1), Diffusion::default(), Boiling::default()).unwrap()
     };
     assert!(of("beaker").is_none());
@@ -270,7 +270,7 @@ fn scenes_of_the_paper_start_with_their_chemistry() {
     let dilution = of("single-dilution").unwrap();
     assert!(dilution.dilution.is_some() && dilution.boiling.is_some());
     assert!(dilution.acid.iter().any(|&c| c > 0.9) && dilution.acid.contains(&0.0));
-    let mut scene = Scene::load("tomato-soup").unwrap();
+    let mut scene = Scene::builtin("tomato-soup").unwrap();
     if let Some(paper) = &mut scene.paper {
         paper.T_B = Some(-5.0);
     }

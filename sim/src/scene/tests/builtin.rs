@@ -5,7 +5,7 @@ use crate::scene::{Preset, Scene};
 #[test]
 fn every_builtin_loads_and_states_its_scale() {
     for name in Scene::builtin_names() {
-        let scene = Scene::load(name).unwrap();
+        let scene = Scene::builtin(name).unwrap();
         assert_eq!(scene.name, name);
         for preset in [Preset::Fast, Preset::Balanced, Preset::Reference] {
             assert!(scene.presets.contains_key(&preset), "{name} {preset:?}");
@@ -39,7 +39,7 @@ fn paper_scenes_have_table_2s_particles() {
         ("triple-dilution", 39888, 60632),
         ("tomato-soup", 14880, 2341),
     ] {
-        let scene = Scene::load(name).unwrap();
+        let scene = Scene::builtin(name).unwrap();
         assert!((scene.scale.particle_mass() - 0.125).abs() < 1e-12);
         let own_fluid = scene.start(None).unwrap().len();
         let own_solid: usize = scene.boundary_particles().iter().map(Vec::len).sum();
@@ -53,13 +53,13 @@ fn paper_scenes_have_table_2s_particles() {
 #[test]
 fn paper_scenes_have_table_1s_parameters() {
     for name in ["single-dilution", "triple-dilution", "vr-dilution"] {
-        let scene = Scene::load(name).unwrap();
+        let scene = Scene::builtin(name).unwrap();
         let p = scene.paper.unwrap();
         let row = [p.T_a, p.T_B, p.k_d, p.k_v, p.D_T, p.D_c].map(Option::unwrap);
         assert_eq!(row, [20.0, 100.0, 0.017, 1.0, 0.01, 0.007]);
         assert_eq!(scene.solver.viscosity, 0.3);
     }
-    let soup = Scene::load("tomato-soup").unwrap();
+    let soup = Scene::builtin("tomato-soup").unwrap();
     let p = soup.paper.unwrap();
     assert_eq!((p.T_a, p.T_B, p.k_d), (Some(110.0), Some(100.0), None));
     assert_eq!(soup.solver.viscosity, 0.3);

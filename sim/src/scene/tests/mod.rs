@@ -109,7 +109,7 @@ fn presets_keep_the_volume() {
 
 #[test]
 fn what_is_built_upon_a_feature_goes_with_it() {
-    let scene = Scene::load("water-into-acid").unwrap();
+    let scene = Scene::builtin("water-into-acid").unwrap();
     let (less, gone) = scene.without(Feature::Evaporation);
     assert_eq!(
         gone,

@@ -198,7 +198,7 @@ fn malformed_scenes_name_file_field_and_remedy() {
 
 #[test]
 fn missing_file_is_named_with_the_builtin_scenes() {
-    let message = Scene::load("nowhere.toml").unwrap_err().to_string();
+    let message = Scene::builtin("nowhere.toml").unwrap_err().to_string();
     assert!(
         message.contains("nowhere.toml") && message.contains("two-flasks"),
         "{message}"

@@ -140,3 +140,34 @@ fn number_places(text: &str) -> Vec<std::ops::Range<usize>> {
     }
     places
 }
+
+/// What is allowed for a flask is not allowed for each of many: the sum has to fit.
+#[test]
+fn all_flasks_together_have_a_size() {
+    let from = GOOD.find("[[flask]]").unwrap();
+    let to = GOOD.find("[[liquid]]").unwrap();
+    let many = |count: usize, points: &str| {
+        let flasks: String = (0..count)
+            .map(|n| {
+                format!(
+                    "[[flask]]\nname = \"{n}\"\npoints = {points}\nwall = 0.02\nposition = [{}, 0.0, 0.0]\nfixed = true\n",
+                    0.5 * n as f64
+                )
+            })
+            .collect();
+        let text = GOOD[..from].to_owned() + &flasks;
+        Scene::parse(&text.replace("v_max = 10.0", "v_max = 1e9"), "many.toml")
+    };
+    assert!(to > from);
+    let pipe = "[[0.0, 0.03], [20.0, 0.03]]";
+    many(1, pipe).unwrap();
+    let error = many(60, pipe).unwrap_err().to_string();
+    assert!(error.contains("scale.spacing"), "{error}");
+    let cup = "[[0.0, 0.03], [0.08, 0.03]]";
+    many(64, cup).unwrap();
+    let error = many(65, cup).unwrap_err().to_string();
+    assert!(
+        error.contains("flask: there are 65; give 64 at most"),
+        "{error}"
+    );
+}

@@ -32,7 +32,7 @@ fn soup(law: Boiling, substeps: u32, speed: f64) -> Setup {
         gravity: [0.0; 3],
         ..with(
             paper(None, Some(weak(law))),
-            Parameters::from_scene(&Scene::load("tomato-soup").unwrap()),
+            Parameters::from_scene(&Scene::builtin("tomato-soup").unwrap()),
         )
     };
     let mut particles = loose(9, p.spacing, &mut Random(5), speed);

@@ -8,7 +8,7 @@ use vitriol_tests::gpu;
 
 /// Kinetic energy of the soup (J) after `frames`, at k_v.
 fn soup(intensity: f64, frames: usize) -> f64 {
-    let mut scene = Scene::load("tomato-soup").unwrap();
+    let mut scene = Scene::builtin("tomato-soup").unwrap();
     scene.paper.as_mut().unwrap().k_v = Some(intensity);
     let device = gpu::device();
     let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
@@ -37,7 +37,7 @@ fn soup_moves_the_more_the_stronger_it_boils() {
 #[test]
 fn figure_6_has_its_order() {
     let device = gpu::device();
-    let mut scene = Scene::load("triple-dilution").unwrap();
+    let mut scene = Scene::builtin("triple-dilution").unwrap();
     // Half of the particles, each of twice the heat capacity: the tubes stay four of them wide.
     let coarser = 1.26_f64;
     scene.scale.spacing *= coarser;

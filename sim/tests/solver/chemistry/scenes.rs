@@ -87,7 +87,7 @@ fn each_scene_has_its_passes_and_no_other() {
     known.sort_unstable();
     assert_eq!(known, names);
     for (name, line_26) in of_scenes {
-        let scene = Scene::load(name).unwrap();
+        let scene = Scene::builtin(name).unwrap();
         let setup = setup(&scene);
         let poses: Vec<_> = scene.flasks.iter().map(|f| f.stage_from_flask).collect();
         let own = passes(&setup, &poses);
@@ -100,7 +100,7 @@ fn each_scene_has_its_passes_and_no_other() {
 #[test]
 fn water_and_water_have_no_heat() {
     let device = gpu::device();
-    let mut scene = Scene::load("water-into-acid").unwrap();
+    let mut scene = Scene::builtin("water-into-acid").unwrap();
     scene.model.clear();
     scene.physical = None;
     for liquid in &mut scene.liquids {

@@ -39,7 +39,7 @@ pub fn paper(dilution: Option<PaperDilution>, boiling: Option<PaperBoiling>) -> 
 
 /// The physical chemistry of the built-in scene `water-into-acid`.
 pub fn built_in() -> Physical {
-    let scene = Scene::load("water-into-acid").unwrap();
+    let scene = Scene::builtin("water-into-acid").unwrap();
     match Chemistry::from_scene(&scene) {
         Some(Chemistry::Physical(physical)) => physical,
         other => panic!("has the physical chemistry, not {other:?}"),
