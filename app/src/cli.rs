@@ -5,7 +5,9 @@ mod arguments;
 
 use clap::{Parser, Subcommand};
 
-pub use arguments::{CameraName, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs};
+pub use arguments::{
+    CameraName, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+};
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
 /// recorded or live hands.
@@ -45,6 +47,8 @@ pub enum Command {
     Study(vitriol_study::cli::Command),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
+    /// Write the manual's pages and completions for bash, fish and zsh
+    Pages(PagesArgs),
 }
 
 #[cfg(test)]

@@ -459,3 +459,31 @@ fn bad_input_is_refused_before_anything_is_written() {
     assert_eq!(info["recovered"], false);
     assert_eq!(info["frames"], saved["frames"]);
 }
+
+/// The packages' manual and completions are the command line's own.
+#[test]
+fn pages_tell_of_each_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let pages = object(here, &["pages", "--out", "pages"]);
+    let files = pages["files"].as_array().unwrap();
+    assert!(files.len() > 15, "{pages}");
+    let read = |name: &str| fs::read_to_string(here.join("pages").join(name)).unwrap();
+    let replay = read("vitriol-replay.1");
+    for part in ["vitriol\\-replay", "accept\\-truncated", "camera"] {
+        assert!(replay.contains(part), "{part}: {replay}");
+    }
+    for completion in ["vitriol", "vitriol.fish", "_vitriol"] {
+        assert!(
+            read(completion).contains("accept-truncated"),
+            "{completion}"
+        );
+    }
+    // Nothing is overwritten.
+    refuses(
+        here,
+        &["pages", "--out", "pages"],
+        2,
+        &["vitriol.1", "exists"],
+    );
+}

@@ -27,8 +27,9 @@ wait $!
 cp disk/x.mcap x.mcap
 "#;
 
-/// In a mount namespace of its own, which root may make, and others with a user namespace around it.
-fn in_own_namespace(folder: &Path) -> Output {
+/// In a mount namespace of its own, which root may make, and others with a user namespace around it; `None` where
+/// neither is allowed.
+fn in_own_namespace(folder: &Path) -> Option<Output> {
     let run = |flags: &str, script: &str| {
         let mut command = Command::new("unshare");
         command
@@ -37,12 +38,9 @@ fn in_own_namespace(folder: &Path) -> Output {
         command.env("VITRIOL", env!("CARGO_BIN_EXE_vitriol"));
         command.output().unwrap()
     };
-    let flags = if run("-m", "mount -t tmpfs none /mnt").status.success() {
-        "-m"
-    } else {
-        "-rm"
-    };
-    run(flags, SCRIPT)
+    let mounts = |flags: &&str| run(flags, "mount -t tmpfs none /mnt").status.success();
+    let flags = ["-m", "-rm"].into_iter().find(mounts)?;
+    Some(run(flags, SCRIPT))
 }
 
 #[test]
@@ -54,7 +52,14 @@ fn a_disk_that_is_full_for_a_while_loses_no_step() {
         .replacen("spacing = 0.0025 ", "spacing = 0.0044 ", 1)
         .replacen("substeps = 10", "substeps = 4", 1);
     fs::write(here.join("small.toml"), &small).unwrap();
-    let output = in_own_namespace(here);
+    let Some(output) = in_own_namespace(here) else {
+        assert!(
+            std::env::var("CI").as_deref() != Ok("true"),
+            "no disk can be mounted here"
+        );
+        eprintln!("NOT TESTED: a full disk, which cannot be mounted here");
+        return;
+    };
     let log = fs::read_to_string(here.join("session.log")).unwrap_or_default();
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}\n{log}");

@@ -91,6 +91,14 @@ pub struct ReplayArgs {
     pub accept_truncated: bool,
 }
 
+/// Arguments of `vitriol pages`.
+#[derive(Debug, Args)]
+pub struct PagesArgs {
+    /// Folder for them, which may be new
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
 /// Arguments of `vitriol picture`.
 #[derive(Debug, Args)]
 pub struct PictureArgs {

@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 pub mod doctor;
+pub mod pages;
 pub mod picture;
 mod recorded;
 pub mod replay;
@@ -26,5 +27,6 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Vr(args) => vr::run(args, format),
         Command::Study(command) => vitriol_study::command::run(command, format),
         Command::Doctor => doctor::run(format),
+        Command::Pages(args) => pages::run(args, format),
     }
 }

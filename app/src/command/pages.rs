@@ -1,0 +1,59 @@
+//! `vitriol pages`: the manual's pages and the shells' completions, from the command line's own definition.
+
+use std::path::Path;
+
+use clap::CommandFactory;
+use clap_complete::{Shell, generate};
+use clap_mangen::Man;
+use serde::Serialize;
+use vitriol_experiment::output::{new_file, write_new};
+use vitriol_experiment::{Blame, Failure, Format, emit};
+
+use crate::cli::{Cli, PagesArgs};
+
+const NAME: &str = "vitriol";
+
+/// The completions, each under the name by which its shell finds it.
+const COMPLETIONS: [(Shell, &str); 3] = [
+    (Shell::Bash, "vitriol"),
+    (Shell::Fish, "vitriol.fish"),
+    (Shell::Zsh, "_vitriol"),
+];
+
+/// What `vitriol pages` prints.
+#[derive(Debug, Serialize)]
+struct Pages {
+    /// The files.
+    files: Vec<String>,
+}
+
+/// Runs `vitriol pages`.
+///
+/// # Errors
+/// [`Failure::Input`] where a file is there already; [`Failure::Other`] where one cannot be written.
+pub fn run(args: &PagesArgs, format: Format) -> Result<(), Failure> {
+    let mut command = Cli::command();
+    command.build();
+    let mut files = Vec::new();
+    for page in [&command].into_iter().chain(command.get_subcommands()) {
+        if page.get_name() == "help" {
+            continue;
+        }
+        let page = Man::new(page.clone());
+        let mut text = Vec::new();
+        page.render(&mut text).other()?;
+        files.push(write(&args.out, &page.get_filename(), &text)?);
+    }
+    for (shell, name) in COMPLETIONS {
+        let mut text = Vec::new();
+        generate(shell, &mut Cli::command(), NAME, &mut text);
+        files.push(write(&args.out, name, &text)?);
+    }
+    emit(format, &Pages { files }, |pages| pages.files.join("\n"))
+}
+
+fn write(folder: &Path, name: &str, text: &[u8]) -> Result<String, Failure> {
+    let path = new_file(folder, name)?;
+    write_new(&path, text)?;
+    Ok(path.display().to_string())
+}
