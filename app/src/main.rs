@@ -1,6 +1,7 @@
 //! The program `vitriol`: reads the command line, runs the subcommand, turns a
 //! failure into one message and an exit code.
 
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -12,6 +13,7 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
         .with_target(false)
         .with_max_level(match cli.verbose {
             0 => LevelFilter::WARN,

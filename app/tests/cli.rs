@@ -444,7 +444,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         &["flipped.mcap", "intact"],
     );
     fs::write(here.join("cut.mcap"), &whole[..whole.len() / 2]).unwrap();
-    let parts = ["cut.mcap: breaks off after 4.", "vitriol track cut.mcap -o"];
+    let parts = ["cut.mcap: breaks off after 4.", "--accept-truncated"];
     refuses(here, &["replay", "cut.mcap", "--out", "new"], 2, &parts);
     refuses(
         here,
@@ -453,11 +453,12 @@ fn bad_input_is_refused_before_anything_is_written() {
         &[".: is a folder"],
     );
     assert!(!here.join("new").exists());
-    // As the message says.
+    // Saved again it can be looked at, and still says that it is not whole.
     let saved = object(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
     let info = object(here, &["track", "saved.mcap"]);
     assert_eq!(info["recovered"], false);
     assert_eq!(info["frames"], saved["frames"]);
+    assert_eq!(info["outcome"]["broken_off"], "its file had no end");
 }
 
 /// The packages' manual and completions are the command line's own.

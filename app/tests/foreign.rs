@@ -140,9 +140,33 @@ fn a_tracks_texts_do_not_steer_the_terminal() {
         let scenes = &mut track.metadata.scenes;
         scenes.insert(evil.into(), "name = 3".into());
     });
-    for arguments in [&["track", "x.mcap"][..], &["replay", "x.mcap"]] {
-        let said = said(&vitriol(folder.path(), arguments));
-        assert!(said.contains(r"\u{1b}[2J\u{202e}x"), "{said}");
+    let own = Scene::builtin_text("beaker")
+        .unwrap()
+        .replacen("name = \"beaker\"\n", "name = \"b\"\n", 1)
+        .replace("\"beaker\"", "\"\\u001b[2J\\u202ex\\nseed 7\"");
+    assert!(own.contains("u001b"));
+    foreign(folder.path(), "runs.mcap", |track| {
+        track.metadata.scene = evil.into();
+        track.metadata.program_version = evil.into();
+        let parameters = &mut track.metadata.parameters;
+        parameters.remove("track");
+        for name in ["device", "driver"] {
+            parameters.insert(name.into(), evil.into());
+        }
+        track.metadata.scenes.insert(evil.into(), own);
+    });
+    for (arguments, works) in [
+        (&["track", "x.mcap"][..], true),
+        (&["track", "x.mcap", "--json"], true),
+        (&["replay", "x.mcap"], false),
+        (&["replay", "runs.mcap", "--no-video"], true),
+        (&["replay", "runs.mcap", "--no-video", "--json"], true),
+    ] {
+        let output = vitriol(folder.path(), arguments);
+        let said = said(&output);
+        assert_eq!(output.status.success(), works, "{arguments:?}: {said}");
+        let shown = said.contains(r"\u{1b}[2J\u{202e}x") || said.contains(r"\u001b[2J\u202ex");
+        assert!(shown, "{said}");
         let steers = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
         assert!(!said.contains(steers), "{said:?}");
         let forged = said.lines().any(|line| line.starts_with("seed 7"));
@@ -179,6 +203,66 @@ fn missing_steps_are_said_and_not_filled_in() {
     assert!((simulated - 4.0 / 60.0).abs() < 0.012, "{report}");
     let command = report["command"].as_str().unwrap();
     assert!(command.contains("--accept-truncated"), "{command}");
+}
+
+/// What is not whole stays so when it is saved again, and steps may be missing at the start as well.
+#[test]
+fn what_breaks_off_is_not_made_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    foreign(here, "whole.mcap", |track| {
+        track.metadata.scene = "beaker".into();
+    });
+    let bytes = fs::read(here.join("whole.mcap")).unwrap();
+    fs::write(here.join("cut.mcap"), &bytes[..bytes.len() - 20]).unwrap();
+    let saved = vitriol(here, &["track", "cut.mcap", "-o", "saved.mcap"]);
+    assert!(saved.status.success(), "{}", said(&saved));
+    foreign(here, "late.mcap", |track| {
+        track.metadata.scene = "beaker".into();
+        track.frames.remove(0);
+        track.stage_from_flasks.remove(0);
+    });
+    for (track, says) in [
+        ("cut.mcap", "its recorder stopped hard"),
+        ("saved.mcap", "its file had no end"),
+        ("late.mcap", "lacks its first 1 steps"),
+    ] {
+        for command in [
+            &["replay", track, "--no-video"][..],
+            &["picture", track, "--at", "0.02", "-o", "x.png"],
+        ] {
+            let output = vitriol(here, command);
+            let said = said(&output);
+            assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
+            assert!(said.contains(says), "{command:?}: {said}");
+        }
+    }
+    let accepted = ["replay", "saved.mcap", "--no-video", "--accept-truncated"];
+    assert!(vitriol(here, &accepted).status.success());
+}
+
+/// A scene whose steps are so short that a run would take for ever, and a track of hours.
+#[test]
+fn a_run_has_an_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = Scene::builtin_text("beaker").unwrap();
+    let from = "frame_time = 0.011111111111111 ";
+    assert!(text.contains(from));
+    for (time, says) in [
+        ("1e-12", "scale.frame_time"),
+        ("1e-4", "more than a run of 1000000 takes"),
+    ] {
+        foreign(folder.path(), "x.mcap", |track| {
+            track.metadata.scene = "x.toml".into();
+            let short = text.replacen(from, &format!("frame_time = {time} "), 1);
+            track.metadata.scenes.insert("x.toml".into(), short);
+            track.frames[2].time_ns = 10_000_000_000_000;
+        });
+        let output = vitriol(folder.path(), &["replay", "x.mcap", "--no-video"]);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(says), "{said}");
+    }
 }
 
 /// A recording of the program's own, by a wearer of a track: its scene's file is gone when it is replayed.

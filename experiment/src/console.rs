@@ -28,7 +28,7 @@ pub fn emit<T: Serialize>(
 ) -> Result<(), Failure> {
     let mut out = match format {
         Format::Text => escaped(&text(object)),
-        Format::Json => serde_json::to_string_pretty(object).other()?,
+        Format::Json => json_escaped(&serde_json::to_string_pretty(object).other()?),
     };
     if !out.ends_with('\n') {
         out.push('\n');
@@ -48,9 +48,7 @@ pub fn emit<T: Serialize>(
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
-        // Marks and overrides of direction.
-        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        if (c.is_control() && !matches!(c, '\n' | '\t')) || turns {
+        if steers(c) {
             out.extend(c.escape_unicode());
         } else {
             out.push(c);
@@ -59,7 +57,36 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
+/// Such a text in a line of its own: with line breaks it could pass for lines of this program.
+pub fn in_a_line(text: &str) -> String {
+    escaped(text).replace('\n', "\\n")
+}
+
+/// JSON with what steers a terminal written as numbers; it stands in strings only.
+fn json_escaped(json: &str) -> String {
+    let mut out = String::with_capacity(json.len());
+    for c in json.chars() {
+        if steers(c) {
+            // All of these have 16 bits.
+            out += &format!("\\u{:04x}", u32::from(c));
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+/// Controls, other line ends, and marks and overrides of direction.
+fn steers(c: char) -> bool {
+    let turns = matches!(
+        c,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    (c.is_control() && !matches!(c, '\n' | '\t')) || turns
+}
+
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -71,5 +98,11 @@ mod tests {
             r"\u{1b}[2J\u{d}\u{9b}\u{7f}"
         );
         assert_eq!(escaped("x\u{202e}y"), r"x\u{202e}y");
+        assert_eq!(in_a_line("x\ny\u{2028}"), r"x\ny\u{2028}");
+        let text = "\u{1b}\u{9b}\u{202e}\n\"\u{7f}é";
+        let json = json_escaped(&serde_json::to_string(text).unwrap());
+        assert!(json.is_ascii() || json.contains('é'), "{json}");
+        assert!(!json.chars().any(steers), "{json}");
+        assert_eq!(serde_json::from_str::<String>(&json).unwrap(), text);
     }
 }

@@ -25,7 +25,7 @@ pub mod units;
 
 pub use camera::{Camera, Colour, Shot};
 pub use clock::{SimulatedTime, Span};
-pub use console::{Format, emit, escaped};
+pub use console::{Format, emit, escaped, in_a_line};
 pub use device::DeviceStatement;
 pub use experiment::{Counters, Experiment, Outcome, Taken};
 pub use failure::{Blame, Cause, Failure};

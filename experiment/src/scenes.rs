@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use vitriol_sim::scene::Scene;
-use vitriol_xr::files;
+use vitriol_xr::files::{self, FileError};
 use vitriol_xr::track::{TrackMetadata, limits};
 
 use crate::failure::{Blame, Failure};
@@ -75,6 +75,11 @@ impl Scenes {
         }
     }
 
+    /// Names of those that are not looked up among the built-in ones.
+    pub fn own(&self) -> impl Iterator<Item = &str> {
+        self.own.keys().map(String::as_str)
+    }
+
     /// Text of the scene of that name.
     pub fn text(&self, name: &str) -> Option<&str> {
         match self.own.get(name) {
@@ -110,7 +115,12 @@ fn read(file: &str) -> Result<Text, Failure> {
         ))
         .input();
     }
-    let toml = files::read_text(Path::new(file), "scene", limits::SCENE as u64).input()?;
+    let read = files::read_text(Path::new(file), "scene", limits::SCENE as u64);
+    let toml = read.map_err(|error| match error {
+        // Such as a file that this user may not read.
+        FileError::Io { .. } => Failure::Other(error.into()),
+        _ => Failure::Input(error.into()),
+    })?;
     Ok(Text {
         toml,
         place: file.to_owned(),

@@ -14,6 +14,9 @@ pub const DRIVER: &str = "driver";
 /// Hash of the final state, hexadecimal.
 pub const STATE_HASH: &str = "state_hash";
 
+/// That it is not whole, and by what: written in place of the hash, and where a track that breaks off is saved again.
+pub const BROKEN_OFF: &str = "broken_off";
+
 /// Reads a track by name or file.
 ///
 /// # Errors

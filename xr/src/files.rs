@@ -44,8 +44,8 @@ pub enum FileError {
 
 /// What `file` holds, which is to be a `what` of at most `limit` bytes.
 ///
-/// Its kind is asked for before it is opened: opening a pipe waits for a writer, and a device may be endless. One
-/// that is put in the file's place between the two is read up to the limit at most.
+/// Its kind is asked for before it is opened: opening a pipe waits for a writer, and a device may be endless. A user
+/// who puts a pipe in the file's place between the two waits for it; what is endless is read up to the limit.
 ///
 /// # Errors
 /// [`FileError`].

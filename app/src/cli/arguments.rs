@@ -108,6 +108,9 @@ pub struct PictureArgs {
     /// it the scene that the track names
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
+    /// Take what is whole of a track that breaks off or lacks steps
+    #[arg(long)]
+    pub accept_truncated: bool,
     /// Trade of speed for accuracy; without it the one that the track was
     /// recorded with, or else balanced
     #[arg(long, value_parser = preset())]

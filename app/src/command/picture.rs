@@ -13,7 +13,7 @@ use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::recorded::{head, own_solver, preset_of, scene_of};
+use crate::command::recorded::{head, own_solver, preset_of, scene_of, whole};
 
 /// What `vitriol picture` prints.
 #[derive(Debug, Serialize)]
@@ -50,10 +50,11 @@ pub fn run(
         }
         output::new_dir(dir)?;
     }
-    let mut track = track::load(&args.track)?;
+    let track = track::load(&args.track)?;
+    let mut track = whole(&args.track, track, args.accept_truncated)?;
     let mut scenes = Scenes::default();
     let name = scene_of(&mut scenes, &args.track, args.scene.as_deref(), &track)?;
-    own_solver((false, args.preset), &name, &mut track);
+    own_solver((false, args.preset), (&name, &scenes), &mut track);
     let scene = scenes
         .get(&name)?
         .with_preset(preset_of(args.preset, &track));

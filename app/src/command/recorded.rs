@@ -1,9 +1,9 @@
 //! What a recording says of how it is to be replayed, and what is asked for instead.
 
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
-use vitriol_experiment::track::{DEVICE, DRIVER, PRESET};
+use vitriol_experiment::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
 use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Hole, Track, TrackMetadata};
@@ -13,15 +13,21 @@ use crate::cli::CameraName;
 /// The track, if all of it is there, or what of it is whole where that is `accepted`. Else what its film shows would
 /// not be what was recorded, and nothing would say so.
 pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure> {
+    let first = track.frames.first().map_or(0, |frame| frame.step);
+    if first > 0 {
+        return Err(format!(
+            "{name}: lacks its first {first} steps, so that nothing of it can be replayed; copy it again"
+        ))
+        .input();
+    }
+    let broken_off = track.outcome.get(BROKEN_OFF).map(|cause| in_a_line(cause));
     let hole = track.holes().next();
-    let (lacks, save) = match hole {
-        None if !track.recovered => return Ok(track),
-        None => (
-            "the file was cut or its recorder stopped hard".to_owned(),
-            format!(", or save it with `vitriol track {name} -o NEW.mcap`"),
-        ),
-        Some(Hole { steps: 1, .. }) => ("a step is missing there".to_owned(), String::new()),
-        Some(Hole { steps, .. }) => (format!("{steps} steps are missing there"), String::new()),
+    let lacks = match (hole, broken_off) {
+        (Some(Hole { steps: 1, .. }), _) => "a step is missing there".to_owned(),
+        (Some(Hole { steps, .. }), _) => format!("{steps} steps are missing there"),
+        (None, Some(cause)) => cause,
+        (None, None) if track.recovered => "the file was cut or its recorder stopped hard".into(),
+        (None, None) => return Ok(track),
     };
     let track = track.up_to_the_first_hole();
     let end = three_digits(track.duration());
@@ -34,7 +40,7 @@ pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure>
     }
     Err(format!(
         "{name}: breaks off after {end} s, since {lacks}; a track has an end: copy it again, or replay what is whole \
-         with --accept-truncated{save}"
+         with --accept-truncated"
     ))
     .input()
 }
@@ -61,24 +67,26 @@ pub fn scene_of(
 }
 
 /// In what a replay differs from its recording, each in a sentence: its bits may differ then. Empty where nothing that
-/// is known does. `asked` are options that ask for something else.
+/// is known does. `device` is `None` before one is open; `asked` are options that ask for something else.
 pub fn differences(
     metadata: &TrackMetadata,
     (name, scenes): (&str, &Scenes),
-    device: &DeviceStatement,
+    device: Option<&DeviceStatement>,
     asked: &[&str],
 ) -> Vec<String> {
     let mut differs = Vec::new();
     let version = env!("CARGO_PKG_VERSION");
     if metadata.program_version != version {
-        let recorded = &metadata.program_version;
+        let recorded = in_a_line(&metadata.program_version);
         differs.push(format!(
             "recorded by version {recorded}, replayed by {version}"
         ));
     }
-    for (key, now) in [(DEVICE, &device.name), (DRIVER, &device.driver)] {
+    let of_device = device.map(|now| [(DEVICE, &now.name), (DRIVER, &now.driver)]);
+    for (key, now) in of_device.into_iter().flatten() {
         let recorded = metadata.parameters.get(key);
         if let Some(recorded) = recorded.filter(|recorded| *recorded != now) {
+            let recorded = in_a_line(recorded);
             differs.push(format!(
                 "recorded with the {key} {recorded}, replayed with {now}"
             ));
@@ -86,16 +94,24 @@ pub fn differences(
     }
     if name != metadata.scene {
         differs.push(format!(
-            "recorded with the scene {}, replayed with {name}",
-            metadata.scene
+            "recorded with the scene {}, replayed with {}",
+            in_a_line(&metadata.scene),
+            in_a_line(name)
         ));
-    } else if metadata.scenes.get(name).map(String::as_str) != scenes.text(name) {
+    } else if !has_recorded_text(metadata, name, scenes) {
+        let name = in_a_line(name);
         differs.push(format!(
             "the scene {name} has another text than the recorded one"
         ));
     }
     differs.extend(asked.iter().map(|option| format!("replayed with {option}")));
     differs
+}
+
+/// Whether the scene of that name is the recorded one, as far as that is known: older tracks carry no text.
+fn has_recorded_text(metadata: &TrackMetadata, name: &str, scenes: &Scenes) -> bool {
+    let recorded = metadata.scenes.get(name);
+    recorded.is_none_or(|recorded| scenes.text(name) == Some(recorded))
 }
 
 /// The preset that was asked for, or else the one that the track was recorded
@@ -109,9 +125,15 @@ pub fn preset_of(asked: Option<Preset>, track: &Track) -> Preset {
 
 /// Leaves out what a session changed in the solver to keep pace, where something else was asked for: substeps
 /// and iterations themselves, another preset, or another scene than the recorded one. Whether there was any.
-pub fn own_solver((asked, preset): (bool, Option<Preset>), scene: &str, track: &mut Track) -> bool {
+pub fn own_solver(
+    (asked, preset): (bool, Option<Preset>),
+    (scene, scenes): (&str, &Scenes),
+    track: &mut Track,
+) -> bool {
     let other_preset = preset.is_some_and(|preset| preset != preset_of(None, track));
-    if !asked && !other_preset && scene == track.metadata.scene {
+    let same_scene =
+        scene == track.metadata.scene && has_recorded_text(&track.metadata, scene, scenes);
+    if !asked && !other_preset && same_scene {
         return false;
     }
     let mut any = false;
@@ -165,7 +187,7 @@ mod tests {
             vec![switch(SWITCH_SOLVER, "8x4"), switch(SWITCH_START, "beaker")];
         let repeats = |asked, scene| {
             let mut track = recorded.clone();
-            let any = own_solver(asked, scene, &mut track);
+            let any = own_solver(asked, (scene, &Scenes::default()), &mut track);
             let keys = track.frames[0].scenario.iter();
             let keys: Vec<&str> = keys.map(|switch| switch.key.as_str()).collect();
             assert_eq!(any, keys == [SWITCH_START]);

@@ -9,11 +9,11 @@ use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, RE
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
 use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
-    Outcome, Sample, Scenes, Setup, Span, device, emit, track,
+    Outcome, Sample, Scenes, Setup, Span, device, emit, in_a_line, track,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_xr::track::{TrackMetadata, TrackSource};
+use vitriol_xr::track::{TrackMetadata, TrackSource, limits};
 
 use crate::budget;
 use crate::cli::{CameraName, ReplayArgs};
@@ -57,13 +57,19 @@ pub fn run(
         )
         .input();
     }
-    if own_solver((asked, args.preset), &name, &mut track) {
+    if own_solver((asked, args.preset), (&name, &scenes), &mut track) {
         tracing::warn!(
             "the track's own changes of substeps and iterations are left out: it is replayed as asked for"
         );
     }
     let preset = preset_of(args.preset, &track);
     let scene = scenes.get(&name)?.with_preset(preset);
+    if is_recording(&track.metadata) {
+        let asked = asked_otherwise(args, &track.metadata);
+        for difference in differences(&track.metadata, (&name, &scenes), None, &asked) {
+            tracing::warn!("bits may differ: {difference}");
+        }
+    }
     let gpu = || device::open(args.device.as_deref());
     let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
     let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
@@ -88,6 +94,15 @@ pub fn run(
     let seconds = args.seconds.unwrap_or_else(|| track.duration());
     let recorded = (track.metadata.clone(), track.outcome.clone());
     let span = Span::covering(seconds, scene.scale.frame_time);
+    if span.steps > limits::FRAMES as u64 {
+        return Err(format!(
+            "{} steps of {} s are more than a run of {} takes; give fewer --seconds",
+            span.steps,
+            scene.scale.frame_time,
+            limits::FRAMES
+        ))
+        .input();
+    }
 
     let [width, height] = FILM_SIZE;
     let films = colours.iter().enumerate().map(|(index, _)| {
@@ -138,14 +153,14 @@ pub fn run(
     emit(format, &replayed, |done| describe(done, &folder))
 }
 
-/// How the run stands to the recording that it replays; `None` where the track is none.
-fn recording(
-    args: &ReplayArgs,
-    scene: (&str, &Scenes),
-    (metadata, said): &(TrackMetadata, BTreeMap<String, String>),
-    outcome: &Outcome,
-) -> Option<RecordingStatement> {
-    let device = metadata.parameters.get(DEVICE)?;
+/// Whether the track is a recording, and not made of keyframes, which say their own name.
+fn is_recording(metadata: &TrackMetadata) -> bool {
+    !metadata.parameters.contains_key("track")
+}
+
+/// Options that ask for something else than was recorded.
+fn asked_otherwise(args: &ReplayArgs, metadata: &TrackMetadata) -> Vec<&'static str> {
+    let preset = metadata.parameters.get(PRESET).map(String::as_str);
     let options = [
         ("--seconds", args.seconds.is_some()),
         (
@@ -154,22 +169,33 @@ fn recording(
         ),
         ("--solver", args.solver.is_some()),
         ("--budget-ms", args.budget_ms.is_some()),
+        ("--accept-truncated", args.accept_truncated),
         (
             "--preset",
-            args.preset.is_some_and(|preset| {
-                metadata.parameters.get(PRESET).map(String::as_str) != Some(preset.name())
-            }),
+            args.preset
+                .is_some_and(|asked| Some(asked.name()) != preset),
         ),
     ];
-    let asked: Vec<_> = options
-        .iter()
-        .filter_map(|&(option, given)| given.then_some(option))
-        .collect();
+    let given = options.into_iter().filter(|(_, given)| *given);
+    given.map(|(option, _)| option).collect()
+}
+
+/// How the run stands to the recording that it replays; `None` where the track is none.
+fn recording(
+    args: &ReplayArgs,
+    scene: (&str, &Scenes),
+    (metadata, said): &(TrackMetadata, BTreeMap<String, String>),
+    outcome: &Outcome,
+) -> Option<RecordingStatement> {
+    if !is_recording(metadata) {
+        return None;
+    }
     let state_hash = said.get(STATE_HASH).cloned();
     let same = state_hash
         .as_ref()
         .map(|recorded| *recorded == format!("{:016x}", outcome.state_hash));
-    let differs = differences(metadata, scene, &outcome.device, &asked);
+    let asked = asked_otherwise(args, metadata);
+    let differs = differences(metadata, scene, Some(&outcome.device), &asked);
     if same == Some(false) && differs.is_empty() {
         tracing::warn!(
             "the final state is not the recorded one, and nothing that is known differs; report it"
@@ -177,8 +203,8 @@ fn recording(
     }
     Some(RecordingStatement {
         program_version: metadata.program_version.clone(),
-        device: device.clone(),
-        driver: metadata.parameters.get(DRIVER).cloned().unwrap_or_default(),
+        device: metadata.parameters.get(DEVICE).cloned(),
+        driver: metadata.parameters.get(DRIVER).cloned(),
         state_hash,
         same_state: same,
         differs,
@@ -328,7 +354,7 @@ fn describe(done: &Replayed, out: &Path) -> String {
     let places: Vec<String> = report
         .mass_kg
         .places()
-        .map(|(place, kg)| format!("{place} {}", with_unit(kg, unit)))
+        .map(|(place, kg)| format!("{} {}", in_a_line(place), with_unit(kg, unit)))
         .collect();
     let mut lines = vec![
         format!(

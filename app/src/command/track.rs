@@ -5,8 +5,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
+use vitriol_experiment::track::BROKEN_OFF;
 use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Failure, Format, emit, track};
+use vitriol_experiment::{Failure, Format, emit, in_a_line, track};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::track::{self as tracks, Existing, builtin};
 
@@ -61,6 +62,10 @@ pub fn run(args: &TrackArgs, format: Format) -> Result<(), Failure> {
 
 fn convert(input: &str, output: &Path, format: Format) -> Result<(), Failure> {
     let mut track = track::load(input)?;
+    if track.recovered {
+        let cause = "its file had no end".to_owned();
+        track.outcome.insert(BROKEN_OFF.to_owned(), cause);
+    }
     // It stands alone then.
     let name = &track.metadata.scene;
     if let Some(text) = Scene::builtin_text(name) {
@@ -110,18 +115,13 @@ fn line(info: &TrackInfo) -> String {
         info.track,
         three_digits(info.duration_s),
         info.frames,
-        line_of(&info.scene)
+        in_a_line(&info.scene)
     )
-}
-
-/// A text of the track without its line breaks, which could else pass for lines of this program.
-fn line_of(text: &str) -> String {
-    text.replace('\n', "\\n")
 }
 
 fn describe(info: &TrackInfo) -> String {
     let mut text = line(info);
-    let version = line_of(&info.program_version);
+    let version = in_a_line(&info.program_version);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
@@ -135,10 +135,10 @@ fn describe(info: &TrackInfo) -> String {
         }
     );
     for (name, value) in info.parameters.iter().chain(&info.outcome) {
-        let _ = writeln!(text, "  {} = {}", line_of(name), line_of(value));
+        let _ = writeln!(text, "  {} = {}", in_a_line(name), in_a_line(value));
     }
     if !info.scenes.is_empty() {
-        let scenes: Vec<_> = info.scenes.iter().map(|name| line_of(name)).collect();
+        let scenes: Vec<_> = info.scenes.iter().map(|name| in_a_line(name)).collect();
         let _ = writeln!(text, "carries the scenes {}", scenes.join(", "));
     }
     if info.missing_steps > 0 {

@@ -12,6 +12,7 @@ use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
+use crate::command::recorded::whole;
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
 use crate::vr::menu;
@@ -114,7 +115,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 rate_hz: args.rate,
                 timing: Timing::Real,
             };
-            let mut headset = StandIn::new(&gpu, track::load(wearer)?, spec).other()?;
+            let mut headset =
+                StandIn::new(&gpu, whole(wearer, track::load(wearer)?, true)?, spec).other()?;
             (worn(&mut headset)?, Some((spec, headset.ready())))
         }
         None => {

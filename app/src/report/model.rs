@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample};
+use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_sim::scene::Scene;
 
 /// How a run stands to the recording that it replays.
@@ -11,10 +11,10 @@ use vitriol_sim::scene::Scene;
 pub struct RecordingStatement {
     /// Version of the program that recorded.
     pub program_version: String,
-    /// The device that it ran on.
-    pub device: String,
+    /// The device that it ran on; `None` in recordings of older versions.
+    pub device: Option<String>,
     /// Its driver and version.
-    pub driver: String,
+    pub driver: Option<String>,
     /// Hash of its final state, hexadecimal; `None` where its recorder stopped hard.
     pub state_hash: Option<String>,
     /// Whether the run ended in that state, to the bit.
@@ -31,9 +31,14 @@ impl RecordingStatement {
             Some(false) => "the final state is not the recorded one",
             None => "the final state was not recorded",
         };
+        let device = self
+            .device
+            .as_deref()
+            .unwrap_or("a device that is not known");
         let mut text = format!(
             "recorded by version {} on {}: {state}",
-            self.program_version, self.device
+            in_a_line(&self.program_version),
+            in_a_line(device)
         );
         if !self.differs.is_empty() {
             text += &format!("\nbits may differ: {}", self.differs.join("; "));

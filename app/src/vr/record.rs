@@ -5,13 +5,21 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use serde::Serialize;
+use vitriol_experiment::track::BROKEN_OFF;
 use vitriol_xr::track::{Existing, TrackError, TrackMetadata, TrackWriter};
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
 /// Steps that may wait for the disk: those of some five seconds, which is how long a disk that sleeps takes to wake.
 pub const QUEUE: usize = 512;
+
+/// Times that the end is tried where the disk refuses it, and the time between two of them: ten seconds in all.
+const TRIES_AT_END: u32 = 20;
+const BETWEEN_TRIES: Duration = Duration::from_millis(500);
+
+const BROKE_DOWN: &str = "the recorder broke down; report it";
 
 /// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
 /// end, which is no step.
@@ -65,6 +73,9 @@ pub struct RecordingStatus {
     /// Why the first of these is lost, or why some wait for long.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cause: Option<String>,
+    /// Whether the disk refuses what waits.
+    #[serde(skip)]
+    pub refused: bool,
 }
 
 impl RecordingStatus {
@@ -126,12 +137,13 @@ impl TrackRecording {
         let Some(queue) = &self.queue else {
             return;
         };
-        if let Err(TrySendError::Full((frame, _)) | TrySendError::Disconnected((frame, _))) =
-            queue.try_send((frame, Some(flasks)))
-        {
-            self.switches = frame.scenario;
-            lock(&self.done).lose("the disk did not keep up".into());
-        }
+        let (frame, cause) = match queue.try_send((frame, Some(flasks))) {
+            Ok(()) => return,
+            Err(TrySendError::Full((frame, _))) => (frame, "the disk did not keep up"),
+            Err(TrySendError::Disconnected((frame, _))) => (frame, BROKE_DOWN),
+        };
+        self.switches = frame.scenario;
+        lock(&self.done).lose(cause.into());
     }
 
     /// How it stands.
@@ -164,8 +176,7 @@ impl TrackRecording {
             && thread.join().is_err()
         {
             let mut done = lock(&self.done);
-            done.cause
-                .get_or_insert("the recorder broke down; report it".into());
+            done.cause.get_or_insert(BROKE_DOWN.into());
         }
     }
 }
@@ -186,6 +197,10 @@ struct Recorder<'a> {
     done: &'a Mutex<RecordingStatus>,
     /// Steps that the sink took.
     taken: u64,
+    /// Switches of steps that it did not take, for the next one that it does.
+    switches: Vec<Switch>,
+    /// Whether it did not take the frame that marks the end.
+    without_end: bool,
     /// Frames that are to be in the file before the disk counts as well again; `None` while it is.
     recovers_at: Option<u64>,
 }
@@ -196,36 +211,35 @@ impl<'a> Recorder<'a> {
             sink,
             done,
             taken: 0,
+            switches: Vec::new(),
+            without_end: false,
             recovers_at: None,
         }
     }
 
     fn run(mut self, entries: &Receiver<Entry>, outcome: &Mutex<Said>) {
         for (frame, flasks) in entries {
-            let is_step = flasks.is_some();
-            let written = self.sink.write(&frame, &flasks.unwrap_or_default());
-            self.taken += u64::from(is_step);
-            match written {
-                Ok(()) => self.recover(),
-                Err(error @ TrackError::Io { .. }) => self.wait(&error),
-                Err(error) => {
-                    self.taken -= u64::from(is_step);
-                    if is_step {
-                        tracing::warn!("a step is not recorded: {}", chain(&error));
-                        lock(self.done).lose(chain(&error));
-                    }
-                }
-            }
+            self.take(frame, flasks);
             self.count();
         }
-        let outcome = outcome
+        let mut outcome = outcome
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .clone();
-        let finished = self.sink.finish(&outcome);
+        let lost = lock(self.done).unwritten;
+        if lost > 0 || self.without_end {
+            // The state at its end is not the one that a replay of it comes to.
+            outcome = [(
+                BROKEN_OFF.to_owned(),
+                format!("{lost} steps are not recorded"),
+            )]
+            .into();
+        }
+        let finished = self.finish(&outcome);
         self.count();
         let mut done = lock(self.done);
         done.unwritten += std::mem::take(&mut done.waiting);
+        done.refused = false;
         match finished {
             Ok(()) if done.unwritten == 0 => done.cause = None,
             Ok(()) => {}
@@ -234,6 +248,50 @@ impl<'a> Recorder<'a> {
                 done.cause.get_or_insert_with(|| chain(&error));
             }
         }
+    }
+
+    fn take(&mut self, mut frame: PoseFrame, flasks: Option<Vec<Pose>>) {
+        let is_step = flasks.is_some();
+        if !self.switches.is_empty() {
+            let mut switches = std::mem::take(&mut self.switches);
+            switches.append(&mut frame.scenario);
+            frame.scenario = switches;
+        }
+        match self.sink.write(&frame, &flasks.unwrap_or_default()) {
+            Ok(()) => {
+                self.taken += u64::from(is_step);
+                self.recover();
+            }
+            Err(error @ TrackError::Io { .. }) => {
+                self.taken += u64::from(is_step);
+                self.wait(&error);
+            }
+            Err(error) => {
+                self.switches = frame.scenario;
+                self.without_end |= !is_step;
+                let mut done = lock(self.done);
+                if done.unwritten == 0 {
+                    tracing::warn!("steps are not recorded from here on: {}", chain(&error));
+                }
+                if is_step {
+                    done.lose(chain(&error));
+                }
+            }
+        }
+    }
+
+    /// Ends the file; where the disk refuses that, some seconds are given to make room.
+    fn finish(&mut self, outcome: &Said) -> Result<(), TrackError> {
+        for _ in 0..TRIES_AT_END {
+            match self.sink.finish(outcome) {
+                Err(error @ TrackError::Io { .. }) => {
+                    self.wait(&error);
+                    std::thread::sleep(BETWEEN_TRIES);
+                }
+                ended => return ended,
+            }
+        }
+        self.sink.finish(outcome)
     }
 
     /// The frame that marks the end is no step.
@@ -249,6 +307,7 @@ impl<'a> Recorder<'a> {
         }
         self.recovers_at = Some(self.taken);
         let mut done = lock(self.done);
+        done.refused = true;
         if done.unwritten == 0 {
             done.cause = Some(chain(error));
         }
@@ -262,6 +321,7 @@ impl<'a> Recorder<'a> {
             self.recovers_at = None;
             tracing::warn!("the disk takes the recording again");
             let mut done = lock(self.done);
+            done.refused = false;
             if done.unwritten == 0 {
                 done.cause = None;
             }

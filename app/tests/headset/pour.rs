@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use vitriol_experiment::stage;
 use vitriol_experiment::switches::SWITCH_SOLVER;
+use vitriol_experiment::{Scenes, stage};
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::Preset;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::monado::{self, Rig};
 use vitriol_xr::track::{Keyframes, Track, load};
@@ -154,9 +154,10 @@ pub struct Replayed {
 pub fn replay(track: &Track) -> Replayed {
     let gpu = Gpu::open(&mut PlainLoader::default(), &Options::default()).unwrap();
     let library = Arc::new(Library::embedded());
-    let scene = Scene::builtin(&track.metadata.scene)
-        .unwrap()
-        .with_preset(Preset::Balanced);
+    let mut scenes = Scenes::default();
+    scenes.carry(&track.metadata);
+    let scene = scenes.get(&track.metadata.scene).unwrap();
+    let scene = scene.with_preset(Preset::Balanced);
     let mut world = World::new(&gpu, &library, &scene, track.metadata.seed).unwrap();
     let mut lifted: f32 = 0.0;
     // The last frame is the end and no step.

@@ -183,7 +183,8 @@ fn the_filter_gives_way() {
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 60, trouble);
     let mut options = options(folder.path());
     options.governed = true;
-    options.plan.scene = file.to_str().unwrap().into();
+    let plan = &mut options.plan;
+    plan.scene = plan.scenes.open(file.to_str().unwrap()).unwrap();
     let (outcome, track) = session_with(&mut headset, options, nobody());
     assert_eq!(outcome.bench.filter(), PictureFilter::NarrowRange);
     assert_eq!(values(&switches(&track), SWITCH_FILTER), ["narrow-range"]);

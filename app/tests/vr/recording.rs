@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use vitriol::vr::record::{Said, Sink, TrackRecording};
 use vitriol_tests::wait::own_time;
-use vitriol_xr::track::TrackError;
+use vitriol_xr::track::{Track, TrackError, TrackMetadata};
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
 
 /// A disk that writes a step when it is told to.
@@ -109,6 +109,29 @@ fn a_full_queue_delays_nobody_and_is_counted() {
     assert_eq!(steps, [0, 1, 2, 3, 4, 20]);
     // What was switched in a step that is missing is not: a replay would be another scene's.
     assert_eq!(written[5].scenario[0].value, "x");
+}
+
+/// What a recorder cannot take leaves a file that says so, without the hash of a state that it does not lead to; what
+/// was switched then is in the next step that it takes.
+#[test]
+fn a_recording_that_lacks_steps_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("x.mcap");
+    let mut recording = TrackRecording::create(&file, &TrackMetadata::default()).unwrap();
+    recording.push(&frame(0, None), Vec::new());
+    // More flasks than a track holds.
+    recording.push(&frame(1, Some("x")), vec![Pose::IDENTITY; 65]);
+    recording.push(&frame(2, None), Vec::new());
+    let said = Said::from([("state_hash".to_owned(), "0123".to_owned())]);
+    let state = recording.finish(3, 3, said);
+    assert_eq!((state.steps, state.waiting, state.unwritten), (2, 0, 1));
+    assert!(state.cause.unwrap().contains("flask_ has 65"));
+    let track = Track::open(&file).unwrap();
+    assert_eq!(track.holes().count(), 1);
+    assert_eq!(track.outcome["broken_off"], "1 steps are not recorded");
+    assert!(!track.outcome.contains_key("state_hash"));
+    let switched: Vec<_> = track.frames.iter().map(|it| it.scenario.len()).collect();
+    assert_eq!(switched, [0, 1, 0]);
 }
 
 #[test]

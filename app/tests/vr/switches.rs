@@ -2,7 +2,7 @@
 
 use std::sync::mpsc::{Sender, channel};
 
-use crate::common::{Trouble, Worn, hash, heard, pour, session};
+use crate::common::{Trouble, Worn, hash, heard, options, pour, session_with};
 use crate::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
@@ -65,12 +65,15 @@ fn start_placement_and_scene_replay() {
     let (sender, decisions) = channel();
     let trouble = Restless {
         decisions: sender,
-        scene: other_file.to_str().unwrap().into(),
+        scene: "other.toml".into(),
         moved: false,
     };
     let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 120, trouble);
-    let (outcome, track) = session(&mut headset, folder.path(), decisions);
-    assert_eq!(outcome.bench.plan.scene, other_file.to_str().unwrap());
+    let mut options = options(folder.path());
+    let other = options.plan.scenes.open(other_file.to_str().unwrap());
+    assert_eq!(other.unwrap(), "other.toml");
+    let (outcome, track) = session_with(&mut headset, options, decisions);
+    assert_eq!(outcome.bench.plan.scene, "other.toml");
 
     let switched: Vec<&str> = track
         .frames

@@ -159,6 +159,8 @@ impl Scale {
         positive("spacing", self.spacing, "metres")?;
         positive("frame_time", self.frame_time, "seconds")?;
         let frame = self.frame_time;
+        let must = "0.00001 or more (seconds): a run of hours would never end";
+        require("scale.frame_time", frame, frame >= 1e-5, must)?;
         let range = "at most 0.1 (seconds): flasks would pass through each other and the table";
         require("scale.frame_time", frame, frame <= 0.1, range)?;
         positive("rest_density", self.rest_density, "kg/m³")?;

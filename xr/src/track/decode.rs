@@ -29,10 +29,13 @@ impl Partial {
             names::FRAME => once(topic, &mut self.frame, data),
             names::SCENARIO => {
                 let message: message::Switch = parse(topic, data)?;
-                self.scenario.push(Switch {
+                let switch = Switch {
                     key: message.key.unwrap_or_default(),
                     value: message.value.unwrap_or_default(),
-                });
+                };
+                limits::switch(&switch.key, &switch.value)?;
+                limits::at_most(topic, "switches", self.scenario.len() + 1, limits::SWITCHES)?;
+                self.scenario.push(switch);
                 Ok(())
             }
             _ => {

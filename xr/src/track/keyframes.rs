@@ -379,6 +379,11 @@ impl Reader<'_> {
                 let expected = "a switch names what it switches";
                 return Err(self.flaw(at, "scenario.key", "is empty", expected));
             }
+            let short =
+                limits::switch(&key, &value).and_then(|()| limits::totals(switches.len() + 1, 0));
+            if let Err(flaw) = short {
+                return Err(self.flaw(at, flaw.field, flaw.problem, flaw.expected));
+            }
             switches.push((t, Switch { key, value }));
         }
         Ok(switches)

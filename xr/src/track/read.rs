@@ -112,6 +112,12 @@ impl<'a> Reading<'a> {
                     rest = later;
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => {
+                    // With the header, so that records without content count too.
+                    self.read += data.len() as u64 + 9;
+                    if self.read > limits::RECORDS {
+                        let most = limits::RECORDS;
+                        return Err(self.damaged(format!("it unpacks to more than {most} bytes")));
+                    }
                     in_data &= opcode != op::DATA_END;
                     if in_data {
                         self.record(opcode, data)?;
@@ -125,11 +131,6 @@ impl<'a> Reading<'a> {
     }
 
     fn record(&mut self, opcode: u8, data: &[u8]) -> Result<(), TrackError> {
-        self.read += data.len() as u64;
-        if self.read > limits::RECORDS {
-            let most = limits::RECORDS;
-            return Err(self.damaged(format!("it unpacks to more than {most} bytes")));
-        }
         // Only the kinds that a track is made of are parsed: others are nobody's business,
         // and mcap 0.26 panics on an attachment record that is too short.
         if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA].contains(&opcode) {
@@ -211,19 +212,7 @@ impl<'a> Reading<'a> {
             })
         };
         let (name, toml, hash) = (text(names::NAME)?, text(names::TOML)?, text(names::HASH)?);
-        for (field, length, most) in [
-            (names::NAME, name.len(), limits::TEXT),
-            (names::TOML, toml.len(), limits::SCENE),
-        ] {
-            if length > most {
-                return Err(flawed(
-                    self.file,
-                    field,
-                    format!("has {length} bytes"),
-                    &format!("a carried scene's has {most} at most"),
-                ));
-            }
-        }
+        check_scene(&name, &toml, self.file)?;
         if hash != scene_hash(&toml) {
             return Err(flawed(
                 self.file,
@@ -233,16 +222,7 @@ impl<'a> Reading<'a> {
             ));
         }
         self.scenes.insert(name, toml);
-        if self.scenes.len() > limits::SCENES {
-            let problem = format!("are more than {}", limits::SCENES);
-            return Err(flawed(
-                self.file,
-                "carried scenes",
-                problem,
-                "a recording carries those that it may bring up",
-            ));
-        }
-        Ok(())
+        check_scenes(self.scenes.len(), self.file)
     }
 
     fn message(
@@ -386,6 +366,49 @@ fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), TrackError> 
         }
     }
     Ok(())
+}
+
+/// Whether a reader would take what a writer is given.
+pub(super) fn check_metadata(metadata: &TrackMetadata, file: &Path) -> Result<(), TrackError> {
+    let fixed = [
+        (names::SCENE, &metadata.scene),
+        (names::PROGRAM_VERSION, &metadata.program_version),
+    ];
+    let fixed = fixed.map(|(name, text)| (name.to_owned(), text.clone()));
+    let mut map = metadata.parameters.clone();
+    map.extend(fixed);
+    short(&map, file)?;
+    for (name, text) in &metadata.scenes {
+        check_scene(name, text, file)?;
+    }
+    check_scenes(metadata.scenes.len(), file)
+}
+
+fn check_scene(name: &str, toml: &str, file: &Path) -> Result<(), TrackError> {
+    for (field, length, most) in [
+        (names::NAME, name.len(), limits::TEXT),
+        (names::TOML, toml.len(), limits::SCENE),
+    ] {
+        if length > most {
+            let expected = format!("a carried scene's has {most} at most");
+            return Err(flawed(
+                file,
+                field,
+                format!("has {length} bytes"),
+                &expected,
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn check_scenes(count: usize, file: &Path) -> Result<(), TrackError> {
+    if count <= limits::SCENES {
+        return Ok(());
+    }
+    let problem = format!("are more than {}", limits::SCENES);
+    let expected = "a recording carries those that it may bring up";
+    Err(flawed(file, "carried scenes", problem, expected))
 }
 
 fn metadata(map: BTreeMap<String, String>, file: &Path) -> Result<TrackMetadata, TrackError> {

@@ -12,7 +12,7 @@ use mcap::{Compression, McapError, WriteOptions, Writer};
 use prost::Message;
 
 use super::check::{self, Flaw};
-use super::read::scene_hash;
+use super::read::{check_metadata, scene_hash};
 use super::stage::{Pending, Stage};
 use super::{TrackError, TrackMetadata, descriptor, encode, limits, names, seconds};
 use crate::{Pose, PoseFrame, Side};
@@ -60,6 +60,9 @@ pub struct TrackWriter {
     frames: u64,
     switches: usize,
     last: Option<(u64, i64)>,
+    concluded: bool,
+    /// Whether its end was asked for: from then on it is not ended by being dropped.
+    ending: bool,
     flushed_ns: i64,
     flushed_at: Instant,
 }
@@ -83,6 +86,7 @@ impl TrackWriter {
         metadata: &TrackMetadata,
         existing: Existing,
     ) -> Result<Self, TrackError> {
+        check_metadata(metadata, file)?;
         let mut options = OpenOptions::new();
         options.write(true);
         match existing {
@@ -111,6 +115,8 @@ impl TrackWriter {
             frames: 0,
             switches: 0,
             last: None,
+            concluded: false,
+            ending: false,
             flushed_ns: 0,
             flushed_at: Instant::now(),
         })
@@ -175,7 +181,7 @@ impl TrackWriter {
         self.pending.frames()
     }
 
-    /// Writes what is said of the end (see [`Track::outcome`](super::Track::outcome)).
+    /// Writes what is said of the end, once (see [`Track::outcome`](super::Track::outcome)).
     ///
     /// # Errors
     /// [`TrackError::Io`] after [`finish`](Self::finish).
@@ -184,6 +190,9 @@ impl TrackWriter {
             name: names::OUTCOME.into(),
             metadata: outcome.clone(),
         };
+        if std::mem::replace(&mut self.concluded, true) {
+            return Ok(());
+        }
         let concluded = match &mut self.mcap {
             Some(mcap) if !outcome.is_empty() => mcap.write_metadata(&said),
             Some(_) => Ok(()),
@@ -196,7 +205,9 @@ impl TrackWriter {
     ///
     /// # Errors
     /// [`TrackError::Io`] where the file cannot be written: it holds [`written`](Self::written) frames and no end.
+    /// It may be asked for again, and nothing else is written then.
     pub fn finish(&mut self) -> Result<Written, TrackError> {
+        self.ending = true;
         self.flush()?;
         if let Some(mut mcap) = self.mcap.take() {
             let ended = mcap.finish();
@@ -266,6 +277,9 @@ impl TrackWriter {
 
 impl Drop for TrackWriter {
     fn drop(&mut self) {
+        if self.ending {
+            return;
+        }
         if let Some(mut mcap) = self.mcap.take() {
             // Nobody is left to be told.
             let _ = mcap.finish();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use vitriol_tests::wait::own_time;
 use vitriol_xr::track::{Existing, Track, TrackWriter, limits};
 use vitriol_xr::{Pose, Switch};
 
@@ -154,6 +155,51 @@ fn a_file_that_unpacks_without_end_is_left() {
     assert!(bytes.len() < 16 << 20);
     let message = Track::parse(&bytes, Path::new("bomb.mcap")).unwrap_err();
     assert!(message.to_string().contains("unpacks to more"), "{message}");
+}
+
+/// Switches of a step are counted as they come, and not when the step ends.
+#[test]
+fn a_step_has_few_switches() {
+    let good = super::bytes(&super::track(4));
+    let mut bytes = Vec::new();
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(&mut bytes)).unwrap();
+    let mut scenario = None;
+    for message in mcap::MessageStream::new(&good).unwrap() {
+        let message = message.unwrap();
+        writer.write(&message).unwrap();
+        if message.channel.topic == "/scenario" {
+            scenario = Some(message);
+        }
+    }
+    let scenario = scenario.unwrap();
+    for _ in 0..limits::SWITCHES {
+        writer.write(&scenario).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    let message = Track::parse(&bytes, Path::new("bad.mcap")).unwrap_err();
+    assert!(
+        message.to_string().contains("switches has 10001"),
+        "{message}"
+    );
+}
+
+/// Reading takes time in proportion to what there is: four times the frames, by the processor's time of this thread,
+/// four times as long. A search of all before each would take sixteen.
+#[test]
+fn reading_takes_time_in_proportion() {
+    let of = |frames: u64| {
+        let mut track = super::track(frames);
+        for flasks in &mut track.stage_from_flasks {
+            *flasks = vec![Pose::IDENTITY; limits::FLASKS];
+        }
+        let bytes = super::bytes(&track);
+        let (read, took) = own_time(|| Track::parse(&bytes, Path::new("x.mcap")).unwrap());
+        assert_eq!(read.frames.len() as u64, frames);
+        took.as_secs_f64()
+    };
+    let (one, four) = (of(1_000), of(4_000));
+    assert!(four < 9.0 * one, "{one} {four}");
 }
 
 #[test]

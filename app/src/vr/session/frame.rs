@@ -233,9 +233,7 @@ impl Session {
             acid: has_acid(scene),
             slow: self.steps.slow_motion(),
             recording: recorded.as_ref().map(|(seconds, _)| *seconds as u64),
-            waits_for_disk: recorded
-                .as_ref()
-                .is_some_and(|(_, state)| state.waiting > 0 && state.cause.is_some()),
+            waits_for_disk: recorded.as_ref().is_some_and(|(_, state)| state.refused),
             unwritten: recorded.map_or(0, |(_, state)| state.unwritten),
             missed: self.counts.skipped,
             effort: self.pacing.effort(bench),

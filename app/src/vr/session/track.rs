@@ -82,7 +82,10 @@ impl SessionTrack {
 /// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
 fn metadata(plan: &Plan, device: &DeviceStatement) -> TrackMetadata {
     let choices = menu::CHOICES.iter().map(|choice| choice.scene);
-    let scenes = choices.chain([plan.scene.as_str()]).filter_map(|name| {
+    let scenes = choices
+        .chain(plan.scenes.own())
+        .chain([plan.scene.as_str()]);
+    let scenes = scenes.filter_map(|name| {
         let text = plan.scenes.text(name)?;
         Some((name.to_owned(), text.to_owned()))
     });
