@@ -1,8 +1,10 @@
 //! What a frame must satisfy, asked alike by who writes and by who reads.
 
+use std::path::Path;
+
 use crate::{Fov, Hand, Pose, PoseFrame, Side};
 
-use super::{limits, names};
+use super::{TrackError, limits, names, seconds};
 
 /// One thing that is wrong with a frame.
 #[derive(Debug)]
@@ -51,18 +53,18 @@ pub fn frame(
     for (view, fov) in frame.info.fov.iter().enumerate() {
         field_of_view(fov, view)?;
     }
-    limits::at_most(
+    at_most(
         names::TF,
         names::FLASK,
         stage_from_flasks.len(),
         limits::FLASKS,
     )?;
     for switch in &frame.scenario {
-        limits::switch(&switch.key, &switch.value)?;
+        switch_texts(&switch.key, &switch.value)?;
     }
     for side in Side::BOTH {
         let length = frame.hand(side).profile.len();
-        limits::at_most(
+        at_most(
             names::INPUT[side as usize],
             "length of profile",
             length,
@@ -101,7 +103,7 @@ fn order(frame: &PoseFrame, before: Option<(u64, i64)>) -> Result<(), Flaw> {
         return Err(Flaw::new(
             names::FRAME,
             "log_time",
-            format!("is {} s", super::seconds(frame.time_ns)),
+            format!("is {} s", seconds(frame.time_ns)),
             format!("a track ends after {} s at most", limits::SECONDS),
         ));
     }
@@ -199,4 +201,45 @@ fn field_of_view(fov: &Fov, view: usize) -> Result<(), Flaw> {
         }
     }
     Ok(())
+}
+
+/// Whether there are at most so many.
+pub fn at_most(topic: &str, field: &str, count: usize, most: usize) -> Result<(), Flaw> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Flaw::new(
+        topic,
+        field,
+        format!("has {count}"),
+        format!("at most {most} are read"),
+    ))
+}
+
+/// Whether a switch's texts are short.
+pub fn switch_texts(key: &str, value: &str) -> Result<(), Flaw> {
+    at_most(names::SCENARIO, "length of key", key.len(), limits::TEXT)?;
+    at_most(
+        names::SCENARIO,
+        "length of value",
+        value.len(),
+        limits::TEXT,
+    )
+}
+
+/// Whether a track has few enough switches and frames.
+pub fn totals(switches: usize, frames: usize) -> Result<(), Flaw> {
+    at_most(names::SCENARIO, "switches", switches, limits::SWITCHES)?;
+    at_most(names::FRAME, "frames", frames, limits::FRAMES)
+}
+
+/// The flaw of a frame as an error of a file.
+pub fn at(file: &Path, flaw: Flaw, step: u64, time_ns: i64) -> TrackError {
+    TrackError::Message {
+        file: file.into(),
+        place: format!("{}, step {step} at {} s", flaw.topic, seconds(time_ns)),
+        field: flaw.field,
+        problem: flaw.problem,
+        expected: flaw.expected,
+    }
 }

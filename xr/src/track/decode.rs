@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use prost::Message;
 
-use super::check::Flaw;
+use super::check::{self, Flaw};
 use super::message::{self, FrameTransform, FrameTransforms};
 use super::{limits, names};
 use crate::{Fov, FrameInfo, Hand, Pose, PoseFrame, SessionState, Side, Switch};
@@ -23,7 +23,7 @@ pub struct Partial {
 impl Partial {
     /// Takes in the message `data` of `topic`, which must be one of a track's own.
     pub fn add(&mut self, topic: &str, data: &[u8]) -> Result<(), Flaw> {
-        limits::at_most(topic, "length of message", data.len(), limits::MESSAGE)?;
+        check::at_most(topic, "length of message", data.len(), limits::MESSAGE)?;
         match topic {
             names::TF => once(topic, &mut self.transforms, data),
             names::FRAME => once(topic, &mut self.frame, data),
@@ -33,8 +33,8 @@ impl Partial {
                     key: message.key.unwrap_or_default(),
                     value: message.value.unwrap_or_default(),
                 };
-                limits::switch(&switch.key, &switch.value)?;
-                limits::at_most(topic, "switches", self.scenario.len() + 1, limits::SWITCHES)?;
+                check::switch_texts(&switch.key, &switch.value)?;
+                check::at_most(topic, "switches", self.scenario.len() + 1, limits::SWITCHES)?;
                 self.scenario.push(switch);
                 Ok(())
             }
@@ -170,7 +170,7 @@ fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
 type ByChild<'a> = BTreeMap<&'a str, &'a FrameTransform>;
 
 fn by_child(transforms: &[FrameTransform]) -> Result<ByChild<'_>, Flaw> {
-    limits::at_most(
+    check::at_most(
         names::TF,
         "transforms",
         transforms.len(),

@@ -47,7 +47,7 @@ use toml::Spanned;
 
 use super::ease::Ease;
 use super::path::{Key, Path as KeyPath};
-use super::{TrackError, limits};
+use super::{TrackError, check, limits};
 use crate::{Switch, files};
 
 /// A track in keyframes, read and checked.
@@ -379,8 +379,8 @@ impl Reader<'_> {
                 let expected = "a switch names what it switches";
                 return Err(self.flaw(at, "scenario.key", "is empty", expected));
             }
-            let short =
-                limits::switch(&key, &value).and_then(|()| limits::totals(switches.len() + 1, 0));
+            let short = check::switch_texts(&key, &value)
+                .and_then(|()| check::totals(switches.len() + 1, 0));
             if let Err(flaw) = short {
                 return Err(self.flaw(at, flaw.field, flaw.problem, flaw.expected));
             }

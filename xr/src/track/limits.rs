@@ -1,8 +1,5 @@
 //! How much a track may hold. A track may come from anyone, so each size has an end that no recording reaches.
 
-use super::check::Flaw;
-use super::names;
-
 /// Of a track's file, B: some three hours.
 pub const FILE: u64 = 1 << 30;
 /// Of all its records unpacked, B: a chunk may pack a thousand to one.
@@ -29,28 +26,3 @@ pub const SCENE: usize = 256 << 10;
 pub(super) const TEXT: usize = 4096;
 /// Parameters, and what is said at the end.
 pub(super) const PARAMETERS: usize = 256;
-
-/// Whether there are at most so many.
-pub(super) fn at_most(topic: &str, field: &str, count: usize, most: usize) -> Result<(), Flaw> {
-    if count <= most {
-        return Ok(());
-    }
-    Err(Flaw::new(
-        topic,
-        field,
-        format!("has {count}"),
-        format!("at most {most} are read"),
-    ))
-}
-
-/// Whether a switch's texts are short.
-pub(super) fn switch(key: &str, value: &str) -> Result<(), Flaw> {
-    at_most(names::SCENARIO, "length of key", key.len(), TEXT)?;
-    at_most(names::SCENARIO, "length of value", value.len(), TEXT)
-}
-
-/// Whether a track has few enough switches and frames.
-pub(super) fn totals(switches: usize, frames: usize) -> Result<(), Flaw> {
-    at_most(names::SCENARIO, "switches", switches, SWITCHES)?;
-    at_most(names::FRAME, "frames", frames, FRAMES)
-}

@@ -17,6 +17,7 @@ mod keyframes;
 mod lengths;
 pub mod limits;
 mod message;
+mod metadata;
 mod path;
 mod read;
 mod sample;

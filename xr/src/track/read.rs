@@ -14,11 +14,10 @@ use std::sync::Arc;
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
-use xxhash_rust::xxh3::xxh3_128;
 
-use super::check::{self, Flaw};
+use super::check::{self, Flaw, at};
 use super::decode::Partial;
-use super::write::at;
+use super::metadata::{carried, check_scenes, metadata, short};
 use super::{Track, TrackError, TrackMetadata, descriptor, lengths, limits, names, seconds};
 use crate::files;
 
@@ -200,27 +199,8 @@ impl<'a> Reading<'a> {
     }
 
     /// A scene's text that the track carries.
-    fn scene(&mut self, mut map: BTreeMap<String, String>) -> Result<(), TrackError> {
-        let mut text = |field: &str| {
-            map.remove(field).ok_or_else(|| {
-                flawed(
-                    self.file,
-                    field,
-                    "is missing".into(),
-                    "a carried scene has name, toml and xxh3_128",
-                )
-            })
-        };
-        let (name, toml, hash) = (text(names::NAME)?, text(names::TOML)?, text(names::HASH)?);
-        check_scene(&name, &toml, self.file)?;
-        if hash != scene_hash(&toml) {
-            return Err(flawed(
-                self.file,
-                names::HASH,
-                format!("is {hash:?} and not that of its text"),
-                "a carried scene is the recorded one",
-            ));
-        }
+    fn scene(&mut self, map: BTreeMap<String, String>) -> Result<(), TrackError> {
+        let (name, toml) = carried(map, self.file)?;
         self.scenes.insert(name, toml);
         check_scenes(self.scenes.len(), self.file)
     }
@@ -271,7 +251,7 @@ impl<'a> Reading<'a> {
             })
             .map_err(|flaw| at(self.file, flaw, step, time_ns))?;
         self.switches += frame.scenario.len();
-        limits::totals(self.switches, self.track.frames.len() + 1)
+        check::totals(self.switches, self.track.frames.len() + 1)
             .map_err(|flaw| at(self.file, flaw, step, time_ns))?;
         self.track.frames.push(frame);
         self.track.stage_from_flasks.push(flasks);
@@ -330,110 +310,4 @@ impl<'a> Reading<'a> {
             },
         }
     }
-}
-
-/// Hash of a scene's text, in hexadecimal.
-pub(super) fn scene_hash(text: &str) -> String {
-    format!("{:032x}", xxh3_128(text.as_bytes()))
-}
-
-fn flawed(file: &Path, field: &str, problem: String, expected: &str) -> TrackError {
-    TrackError::Metadata {
-        file: file.into(),
-        field: field.into(),
-        problem,
-        expected: expected.into(),
-    }
-}
-
-/// Whether a metadata record has few texts, and short ones.
-fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), TrackError> {
-    let longest = map
-        .iter()
-        .flat_map(|(key, value)| [key.len(), value.len()])
-        .max();
-    for (field, count, most) in [
-        ("number of entries", map.len(), limits::PARAMETERS),
-        ("longest text", longest.unwrap_or(0), limits::TEXT),
-    ] {
-        if count > most {
-            return Err(flawed(
-                file,
-                field,
-                format!("is {count}"),
-                &format!("at most {most} are read"),
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Whether a reader would take what a writer is given.
-pub(super) fn check_metadata(metadata: &TrackMetadata, file: &Path) -> Result<(), TrackError> {
-    let fixed = [
-        (names::SCENE, &metadata.scene),
-        (names::PROGRAM_VERSION, &metadata.program_version),
-    ];
-    let fixed = fixed.map(|(name, text)| (name.to_owned(), text.clone()));
-    let mut map = metadata.parameters.clone();
-    map.extend(fixed);
-    short(&map, file)?;
-    for (name, text) in &metadata.scenes {
-        check_scene(name, text, file)?;
-    }
-    check_scenes(metadata.scenes.len(), file)
-}
-
-fn check_scene(name: &str, toml: &str, file: &Path) -> Result<(), TrackError> {
-    for (field, length, most) in [
-        (names::NAME, name.len(), limits::TEXT),
-        (names::TOML, toml.len(), limits::SCENE),
-    ] {
-        if length > most {
-            let expected = format!("a carried scene's has {most} at most");
-            return Err(flawed(
-                file,
-                field,
-                format!("has {length} bytes"),
-                &expected,
-            ));
-        }
-    }
-    Ok(())
-}
-
-fn check_scenes(count: usize, file: &Path) -> Result<(), TrackError> {
-    if count <= limits::SCENES {
-        return Ok(());
-    }
-    let problem = format!("are more than {}", limits::SCENES);
-    let expected = "a recording carries those that it may bring up";
-    Err(flawed(file, "carried scenes", problem, expected))
-}
-
-fn metadata(map: BTreeMap<String, String>, file: &Path) -> Result<TrackMetadata, TrackError> {
-    short(&map, file)?;
-    let text = |field: &str| {
-        map.get(field).cloned().ok_or_else(|| {
-            let expected = "a track names scene, seed and program_version";
-            flawed(file, field, "is missing".into(), expected)
-        })
-    };
-    let seed = text(names::SEED)?;
-    Ok(TrackMetadata {
-        scene: text(names::SCENE)?,
-        seed: seed.parse().map_err(|_| {
-            let expected = "a seed is a whole number from 0 to 2^64 - 1";
-            flawed(file, names::SEED, format!("is `{seed}`"), expected)
-        })?,
-        program_version: text(names::PROGRAM_VERSION)?,
-        parameters: map
-            .iter()
-            .filter_map(|(key, value)| {
-                let name = key.strip_prefix(names::PARAMETER)?;
-                Some((name.to_owned(), value.clone()))
-            })
-            .collect(),
-        scenes: BTreeMap::new(),
-    })
 }

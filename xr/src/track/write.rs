@@ -11,10 +11,10 @@ use mcap::write::NoSeek;
 use mcap::{Compression, McapError, WriteOptions, Writer};
 use prost::Message;
 
-use super::check::{self, Flaw};
-use super::read::{check_metadata, scene_hash};
+use super::check::{self, at};
+use super::metadata::{check_metadata, scene_hash};
 use super::stage::{Pending, Stage};
-use super::{TrackError, TrackMetadata, descriptor, encode, limits, names, seconds};
+use super::{TrackError, TrackMetadata, descriptor, encode, names};
 use crate::{Pose, PoseFrame, Side};
 
 /// A crash loses what was written since the last flush. Half a second keeps the loss below
@@ -140,7 +140,7 @@ impl TrackWriter {
         check::frame(frame, stage_from_flasks, self.last)
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
         let switches = self.switches + frame.scenario.len();
-        limits::totals(switches, self.frames as usize + 1)
+        check::totals(switches, self.frames as usize + 1)
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
         if self.pending.is_full() && self.flush().is_err() {
             return Err(TrackError::Full {
@@ -368,16 +368,5 @@ fn failed(file: &Path, error: McapError) -> TrackError {
             McapError::Io(source) => source,
             other => std::io::Error::other(other),
         },
-    }
-}
-
-/// The flaw of a frame as an error of a file.
-pub fn at(file: &Path, flaw: Flaw, step: u64, time_ns: i64) -> TrackError {
-    TrackError::Message {
-        file: file.into(),
-        place: format!("{}, step {step} at {} s", flaw.topic, seconds(time_ns)),
-        field: flaw.field,
-        problem: flaw.problem,
-        expected: flaw.expected,
     }
 }
