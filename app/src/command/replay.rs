@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON};
+use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
 use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
@@ -21,7 +22,6 @@ use crate::command::recorded::{
     changes_scene, differences, head, own_solver, preset_of, scene_of, whole,
 };
 use crate::report::{FilmStatement, RecordingStatement, Report, SceneStatement, SolverStatement};
-use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
 
 /// What `vitriol replay --json` prints: the report without its time series, and
 /// where things are.

@@ -134,6 +134,40 @@ fn a_recording_that_lacks_steps_says_so() {
     assert_eq!(switched, [0, 1, 0]);
 }
 
+/// A disk that refuses a file's end so many times.
+struct FullAtTheEnd(u32);
+
+impl Sink for FullAtTheEnd {
+    fn write(&mut self, _: &PoseFrame, _: &[Pose]) -> Result<(), TrackError> {
+        Ok(())
+    }
+
+    fn written(&self) -> u64 {
+        if self.0 > 0 { 0 } else { 2 }
+    }
+
+    fn finish(&mut self, _: &Said) -> Result<(), TrackError> {
+        if self.0 == 0 {
+            return Ok(());
+        }
+        self.0 -= 1;
+        Err(TrackError::Io {
+            file: "session.mcap".into(),
+            action: "write",
+            source: std::io::Error::from(std::io::ErrorKind::StorageFull),
+        })
+    }
+}
+
+#[test]
+fn a_disk_that_is_full_at_the_end_is_given_time() {
+    let mut recording = TrackRecording::into_sink(Box::new(FullAtTheEnd(2)), 4);
+    recording.push(&frame(0, None), Vec::new());
+    let state = recording.finish(1, 1, Said::new());
+    assert_eq!((state.steps, state.waiting, state.unwritten), (1, 0, 0));
+    assert!(state.cause.is_none(), "{state:?}");
+}
+
 #[test]
 fn a_full_disk_is_counted_and_said() {
     let (disk, hold) = disk(3);

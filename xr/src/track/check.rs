@@ -233,6 +233,13 @@ pub fn totals(switches: usize, frames: usize) -> Result<(), Flaw> {
     at_most(names::FRAME, "frames", frames, limits::FRAMES)
 }
 
+/// Whether a writer's messages stay below what is read, indices and all.
+pub fn unpacked(bytes: u64) -> Result<(), Flaw> {
+    let megabytes = |bytes: u64| (bytes >> 20) as usize;
+    let (count, most) = (megabytes(bytes), megabytes(limits::RECORDS / 2));
+    at_most(names::FRAME, "megabytes before it", count, most)
+}
+
 /// The flaw of a frame as an error of a file.
 pub fn at(file: &Path, flaw: Flaw, step: u64, time_ns: i64) -> TrackError {
     TrackError::Message {

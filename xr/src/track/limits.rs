@@ -1,9 +1,9 @@
 //! How much a track may hold. A track may come from anyone, so each size has an end that no recording reaches.
 
-/// Of a track's file, B: some three hours.
+/// Of a track's file, B: three hours of 90 Hz take a quarter of it (240 B a step).
 pub const FILE: u64 = 1 << 30;
-/// Of all its records unpacked, B: a chunk may pack a thousand to one.
-pub(super) const RECORDS: u64 = 2 << 30;
+/// Of all its records unpacked, B, of which a writer's messages are half at most: a chunk may pack hundreds to one.
+pub(super) const RECORDS: u64 = 4 << 30;
 /// Of a keyframe file, B.
 pub(super) const KEYFRAMES: u64 = 16 << 20;
 /// Of a message, B. A frame of [`FLASKS`] takes 10 kB.

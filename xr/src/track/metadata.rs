@@ -64,20 +64,15 @@ pub(super) fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), T
     Ok(())
 }
 
-/// Whether a reader would take what a writer is given.
-pub(super) fn check_metadata(metadata: &TrackMetadata, file: &Path) -> Result<(), TrackError> {
-    let fixed = [
-        (names::SCENE, &metadata.scene),
-        (names::PROGRAM_VERSION, &metadata.program_version),
-    ];
-    let fixed = fixed.map(|(name, text)| (name.to_owned(), text.clone()));
-    let mut map = metadata.parameters.clone();
-    map.extend(fixed);
-    short(&map, file)?;
-    for (name, text) in &metadata.scenes {
+/// Whether a reader takes the scenes that a writer is given.
+pub(super) fn check_carried(
+    scenes: &BTreeMap<String, String>,
+    file: &Path,
+) -> Result<(), TrackError> {
+    for (name, text) in scenes {
         check_scene(name, text, file)?;
     }
-    check_scenes(metadata.scenes.len(), file)
+    check_scenes(scenes.len(), file)
 }
 
 fn check_scene(name: &str, toml: &str, file: &Path) -> Result<(), TrackError> {

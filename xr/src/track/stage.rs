@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Most that waits for a disk, B: some ten minutes of a track.
+/// Most that waits for a disk, B: some 25 minutes of a track at 90 Hz.
 const MOST: usize = 32 << 20;
 
 type Bytes = Arc<Mutex<Vec<u8>>>;

@@ -12,7 +12,7 @@ use mcap::{Compression, McapError, WriteOptions, Writer};
 use prost::Message;
 
 use super::check::{self, at};
-use super::metadata::{check_metadata, scene_hash};
+use super::metadata::{check_carried, scene_hash, short};
 use super::stage::{Pending, Stage};
 use super::{TrackError, TrackMetadata, descriptor, encode, names};
 use crate::{Pose, PoseFrame, Side};
@@ -21,6 +21,9 @@ use crate::{Pose, PoseFrame, Side};
 /// a second even where frames come irregularly, and an lz4 chunk of 45 frames compresses
 /// nearly as well as one of 90.
 const FLUSH_AFTER: Duration = Duration::from_millis(500);
+
+/// Of a message's record beside its data, B.
+const MESSAGE_HEADER: u64 = 31;
 
 /// What to do where the output file is there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +62,8 @@ pub struct TrackWriter {
     /// Frames and switches taken.
     frames: u64,
     switches: usize,
+    /// Bytes of their messages, unpacked.
+    bytes: u64,
     last: Option<(u64, i64)>,
     concluded: bool,
     /// Whether its end was asked for: from then on it is not ended by being dropped.
@@ -79,14 +84,15 @@ impl TrackWriter {
     /// Creates `file` and writes what comes before the first frame.
     ///
     /// # Errors
-    /// [`TrackError::Exists`] where `file` exists and `existing` does not say to replace it;
+    /// [`TrackError::Metadata`] where a reader would refuse `metadata`; [`TrackError::Exists`] where `file` exists and `existing` does not say to replace it;
     /// [`TrackError::Io`] where it cannot be created or written.
     pub fn create(
         file: &Path,
         metadata: &TrackMetadata,
         existing: Existing,
     ) -> Result<Self, TrackError> {
-        check_metadata(metadata, file)?;
+        short(&record(metadata).metadata, file)?;
+        check_carried(&metadata.scenes, file)?;
         let mut options = OpenOptions::new();
         options.write(true);
         match existing {
@@ -114,6 +120,7 @@ impl TrackWriter {
             buffer: Vec::new(),
             frames: 0,
             switches: 0,
+            bytes: 0,
             last: None,
             concluded: false,
             ending: false,
@@ -141,6 +148,7 @@ impl TrackWriter {
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
         let switches = self.switches + frame.scenario.len();
         check::totals(switches, self.frames as usize + 1)
+            .and_then(|()| check::unpacked(self.bytes))
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
         if self.pending.is_full() && self.flush().is_err() {
             return Err(TrackError::Full {
@@ -184,8 +192,9 @@ impl TrackWriter {
     /// Writes what is said of the end, once (see [`Track::outcome`](super::Track::outcome)).
     ///
     /// # Errors
-    /// [`TrackError::Io`] after [`finish`](Self::finish).
+    /// [`TrackError::Metadata`] where a reader would refuse it; [`TrackError::Io`] after [`finish`](Self::finish).
     pub fn conclude(&mut self, outcome: &BTreeMap<String, String>) -> Result<(), TrackError> {
+        short(outcome, &self.file)?;
         let said = Metadata {
             name: names::OUTCOME.into(),
             metadata: outcome.clone(),
@@ -261,6 +270,7 @@ impl TrackWriter {
         self.buffer.clear();
         // A Vec always has room, so that the only error of encode cannot occur.
         let _ = message.encode(&mut self.buffer);
+        self.bytes += self.buffer.len() as u64 + MESSAGE_HEADER;
         let header = MessageHeader {
             channel_id,
             // Both were checked to fit.
