@@ -214,10 +214,7 @@ struct Cache(Option<PathBuf>);
 
 impl Cache {
     fn open() -> Self {
-        let folder = std::env::var_os("XDG_CACHE_HOME")
-            .map(PathBuf::from)
-            .or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cache")));
-        Self(folder.map(|folder| folder.join("vitriol").join("budget.json")))
+        Self(dirs::cache_dir().map(|folder| folder.join("vitriol").join("budget.json")))
     }
 
     /// What is kept; a file that cannot be read is as good as none.

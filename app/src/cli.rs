@@ -6,7 +6,7 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ExportArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -16,7 +16,8 @@ pub use arguments::{
 #[command(after_help = "Exit codes: 0 done, 1 failed, 2 bad scene, track or \
                         argument, 3 no device or runtime.")]
 pub struct Cli {
-    /// Print one JSON object on standard output and nothing else there
+    /// Print one JSON object on standard output and nothing else there; progress, warnings and
+    /// errors are JSON lines on standard error
     #[arg(long, global = true)]
     pub json: bool,
 
@@ -34,6 +35,8 @@ pub struct Cli {
 pub enum Command {
     /// Replay a recorded pour and make its film and report
     Replay(ReplayArgs),
+    /// Write a run for other programs: particles, surfaces, measurements, recordings
+    Export(ExportArgs),
     /// Replay a recorded pour up to a time and take one picture
     Picture(PictureArgs),
     /// Pour by hand, in a headset
@@ -47,7 +50,7 @@ pub enum Command {
     Study(vitriol_study::cli::Command),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
-    /// Write the manual's pages and completions for bash, fish and zsh
+    /// Write the manual's pages, completions for bash, fish and zsh, and the report's JSON schema
     Pages(PagesArgs),
 }
 

@@ -13,6 +13,7 @@ use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
 use vitriol_sim::world::World;
 
 use crate::failure::{Blame, Failure};
+use crate::hands::{BEADS_BY, Bead, Beads};
 use crate::legend::{Legend, draw_tints};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of};
 
@@ -26,11 +27,11 @@ const COLOURED_FALL: f64 = 0.075;
 /// Vertical field of view from the head, degrees: 66° across at 16:9. A
 /// headset's own 90° and more, flattened into a film, makes the glass small
 /// and the bench's edges long.
-const HEAD_FIELD: f32 = 40.0;
+pub const HEAD_FIELD: f32 = 40.0;
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand
 /// adults (N. Dodgson, 2004).
-const EYES_APART: f32 = 0.063;
+pub const EYES_APART: f32 = 0.063;
 
 /// What a film's colours stand for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +96,8 @@ pub struct Camera {
     pub view: View,
     /// What the colours of temperature run over.
     temperatures: ColourBy,
+    /// The user's hands, where it shows what the head sees; pictures of liquid alone have them.
+    hands: Option<(Beads, Vec<Bead>)>,
 }
 
 impl Camera {
@@ -118,8 +121,9 @@ impl Camera {
         Ok(Self {
             renderer,
             eyes: shot.eyes,
-            view: view(scene, extent[0] as f32 / extent[1] as f32),
+            view: tripod(scene, extent[0] as f32 / extent[1] as f32),
             temperatures: temperatures(scene),
+            hands: None,
         })
     }
 
@@ -135,6 +139,19 @@ impl Camera {
         };
     }
 
+    /// Shows the hands with these beads, in the scene's stage, real metres.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn show_hands(&mut self, gpu: &Gpu, beads: Vec<Bead>) -> Result<(), Failure> {
+        let shown = match self.hands.take() {
+            Some((shown, _)) => shown,
+            None => Beads::new(gpu)?,
+        };
+        self.hands = Some((shown, beads));
+        Ok(())
+    }
+
     /// The world as it is now, coloured by speed where it has not what is asked
     /// for: rows from the top, sRGB-encoded RGBA bytes.
     /// Waits for the device.
@@ -144,6 +161,10 @@ impl Camera {
     pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
         let gpu = world.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        if let Some((beads, places)) = &self.hands {
+            let scale = world.scene().scale.length_scale as f32;
+            beads.upload(&mut rec, places, scale)?;
+        }
         self.record(&mut rec, world, colour)?;
         let picture = self.renderer.read_back(&mut rec).other()?;
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
@@ -223,11 +244,18 @@ impl Camera {
             radius: (DRAWN_RADIUS * scale.spacing) as f32,
         };
         let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
+        let hands = self.hands.as_ref();
+        let hands =
+            hands.and_then(|(beads, places)| beads.source(places.len(), scale.length_scale as f32));
         let frame = FrameDesc {
             extent: None,
             views: &self.views(),
             vessels: &vessels,
-            particles: liquid.is_none().then_some(particles),
+            particles: if liquid.is_none() {
+                Some(particles)
+            } else {
+                hands
+            },
             liquid,
             steam: solver
                 .puffs()
@@ -236,7 +264,11 @@ impl Camera {
                     puffs,
                     count: vitriol_sim::solver::PUFFS,
                 }),
-            colour_by,
+            colour_by: if liquid.is_none() {
+                colour_by
+            } else {
+                BEADS_BY
+            },
             length_scale: scale.length_scale as f32,
         };
         f(&frame).other()
@@ -308,7 +340,7 @@ fn temperatures(scene: &Scene) -> ColourBy {
 
 /// At real size the view of a bench before a standing user; else one that has
 /// the vessels, and as much room above them for what is lifted, in its picture.
-fn view(scene: &Scene, aspect: f32) -> View {
+pub fn tripod(scene: &Scene, aspect: f32) -> View {
     let scale = scene.scale.length_scale as f32;
     if scale == 1.0 || scene.flasks.is_empty() {
         return View::bench(aspect);

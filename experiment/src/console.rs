@@ -43,6 +43,13 @@ pub fn emit<T: Serialize>(
     }
 }
 
+/// A failure as a line of JSON.
+pub fn error_line(failure: &Failure) -> String {
+    let line =
+        serde_json::json!({ "error": failure.to_string(), "exit_code": failure.exit_code() });
+    json_escaped(&line.to_string())
+}
+
 /// Text that a terminal only shows: what may come from a file's metadata could else move the cursor, rename the
 /// window or turn the direction of writing. Line breaks and tabs stay.
 pub fn escaped(text: &str) -> String {
@@ -63,7 +70,7 @@ pub fn in_a_line(text: &str) -> String {
 }
 
 /// JSON with what steers a terminal written as numbers; it stands in strings only.
-fn json_escaped(json: &str) -> String {
+pub(crate) fn json_escaped(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     for c in json.chars() {
         if steers(c) {

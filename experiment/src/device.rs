@@ -1,12 +1,13 @@
 //! The device that a command runs on.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader, Timestamps};
 
 use crate::failure::Failure;
 
 /// The device and driver of a run.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct DeviceStatement {
     /// The device's name.
     pub name: String,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_render::PassPicture;
 use vitriol_xr::PoseFrame;
@@ -81,7 +82,7 @@ pub struct Outcome {
 }
 
 /// What was counted over a run.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, JsonSchema, Serialize, Deserialize)]
 pub struct Counters {
     /// Substeps done.
     pub substeps: u64,

@@ -4,11 +4,6 @@
 //! Encoding runs on a thread of its own, fed through a short bounded channel,
 //! so that the next frame is simulated and drawn while this one is encoded; a
 //! slow encoder holds the producer back instead of filling the memory.
-//!
-//! Colours: pictures come as sRGB-encoded RGBA and are converted to 4:2:0 with
-//! the BT.601 matrix in limited range. That matrix, sRGB's primaries (those of
-//! BT.709) and sRGB's transfer curve are written into the stream (H.264
-//! Annex E), so that no player has to guess the matrix from the frame's size.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -16,28 +11,13 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use muxide::api::{Muxer, MuxerBuilder, MuxerError, VideoCodec};
-use openh264::OpenH264API;
-use openh264::encoder::{
-    BitRate, ColorPrimaries, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod,
-    MatrixCoefficients, QpRange, RateControlMode, TransferCharacteristics, VuiConfig,
-};
-use openh264::formats::{RgbaSliceU8, YUVBuffer};
-
+use crate::h264::{H264, MOST_BITS};
 use crate::output::Staged;
+use muxide::api::{Muxer, MuxerBuilder, MuxerError, VideoCodec};
 
 /// Frames that may wait for the encoder: enough to even out a slow key frame,
 /// few enough (2 MB each at 960×540) not to matter.
 const QUEUED_FRAMES: usize = 4;
-
-/// H.264's quantiser, 0 to 51. At 20 a film of 10 s has 2 MB.
-const QUANTISER: u8 = 20;
-
-/// More bits a second than any film here has (one of 960 × 540 has 1.6 million).
-const MOST_BITS: u32 = 100_000_000;
-
-/// A key frame at least every two seconds, so that seeking stays quick.
-const SECONDS_BETWEEN_KEY_FRAMES: u32 = 2;
 
 /// What can go wrong with a film.
 #[derive(Debug, thiserror::Error)]
@@ -218,7 +198,7 @@ impl Shape {
         queue: &Receiver<Vec<u8>>,
         give_back: &SyncSender<Vec<u8>>,
     ) -> Result<Staged, FilmError> {
-        let mut encoder = Encoder::with_api_config(OpenH264API::from_source(), self.config())?;
+        let mut encoder = H264::new([self.width, self.height], self.fps)?;
         let file = staged.try_clone().map_err(unwritten(&staged.path))?;
         let mut muxer: Muxer<BufWriter<File>> = MuxerBuilder::new(BufWriter::new(file))
             .video(
@@ -229,23 +209,14 @@ impl Shape {
             )
             .with_fast_start(true)
             .build()?;
-        let size = (self.width as usize, self.height as usize);
-        let mut picture = YUVBuffer::new(size.0, size.1);
-        let mut coded = Vec::new();
         let mut number = 0u32;
         for frame in queue {
-            picture.read_rgba8(RgbaSliceU8::new(&frame, size));
+            let coded = encoder.encode(&frame)?;
+            let coded = coded.ok_or(FilmError::TooRich { number })?;
+            let seconds = f64::from(number) / f64::from(self.fps);
+            muxer.write_video(seconds, coded.bytes, coded.is_key)?;
             // A full basket only means that one buffer more is freed.
             let _ = give_back.try_send(frame);
-            let stream = encoder.encode(&picture)?;
-            if matches!(stream.frame_type(), FrameType::Skip) {
-                return Err(FilmError::TooRich { number });
-            }
-            coded.clear();
-            stream.write_vec(&mut coded);
-            let key = matches!(stream.frame_type(), FrameType::IDR);
-            let seconds = f64::from(number) / f64::from(self.fps);
-            muxer.write_video(seconds, &coded, key)?;
             number += 1;
         }
         if number == 0 {
@@ -256,34 +227,5 @@ impl Shape {
         let flushed = flushed.map_err(|error| error.into_error());
         flushed.map_err(unwritten(&staged.path))?;
         Ok(staged)
-    }
-
-    fn config(self) -> EncoderConfig {
-        EncoderConfig::new()
-            .max_frame_rate(FrameRate::from_hz(self.fps as f32))
-            // One quantiser: a file has no line to keep within, so a splash may
-            // cost more bits than still water, and it stays as sharp. Without
-            // rate control it would be 26, where what a moving edge leaves
-            // behind falls below the quantiser, and stays as dark dots on the
-            // wall until the next key frame. This mode heeds the range.
-            .rate_control_mode(RateControlMode::Quality)
-            .qp(QpRange::new(QUANTISER, QUANTISER))
-            // So high that no frame is skipped for it. With skipping off, the
-            // encoder would print a warning.
-            .bitrate(BitRate::from_bps(MOST_BITS))
-            .skip_frames(true)
-            // It takes such dots for the background, and keeps them too.
-            .background_detection(false)
-            .intra_frame_period(IntraFramePeriod::from_num_frames(
-                self.fps * SECONDS_BETWEEN_KEY_FRAMES,
-            ))
-            // The other core belongs to the simulation.
-            .num_threads(1)
-            .vui(
-                VuiConfig::bt601()
-                    .color_primaries(ColorPrimaries::Bt709)
-                    .transfer_characteristics(TransferCharacteristics::Srgb)
-                    .matrix_coefficients(MatrixCoefficients::Smpte170M),
-            )
     }
 }

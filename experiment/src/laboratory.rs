@@ -16,6 +16,7 @@ use crate::camera::{Camera, Colour, Shot};
 use crate::device;
 use crate::experiment::{Counters, Experiment, Outcome, Taken};
 use crate::failure::{Blame, Failure};
+use crate::hands::beads;
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 use crate::scenes::Scenes;
 use crate::stage::hands;
@@ -66,44 +67,7 @@ pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
 /// # Errors
 /// [`Failure::Input`] for a liquid that does not fit.
 pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
-    let library = &setup.shaders;
-    let world = World::new(gpu, library, setup.scene, setup.seed).map_err(|error| {
-        match blame_world(error) {
-            // What is wrong with a scene is said with its file.
-            Failure::Input(cause) => {
-                Failure::Input(format!("{}: {cause}", setup.scene_name).into())
-            }
-            failure => failure,
-        }
-    })?;
-    let shot = setup.picture.map(|extent| Shot {
-        extent,
-        eyes: setup.eyes,
-        liquid: None,
-        filter: setup.filter,
-    });
-    let mut film = camera(&world, library, shot, &setup.colours)?;
-    if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
-        camera.follow(head);
-    }
-    Ok(Box::new(Laboratory {
-        world,
-        film,
-        shot,
-        preset: setup.preset,
-        scenes: setup.scenes.clone(),
-        switched: None,
-        follows_head: setup.head.is_some(),
-        seed: setup.seed,
-        shaders: setup.shaders.clone(),
-        lost: 0,
-        substeps: 0,
-        solver_changes: 0,
-        departures: Departures::default(),
-        start: None,
-        colours: setup.colours.clone(),
-        picture: Vec::new(),
-    }))
+    Ok(Box::new(Laboratory::new(gpu, setup)?))
 }
 
 /// The camera for the pictures that were asked for.
@@ -124,7 +88,8 @@ fn camera(
     shot.map(of_world).transpose()
 }
 
-struct Laboratory {
+/// The simulated world and its picture on a device.
+pub struct Laboratory {
     world: World,
     film: Option<Camera>,
     /// What the film's pictures are like, whatever the scene.
@@ -150,6 +115,61 @@ struct Laboratory {
 }
 
 impl Laboratory {
+    /// One of the scene that was asked for.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a liquid that does not fit.
+    pub fn new(gpu: &Gpu, setup: &Setup<'_>) -> Result<Self, Failure> {
+        let library = &setup.shaders;
+        let world = World::new(gpu, library, setup.scene, setup.seed).map_err(|error| {
+            match blame_world(error) {
+                // What is wrong with a scene is said with its file.
+                Failure::Input(cause) => {
+                    Failure::Input(format!("{}: {cause}", setup.scene_name).into())
+                }
+                failure => failure,
+            }
+        })?;
+        let shot = setup.picture.map(|extent| Shot {
+            extent,
+            eyes: setup.eyes,
+            liquid: None,
+            filter: setup.filter,
+        });
+        let mut film = camera(&world, library, shot, &setup.colours)?;
+        if let (Some(camera), Some(head)) = (&mut film, &setup.head) {
+            camera.follow(head);
+        }
+        Ok(Self {
+            world,
+            film,
+            shot,
+            preset: setup.preset,
+            scenes: setup.scenes.clone(),
+            switched: None,
+            follows_head: setup.head.is_some(),
+            seed: setup.seed,
+            shaders: setup.shaders.clone(),
+            lost: 0,
+            substeps: 0,
+            solver_changes: 0,
+            departures: Departures::default(),
+            start: None,
+            colours: setup.colours.clone(),
+            picture: Vec::new(),
+        })
+    }
+
+    /// The simulated world now.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The camera of the pictures that were asked for.
+    pub fn camera(&self) -> Option<&Camera> {
+        self.film.as_ref()
+    }
+
     /// Takes up shaders that were changed on disk. What does not compile, or
     /// what the device refuses, leaves the old ones in use: who is writing a
     /// shader mends it and goes on.
@@ -241,6 +261,9 @@ impl Experiment for Laboratory {
             let mut view = frame.stage_from_view;
             view.position -= origin.as_vec3();
             camera.follow(&view);
+            let beads = beads(frame).into_iter();
+            let beads = beads.map(|(middle, closed)| (middle - origin.as_vec3(), closed));
+            camera.show_hands(self.world.gpu(), beads.collect())?;
         }
         let scale = self.world.scene().scale;
         let hands = hands(&frame.hands, self.world.scene());

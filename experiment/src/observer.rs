@@ -1,15 +1,14 @@
 //! What is kept of a run while it goes on: film, samples and progress.
 
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::clock::{SimulatedTime, Span};
 use crate::experiment::Experiment;
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
+use crate::moment::{Moment, Watch};
+use crate::progress::Progress;
 use crate::sample::Sample;
 
 /// Frame rate of the film, Hz.
@@ -31,7 +30,7 @@ pub struct Observer {
     /// Number of the last sample's time.
     sampled: Option<u64>,
     time: SimulatedTime,
-    bar: ProgressBar,
+    progress: Progress,
     begin: Instant,
 }
 
@@ -52,8 +51,8 @@ pub struct Observations {
 }
 
 impl Observer {
-    /// An observer of a run of that span; its clock starts now.
-    pub fn new(span: Span, films: Vec<Film>) -> Self {
+    /// An observer of a run of that span, whose progress it shows; its clock starts now.
+    pub fn new(span: Span, films: Vec<Film>, progress: Progress) -> Self {
         Self {
             span,
             films,
@@ -61,47 +60,9 @@ impl Observer {
             samples: Vec::new(),
             sampled: None,
             time: SimulatedTime::default(),
-            bar: progress_bar(span.steps),
+            progress,
             begin: Instant::now(),
         }
-    }
-
-    /// Takes what is due at that time.
-    ///
-    /// # Errors
-    /// What experiment or film say.
-    pub fn observe(
-        &mut self,
-        time: &SimulatedTime,
-        experiment: &mut dyn Experiment,
-    ) -> Result<(), Failure> {
-        self.time = *time;
-        let due = self.film_frames_due(time);
-        if due > self.film_frames {
-            for (index, film) in self.films.iter_mut().enumerate() {
-                let picture = experiment.picture(index)?;
-                // More than one where a step is longer than a film frame: the
-                // film keeps real time.
-                for _ in self.film_frames..due {
-                    film.push_rgba(picture).other()?;
-                }
-            }
-            self.film_frames = due;
-        }
-        let number = Some((time.seconds() * SAMPLES_PER_SECOND + 1e-6).floor() as u64);
-        if self.sampled < number || self.span.is_over(time) {
-            self.sampled = number;
-            self.samples.push(experiment.sample(time.seconds())?);
-        }
-        self.bar.set_position(time.steps());
-        Ok(())
-    }
-
-    /// Forgets the samples: what follows is another scene, or the same from its
-    /// start, and curves over both would be of neither. Films go on.
-    pub fn start_over(&mut self) {
-        self.samples.clear();
-        self.sampled = None;
     }
 
     /// Ends the films and hands over what was kept.
@@ -110,7 +71,6 @@ impl Observer {
     /// What a film says.
     pub fn finish(self) -> Result<Observations, Failure> {
         let films: Result<_, _> = self.films.into_iter().map(Film::finish).collect();
-        self.bar.finish_and_clear();
         Ok(Observations {
             films: films.other()?,
             film_frames: self.film_frames,
@@ -135,16 +95,43 @@ impl Observer {
     }
 }
 
-fn progress_bar(steps: u64) -> ProgressBar {
-    // Where nobody watches, a bar would only fill a log.
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
+impl<E: Experiment + ?Sized> Watch<E> for Observer {
+    fn observe(&mut self, moment: &Moment<'_>, experiment: &mut E) -> Result<(), Failure> {
+        let time = &moment.time;
+        self.time = *time;
+        let due = self.film_frames_due(time);
+        if due > self.film_frames {
+            for (index, film) in self.films.iter_mut().enumerate() {
+                let picture = experiment.picture(index)?;
+                // More than one where a step is longer than a film frame: the
+                // film keeps real time.
+                for _ in self.film_frames..due {
+                    film.push_rgba(picture).other()?;
+                }
+            }
+            self.film_frames = due;
+        }
+        if sample_is_due(&mut self.sampled, time) || self.span.is_over(time) {
+            self.samples.push(experiment.sample(time.seconds())?);
+        }
+        self.progress.at(time);
+        Ok(())
     }
-    let bar = ProgressBar::new(steps);
-    let template = "{bar:40} step {pos} of {len}, {eta} left";
-    // The template is ours; where it could not be read, the plain bar does.
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+
+    /// Forgets the samples: curves over both would be of neither. Films go on.
+    fn start_over(&mut self) -> Result<(), Failure> {
+        self.samples.clear();
+        self.sampled = None;
+        Ok(())
     }
-    bar
+}
+
+/// Whether the time of a sample has come since the last one, whose number is `last`.
+pub fn sample_is_due(last: &mut Option<u64>, time: &SimulatedTime) -> bool {
+    let number = Some((time.seconds() * SAMPLES_PER_SECOND + 1e-6).floor() as u64);
+    let due = *last < number;
+    if due {
+        *last = number;
+    }
+    due
 }

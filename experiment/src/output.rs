@@ -257,6 +257,18 @@ impl OutDir {
         self.files.push(file);
     }
 
+    /// How many files of the run it holds, and how many bytes they have.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn sizes(&self) -> io::Result<(usize, u64)> {
+        let mut bytes = 0;
+        for file in &self.files {
+            bytes += fs::metadata(file)?.len();
+        }
+        Ok((self.files.len(), bytes))
+    }
+
     /// The run is whole: all stays.
     pub fn complete(mut self) {
         self.files.clear();

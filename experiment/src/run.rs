@@ -6,7 +6,7 @@ use vitriol_xr::{PoseFrame, PoseSource};
 use crate::clock::{SimulatedTime, Span};
 use crate::experiment::Experiment;
 use crate::failure::{Blame, Failure};
-use crate::observer::Observer;
+use crate::moment::{Moment, Watch};
 
 /// Runs an experiment with the poses of a source. Where the source ends before
 /// the span does, its last poses are held. The span's steps are those of the scene
@@ -14,14 +14,14 @@ use crate::observer::Observer;
 ///
 /// # Errors
 /// What source, experiment or film say.
-pub fn run(
+pub fn run<E: Experiment + ?Sized>(
     source: &mut dyn PoseSource,
-    experiment: &mut dyn Experiment,
+    experiment: &mut E,
     span: Span,
-    observer: &mut Observer,
+    watch: &mut impl Watch<E>,
 ) -> Result<(), Failure> {
     let mut time = SimulatedTime::default();
-    observer.observe(&time, experiment)?;
+    watch.observe(&Moment { time, frame: None }, experiment)?;
     let mut held: Option<PoseFrame> = None;
     while !span.is_over(&time) {
         let step = time.steps();
@@ -40,10 +40,11 @@ pub fn run(
         };
         let taken = experiment.step(frame)?;
         if taken.anew {
-            observer.start_over();
+            watch.start_over()?;
         }
         time.advance(taken.frame_time);
-        observer.observe(&time, experiment)?;
+        let frame = Some(frame);
+        watch.observe(&Moment { time, frame }, experiment)?;
     }
     Ok(())
 }

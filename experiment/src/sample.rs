@@ -3,10 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The state at one moment of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Sample {
     /// Simulated time, s.
     pub t_s: f64,
@@ -32,7 +33,7 @@ pub struct Sample {
 }
 
 /// Fluid mass by place, kg.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, JsonSchema, Serialize, Deserialize)]
 pub struct MassByPlace {
     /// Inside each flask, by the flask's name.
     pub flasks: BTreeMap<String, f64>,
@@ -62,7 +63,7 @@ impl MassByPlace {
 }
 
 /// Temperature and composition at one moment. Means are by mass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct HeatSample {
     /// Mean temperature, °C.
     pub temperature_mean_c: f64,
@@ -94,7 +95,7 @@ pub struct HeatSample {
 
 /// Where the enthalpy is that there was at the start: initial + exchanged =
 /// held + steam + kinetic. Relative to the pure liquids at 25 °C.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct LedgerSample {
     /// Enthalpy at the start, J.
     pub initial_j: f64,

@@ -2,32 +2,25 @@
 
 use ash::vk;
 
+use crate::advice::{DRIVER, LOADER, VALIDATION};
+
 /// Every failure of this crate; each message names cause and remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     /// The Vulkan loader (libvulkan) is not installed.
-    #[error(
-        "the Vulkan loader cannot be loaded ({cause}); install it (Debian: package libvulkan1), \
-         and a driver: your graphics card's, or the software one (Debian: mesa-vulkan-drivers)"
-    )]
+    #[error("the Vulkan loader cannot be loaded ({cause}); {LOADER}")]
     NoLoader {
         /// What the system said.
         cause: String,
     },
     /// The loader is there, but no driver made an instance.
-    #[error(
-        "no Vulkan instance can be created ({result}); install a driver: your graphics card's, \
-         or the software one (Debian: package mesa-vulkan-drivers)"
-    )]
+    #[error("no Vulkan instance can be created ({result}); {DRIVER}")]
     NoInstance {
         /// The loader's answer.
         result: vk::Result,
     },
     /// Drivers are there but offer no device.
-    #[error(
-        "Vulkan offers no device; install your graphics card's driver, or the software driver \
-         (Debian: package mesa-vulkan-drivers)"
-    )]
+    #[error("Vulkan offers no device; {DRIVER}")]
     NoDevice,
     /// No device fits `Options::device`.
     #[error(
@@ -57,8 +50,7 @@ pub enum GpuError {
     },
     /// `Options::validation` without the layer.
     #[error(
-        "the Khronos validation layer is not installed; install it (Debian: package \
-         vulkan-validationlayers) or open the device without validation"
+        "the Khronos validation layer is not installed; {VALIDATION}, or open the device without validation"
     )]
     NoValidationLayer,
     /// The provider (plain loader, OpenXR runtime) refused.

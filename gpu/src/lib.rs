@@ -36,6 +36,7 @@
 // Vulkan is an unsafe interface; every block states why its call is valid.
 #![allow(unsafe_code)]
 
+pub mod advice;
 mod barrier;
 mod device;
 mod error;

@@ -7,6 +7,7 @@ pub mod gpu;
 #[cfg(target_os = "linux")]
 pub mod monado;
 pub mod random;
+pub mod readers;
 #[cfg(target_os = "linux")]
 pub mod screen;
 pub mod wait;

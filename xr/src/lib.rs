@@ -9,6 +9,7 @@
 //! Poses are in the stage frame: Y up, metres, -Z ahead; OpenXR's STAGE reference space with
 //! the floor at y = 0 where the runtime knows it.
 
+mod entry;
 pub mod files;
 mod frame;
 mod headset;

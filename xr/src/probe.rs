@@ -1,12 +1,11 @@
 //! What of OpenXR is there: loader, runtime, extensions; and what is missing,
 //! with the remedy.
 
-// Loading the loader runs foreign code; the one block states why that is valid.
-#![allow(unsafe_code)]
-
 use std::path::PathBuf;
 
-use openxr::{ApplicationInfo, Entry, ExtensionSet, Version};
+use openxr::{ApplicationInfo, ExtensionSet, Version};
+
+use crate::entry::entry;
 
 /// What a look at OpenXR found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,13 +30,10 @@ pub fn probe() -> Probe {
         manifest: manifest(),
         ..Probe::default()
     };
-    // SAFETY: the library of that name in the system's search path is the
-    // Khronos loader, as for every OpenXR program; the entry is not used after
-    // it is dropped.
-    let entry = match unsafe { Entry::load(&()) } {
+    let entry = match entry() {
         Ok(entry) => entry,
-        Err(error) => {
-            found.missing.push(no_loader(&error));
+        Err(remedy) => {
+            found.missing.push(remedy);
             return found;
         }
     };
@@ -82,13 +78,11 @@ pub(crate) fn application() -> ApplicationInfo<'static> {
 pub(crate) const NO_VULKAN: &str = "The OpenXR runtime lacks XR_KHR_vulkan_enable2: update it, or \
                                     choose another runtime in XR_RUNTIME_JSON.";
 
-/// A machine without the loader.
-pub(crate) fn no_loader(error: &openxr::EntryError) -> String {
-    format!(
-        "The OpenXR loader cannot be loaded ({error}): install it (Debian: package \
-         libopenxr-loader1) to use a headset."
-    )
-}
+/// Runtimes of this system's headsets.
+#[cfg(windows)]
+const RUNTIMES: &str = "SteamVR or Meta Quest Link, and make it the active one in its settings";
+#[cfg(not(windows))]
+const RUNTIMES: &str = "SteamVR or Monado";
 
 /// A loader without a runtime that answers.
 pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
@@ -99,8 +93,8 @@ pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
             manifest.display()
         ),
         None => format!(
-            "No OpenXR runtime is chosen ({error}): install and start your headset's, such as \
-             SteamVR or Monado, or name its file in XR_RUNTIME_JSON."
+            "No OpenXR runtime is chosen ({error}): install and start your headset's, such as {RUNTIMES}, or name its \
+             file in XR_RUNTIME_JSON."
         ),
     }
 }
@@ -128,13 +122,24 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
     ]
 }
 
-/// The file that names the active runtime, by the loader's own rules on Linux
-/// (OpenXR loader specification, "Desktop active runtime file location"); on
-/// Windows the registry names it, and only the variable is looked at.
+/// The file that names the active runtime, by the loader's own rules (OpenXR loader specification, "Desktop active
+/// runtime file location").
 fn manifest() -> Option<PathBuf> {
-    if let Some(path) = std::env::var_os("XR_RUNTIME_JSON") {
-        return Some(path.into());
-    }
+    let named = std::env::var_os("XR_RUNTIME_JSON");
+    named.map(PathBuf::from).or_else(active_manifest)
+}
+
+/// On Windows the registry names it.
+#[cfg(windows)]
+fn active_manifest() -> Option<PathBuf> {
+    let key = windows_registry::LOCAL_MACHINE.open(r"SOFTWARE\Khronos\OpenXR\1");
+    let named = key.and_then(|key| key.get_string("ActiveRuntime"));
+    named.ok().map(PathBuf::from)
+}
+
+/// Elsewhere the first of these files is it.
+#[cfg(not(windows))]
+fn active_manifest() -> Option<PathBuf> {
     let variable = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let user = variable("XDG_CONFIG_HOME").or_else(|| Some(variable("HOME")?.join(".config")));
     let system = [

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 use vitriol_experiment::{Failure, Format, emit};
+use vitriol_gpu::advice::DRIVER;
 use vitriol_xr::probe;
 
 #[derive(Debug, Serialize)]
@@ -84,11 +85,9 @@ fn look() -> Findings {
         .collect();
     let can_replay = devices.iter().any(|device| device.usable);
     if !can_replay && !devices.is_empty() {
-        missing.push(
-            "None of the devices can be used: update their drivers, or install the software \
-             driver (Debian: package mesa-vulkan-drivers)."
-                .to_owned(),
-        );
+        missing.push(format!(
+            "None of the devices can be used: update their drivers, or {DRIVER}."
+        ));
     }
     let probe = probe::probe();
     let can_enter_vr = can_replay && probe.missing.is_empty();

@@ -1,13 +1,17 @@
 //! The subcommands, one file each.
 
 pub mod doctor;
+pub mod export;
 pub mod pages;
 pub mod picture;
+mod plan;
 mod recorded;
 pub mod replay;
 pub mod scenes;
 pub mod track;
 pub mod vr;
+
+use std::path::Path;
 
 use vitriol_experiment::{Failure, Format, prepare};
 
@@ -21,6 +25,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
     let format = if cli.json { Format::Json } else { Format::Text };
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, prepare),
+        Command::Export(args) => export::run(args, format),
         Command::Picture(args) => picture::run(args, format, prepare),
         Command::Track(args) => track::run(args, format),
         Command::Scenes(args) => scenes::run(args, format),
@@ -29,4 +34,10 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Doctor => doctor::run(format),
         Command::Pages(args) => pages::run(args, format),
     }
+}
+
+/// A track's or run's name without folder and ending, for the output folder's name.
+fn stem(track: &str) -> String {
+    let stem = Path::new(track).file_stem();
+    stem.map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned())
 }

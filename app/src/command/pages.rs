@@ -1,4 +1,5 @@
-//! `vitriol pages`: the manual's pages and the shells' completions, from the command line's own definition.
+//! `vitriol pages`: the manual's pages and the shells' completions, from the command line's own definition, and the report's
+//! JSON schema from its types.
 
 use std::path::Path;
 
@@ -10,6 +11,10 @@ use vitriol_experiment::output::{new_file, write_new};
 use vitriol_experiment::{Blame, Failure, Format, emit};
 
 use crate::cli::{Cli, PagesArgs};
+use crate::report::Report;
+
+/// JSON schema of `report.json`.
+const SCHEMA: &str = "report.schema.json";
 
 const NAME: &str = "vitriol";
 
@@ -49,6 +54,8 @@ pub fn run(args: &PagesArgs, format: Format) -> Result<(), Failure> {
         generate(shell, &mut Cli::command(), NAME, &mut text);
         files.push(write(&args.out, name, &text)?);
     }
+    let schema = serde_json::to_vec_pretty(&schemars::schema_for!(Report)).other()?;
+    files.push(write(&args.out, SCHEMA, &schema)?);
     emit(format, &Pages { files }, |pages| pages.files.join("\n"))
 }
 

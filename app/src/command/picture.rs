@@ -5,15 +5,15 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_experiment::output::{self, ColorType, OutDir};
-use vitriol_experiment::{
-    Blame, Colour, Experiment, Failure, Format, Observer, Scenes, Setup, Span, emit, track,
-};
+use vitriol_experiment::progress::Runs;
+use vitriol_experiment::{Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::recorded::{head, own_solver, preset_of, scene_of, whole};
+use crate::command::plan::{Ask, Plan};
+use crate::command::recorded::head;
 
 /// What `vitriol picture` prints.
 #[derive(Debug, Serialize)]
@@ -50,14 +50,22 @@ pub fn run(
         }
         output::new_dir(dir)?;
     }
-    let track = track::load(&args.track)?;
-    let mut track = whole(&args.track, track, args.accept_truncated)?;
-    let mut scenes = Scenes::default();
-    let name = scene_of(&mut scenes, &args.track, args.scene.as_deref(), &track)?;
-    own_solver((false, args.preset), (&name, &scenes), &mut track);
-    let scene = scenes
-        .get(&name)?
-        .with_preset(preset_of(args.preset, &track));
+    let Plan {
+        track,
+        scenes,
+        name,
+        scene,
+        preset,
+        seed,
+        ..
+    } = Plan::new(&Ask {
+        track: &args.track,
+        scene: args.scene.as_deref(),
+        preset: args.preset,
+        device: args.device.as_deref(),
+        accept_truncated: args.accept_truncated,
+        ..Ask::default()
+    })?;
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(
@@ -70,8 +78,8 @@ pub fn run(
         scene: &scene,
         scene_name: &name,
         scenes: &scenes,
-        preset: preset_of(args.preset, &track),
-        seed: track.metadata.seed,
+        preset,
+        seed,
         device: args.device.as_deref(),
         picture: Some(args.size),
         eyes,
@@ -81,7 +89,7 @@ pub fn run(
         shaders: Arc::new(Library::watching()),
     })?;
     let span = Span::covering(args.at, scene.scale.frame_time);
-    let mut observer = Observer::new(span, Vec::new());
+    let mut observer = Observer::new(span, Vec::new(), Runs::new(format).of(&args.track, span));
     vitriol_experiment::run(
         &mut TrackSource::new(track),
         experiment.as_mut(),

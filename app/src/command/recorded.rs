@@ -66,6 +66,11 @@ pub fn scene_of(
     Ok(found)
 }
 
+/// Whether the track is a recording, and not made of keyframes, which say their own name.
+pub fn is_recording(metadata: &TrackMetadata) -> bool {
+    !metadata.parameters.contains_key("track")
+}
+
 /// In what a replay differs from its recording, each in a sentence: its bits may differ then. Empty where nothing that
 /// is known does. `device` is `None` before one is open; `asked` are options that ask for something else.
 pub fn differences(

@@ -1,27 +1,30 @@
 //! `vitriol replay`: a track through the simulation to film and report.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Serialize;
 use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON};
-use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
+use vitriol_experiment::progress::Runs;
+use vitriol_experiment::track::{DEVICE, DRIVER, STATE_HASH};
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
 use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
-    Outcome, Sample, Scenes, Setup, Span, device, emit, in_a_line, track,
+    Outcome, Sample, Scenes, Setup, emit, in_a_line,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_xr::track::{TrackMetadata, TrackSource, limits};
+use vitriol_xr::track::{TrackMetadata, TrackSource};
 
-use crate::budget;
 use crate::cli::{CameraName, ReplayArgs};
-use crate::command::recorded::{
-    changes_scene, differences, head, own_solver, preset_of, scene_of, whole,
+use crate::command::plan::{Ask, Plan};
+use crate::command::recorded::{differences, head, is_recording};
+use crate::command::stem;
+use crate::report::{
+    AskedStatement, FilmStatement, LAYOUT, RecordingStatement, Report, SceneStatement,
+    SolverStatement,
 };
-use crate::report::{FilmStatement, RecordingStatement, Report, SceneStatement, SolverStatement};
 
 /// What `vitriol replay --json` prints: the report without its time series, and
 /// where things are.
@@ -33,53 +36,94 @@ struct Replayed {
     report_html: String,
 }
 
-/// Runs `vitriol replay`; `prepare` makes the experiment.
+/// What `vitriol replay --json` prints of several tracks.
+#[derive(Debug, Serialize)]
+struct Several {
+    /// As of one track each, or what it failed with, in the order in which they were given.
+    runs: Vec<Ended>,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Ended {
+    Well(Box<Replayed>),
+    Failed { track: String, error: String },
+}
+
+/// Runs `vitriol replay`; `prepare` makes an experiment. Of several tracks one that fails stops no other.
 ///
 /// # Errors
 /// [`Failure::Input`] for bad track, scene or folder, [`Failure::NoDevice`],
-/// [`Failure::Other`]; no report, film or new folder is left then.
+/// [`Failure::Other`]; no report, film or new folder is left of that track then.
 pub fn run(
     args: &ReplayArgs,
     format: Format,
-    prepare: impl FnOnce(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
+    prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
-    let track = track::load(&args.track)?;
-    let mut track = whole(&args.track, track, args.accept_truncated)?;
-    let mut scenes = Scenes::default();
-    let name = scene_of(&mut scenes, &args.track, args.scene.as_deref(), &track)?;
-    let asked = args.solver.is_some() || args.budget_ms.is_some();
-    if asked && changes_scene(&track) {
-        // The scenes that it changes to have presets of their own.
-        return Err(
-            "--solver and --budget-ms are for one scene, and the track changes it; \
-                    choose a --preset"
-                .to_owned(),
-        )
-        .input();
+    let bars = Runs::new(format);
+    if let [track] = &args.tracks[..] {
+        let done = replay(args, track, args.out.clone(), &bars, &prepare)?;
+        return emit(format, &done, describe);
     }
-    if own_solver((asked, args.preset), (&name, &scenes), &mut track) {
-        tracing::warn!(
-            "the track's own changes of substeps and iterations are left out: it is replayed as asked for"
-        );
+    let (mut runs, mut failure) = (Vec::new(), None);
+    for (track, name) in args.tracks.iter().zip(folders(&args.tracks)) {
+        let out = args.out.as_ref().map(|out| out.join(name));
+        runs.push(match replay(args, track, out, &bars, &prepare) {
+            Ok(done) => Ended::Well(Box::new(done)),
+            Err(error) => {
+                let (track, text) = (track.clone(), error.to_string());
+                failure.get_or_insert(error);
+                Ended::Failed { track, error: text }
+            }
+        });
     }
-    let preset = preset_of(args.preset, &track);
-    let scene = scenes.get(&name)?.with_preset(preset);
-    if is_recording(&track.metadata) {
-        let asked = asked_otherwise(args, &track.metadata);
-        for difference in differences(&track.metadata, (&name, &scenes), None, &asked) {
-            tracing::warn!("bits may differ: {difference}");
-        }
+    emit(format, &Several { runs }, |several| {
+        let each = several.runs.iter().map(|run| match run {
+            Ended::Well(done) => format!("{}\n{}\n", in_a_line(&done.report.track), describe(done)),
+            Ended::Failed { track, error } => format!("{}\nfailed: {error}\n", in_a_line(track)),
+        });
+        each.collect::<Vec<_>>().join("\n")
+    })?;
+    failure.map_or(Ok(()), Err)
+}
+
+/// A folder's name for each of several tracks.
+fn folders(tracks: &[String]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for track in tracks {
+        let stem = stem(track);
+        let more = (2..).map(|number| format!("{stem}-{number}"));
+        let free = std::iter::once(stem.clone()).chain(more);
+        names.extend(free.into_iter().find(|name| !names.contains(name)));
     }
-    let gpu = || device::open(args.device.as_deref());
-    let chosen = budget::chosen(args.solver, args.budget_ms, &scene, gpu)?;
-    let scene = chosen.map_or_else(|| scene.clone(), |effort| scene.with_effort(effort));
-    let head = head(args.camera, &args.track, &track)?;
-    let colours = colours(args, &scene, &name)?;
-    let mut out = OutDir::take(args.out.as_deref(), &stem(&args.track))?;
-    let seed = args.seed.unwrap_or(track.metadata.seed);
+    names
+}
+
+/// Replays one track.
+fn replay(
+    args: &ReplayArgs,
+    name: &str,
+    out: Option<PathBuf>,
+    bars: &Runs,
+    prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
+) -> Result<Replayed, Failure> {
+    let ask = ask(args, name);
+    let Plan {
+        track,
+        scenes,
+        name: name_of_start,
+        scene,
+        preset,
+        chosen,
+        seed,
+        span,
+    } = Plan::new(&ask)?;
+    let head = head(args.camera, name, &track)?;
+    let colours = colours(args, &scene, &name_of_start)?;
+    let mut out = OutDir::take(out.as_deref(), &stem(name))?;
     let mut experiment = prepare(&Setup {
         scene: &scene,
-        scene_name: &name,
+        scene_name: &name_of_start,
         scenes: &scenes,
         preset,
         seed,
@@ -91,18 +135,11 @@ pub fn run(
         head,
         shaders: Arc::new(Library::watching()),
     })?;
-    let seconds = args.seconds.unwrap_or_else(|| track.duration());
-    let recorded = (track.metadata.clone(), track.outcome.clone());
-    let span = Span::covering(seconds, scene.scale.frame_time);
-    if span.steps > limits::FRAMES as u64 {
-        return Err(format!(
-            "{} steps of {} s are more than a run of {} takes; give fewer --seconds",
-            span.steps,
-            scene.scale.frame_time,
-            limits::FRAMES
-        ))
-        .input();
-    }
+    let recorded = is_recording(&track.metadata).then(|| Recorded {
+        metadata: track.metadata.clone(),
+        said: track.outcome.clone(),
+        asked: ask.otherwise(&track),
+    });
 
     let [width, height] = FILM_SIZE;
     let films = colours.iter().enumerate().map(|(index, _)| {
@@ -110,7 +147,7 @@ pub fn run(
         Film::create(&path, width, height, FILM_FPS)
     });
     let films = films.collect::<Result<_, _>>().other()?;
-    let mut observer = Observer::new(span, films);
+    let mut observer = Observer::new(span, films, bars.of(name, span));
     vitriol_experiment::run(
         &mut TrackSource::new(track),
         experiment.as_mut(),
@@ -122,19 +159,18 @@ pub fn run(
         out.adopt(film.clone());
     }
     let outcome = experiment.outcome()?;
-    let name_of_start = name.clone();
-    let (name, scene) = match &outcome.scene {
+    let (scene_name, scene) = match &outcome.scene {
         Some(switched) => (switched.clone(), scenes.get(switched)?.with_preset(preset)),
-        None => (name, scene),
+        None => (name_of_start.clone(), scene),
     };
     let scene = scene.with_effort(outcome.effort);
-    let recording = recording(args, (&name_of_start, &scenes), &recorded, &outcome);
+    let recording = recorded.map(|recorded| recorded.against((&name_of_start, &scenes), &outcome));
     let mut report = assemble(
-        (args, chosen),
+        (args, name, chosen),
         &colours,
         preset,
         seed,
-        (&name, &scene),
+        (&scene_name, &scene),
         outcome,
         observations,
     );
@@ -148,67 +184,59 @@ pub fn run(
         report_json: out.join(REPORT_JSON).display().to_string(),
         report_html: out.join(REPORT_HTML).display().to_string(),
     };
-    let folder = out.path.clone();
     out.complete();
-    emit(format, &replayed, |done| describe(done, &folder))
+    Ok(replayed)
 }
 
-/// Whether the track is a recording, and not made of keyframes, which say their own name.
-fn is_recording(metadata: &TrackMetadata) -> bool {
-    !metadata.parameters.contains_key("track")
-}
-
-/// Options that ask for something else than was recorded.
-fn asked_otherwise(args: &ReplayArgs, metadata: &TrackMetadata) -> Vec<&'static str> {
-    let preset = metadata.parameters.get(PRESET).map(String::as_str);
-    let options = [
-        ("--seconds", args.seconds.is_some()),
-        (
-            "--seed",
-            args.seed.is_some_and(|seed| seed != metadata.seed),
-        ),
-        ("--solver", args.solver.is_some()),
-        ("--budget-ms", args.budget_ms.is_some()),
-        ("--accept-truncated", args.accept_truncated),
-        (
-            "--preset",
-            args.preset
-                .is_some_and(|asked| Some(asked.name()) != preset),
-        ),
-    ];
-    let given = options.into_iter().filter(|(_, given)| *given);
-    given.map(|(option, _)| option).collect()
-}
-
-/// How the run stands to the recording that it replays; `None` where the track is none.
-fn recording(
-    args: &ReplayArgs,
-    scene: (&str, &Scenes),
-    (metadata, said): &(TrackMetadata, BTreeMap<String, String>),
-    outcome: &Outcome,
-) -> Option<RecordingStatement> {
-    if !is_recording(metadata) {
-        return None;
+/// What the options ask for of a track.
+fn ask<'a>(args: &'a ReplayArgs, track: &'a str) -> Ask<'a> {
+    Ask {
+        track,
+        scene: args.scene.as_deref(),
+        preset: args.preset,
+        budget_ms: args.budget_ms,
+        solver: args.solver,
+        seconds: args.seconds,
+        seed: args.seed,
+        device: args.device.as_deref(),
+        accept_truncated: args.accept_truncated,
     }
-    let state_hash = said.get(STATE_HASH).cloned();
-    let same = state_hash
-        .as_ref()
-        .map(|recorded| *recorded == format!("{:016x}", outcome.state_hash));
-    let asked = asked_otherwise(args, metadata);
-    let differs = differences(metadata, scene, Some(&outcome.device), &asked);
-    if same == Some(false) && differs.is_empty() {
-        tracing::warn!(
-            "the final state is not the recorded one, and nothing that is known differs; report it"
-        );
+}
+
+/// What was recorded, and what is asked for otherwise.
+struct Recorded {
+    metadata: TrackMetadata,
+    said: BTreeMap<String, String>,
+    asked: Vec<&'static str>,
+}
+
+impl Recorded {
+    /// How the run stands to it.
+    fn against(self, scene: (&str, &Scenes), outcome: &Outcome) -> RecordingStatement {
+        let Self {
+            metadata,
+            said,
+            asked,
+        } = self;
+        let state_hash = said.get(STATE_HASH).cloned();
+        let same = state_hash
+            .as_ref()
+            .map(|recorded| *recorded == format!("{:016x}", outcome.state_hash));
+        let differs = differences(&metadata, scene, Some(&outcome.device), &asked);
+        if same == Some(false) && differs.is_empty() {
+            tracing::warn!(
+                "the final state is not the recorded one, and nothing that is known differs; report it"
+            );
+        }
+        RecordingStatement {
+            program_version: metadata.program_version.clone(),
+            device: metadata.parameters.get(DEVICE).cloned(),
+            driver: metadata.parameters.get(DRIVER).cloned(),
+            state_hash,
+            same_state: same,
+            differs,
+        }
     }
-    Some(RecordingStatement {
-        program_version: metadata.program_version.clone(),
-        device: metadata.parameters.get(DEVICE).cloned(),
-        driver: metadata.parameters.get(DRIVER).cloned(),
-        state_hash,
-        same_state: same,
-        differs,
-    })
 }
 
 /// What the films' colours stand for; the first is the film, the second, if
@@ -233,14 +261,8 @@ fn film_name(index: usize) -> &'static str {
     if index == 0 { FILM } else { FILM_TEMPERATURE }
 }
 
-/// The track's name without folder and ending, for the output folder's name.
-fn stem(track: &str) -> String {
-    let stem = Path::new(track).file_stem();
-    stem.map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned())
-}
-
 fn assemble(
-    (args, chosen): (&ReplayArgs, Option<[u32; 2]>),
+    (args, track, chosen): (&ReplayArgs, &str, Option<[u32; 2]>),
     colours: &[Colour],
     preset: Preset,
     seed: u64,
@@ -264,9 +286,16 @@ fn assemble(
         })
     };
     Report {
+        layout: LAYOUT,
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
-        command: command_line(args, preset, seed, chosen),
-        track: args.track.clone(),
+        command: command_line((args, track), preset, seed, chosen),
+        track: track.to_owned(),
+        asked: AskedStatement {
+            scene: args.scene.clone(),
+            solver: chosen,
+            seconds: args.seconds,
+            accept_truncated: args.accept_truncated,
+        },
         preset: preset.name().into(),
         seed,
         fluid_particles: outcome.fluid_particles,
@@ -309,7 +338,12 @@ fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
 
 /// The command line that makes the run again; without `--out`, since that
 /// folder is taken now.
-fn command_line(args: &ReplayArgs, preset: Preset, seed: u64, solver: Option<[u32; 2]>) -> String {
+fn command_line(
+    (args, track): (&ReplayArgs, &str),
+    preset: Preset,
+    seed: u64,
+    solver: Option<[u32; 2]>,
+) -> String {
     let head = (args.camera == CameraName::Head).then(|| "head".to_owned());
     let options = [
         ("scene", args.scene.as_deref().map(quoted)),
@@ -327,7 +361,7 @@ fn command_line(args: &ReplayArgs, preset: Preset, seed: u64, solver: Option<[u3
     } else {
         ""
     };
-    let mut line = format!("vitriol replay {}", quoted(&args.track));
+    let mut line = format!("vitriol replay {}", quoted(track));
     for (name, value) in options {
         line.extend(value.map(|value| format!(" --{name} {value}")));
     }
@@ -348,7 +382,10 @@ fn quoted(argument: &str) -> String {
     }
 }
 
-fn describe(done: &Replayed, out: &Path) -> String {
+fn describe(done: &Replayed) -> String {
+    let out = Path::new(&done.report_html)
+        .parent()
+        .unwrap_or(Path::new(""));
     let report = &done.report;
     let unit = mass(report.mass_kg.total());
     let places: Vec<String> = report

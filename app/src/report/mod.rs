@@ -5,4 +5,7 @@ mod html;
 mod model;
 mod plot;
 
-pub use model::{FilmStatement, RecordingStatement, Report, SceneStatement, SolverStatement};
+pub use model::{
+    AskedStatement, FilmStatement, LAYOUT, RecordingStatement, Report, SceneStatement,
+    SolverStatement,
+};

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_sim::scene::Scene;
 
 /// How a run stands to the recording that it replays.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct RecordingStatement {
     /// Version of the program that recorded.
     pub program_version: String,
@@ -48,14 +49,20 @@ impl RecordingStatement {
 }
 
 /// The report of one run. SI units throughout.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Report {
+    /// Version of this layout: a reader of version 1 reads all that say 1.
+    #[serde(default = "first_layout")]
+    pub layout: u32,
     /// Program and version, such as `vitriol 0.1.0`.
     pub program: String,
     /// The command line that makes this run again.
     pub command: String,
     /// The track: a built-in name or a file's path.
     pub track: String,
+    /// What was asked for beside it; empty in reports of older versions.
+    #[serde(default)]
+    pub asked: AskedStatement,
     /// Preset: `fast`, `balanced` or `reference`.
     pub preset: String,
     /// Seed of the initial jitter.
@@ -110,8 +117,30 @@ pub struct Report {
     pub series: Vec<Sample>,
 }
 
+/// What of a run was asked for, and not taken from the track.
+#[derive(Debug, Clone, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
+pub struct AskedStatement {
+    /// A scene, by name or file.
+    pub scene: Option<String>,
+    /// Substeps and iterations.
+    pub solver: Option<[u32; 2]>,
+    /// Simulated time, s.
+    pub seconds: Option<f64>,
+    /// What is whole of a track.
+    pub accept_truncated: bool,
+}
+
+/// The version of [`Report`]'s layout that is written. It goes up where a field goes, or means something else; a field that
+/// comes changes nothing for who reads the others.
+pub const LAYOUT: u32 = 1;
+
+/// That of reports that name none.
+fn first_layout() -> u32 {
+    1
+}
+
 /// The film of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct FilmStatement {
     /// Path, relative to the report's folder.
     pub path: String,
@@ -129,7 +158,7 @@ pub struct FilmStatement {
 }
 
 /// What every scene states of its scale, and what it models.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SceneStatement {
     /// Built-in name or file's path.
     pub name: String,
@@ -163,7 +192,7 @@ impl SceneStatement {
 }
 
 /// The solver's settings in this run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SolverStatement {
     /// Substeps in a frame.
     pub substeps: u32,

@@ -8,7 +8,6 @@ pub mod blame;
 pub mod clock;
 pub mod decision;
 pub mod governor;
-pub mod hands;
 pub mod haptics;
 pub mod info;
 pub mod inputs;

@@ -1,20 +1,18 @@
 //! The picture for both eyes, drawn while the next steps are solved.
 
 use glam::Affine3A;
+use vitriol_experiment::hands::{BEADS_BY, Bead, Beads};
 use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
 use vitriol_render::{
-    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, RenderDesc, RenderError, Renderer,
-    SteamSource, View,
+    Fov, FrameDesc, LiquidDesc, RenderDesc, RenderError, Renderer, SteamSource, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, Targets};
-
-use super::hands::{BEAD_RADIUS, Bead, MOST_BEADS};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
 /// poses that it draws with older by then.
@@ -44,8 +42,7 @@ pub struct Picture {
     renderer: Renderer,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
-    /// Middles and attributes of the hands' beads.
-    beads: [Buffer; 2],
+    beads: Beads,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
     under_way: Vec<Ticket>,
     drawn: usize,
@@ -119,11 +116,10 @@ impl Picture {
                 Ok([copy()?, copy()?])
             })
             .transpose()?;
-        let beads = || Buffer::storage(gpu, "hands", 16 * u64::from(MOST_BEADS)).other();
         let mut picture = Self {
             renderer,
             puffs,
-            beads: [beads()?, beads()?],
+            beads: Beads::new(gpu)?,
             under_way: Vec::new(),
             drawn: 0,
         };
@@ -180,7 +176,8 @@ impl Picture {
     ) -> Result<Ticket, Failure> {
         let (gpu, slot) = (world.gpu(), self.drawn % 2);
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        self.upload_beads(&mut rec, world, sight.beads)?;
+        let scale = world.scene().scale.length_scale as f32;
+        self.beads.upload(&mut rec, sight.beads, scale)?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_picture(&mut rec, frame, slot);
         self.with_frame(world, Some(sight), record)?;
         rec.copy_image(self.renderer.image(), &targets.colour)
@@ -211,25 +208,6 @@ impl Picture {
         self.renderer.image()
     }
 
-    fn upload_beads(
-        &self,
-        rec: &mut Recorder,
-        world: &World,
-        beads: &[Bead],
-    ) -> Result<(), Failure> {
-        let scale = world.scene().scale.length_scale as f32;
-        let [middles, attributes] = &self.beads;
-        let shown = beads.iter().take(MOST_BEADS as usize);
-        let placed = shown
-            .clone()
-            .map(|(middle, _)| (*middle / scale).extend(0.0).to_array());
-        rec.upload(middles, &placed.collect::<Vec<_>>()).other()?;
-        // Particles are coloured by speed: a closed hand has the colour of a higher one.
-        let coloured = shown.map(|&(_, closed)| [0.35 + 0.4 * closed, 0.0, 0.0, 0.0]);
-        rec.upload(attributes, &coloured.collect::<Vec<_>>())
-            .other()
-    }
-
     fn with_frame(
         &self,
         world: &World,
@@ -238,13 +216,7 @@ impl Picture {
     ) -> Result<(), Failure> {
         let scale = world.scene().scale.length_scale as f32;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
-        let [positions, attributes] = &self.beads;
-        let hands = sight.map(|sight| ParticleSource {
-            positions,
-            attributes,
-            count: sight.beads.len().min(MOST_BEADS as usize) as u32,
-            radius: BEAD_RADIUS / scale,
-        });
+        let hands = sight.and_then(|sight| self.beads.source(sight.beads.len(), scale));
         let nowhere = View {
             stage_from_eye: Affine3A::IDENTITY,
             fov: Fov::symmetric(1.0, 1.0),
@@ -253,13 +225,13 @@ impl Picture {
             extent: sight.map(|sight| sight.extent),
             views: &sight.map_or([nowhere; 2], |sight| sight.views),
             vessels: &vessels,
-            particles: hands.filter(|hands| hands.count > 0),
+            particles: hands,
             liquid: Some(liquid_of(world)),
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
                 puffs: &puffs[self.drawn % 2],
                 count: PUFFS,
             }),
-            colour_by: ColourBy::Speed(1.0),
+            colour_by: BEADS_BY,
             length_scale: scale,
         };
         f(&frame).other()

@@ -3,7 +3,7 @@
 use crate::common::{Trouble, Worn, carried, hash, nobody, pour, session};
 use std::sync::Arc;
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{Observer, Setup, Span, on_device};
+use vitriol_experiment::{Observer, Progress, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
@@ -35,7 +35,7 @@ pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
     )
     .unwrap();
     let span = Span::covering(track.duration(), scene.scale.frame_time);
-    let mut observer = Observer::new(span, Vec::new());
+    let mut observer = Observer::new(span, Vec::new(), Progress::hidden());
     let mut source = TrackSource::new(track);
     vitriol_experiment::run(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     experiment.outcome().unwrap().state_hash

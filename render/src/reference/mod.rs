@@ -18,4 +18,5 @@ pub use compare::{Difference, Interior, Seen, difference, reprojection, silhouet
 pub use eigen::eigen_symmetric;
 pub use field::{Field, SURFACE};
 pub use march::{Picture, Rays};
+pub use parallel::map as on_all_cores;
 pub use surroundings::{Nothing, Surroundings};

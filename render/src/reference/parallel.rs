@@ -8,7 +8,7 @@ use std::sync::mpsc;
 const BATCH: usize = 64;
 
 /// `make(0), …, make(count − 1)`, made on all cores.
-pub(super) fn map<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub fn map<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
     let batches = count.div_ceil(BATCH);
     let next = AtomicUsize::new(0);

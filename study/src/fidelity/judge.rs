@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 use vitriol_experiment::Failure;
+use vitriol_experiment::glassware::Glassware;
 use vitriol_render::View;
 use vitriol_render::reference::{
     Anisotropy, Difference, Field, Interior, Picture, Rays, Seen, Shape, difference, reprojection,
     silhouette_iou, volume,
 };
 
-use super::glassware::Glassware;
 use super::report::{self, Figures, Manner, Row};
 use super::states::State;
 use super::views::{STANDS, Stand};

@@ -1,7 +1,6 @@
 //! The picture against the truth: what the renderer draws in screen space
 //! compared with the surface of Yu and Turk, marched on the CPU.
 
-pub mod glassware;
 pub mod judge;
 pub mod report;
 pub mod screen;

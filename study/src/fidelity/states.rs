@@ -2,6 +2,7 @@
 //! solver to stated times.
 
 use glam::DVec3;
+use vitriol_experiment::glassware::Glassware;
 use vitriol_experiment::stage::grip;
 use vitriol_experiment::{Blame, Failure, Span, track};
 use vitriol_gpu::Gpu;
@@ -10,8 +11,6 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};
 use vitriol_xr::PoseSource;
 use vitriol_xr::track::TrackSource;
-
-use super::glassware::Glassware;
 
 /// What a state is made of.
 #[derive(Clone, Copy, Debug)]

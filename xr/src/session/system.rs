@@ -17,11 +17,7 @@ pub(super) struct ConnectedHeadset {
 
 /// OpenXR's loader.
 pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
-    // SAFETY: the library of that name in the system's search path is the Khronos loader, as for
-    // every OpenXR program.
-    unsafe { xr::Entry::load(&()) }.map_err(|error| HeadsetError::NoRuntime {
-        remedy: probe::no_loader(&error),
-    })
+    crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 
 /// An instance with the extensions of ours that the runtime offers.

@@ -15,6 +15,10 @@ use crate::SessionState;
 
 /// Full name of the schema of `/tf` and `/tf_static`.
 pub const FRAME_TRANSFORMS: &str = "foxglove.FrameTransforms";
+/// Full name of the schema of `/particles`.
+pub const POINT_CLOUD: &str = "foxglove.PointCloud";
+/// Full name of the schema of `/film`.
+pub const COMPRESSED_VIDEO: &str = "foxglove.CompressedVideo";
 /// Full name of the schema of `/xr/input/left` and `/xr/input/right`.
 pub const INPUT: &str = "vitriol.xr.Input";
 /// Full name of the schema of `/xr/frame`.
@@ -24,13 +28,6 @@ pub const SWITCH: &str = "vitriol.xr.Switch";
 
 /// An encoded `FileDescriptorSet` with [`FRAME_TRANSFORMS`] and all that it refers to.
 pub fn frame_transforms() -> Vec<u8> {
-    let timestamp = message(
-        "Timestamp",
-        vec![
-            field("seconds", 1, Type::Int64),
-            field("nanos", 2, Type::Int32),
-        ],
-    );
     let transform = message(
         "FrameTransform",
         vec![
@@ -47,23 +44,12 @@ pub fn frame_transforms() -> Vec<u8> {
     );
     let set = FileDescriptorSet {
         file: vec![
-            file(
-                "google/protobuf/timestamp.proto",
-                "google.protobuf",
-                &[],
-                timestamp,
-            ),
-            foxglove(
-                &[],
-                message("Vector3", alike(&["x", "y", "z"], Type::Double)),
-            ),
-            foxglove(
-                &[],
-                message("Quaternion", alike(&["x", "y", "z", "w"], Type::Double)),
-            ),
+            timestamp(),
+            vector(),
+            quaternion(),
             foxglove(
                 &[
-                    "google/protobuf/timestamp.proto",
+                    TIMESTAMP,
                     "foxglove/Vector3.proto",
                     "foxglove/Quaternion.proto",
                 ],
@@ -73,6 +59,115 @@ pub fn frame_transforms() -> Vec<u8> {
         ],
     };
     set.encode_to_vec()
+}
+
+/// An encoded `FileDescriptorSet` with [`POINT_CLOUD`] and all that it refers to.
+pub fn point_cloud() -> Vec<u8> {
+    let pose = message(
+        "Pose",
+        vec![
+            reference("position", 1, ".foxglove.Vector3"),
+            reference("orientation", 2, ".foxglove.Quaternion"),
+        ],
+    );
+    let mut kind = reference("type", 3, ".foxglove.PackedElementField.NumericType");
+    kind.set_type(Type::Enum);
+    let mut packed = message(
+        "PackedElementField",
+        vec![
+            field("name", 1, Type::String),
+            field("offset", 2, Type::Fixed32),
+            kind,
+        ],
+    );
+    let names = [
+        "UNKNOWN", "UINT8", "INT8", "UINT16", "INT16", "UINT32", "INT32", "FLOAT32", "FLOAT64",
+    ];
+    packed.enum_type.push(EnumDescriptorProto {
+        name: Some("NumericType".into()),
+        value: (0..)
+            .zip(names)
+            .map(|(number, name)| EnumValueDescriptorProto {
+                name: Some(name.into()),
+                number: Some(number),
+                options: None,
+            })
+            .collect(),
+        ..Default::default()
+    });
+    let cloud = message(
+        "PointCloud",
+        vec![
+            reference("timestamp", 1, ".google.protobuf.Timestamp"),
+            field("frame_id", 2, Type::String),
+            reference("pose", 3, ".foxglove.Pose"),
+            field("point_stride", 4, Type::Fixed32),
+            repeated("fields", 5, ".foxglove.PackedElementField"),
+            field("data", 6, Type::Bytes),
+        ],
+    );
+    let imports = [
+        TIMESTAMP,
+        "foxglove/PackedElementField.proto",
+        "foxglove/Pose.proto",
+    ];
+    let set = FileDescriptorSet {
+        file: vec![
+            timestamp(),
+            vector(),
+            quaternion(),
+            foxglove(
+                &["foxglove/Vector3.proto", "foxglove/Quaternion.proto"],
+                pose,
+            ),
+            foxglove(&[], packed),
+            foxglove(&imports, cloud),
+        ],
+    };
+    set.encode_to_vec()
+}
+
+/// An encoded `FileDescriptorSet` with [`COMPRESSED_VIDEO`] and all that it refers to.
+pub fn compressed_video() -> Vec<u8> {
+    let video = message(
+        "CompressedVideo",
+        vec![
+            reference("timestamp", 1, ".google.protobuf.Timestamp"),
+            field("frame_id", 2, Type::String),
+            field("data", 3, Type::Bytes),
+            field("format", 4, Type::String),
+        ],
+    );
+    let set = FileDescriptorSet {
+        file: vec![timestamp(), foxglove(&[TIMESTAMP], video)],
+    };
+    set.encode_to_vec()
+}
+
+/// Google's own timestamp.
+const TIMESTAMP: &str = "google/protobuf/timestamp.proto";
+
+fn timestamp() -> FileDescriptorProto {
+    let fields = vec![
+        field("seconds", 1, Type::Int64),
+        field("nanos", 2, Type::Int32),
+    ];
+    file(
+        TIMESTAMP,
+        "google.protobuf",
+        &[],
+        message("Timestamp", fields),
+    )
+}
+
+fn vector() -> FileDescriptorProto {
+    let fields = alike(&["x", "y", "z"], Type::Double);
+    foxglove(&[], message("Vector3", fields))
+}
+
+fn quaternion() -> FileDescriptorProto {
+    let fields = alike(&["x", "y", "z", "w"], Type::Double);
+    foxglove(&[], message("Quaternion", fields))
 }
 
 /// An encoded `FileDescriptorSet` with [`INPUT`], [`FRAME`] and [`SWITCH`].

@@ -39,16 +39,21 @@ pub fn world_from_stage(time_ns: i64) -> FrameTransforms {
     }
 }
 
-fn transform(time_ns: i64, stage_from_child: &Pose, child: &str) -> FrameTransform {
+/// A time of the track.
+pub fn timestamp(time_ns: i64) -> Timestamp {
     const NS: i64 = 1_000_000_000;
+    Timestamp {
+        seconds: Some(time_ns.div_euclid(NS)),
+        // Below 10^9, so that it always fits.
+        nanos: Some(time_ns.rem_euclid(NS) as i32),
+    }
+}
+
+fn transform(time_ns: i64, stage_from_child: &Pose, child: &str) -> FrameTransform {
     let p = stage_from_child.position.as_dvec3();
     let q = stage_from_child.orientation.as_dquat();
     FrameTransform {
-        timestamp: Some(Timestamp {
-            seconds: Some(time_ns.div_euclid(NS)),
-            // Below 10^9, so that it always fits.
-            nanos: Some(time_ns.rem_euclid(NS) as i32),
-        }),
+        timestamp: Some(timestamp(time_ns)),
         parent_frame_id: names::STAGE.into(),
         child_frame_id: child.into(),
         translation: Some(Vector3 {

@@ -62,6 +62,64 @@ pub struct FrameTransforms {
     pub transforms: Vec<FrameTransform>,
 }
 
+/// `foxglove.Pose`
+#[derive(Clone, PartialEq, Message)]
+pub struct Pose {
+    #[prost(message, optional, tag = "1")]
+    pub position: Option<Vector3>,
+    #[prost(message, optional, tag = "2")]
+    pub orientation: Option<Quaternion>,
+}
+
+/// `foxglove.PackedElementField.NumericType`, as far as it is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, prost::Enumeration)]
+#[repr(i32)]
+pub enum FieldType {
+    Unknown = 0,
+    Float32 = 7,
+}
+
+/// `foxglove.PackedElementField`
+#[derive(Clone, PartialEq, Message)]
+pub struct PackedElementField {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(fixed32, tag = "2")]
+    pub offset: u32,
+    #[prost(enumeration = "FieldType", tag = "3")]
+    pub kind: i32,
+}
+
+/// `foxglove.PointCloud`
+#[derive(Clone, PartialEq, Message)]
+pub struct PointCloud {
+    #[prost(message, optional, tag = "1")]
+    pub timestamp: Option<Timestamp>,
+    #[prost(string, tag = "2")]
+    pub frame_id: String,
+    #[prost(message, optional, tag = "3")]
+    pub pose: Option<Pose>,
+    #[prost(fixed32, tag = "4")]
+    pub point_stride: u32,
+    #[prost(message, repeated, tag = "5")]
+    pub fields: Vec<PackedElementField>,
+    #[prost(bytes = "vec", tag = "6")]
+    pub data: Vec<u8>,
+}
+
+/// `foxglove.CompressedVideo`
+#[derive(Clone, PartialEq, Message)]
+pub struct CompressedVideo {
+    #[prost(message, optional, tag = "1")]
+    pub timestamp: Option<Timestamp>,
+    #[prost(string, tag = "2")]
+    pub frame_id: String,
+    #[prost(bytes = "vec", tag = "3")]
+    pub data: Vec<u8>,
+    #[prost(string, tag = "4")]
+    pub format: String,
+}
+
 /// `vitriol.xr.Input`
 #[derive(Clone, PartialEq, Message)]
 pub struct Input {

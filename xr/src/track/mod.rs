@@ -5,6 +5,7 @@
 //! viewers draw without being told how. [`Keyframes`] is the short text form that people
 //! write, and [`builtin`] holds the tracks made from it.
 
+mod annex;
 pub mod builtin;
 mod check;
 mod convert;
@@ -29,6 +30,7 @@ use std::collections::BTreeMap;
 
 use crate::{Pose, PoseFrame};
 
+pub use annex::Annex;
 pub use convert::{load, save};
 pub use error::TrackError;
 pub use keyframes::Keyframes;
@@ -134,6 +136,11 @@ mod names {
     pub const HASH: &str = "xxh3_128";
 
     pub const OUTCOME: &str = "vitriol.outcome";
+
+    pub const PARTICLES: &str = "/particles";
+    pub const FILM: &str = "/film";
+    pub const MEASUREMENTS: &str = "/measurements";
+    pub const CAMERA: &str = "camera";
 }
 
 /// Nanoseconds to seconds.

@@ -58,6 +58,8 @@ pub struct TrackWriter {
     mcap: Option<Writer<NoSeek<Stage>>>,
     pending: Pending,
     channels: Channels,
+    /// Channels of what is no part of the track, by topic.
+    pub(super) annexes: BTreeMap<&'static str, u16>,
     buffer: Vec<u8>,
     /// Frames and switches taken.
     frames: u64,
@@ -117,6 +119,7 @@ impl TrackWriter {
             mcap: Some(mcap),
             pending,
             channels,
+            annexes: BTreeMap::new(),
             buffer: Vec::new(),
             frames: 0,
             switches: 0,
@@ -150,11 +153,7 @@ impl TrackWriter {
         check::totals(switches, self.frames as usize + 1)
             .and_then(|()| check::unpacked(self.bytes))
             .map_err(|flaw| at(&self.file, flaw, frame.step, frame.time_ns))?;
-        if self.pending.is_full() && self.flush().is_err() {
-            return Err(TrackError::Full {
-                file: self.file.clone(),
-            });
-        }
+        self.make_room()?;
         self.put_frame(frame, stage_from_flasks)
             .map_err(|error| failed(&self.file, error))?;
         if self.frames == 0 {
@@ -168,6 +167,30 @@ impl TrackWriter {
             self.flush()?;
         }
         Ok(())
+    }
+
+    /// Where much waits for the disk, tries to write it.
+    pub(super) fn make_room(&mut self) -> Result<(), TrackError> {
+        if self.pending.is_full() && self.flush().is_err() {
+            return Err(TrackError::Full {
+                file: self.file.clone(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The file's writer, until its end.
+    pub(super) fn mcap(&mut self) -> Result<&mut Writer<NoSeek<Stage>>, McapError> {
+        self.mcap.as_mut().ok_or_else(finished)
+    }
+
+    /// Step of the last frame.
+    pub(super) fn last_step(&self) -> u32 {
+        self.last.map_or(0, |(step, _)| step as u32)
+    }
+
+    pub(super) fn failed(&self, error: McapError) -> TrackError {
+        failed(&self.file, error)
     }
 
     /// Hands all that was written to the operating system, so that it outlives the program.

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use vitriol_experiment::hands::beads as beads_of;
 use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_experiment::{Blame, Failure};
@@ -13,7 +14,6 @@ use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 use super::Session;
 use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
-use crate::vr::hands;
 use crate::vr::haptics;
 use crate::vr::info::Info;
 use crate::vr::inputs::sound;
@@ -173,7 +173,7 @@ impl Session {
     ) -> Result<Shown, Failure> {
         let placed = self.placement.stage_from_scene();
         let seen = self.placement.seen();
-        let beads = seen.as_ref().map_or_else(Vec::new, hands::beads);
+        let beads = seen.as_ref().map_or_else(Vec::new, beads_of);
         let setting = self.pacing.setting(&self.benches.current);
         let extent = scaled(self.benches.eyes.extent, &setting);
         let Workbench { world, picture, .. } = &mut self.benches.current;

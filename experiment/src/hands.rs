@@ -1,12 +1,19 @@
 //! The user's hands as beads: without them nobody sees where to grip.
 
 use glam::Vec3;
+use vitriol_gpu::{Buffer, Gpu, Recorder};
+use vitriol_render::{ColourBy, ParticleSource};
 use vitriol_xr::{Hand, Pose, PoseFrame, Side};
 
+use crate::failure::{Blame, Failure};
+
+/// How beads are coloured, by their attribute.
+pub const BEADS_BY: ColourBy = ColourBy::Speed(1.0);
+
 /// Radius of a bead, m: a finger is some 16 mm thick.
-pub const BEAD_RADIUS: f32 = 0.008;
+const BEAD_RADIUS: f32 = 0.008;
 /// Most beads of two hands.
-pub const MOST_BEADS: u32 = 2 * (PALM as u32 * PALM as u32 + 4 * 4 + 3);
+const MOST_BEADS: u32 = 2 * (PALM as u32 * PALM as u32 + 4 * 4 + 3);
 
 /// Beads along a side of the palm.
 const PALM: usize = 3;
@@ -19,6 +26,57 @@ const BENT: f32 = 1.2;
 
 /// A bead: its middle (scene's stage, real m), and 0 to 1 for how closed its hand is.
 pub type Bead = (Vec3, f32);
+
+/// Beads on the device.
+pub struct Beads {
+    /// Middles and attributes.
+    buffers: [Buffer; 2],
+}
+
+impl Beads {
+    /// Room for two hands.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(gpu: &Gpu) -> Result<Self, Failure> {
+        let buffer = || Buffer::storage(gpu, "hands", 16 * u64::from(MOST_BEADS)).other();
+        let buffers = [buffer()?, buffer()?];
+        Ok(Self { buffers })
+    }
+
+    /// Records that these are shown, in a scene whose unit is `length_scale` metres.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn upload(
+        &self,
+        rec: &mut Recorder,
+        beads: &[Bead],
+        length_scale: f32,
+    ) -> Result<(), Failure> {
+        let [middles, attributes] = &self.buffers;
+        let shown = beads.iter().take(MOST_BEADS as usize);
+        let placed = shown
+            .clone()
+            .map(|(middle, _)| (*middle / length_scale).extend(0.0).to_array());
+        rec.upload(middles, &placed.collect::<Vec<_>>()).other()?;
+        // Particles are coloured by speed: a closed hand has the colour of a higher one.
+        let coloured = shown.map(|&(_, closed)| [0.35 + 0.4 * closed, 0.0, 0.0, 0.0]);
+        rec.upload(attributes, &coloured.collect::<Vec<_>>())
+            .other()
+    }
+
+    /// So many of them as the renderer takes them; `None` of none.
+    pub fn source(&self, count: usize, length_scale: f32) -> Option<ParticleSource<'_>> {
+        let [positions, attributes] = &self.buffers;
+        (count > 0).then(|| ParticleSource {
+            positions,
+            attributes,
+            count: count.min(MOST_BEADS as usize) as u32,
+            radius: BEAD_RADIUS / length_scale,
+        })
+    }
+}
 
 /// The beads of the hands that are there.
 pub fn beads(frame: &PoseFrame) -> Vec<Bead> {

@@ -1,0 +1,270 @@
+//! `vitriol export`: a run in other programs' formats.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::Serialize;
+use vitriol_experiment::output::{OutDir, REPORT_JSON};
+use vitriol_experiment::progress::Runs;
+use vitriol_experiment::track::{DEVICE, DRIVER, PRESET};
+use vitriol_experiment::{
+    Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, Span, device,
+    emit,
+};
+use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
+use vitriol_shaders::Library;
+use vitriol_xr::files;
+use vitriol_xr::track::{TrackMetadata, TrackSource};
+
+use crate::cli::ExportArgs;
+use crate::command::plan::{Ask, Plan};
+use crate::command::stem;
+use crate::report::Report;
+
+/// Most of a report's file, B: a run of a million steps of 1/90 s has 111,000 samples of some 2 kB.
+const REPORT: u64 = 512 << 20;
+
+/// What `vitriol export` prints.
+#[derive(Debug, Serialize)]
+struct Done {
+    /// The folder.
+    folder: PathBuf,
+    /// The formats.
+    formats: Vec<&'static str>,
+    /// Moments that were written.
+    moments: u64,
+    /// Files in all, and their bytes.
+    files: usize,
+    bytes: u64,
+    /// Hash of the final state, hexadecimal, where the run was simulated.
+    state_hash: Option<String>,
+    /// Whether it is that of the report, where a whole run was exported.
+    same_state: Option<bool>,
+}
+
+/// Runs `vitriol export`.
+///
+/// # Errors
+/// [`Failure::Input`] for bad run, track, scene or folder, [`Failure::NoDevice`], [`Failure::Other`]; no file or new folder
+/// is left then.
+pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
+    let report = report(&args.input)?;
+    let mut formats = args.format.clone();
+    // Once each.
+    let mut seen = Vec::new();
+    formats.retain(|format| {
+        !seen.contains(format) && {
+            seen.push(*format);
+            true
+        }
+    });
+    let out = OutDir::take(args.out.as_deref(), &stem(&args.input))?;
+    let done = match &report {
+        Some(report) if formats.iter().all(|format| format.table().is_some()) && is_whole(args) => {
+            of_report(report, &formats, out)?
+        }
+        _ => simulated(args, report.as_ref(), &formats, format, out)?,
+    };
+    emit(format, &done, describe)
+}
+
+/// Whether nothing but the run as it was is asked for.
+fn is_whole(args: &ExportArgs) -> bool {
+    args.at.is_none()
+        && args.from.is_none()
+        && args.seconds.is_none()
+        && args.scene.is_none()
+        && args.preset.is_none()
+        && args.solver.is_none()
+        && args.seed.is_none()
+}
+
+/// The report, where the input is a run's folder or its report.
+fn report(input: &str) -> Result<Option<Report>, Failure> {
+    let path = Path::new(input);
+    let file = if path.is_dir() {
+        path.join(REPORT_JSON)
+    } else if path.file_name().is_some_and(|name| name == REPORT_JSON) {
+        path.to_owned()
+    } else {
+        return Ok(None);
+    };
+    let bytes = files::read(&file, "report", REPORT).input()?;
+    let report = serde_json::from_slice(&bytes);
+    let wrong = |error| format!("{}: is no report of a run: {error}", file.display());
+    report.map(Some).map_err(wrong).input()
+}
+
+/// Tables of what a report has already.
+fn of_report(report: &Report, formats: &[Exported], mut out: OutDir) -> Result<Done, Failure> {
+    let tables: Vec<TableFormat> = formats.iter().filter_map(|format| format.table()).collect();
+    vitriol_export::tables(&report.series, &tables, &mut out)?;
+    finished(out, formats, 0)
+}
+
+/// What a run is simulated for.
+fn simulated(
+    args: &ExportArgs,
+    report: Option<&Report>,
+    formats: &[Exported],
+    format: Format,
+    out: OutDir,
+) -> Result<Done, Failure> {
+    let preset = report.map(|report| preset(&report.preset)).transpose()?;
+    let asked = report.map(|report| &report.asked);
+    let ask = Ask {
+        track: report.map_or(&args.input, |report| &report.track),
+        scene: args
+            .scene
+            .as_deref()
+            .or(asked.and_then(|asked| asked.scene.as_deref())),
+        preset: args.preset.or(preset),
+        budget_ms: None,
+        solver: args.solver.or(asked.and_then(|asked| asked.solver)),
+        seconds: args
+            .at
+            .or(args.seconds)
+            .or(asked.and_then(|asked| asked.seconds)),
+        seed: args.seed.or(report.map(|report| report.seed)),
+        device: args.device.as_deref(),
+        accept_truncated: args.accept_truncated
+            || asked.is_some_and(|asked| asked.accept_truncated),
+    };
+    let plan = Plan::new(&ask)?;
+    let times = times(args, plan.span)?;
+    let gpu = device::open(args.device.as_deref())?;
+    let films = formats.contains(&Exported::Mcap);
+    let mut laboratory = Laboratory::new(
+        &gpu,
+        &Setup {
+            scene: &plan.scene,
+            scene_name: &plan.name,
+            scenes: &plan.scenes,
+            preset: plan.preset,
+            seed: plan.seed,
+            device: args.device.as_deref(),
+            picture: films.then_some(FILM_SIZE),
+            colours: if films {
+                vec![Colour::Liquid]
+            } else {
+                Vec::new()
+            },
+            eyes: 1,
+            filter: None,
+            head: None,
+            shaders: Arc::new(Library::watching()),
+        },
+    )?;
+    let origin = Origin {
+        metadata: metadata(&plan, &device::statement(&gpu)),
+        sample_schema: schemars::schema_for!(Sample).as_value().to_string(),
+    };
+    let progress = Runs::new(format).of(&args.input, plan.span);
+    let mut export = Export::new(formats, times, (plan.span, progress), &origin, out)?;
+    let span = plan.span;
+    vitriol_experiment::run(
+        &mut TrackSource::new(plan.track),
+        &mut laboratory,
+        span,
+        &mut export,
+    )?;
+    let outcome = laboratory.outcome()?;
+    let (out, moments) = export.finish(outcome.state_hash)?;
+    let mut done = finished(out, formats, moments)?;
+    let hash = format!("{:016x}", outcome.state_hash);
+    let whole = report.filter(|_| is_whole(args));
+    done.same_state = whole.map(|report| report.state_hash == hash);
+    if done.same_state == Some(false) {
+        tracing::warn!(
+            "the final state is not the report's: device, driver or version differ, or the track did change"
+        );
+    }
+    done.state_hash = Some(hash);
+    Ok(done)
+}
+
+fn preset(name: &str) -> Result<vitriol_sim::scene::Preset, Failure> {
+    let found = vitriol_sim::scene::Preset::ALL.into_iter();
+    let found = found.into_iter().find(|preset| preset.name() == name);
+    found
+        .ok_or_else(|| format!("the report names a preset {name:?}, which there is not"))
+        .input()
+}
+
+/// When moments are exported.
+fn times(args: &ExportArgs, span: Span) -> Result<Times, Failure> {
+    let from = args.at.or(args.from).unwrap_or(0.0);
+    if from > span.seconds() + 1e-6 {
+        return Err(format!(
+            "the run ends at {:.3} s, before the first moment at {from} s",
+            span.seconds()
+        ))
+        .input();
+    }
+    Ok(Times {
+        from,
+        rate: args.at.is_none().then_some(args.rate),
+    })
+}
+
+/// What an exported recording says of itself: it replays like one that was recorded.
+fn metadata(plan: &Plan, device: &vitriol_experiment::DeviceStatement) -> TrackMetadata {
+    let mut metadata = TrackMetadata {
+        scene: plan.name.clone(),
+        seed: plan.seed,
+        program_version: env!("CARGO_PKG_VERSION").into(),
+        ..plan.track.metadata.clone()
+    };
+    let own = plan
+        .scenes
+        .own()
+        .filter_map(|name| Some((name, plan.scenes.text(name)?)));
+    metadata
+        .scenes
+        .extend(own.map(|(name, text)| (name.to_owned(), text.to_owned())));
+    // Of keyframes, which it is not any more.
+    metadata.parameters.remove("track");
+    for (key, value) in [
+        (PRESET, plan.preset.name()),
+        (DEVICE, &device.name),
+        (DRIVER, &device.driver),
+    ] {
+        metadata.parameters.insert(key.into(), value.into());
+    }
+    metadata
+}
+
+/// Counts what is there, and keeps it.
+fn finished(out: OutDir, formats: &[Exported], moments: u64) -> Result<Done, Failure> {
+    let (files, bytes) = out.sizes().other()?;
+    let folder = out.path.clone();
+    out.complete();
+    Ok(Done {
+        folder,
+        formats: formats.iter().map(|format| format.name()).collect(),
+        moments,
+        files,
+        bytes,
+        state_hash: None,
+        same_state: None,
+    })
+}
+
+fn describe(done: &Done) -> String {
+    let mut text = format!(
+        "{} files of {:.1} MB in {}",
+        done.files,
+        1e-6 * done.bytes as f64,
+        done.folder.display()
+    );
+    if done.moments > 0 {
+        text += &format!(", {} moments", done.moments);
+    }
+    if let Some(hash) = &done.state_hash {
+        text += &format!("\nstate {hash}");
+    }
+    if done.same_state == Some(true) {
+        text += ", the report's to the bit";
+    }
+    text
+}

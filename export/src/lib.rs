@@ -1,0 +1,238 @@
+//! What leaves the program for others: particles (VTK), surfaces, room and cameras (PLY, glTF), measurements (CSV, Parquet),
+//! and recordings with all that viewers show (MCAP).
+//!
+//! Each moment is written when it is there, so that a longer run takes no more memory.
+
+mod cameras;
+mod glass;
+mod gltf;
+mod mesh;
+mod nets;
+mod ply;
+mod recording;
+mod room;
+mod sink;
+mod surfaces;
+mod table;
+mod vtk;
+
+use vitriol_experiment::output::OutDir;
+use vitriol_experiment::{
+    Experiment, Failure, Laboratory, Moment, Progress, Sample, Span, Watch, sample_is_due,
+};
+use vitriol_xr::track::TrackMetadata;
+
+pub use mesh::Mesh;
+pub use sink::TableFormat;
+pub use surfaces::{Liquid, Surfaces};
+
+use recording::Recording;
+use sink::{Frame, Gltf, Measurements, Ply, Sink, Vtk};
+
+/// A format, and what is written in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Particles as VTK
+    Vtk,
+    /// Surfaces, glass, room and cameras as PLY
+    Ply,
+    /// The same as glTF 2.0
+    Gltf,
+    /// Measurements as CSV
+    Csv,
+    /// Measurements as Parquet
+    Parquet,
+    /// A recording with particles, film and measurements, as MCAP
+    Mcap,
+}
+
+impl Format {
+    /// The name as it is given.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vtk => "vtk",
+            Self::Ply => "ply",
+            Self::Gltf => "gltf",
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+            Self::Mcap => "mcap",
+        }
+    }
+
+    /// The table that it is, of measurements alone, which a report has too.
+    pub fn table(self) -> Option<TableFormat> {
+        match self {
+            Self::Csv => Some(TableFormat::Csv),
+            Self::Parquet => Some(TableFormat::Parquet),
+            _ => None,
+        }
+    }
+
+    /// Whether it has moments.
+    fn has_moments(self) -> bool {
+        self.table().is_none()
+    }
+
+    /// Whether it has samples.
+    fn has_samples(self) -> bool {
+        self == Self::Mcap || self.table().is_some()
+    }
+}
+
+/// When moments are exported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// The first, s.
+    pub from: f64,
+    /// So many a second from then on; `None` for the first alone.
+    pub rate: Option<f64>,
+}
+
+impl Times {
+    /// Whether the time of moment `number` has come at `seconds`: it is the first state at or after it.
+    fn is_due(&self, number: u64, seconds: f64) -> bool {
+        let after = match self.rate {
+            Some(rate) => number as f64 / rate,
+            None if number > 0 => return false,
+            None => 0.0,
+        };
+        seconds + 1e-6 >= self.from + after
+    }
+}
+
+/// Writes a run in several formats at once.
+pub struct Export {
+    times: Times,
+    /// Moments so far, those that a long step left out among them.
+    due: u64,
+    /// Moments written.
+    written: u64,
+    sinks: Vec<Box<dyn Sink>>,
+    /// Whether any of them takes moments, and samples.
+    takes: [bool; 2],
+    /// Number of the last sample's time.
+    sampled: Option<u64>,
+    span: Span,
+    out: OutDir,
+    progress: Progress,
+}
+
+/// What a recording says of the run that it is of.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    /// Scene, seed, preset.
+    pub metadata: TrackMetadata,
+    /// JSON schema of a sample.
+    pub sample_schema: String,
+}
+
+impl Export {
+    /// Of a run of that span into `out`.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn new(
+        formats: &[Format],
+        times: Times,
+        (span, progress): (Span, Progress),
+        origin: &Origin,
+        mut out: OutDir,
+    ) -> Result<Self, Failure> {
+        let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
+        for format in formats {
+            sinks.push(match format {
+                Format::Vtk => Box::new(Vtk::default()),
+                Format::Ply => Box::new(Ply::default()),
+                Format::Gltf => Box::new(Gltf),
+                Format::Csv => Box::new(Measurements::new(TableFormat::Csv)),
+                Format::Parquet => Box::new(Measurements::new(TableFormat::Parquet)),
+                Format::Mcap => {
+                    let schema = origin.sample_schema.clone();
+                    Box::new(Recording::new(&origin.metadata, schema, &mut out)?)
+                }
+            });
+        }
+        Ok(Self {
+            times,
+            due: 0,
+            written: 0,
+            sinks,
+            takes: [
+                formats.iter().any(|format| format.has_moments()),
+                formats.iter().any(|format| format.has_samples()),
+            ],
+            sampled: None,
+            span,
+            out,
+            progress,
+        })
+    }
+
+    /// Ends all files; `hash` is that of the final state. The folder is not complete yet.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn finish(mut self, hash: u64) -> Result<(OutDir, u64), Failure> {
+        for sink in &mut self.sinks {
+            sink.finish(hash, &mut self.out)?;
+        }
+        Ok((self.out, self.written))
+    }
+}
+
+/// Writes measurements that are there already.
+///
+/// # Errors
+/// What the file system says.
+pub fn tables(
+    samples: &[Sample],
+    formats: &[TableFormat],
+    out: &mut OutDir,
+) -> Result<(), Failure> {
+    for &format in formats {
+        let mut table = Measurements::new(format);
+        for sample in samples {
+            table.sample(sample, out)?;
+        }
+        table.finish(0, out)?;
+    }
+    Ok(())
+}
+
+impl Watch<Laboratory> for Export {
+    fn observe(&mut self, moment: &Moment<'_>, laboratory: &mut Laboratory) -> Result<(), Failure> {
+        let seconds = moment.time.seconds();
+        for sink in &mut self.sinks {
+            sink.step(moment, laboratory, &mut self.out)?;
+        }
+        let begun = self.due;
+        while self.times.is_due(self.due, seconds) {
+            self.due += 1;
+        }
+        let [moments, samples] = self.takes;
+        if self.due > begun && moments {
+            let frame = Frame::new(self.written, moment, laboratory.world())?;
+            for sink in &mut self.sinks {
+                sink.frame(&frame, &mut self.out)?;
+            }
+            self.written += 1;
+        }
+        let due = sample_is_due(&mut self.sampled, &moment.time);
+        if samples && (due || self.span.is_over(&moment.time)) {
+            let sample = laboratory.sample(seconds)?;
+            for sink in &mut self.sinks {
+                sink.sample(&sample, &mut self.out)?;
+            }
+        }
+        self.progress.at(&moment.time);
+        Ok(())
+    }
+
+    fn start_over(&mut self) -> Result<(), Failure> {
+        self.sampled = None;
+        for sink in &mut self.sinks {
+            sink.start_over(&mut self.out)?;
+        }
+        Ok(())
+    }
+}

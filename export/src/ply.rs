@@ -1,0 +1,28 @@
+//! PLY (G. Turk, 1994), binary, little-endian: vertices with normals, triangles.
+
+use crate::mesh::Mesh;
+
+/// A mesh as the bytes of a file. `comment` says in a line what it is.
+pub fn bytes(mesh: &Mesh, comment: &str) -> Vec<u8> {
+    let header = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment {comment}\nelement vertex {}\n\
+         property float x\nproperty float y\nproperty float z\n\
+         property float nx\nproperty float ny\nproperty float nz\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.positions.len(),
+        mesh.triangles.len()
+    );
+    let mut bytes = header.into_bytes();
+    for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
+        for value in position.to_array().into_iter().chain(normal.to_array()) {
+            bytes.extend((value as f32).to_le_bytes());
+        }
+    }
+    for triangle in &mesh.triangles {
+        bytes.push(3);
+        for corner in triangle {
+            bytes.extend((*corner as i32).to_le_bytes());
+        }
+    }
+    bytes
+}

@@ -1,0 +1,304 @@
+//! Where each format's files come from, a moment at a time.
+
+use std::cell::OnceCell;
+use std::io::Write;
+
+use vitriol_experiment::output::{OutDir, Staged};
+use vitriol_experiment::particles::Particles;
+use vitriol_experiment::{Blame, Failure, Laboratory, Moment, Sample};
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::SolverState;
+use vitriol_sim::world::World;
+use vitriol_xr::PoseFrame;
+
+use crate::cameras::{self, NamedView};
+use crate::gltf::{self, Matter};
+use crate::surfaces::Surfaces;
+use crate::table::{Column, Csv, Parquet, Table, columns};
+use crate::{ply, room, vtk};
+
+/// A moment that is exported; what formats share is made once, and only where one asks for it.
+pub struct Frame<'a> {
+    /// Its number, from 0.
+    pub number: u64,
+    /// Simulated time, s.
+    pub seconds: f64,
+    world: &'a World,
+    state: SolverState,
+    user: Option<&'a PoseFrame>,
+    particles: OnceCell<Particles>,
+    surfaces: OnceCell<Surfaces>,
+}
+
+impl<'a> Frame<'a> {
+    /// Reads the state; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(number: u64, moment: &Moment<'a>, world: &'a World) -> Result<Self, Failure> {
+        Ok(Self {
+            number,
+            seconds: moment.time.seconds(),
+            world,
+            state: world.solver().snapshot().other()?,
+            user: moment.frame,
+            particles: OnceCell::new(),
+            surfaces: OnceCell::new(),
+        })
+    }
+
+    /// The particles.
+    pub fn particles(&self) -> &Particles {
+        self.particles
+            .get_or_init(|| Particles::of(self.world, &self.state))
+    }
+
+    /// The surfaces.
+    pub fn surfaces(&self) -> &Surfaces {
+        let of = || Surfaces::of(self.world.scene(), self.world.poses(), &self.state);
+        self.surfaces.get_or_init(of)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        self.world.scene()
+    }
+
+    /// The cameras.
+    pub fn cameras(&self) -> Vec<NamedView> {
+        cameras::of(self.scene(), self.user)
+    }
+}
+
+/// Takes what it wants of a run, and writes it.
+pub trait Sink {
+    /// After each step, and before the first.
+    ///
+    /// # Errors
+    /// What the device or the file system says.
+    fn step(
+        &mut self,
+        moment: &Moment<'_>,
+        laboratory: &mut Laboratory,
+        out: &mut OutDir,
+    ) -> Result<(), Failure> {
+        let _ = (moment, laboratory, out);
+        Ok(())
+    }
+
+    /// At the moments that are exported.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
+        let _ = (frame, out);
+        Ok(())
+    }
+
+    /// At a sample's times.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn sample(&mut self, sample: &Sample, out: &mut OutDir) -> Result<(), Failure> {
+        let _ = (sample, out);
+        Ok(())
+    }
+
+    /// What follows is another scene, or the same from its start.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn start_over(&mut self, out: &mut OutDir) -> Result<(), Failure> {
+        let _ = out;
+        Ok(())
+    }
+
+    /// Ends its files; `hash` is that of the final state.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn finish(&mut self, hash: u64, out: &mut OutDir) -> Result<(), Failure>;
+}
+
+/// Ends a file that was written bit by bit.
+pub(crate) fn keep(staged: Staged, out: &mut OutDir) -> Result<(), Failure> {
+    let path = staged.path.clone();
+    staged.keep().other()?;
+    out.adopt(path);
+    Ok(())
+}
+
+/// Particles, a `.vtu` a moment and the list of all.
+#[derive(Default)]
+pub struct Vtk {
+    list: Option<Staged>,
+}
+
+impl Vtk {
+    fn say(&mut self, text: &str, out: &OutDir) -> Result<(), Failure> {
+        let (list, begins) = match self.list.take() {
+            Some(list) => (list, false),
+            None => (
+                Staged::create(&out.join("particles.vtu.series")).other()?,
+                true,
+            ),
+        };
+        let list = self.list.insert(list);
+        let mut file = list.try_clone().other()?;
+        let before = vtk::LIST[usize::from(!begins)];
+        file.write_all(before.as_bytes()).other()?;
+        file.write_all(text.as_bytes()).other()
+    }
+}
+
+impl Sink for Vtk {
+    fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
+        let name = format!("particles-{:06}.vtu", frame.number);
+        out.write(&name, &vtk::bytes(frame.particles(), frame.seconds))?;
+        self.say(&vtk::entry(&name, frame.seconds), out)
+    }
+
+    fn finish(&mut self, _hash: u64, out: &mut OutDir) -> Result<(), Failure> {
+        let Some(list) = self.list.take() else {
+            return Ok(());
+        };
+        let mut file = list.try_clone().other()?;
+        file.write_all(vtk::LIST[2].as_bytes()).other()?;
+        keep(list, out)
+    }
+}
+
+/// Surfaces and cameras, files a moment; table and room once.
+#[derive(Default)]
+pub struct Ply {
+    room: bool,
+}
+
+impl Sink for Ply {
+    fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
+        if !self.room {
+            let [table, room] = room::meshes(frame.scene());
+            for (name, mesh) in [("table", table), ("room", room)] {
+                out.write(&format!("{name}.ply"), &ply::bytes(&mesh, name))?;
+            }
+            self.room = true;
+        }
+        let surfaces = frame.surfaces();
+        for (name, mesh) in [
+            ("air-liquid", &surfaces.air_liquid),
+            ("glass-liquid", &surfaces.glass_liquid),
+            ("air-glass", &surfaces.air_glass),
+        ] {
+            let comment = format!("{name}, m, at {} s", frame.seconds);
+            out.write(
+                &format!("{name}-{:06}.ply", frame.number),
+                &ply::bytes(mesh, &comment),
+            )?;
+        }
+        let cameras = cameras::json(&frame.cameras(), frame.seconds);
+        let cameras = serde_json::to_vec_pretty(&cameras).other()?;
+        out.write(&format!("cameras-{:06}.json", frame.number), &cameras)
+    }
+
+    fn finish(&mut self, _hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+/// All that is seen, a `.glb` a moment.
+pub struct Gltf;
+
+impl Sink for Gltf {
+    fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
+        let surfaces = frame.surfaces();
+        let [table, room] = room::meshes(frame.scene());
+        let meshes = [
+            ("air-liquid", &surfaces.air_liquid, Matter::Liquid),
+            ("glass-liquid", &surfaces.glass_liquid, Matter::Liquid),
+            ("air-glass", &surfaces.air_glass, Matter::Glass),
+            ("table", &table, Matter::Solid),
+            ("room", &room, Matter::Solid),
+        ];
+        let bytes = gltf::bytes(&meshes, &frame.cameras(), frame.seconds);
+        out.write(&format!("scene-{:06}.glb", frame.number), &bytes)
+    }
+
+    fn finish(&mut self, _hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+/// Formats of tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableFormat {
+    /// RFC 4180.
+    Csv,
+    /// Apache Parquet.
+    Parquet,
+}
+
+/// Measurements, a table for each scene that a run brings up: others have other flasks.
+pub struct Measurements {
+    format: TableFormat,
+    part: u32,
+    begun: Option<(Vec<Column>, Box<dyn Table>, Staged)>,
+}
+
+impl Measurements {
+    /// As that format.
+    pub fn new(format: TableFormat) -> Self {
+        Self {
+            format,
+            part: 0,
+            begun: None,
+        }
+    }
+
+    fn end(&mut self, out: &mut OutDir) -> Result<(), Failure> {
+        if let Some((_, table, staged)) = self.begun.take() {
+            table.finish()?;
+            keep(staged, out)?;
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self, first: &Sample, out: &OutDir) -> Result<(), Failure> {
+        self.part += 1;
+        let part = match self.part {
+            1 => String::new(),
+            part => format!("-{part}"),
+        };
+        let ending = match self.format {
+            TableFormat::Csv => "csv",
+            TableFormat::Parquet => "parquet",
+        };
+        let staged = Staged::create(&out.join(&format!("measurements{part}.{ending}"))).other()?;
+        let (file, columns) = (staged.try_clone().other()?, columns(first));
+        let table: Box<dyn Table> = match self.format {
+            TableFormat::Csv => Box::new(Csv::new(file, &columns)?),
+            TableFormat::Parquet => Box::new(Parquet::new(file, &columns)?),
+        };
+        self.begun = Some((columns, table, staged));
+        Ok(())
+    }
+}
+
+impl Sink for Measurements {
+    fn sample(&mut self, sample: &Sample, out: &mut OutDir) -> Result<(), Failure> {
+        if self.begun.is_none() {
+            self.begin(sample, out)?;
+        }
+        if let Some((columns, table, _)) = &mut self.begun {
+            table.row(columns, sample)?;
+        }
+        Ok(())
+    }
+
+    fn start_over(&mut self, out: &mut OutDir) -> Result<(), Failure> {
+        self.end(out)
+    }
+
+    fn finish(&mut self, _hash: u64, out: &mut OutDir) -> Result<(), Failure> {
+        self.end(out)
+    }
+}

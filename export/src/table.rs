@@ -1,0 +1,250 @@
+//! Measurements as tables: one row a sample, units in the header.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, Repetition, Type as Physical};
+use parquet::data_type::DoubleType;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use vitriol_experiment::{Blame, Failure, LedgerSample, Sample};
+
+/// Rows that a Parquet file holds together, and this program in memory: a minute and a half.
+const ROWS: usize = 1000;
+
+type OfLedger = fn(&LedgerSample) -> f64;
+type Value = Box<dyn Fn(&Sample) -> Option<f64> + Send>;
+
+/// A column of a table.
+pub struct Column {
+    /// What it is, with its unit in brackets. It begins with a word of ours: a flask may be called `=1+1`, which at a
+    /// cell's beginning a spreadsheet would compute.
+    pub header: String,
+    value: Value,
+}
+
+impl Column {
+    fn new(
+        what: &str,
+        unit: &str,
+        value: impl Fn(&Sample) -> Option<f64> + Send + 'static,
+    ) -> Self {
+        Self {
+            header: format!("{what} [{unit}]"),
+            value: Box::new(value),
+        }
+    }
+
+    /// Its value in a row; `None` where there is none then, such as the temperature of an empty flask.
+    pub fn value(&self, sample: &Sample) -> Option<f64> {
+        (self.value)(sample).filter(|value| value.is_finite())
+    }
+}
+
+/// The columns of a run whose first sample this is.
+pub fn columns(first: &Sample) -> Vec<Column> {
+    let mut columns = vec![
+        Column::new("time", "s", |s| Some(s.t_s)),
+        Column::new("density error, mean", "1", |s| Some(s.density_error_mean)),
+        Column::new("density error, 99th percentile", "1", |s| {
+            Some(s.density_error_p99)
+        }),
+        Column::new("kinetic energy", "J", |s| Some(s.kinetic_energy_j)),
+        Column::new("rebuilds of the neighbour list", "1", |s| {
+            Some(s.neighbour_rebuilds as f64)
+        }),
+        Column::new("mass on the table", "kg", |s| Some(s.mass_kg.table)),
+        Column::new("mass on the floor", "kg", |s| Some(s.mass_kg.floor)),
+        Column::new("mass in the air", "kg", |s| Some(s.mass_kg.air)),
+    ];
+    let flasks: Vec<&String> = first.mass_kg.flasks.keys().collect();
+    for &flask in &flasks {
+        let key = || flask.clone();
+        let (a, b, c) = (key(), key(), key());
+        columns.extend([
+            Column::new(&format!("mass in {flask}"), "kg", move |s| {
+                s.mass_kg.flasks.get(&a).copied()
+            }),
+            Column::new(&format!("mass that left {flask}"), "kg", move |s| {
+                s.left_kg.get(&b).copied()
+            }),
+            Column::new(&format!("mass above the rim of {flask}"), "kg", move |s| {
+                s.above_rim_kg.get(&c).copied()
+            }),
+        ]);
+    }
+    let Some(heat) = &first.heat else {
+        return columns;
+    };
+    macro_rules! of_heat {
+        ($what:expr, $unit:expr, $heat:ident => $value:expr) => {
+            Column::new(&$what, $unit, move |s| {
+                s.heat.as_ref().and_then(|$heat| $value)
+            })
+        };
+    }
+    columns.extend([
+        of_heat!("temperature, mean", "degC", heat => Some(heat.temperature_mean_c)),
+        of_heat!("temperature, 99th percentile", "degC", heat => Some(heat.temperature_p99_c)),
+        of_heat!("temperature, highest", "degC", heat => Some(heat.temperature_max_c)),
+        of_heat!("acid, mean", "kg/kg", heat => Some(heat.acid_mean)),
+        of_heat!("acid, least", "kg/kg", heat => Some(heat.acid_min)),
+        of_heat!("acid, most", "kg/kg", heat => Some(heat.acid_max)),
+        of_heat!("superheat, highest", "K", heat => heat.superheat_max_k),
+        of_heat!("particles above the boiling point", "1", heat => heat.boiling_particles.map(|n| n as f64)),
+    ]);
+    for (end, place) in [("lowest", 0), ("highest", 1)] {
+        for &flask in &flasks {
+            let (a, b) = (flask.clone(), flask.clone());
+            let column = of_heat!(format!("temperature in {flask}, {end}"), "degC", heat => {
+                heat.temperatures_in_flasks_c.get(&a).map(|ends| ends[place])
+            });
+            columns.push(column);
+            if heat.temperatures_of_glass_c.contains_key(flask) {
+                let column = of_heat!(format!("temperature of the glass of {flask}, {end}"), "degC", heat => {
+                    heat.temperatures_of_glass_c.get(&b).map(|ends| ends[place])
+                });
+                columns.push(column);
+            }
+        }
+    }
+    if heat.ledger.is_some() {
+        let of_ledger: [(&str, &str, OfLedger); 9] = [
+            ("enthalpy at the start", "J", |l| l.initial_j),
+            ("heat gained from around", "J", |l| l.exchanged_j),
+            ("enthalpy of what is there", "J", |l| l.held_j),
+            ("enthalpy that steam took along", "J", |l| l.steam_j),
+            ("enthalpy paid for motion", "J", |l| l.kinetic_j),
+            ("error of the balance of enthalpy", "1", |l| l.closure),
+            ("steam that left", "kg", |l| l.steam_kg),
+            ("mist in the air", "kg", |l| l.mist_kg),
+            ("vapour in the liquid", "kg", |l| l.vapour_kg),
+        ];
+        for (what, unit, value) in of_ledger {
+            columns.push(of_heat!(what, unit, heat => heat.ledger.as_ref().map(value)));
+        }
+    }
+    columns
+}
+
+/// A table that is being written.
+pub trait Table {
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure>;
+
+    /// Ends it.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn finish(self: Box<Self>) -> Result<(), Failure>;
+}
+
+/// As CSV (RFC 4180).
+pub struct Csv(csv::Writer<BufWriter<File>>);
+
+impl Csv {
+    /// Of those columns.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
+        let mut writer = csv::WriterBuilder::new()
+            .terminator(csv::Terminator::CRLF)
+            .from_writer(BufWriter::new(file));
+        let header = columns.iter().map(|column| &column.header);
+        writer.write_record(header).other()?;
+        Ok(Self(writer))
+    }
+}
+
+impl Table for Csv {
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure> {
+        let cells = columns.iter().map(|column| column.value(sample));
+        let cells = cells.map(|cell| cell.map_or_else(String::new, |value| value.to_string()));
+        self.0.write_record(cells).other()
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), Failure> {
+        self.0.flush().other()
+    }
+}
+
+/// As Parquet.
+pub struct Parquet {
+    writer: SerializedFileWriter<BufWriter<File>>,
+    /// Of each column the values that are not written yet.
+    rows: Vec<Vec<Option<f64>>>,
+}
+
+impl Parquet {
+    /// Of those columns.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
+        let field = |column: &Column| -> Result<_, Failure> {
+            let field = Type::primitive_type_builder(&column.header, Physical::DOUBLE)
+                .with_repetition(Repetition::OPTIONAL)
+                .build();
+            Ok(Arc::new(field.other()?))
+        };
+        let fields: Result<Vec<_>, Failure> = columns.iter().map(field).collect();
+        let schema = Type::group_type_builder("measurements").with_fields(fields?);
+        let schema = Arc::new(schema.build().other()?);
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::UNCOMPRESSED)
+            .set_created_by(concat!("vitriol ", env!("CARGO_PKG_VERSION")).into());
+        let file = BufWriter::new(file);
+        let writer = SerializedFileWriter::new(file, schema, Arc::new(properties.build()));
+        Ok(Self {
+            writer: writer.other()?,
+            rows: columns.iter().map(|_| Vec::new()).collect(),
+        })
+    }
+
+    fn write_rows(&mut self) -> Result<(), Failure> {
+        if self.rows.first().is_none_or(Vec::is_empty) {
+            return Ok(());
+        }
+        let mut group = self.writer.next_row_group().other()?;
+        for column in &mut self.rows {
+            let Some(mut writer) = group.next_column().other()? else {
+                break;
+            };
+            let present: Vec<f64> = column.iter().flatten().copied().collect();
+            let levels: Vec<i16> = column.iter().map(|value| value.is_some().into()).collect();
+            let typed = writer.typed::<DoubleType>();
+            typed.write_batch(&present, Some(&levels), None).other()?;
+            writer.close().other()?;
+            column.clear();
+        }
+        group.close().other()?;
+        Ok(())
+    }
+}
+
+impl Table for Parquet {
+    fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure> {
+        for (column, values) in columns.iter().zip(&mut self.rows) {
+            values.push(column.value(sample));
+        }
+        if self.rows.first().is_some_and(|values| values.len() >= ROWS) {
+            self.write_rows()?;
+        }
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), Failure> {
+        self.write_rows()?;
+        let file = self.writer.into_inner().other()?;
+        file.into_inner()
+            .map_err(std::io::IntoInnerError::into_error)
+            .other()?;
+        Ok(())
+    }
+}

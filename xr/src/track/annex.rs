@@ -1,0 +1,147 @@
+//! What a track's file may hold beside the track, for viewers: points, a film, measurements. A reader of tracks passes over
+//! it.
+
+use std::collections::BTreeMap;
+
+use mcap::McapError;
+use mcap::records::MessageHeader;
+use prost::Message;
+
+use super::message::{
+    CompressedVideo, FieldType, PackedElementField, PointCloud, Quaternion, Vector3,
+};
+use super::{TrackError, TrackWriter, descriptor, encode, names};
+
+/// Of one moment.
+#[derive(Clone, Copy, Debug)]
+pub enum Annex<'a> {
+    /// Points in the stage, m, on `/particles`: rows of as many numbers as there are names, of which the first three are
+    /// x, y and z.
+    Points {
+        /// Names of the columns.
+        fields: &'a [&'a str],
+        /// The rows, one after the other.
+        rows: &'a [f32],
+    },
+    /// A frame of H.264 (Annex B), on `/film`.
+    Film(&'a [u8]),
+    /// An object, on `/measurements`.
+    Measurement {
+        /// The object, as JSON.
+        json: &'a str,
+        /// Its JSON schema.
+        schema: &'a str,
+    },
+}
+
+/// A topic's name, schema and encoding.
+struct Topic<'a> {
+    name: &'static str,
+    schema: &'static str,
+    encodings: [&'static str; 2],
+    schema_bytes: std::borrow::Cow<'a, [u8]>,
+}
+
+impl Annex<'_> {
+    fn topic(&self) -> Topic<'_> {
+        match self {
+            Self::Points { .. } => Topic {
+                name: names::PARTICLES,
+                schema: descriptor::POINT_CLOUD,
+                encodings: ["protobuf"; 2],
+                schema_bytes: descriptor::point_cloud().into(),
+            },
+            Self::Film(_) => Topic {
+                name: names::FILM,
+                schema: descriptor::COMPRESSED_VIDEO,
+                encodings: ["protobuf"; 2],
+                schema_bytes: descriptor::compressed_video().into(),
+            },
+            Self::Measurement { schema, .. } => Topic {
+                name: names::MEASUREMENTS,
+                schema: "vitriol.Sample",
+                encodings: ["jsonschema", "json"],
+                schema_bytes: schema.as_bytes().into(),
+            },
+        }
+    }
+
+    fn encoded(&self, time_ns: i64) -> Vec<u8> {
+        match self {
+            Self::Points { fields, rows } => points(time_ns, fields, rows).encode_to_vec(),
+            Self::Film(bytes) => CompressedVideo {
+                timestamp: Some(encode::timestamp(time_ns)),
+                frame_id: names::CAMERA.into(),
+                data: bytes.to_vec(),
+                format: "h264".into(),
+            }
+            .encode_to_vec(),
+            Self::Measurement { json, .. } => json.as_bytes().to_vec(),
+        }
+    }
+}
+
+fn points(time_ns: i64, fields: &[&str], rows: &[f32]) -> PointCloud {
+    let field = |(number, name): (u32, &&str)| PackedElementField {
+        name: (*name).into(),
+        offset: 4 * number,
+        kind: FieldType::Float32 as i32,
+    };
+    PointCloud {
+        timestamp: Some(encode::timestamp(time_ns)),
+        frame_id: names::STAGE.into(),
+        pose: Some(super::message::Pose {
+            position: Some(Vector3 {
+                x: Some(0.0),
+                y: Some(0.0),
+                z: Some(0.0),
+            }),
+            orientation: Some(Quaternion {
+                x: Some(0.0),
+                y: Some(0.0),
+                z: Some(0.0),
+                w: Some(1.0),
+            }),
+        }),
+        point_stride: 4 * fields.len() as u32,
+        fields: (0..).zip(fields).map(field).collect(),
+        data: rows.iter().flat_map(|value| value.to_le_bytes()).collect(),
+    }
+}
+
+impl TrackWriter {
+    /// Adds `annex` at a time of the track. It does not count among what a reader takes at most: a file that holds much of
+    /// it may be too long for one.
+    ///
+    /// # Errors
+    /// [`TrackError::Full`] where so much waits for the disk that it is not taken, [`TrackError::Io`] after the end.
+    pub fn add(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), TrackError> {
+        self.make_room()?;
+        let added = self.put_annex(time_ns, annex);
+        added.map_err(|error| self.failed(error))
+    }
+
+    fn put_annex(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), McapError> {
+        let topic = annex.topic();
+        let sequence = self.last_step();
+        let known = self.annexes.get(topic.name).copied();
+        let mcap = self.mcap()?;
+        let channel_id = match known {
+            Some(channel) => channel,
+            None => {
+                let [of_schema, of_messages] = topic.encodings;
+                let schema = mcap.add_schema(topic.schema, of_schema, &topic.schema_bytes)?;
+                mcap.add_channel(schema, topic.name, of_messages, &BTreeMap::new())?
+            }
+        };
+        let header = MessageHeader {
+            channel_id,
+            sequence,
+            log_time: time_ns as u64,
+            publish_time: time_ns as u64,
+        };
+        mcap.write_to_known_channel(&header, &annex.encoded(time_ns))?;
+        self.annexes.insert(topic.name, channel_id);
+        Ok(())
+    }
+}
