@@ -1,4 +1,6 @@
 ; The installer for Windows: for one user, without rights of an administrator. `package/windows` gives VERSION, FROM and TO.
+; As the program: for 64 bits. The other stub would not run under a Wine of 64 bits alone.
+Target amd64-unicode
 Unicode true
 !include "MUI2.nsh"
 Name "Vitriol ${VERSION}"

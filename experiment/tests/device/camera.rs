@@ -1,10 +1,13 @@
 //! The camera from the track's head.
 
-use crate::common::{BEFORE, SIZE, experiment, frame, liquid};
+use crate::common::{BEFORE, SIZE, coloured, experiment, frame, liquid};
+use std::f32::consts::FRAC_PI_2;
+
 use glam::{Quat, Vec3};
+use vitriol_experiment::Colour;
 use vitriol_shaders::Library;
 use vitriol_tests::gpu;
-use vitriol_xr::Pose;
+use vitriol_xr::{Hand, Pose};
 
 /// Half of the vertical field of view, 40°.
 const HALF_FIELD: f64 = 20.0;
@@ -64,4 +67,56 @@ fn a_fixed_camera_stays() {
     // the picture.
     let moved = (after.0 - before.0).hypot(after.1 - before.1);
     assert!(moved < 5.0, "{moved}");
+}
+
+/// A hand is drawn where it is, by OpenXR's axes: held up beside the glass it covers what it covers and nothing else; a hand that
+/// sleeps is not there.
+#[test]
+fn the_head_sees_the_hands() {
+    let gpu = gpu::device();
+    let head = Pose::new(BEFORE, Quat::IDENTITY);
+    // 20 cm to the right of the glass and 10 cm nearer.
+    let place = Vec3::new(0.2, 0.79, -0.3);
+    let picture = |active: bool| {
+        let mut laboratory = coloured(&gpu, Some(head), Library::embedded(), Colour::Liquid);
+        let mut frame = frame(0, head);
+        frame.hands[1] = Hand {
+            active,
+            valid: active,
+            // Its broad side to the eye.
+            stage_from_grip: Pose::new(place, Quat::from_rotation_y(FRAC_PI_2)),
+            ..Hand::default()
+        };
+        laboratory.step(&frame).unwrap();
+        laboratory.picture(0).unwrap().to_vec()
+    };
+    let (with, without) = (picture(true), picture(false));
+    let (width, height) = SIZE;
+    let (mut sum, mut count) = ((0.0, 0.0), 0.0);
+    let pixels = with.chunks_exact(4).zip(without.chunks_exact(4));
+    for (index, (a, b)) in (0u32..).zip(pixels) {
+        if a != b {
+            sum.0 += f64::from(index % width) + 0.5 - 0.5 * f64::from(width);
+            sum.1 += f64::from(index / width) + 0.5 - 0.5 * f64::from(height);
+            count += 1.0;
+        }
+    }
+    // 40° upright: so many pixels are a radian's tangent.
+    let focal = 0.5 * f64::from(height) / 20.0_f64.to_radians().tan();
+    let ahead = f64::from(BEFORE.z - place.z);
+    let right = f64::from(place.x - BEFORE.x) / ahead * focal;
+    // Palm and fingers, which hang down, are some 84 mm broad and 150 mm long, with gaps.
+    let hand = 0.084 * 0.15 * (focal / ahead).powi(2);
+    assert!(
+        (0.25 * hand..1.2 * hand).contains(&count),
+        "{count} of {hand} pixels"
+    );
+    let (x, y) = (sum.0 / count, sum.1 / count);
+    let millimetre = 1e-3 * focal / ahead;
+    assert!(
+        (x - right).abs() < 30.0 * millimetre,
+        "{x} instead of {right}"
+    );
+    // Below the grip, since the fingers are.
+    assert!((0.0..80.0 * millimetre).contains(&y), "{y}");
 }

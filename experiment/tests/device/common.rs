@@ -21,6 +21,15 @@ pub fn scene() -> Scene {
 }
 
 pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Experiment> {
+    coloured(gpu, head, shaders, Colour::Speed)
+}
+
+pub fn coloured(
+    gpu: &Gpu,
+    head: Option<Pose>,
+    shaders: Library,
+    colour: Colour,
+) -> Box<dyn Experiment> {
     let setup = Setup {
         scene: &scene(),
         scene_name: "beaker",
@@ -29,7 +38,7 @@ pub fn experiment(gpu: &Gpu, head: Option<Pose>, shaders: Library) -> Box<dyn Ex
         seed: 1,
         device: None,
         picture: Some(SIZE.into()),
-        colours: vec![Colour::Speed],
+        colours: vec![colour],
         eyes: 1,
         filter: None,
         head,

@@ -191,6 +191,11 @@ impl SolverSettings {
             let field = format!("solver.{field}");
             within(&field, value.into(), 1.0..=1000.0, "between 1 and 1000")?;
         }
+        // A scene may come with a track from anyone, and a frame that never ends is no frame; the finest run of any
+        // measurement has 192.
+        let solves = f64::from(self.substeps) * f64::from(self.iterations);
+        let must = "at most 4096 a frame, the product of substeps and iterations";
+        within("solver.iterations", solves, 1.0..=4096.0, must)?;
         let omega = self.omega;
         let ok = omega > 0.0 && omega < 2.0;
         require("solver.omega", omega, ok, "above 0 and below 2")?;

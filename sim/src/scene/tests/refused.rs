@@ -77,6 +77,11 @@ fn malformed_scenes_name_file_field_and_remedy() {
             &["solver.substeps", "between 1"],
         ),
         (
+            "substeps = 3\niterations = 2",
+            "substeps = 800\niterations = 800",
+            &["solver.iterations", "at most 4096"],
+        ),
+        (
             "\"map\"",
             "\"mop\"",
             &["unknown variant `mop`", "`map`", "`particles`"],
