@@ -1,7 +1,7 @@
 //! The program `vitriol`: reads the command line, runs the subcommand, turns a
 //! failure into one message and an exit code.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -10,8 +10,13 @@ use vitriol::cli::Cli;
 use vitriol_experiment::{error_line, escaped};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refused(&error),
+    };
     let log = tracing_subscriber::fmt()
+        // What a reader that has gone leaves unwritten is nothing to say.
+        .log_internal_errors(false)
         .with_writer(std::io::stderr)
         .with_target(false)
         .with_max_level(match cli.verbose {
@@ -29,11 +34,13 @@ fn main() -> ExitCode {
         Err(failure) => {
             // Not through the log: whoever silences that still has to learn why
             // it failed.
-            if cli.json {
-                eprintln!("{}", error_line(&failure));
+            let said = if cli.json {
+                error_line(&failure.to_string(), failure.exit_code())
             } else {
-                eprintln!("vitriol: {}", escaped(&failure.to_string()));
-            }
+                format!("vitriol: {}", escaped(&failure.to_string()))
+            };
+            // A reader that has gone is no second failure.
+            let _ = writeln!(std::io::stderr(), "{said}");
             ExitCode::from(failure.exit_code())
         }
     }
@@ -46,4 +53,17 @@ fn takes_colours() -> bool {
     #[cfg(not(windows))]
     let asked = true;
     asked && std::io::stderr().is_terminal()
+}
+
+/// What the command line asks for is not there, or is help.
+fn refused(error: &clap::Error) -> ExitCode {
+    let code = u8::try_from(error.exit_code()).unwrap_or(2);
+    let json = std::env::args_os().any(|argument| argument == "--json");
+    if json && error.use_stderr() {
+        let text = error.to_string();
+        let _ = writeln!(std::io::stderr(), "{}", error_line(text.trim_end(), code));
+    } else {
+        let _ = error.print();
+    }
+    ExitCode::from(code)
 }

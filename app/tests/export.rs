@@ -105,9 +105,7 @@ fn other_programs_read_what_is_there() {
     );
     assert_eq!(times.len(), 3);
     assert!((number(&particles["own_time"]) - times[2]).abs() < 1e-12);
-    if !particles["series_times"].is_null() {
-        assert_eq!(particles["series_times"], particles["times"]);
-    }
+    assert_eq!(particles["series_times"], particles["times"]);
     assert_eq!(
         texts(&particles["names"]),
         [
@@ -181,7 +179,8 @@ fn other_programs_read_what_is_there() {
     for name in ["view", "left_grip", "right_grip", "flask_0", "flask_1"] {
         assert!(frames.contains(&name), "{frames:?}");
     }
-    assert_eq!(recording["inputs"], 9);
+    // Nine steps, and the end.
+    assert_eq!(recording["inputs"], 10);
     assert_eq!(found["report_is_valid"], true);
 
     let moments = ["000000", "000001", "000002"];
@@ -206,8 +205,6 @@ fn other_programs_read_what_is_there() {
             "replay",
             "out/recording.mcap",
             "--no-video",
-            "--seconds",
-            "0.1",
             "--out",
             "again",
         ],
@@ -287,10 +284,64 @@ fn what_cannot_be_exported_is_refused() {
     fs::create_dir(here.join("empty")).unwrap();
     fs::create_dir(here.join("odd")).unwrap();
     fs::write(here.join("odd/report.json"), "{}").unwrap();
+    fs::create_dir(here.join("later")).unwrap();
+    fs::write(here.join("later/report.json"), "{\"layout\": 2}").unwrap();
+    // A report from anyone does not make the program open a file: neither its text nor whether it is there is told.
+    fs::write(here.join("secret.toml"), "password = 1").unwrap();
+    object(
+        here,
+        &[
+            "replay",
+            "hands-off",
+            "--scene",
+            "beaker",
+            "--preset",
+            "fast",
+            "--seconds",
+            "0.01",
+            "--no-video",
+            "--out",
+            "theirs",
+        ],
+    );
+    let report = fs::read_to_string(here.join("theirs/report.json")).unwrap();
+    let report = report.replace("\"scene\": \"beaker\"", "\"scene\": \"secret.toml\"");
+    fs::write(here.join("theirs/report.json"), report).unwrap();
     for (arguments, part) in [
         (&["export", "hands-off", "--format", "stl"][..], "vtk"),
         (&["export", "empty", "--format", "csv"], "report.json"),
         (&["export", "odd", "--format", "csv"], "no report"),
+        (&["export", "later", "--format", "csv"], "the layout 2"),
+        (
+            &["export", "theirs", "--format", "vtk"],
+            "name it with --scene",
+        ),
+        (
+            &[
+                "export",
+                "hands-off",
+                "--scene",
+                "beaker",
+                "--format",
+                "csv",
+                "--at",
+                "0.1",
+            ],
+            "leave csv",
+        ),
+        (
+            &[
+                "export",
+                "hands-off",
+                "--scene",
+                "beaker",
+                "--format",
+                "vtk",
+                "--at",
+                "1e3",
+            ],
+            "ends at",
+        ),
         (
             &["export", "hands-off", "--format", "csv", "--from", "1e6"],
             "ends at",
@@ -375,4 +426,118 @@ fn several_tracks_are_replayed_in_one_call() {
             .unwrap()
             .contains("broken.mcap")
     );
+}
+
+/// Sends Ctrl-C's signal once there is a file: the program ends with a word, and takes away what it began.
+#[cfg(unix)]
+#[test]
+fn an_export_that_is_stopped_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+        .args([
+            "export",
+            "hands-off",
+            "--scene",
+            "beaker",
+            "--preset",
+            "fast",
+            "--format",
+            "vtk,mcap,csv",
+            "--out",
+            "out",
+        ])
+        .current_dir(here)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    vitriol_tests::wait::until("a file", || {
+        here.join("out/particles-000001.vtu").exists().then_some(())
+    });
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    let mut message = String::new();
+    std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut message).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(1), "{message}");
+    assert!(message.contains("taken away"), "{message}");
+    assert!(!here.join("out").exists());
+}
+
+/// A scene that is drawn at a twentieth of its size, with another solver than its preset's: what is exported has the density of
+/// the real liquid, and its recording replays with that solver.
+#[test]
+fn a_scaled_scene_is_exported_at_its_real_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let exported = object(
+        here,
+        &[
+            "export",
+            "hands-off",
+            "--scene",
+            "single-dilution",
+            "--preset",
+            "fast",
+            "--solver",
+            "4x3",
+            "--seconds",
+            "0.04",
+            "--format",
+            "vtk,mcap",
+            "--rate",
+            "1",
+            "--out",
+            "out",
+        ],
+    );
+    let file = fs::read(here.join("out/particles-000000.vtu")).unwrap();
+    let array = |name: &str| -> Vec<f64> {
+        let end = file
+            .windows(3)
+            .position(|bytes| bytes == b"\n_\0" || bytes.starts_with(b"\n_"))
+            .unwrap();
+        let text = String::from_utf8_lossy(&file[..end]);
+        let element = text.lines().find(|line| line.contains(name)).unwrap();
+        let offset = element
+            .split("offset=\"")
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap();
+        let at = end + 2 + offset.parse::<usize>().unwrap();
+        let length = u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
+        let values = file[at + 8..at + 8 + length].chunks_exact(8);
+        values
+            .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()))
+            .collect()
+    };
+    let (masses, volumes) = (array("mass [kg]"), array("volume [m3]"));
+    let density = masses.iter().sum::<f64>() / volumes.iter().sum::<f64>();
+    let scene = Scene::builtin("single-dilution").unwrap();
+    assert!(
+        (density / scene.scale.rest_density - 1.0).abs() < 1e-6,
+        "{density}"
+    );
+    let d = scene.with_preset(Preset::Fast).scale.spacing * scene.scale.length_scale;
+    assert!(
+        (volumes[0] / d.powi(3) - 1.0).abs() < 1e-6,
+        "{}",
+        volumes[0]
+    );
+    let again = object(
+        here,
+        &[
+            "replay",
+            "out/recording.mcap",
+            "--no-video",
+            "--out",
+            "again",
+        ],
+    );
+    assert_eq!(again["state_hash"], exported["state_hash"]);
+    assert_eq!(again["solver"]["substeps"], 4);
+    assert_eq!(again["recording"]["same_state"], true);
 }

@@ -43,10 +43,9 @@ pub fn emit<T: Serialize>(
     }
 }
 
-/// A failure as a line of JSON.
-pub fn error_line(failure: &Failure) -> String {
-    let line =
-        serde_json::json!({ "error": failure.to_string(), "exit_code": failure.exit_code() });
+/// What a program ends with as a line of JSON.
+pub fn error_line(message: &str, exit_code: u8) -> String {
+    let line = serde_json::json!({ "error": message, "exit_code": exit_code });
     json_escaped(&line.to_string())
 }
 

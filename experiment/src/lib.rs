@@ -11,6 +11,7 @@ mod film;
 pub mod glassware;
 mod h264;
 pub mod hands;
+pub mod interrupt;
 mod laboratory;
 mod legend;
 mod moment;

@@ -29,6 +29,7 @@ pub struct Observer {
     samples: Vec<Sample>,
     /// Number of the last sample's time.
     sampled: Option<u64>,
+    scenes_before: u32,
     time: SimulatedTime,
     progress: Progress,
     begin: Instant,
@@ -44,6 +45,8 @@ pub struct Observations {
     /// Samples over time; the first is of the start, or of the first step after
     /// the last switch to a scene; the last is of the end.
     pub samples: Vec<Sample>,
+    /// Scenes that were brought up before the one that the samples are of.
+    pub scenes_before: u32,
     /// Steps and simulated time.
     pub time: SimulatedTime,
     /// Wall-clock time of the run, its film's included.
@@ -59,6 +62,7 @@ impl Observer {
             film_frames: 0,
             samples: Vec::new(),
             sampled: None,
+            scenes_before: 0,
             time: SimulatedTime::default(),
             progress,
             begin: Instant::now(),
@@ -75,6 +79,7 @@ impl Observer {
             films: films.other()?,
             film_frames: self.film_frames,
             samples: self.samples,
+            scenes_before: self.scenes_before,
             time: self.time,
             wall: self.begin.elapsed(),
         })
@@ -122,6 +127,7 @@ impl<E: Experiment + ?Sized> Watch<E> for Observer {
     fn start_over(&mut self) -> Result<(), Failure> {
         self.samples.clear();
         self.sampled = None;
+        self.scenes_before += 1;
         Ok(())
     }
 }

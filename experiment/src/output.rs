@@ -252,6 +252,15 @@ impl OutDir {
         Ok(())
     }
 
+    /// Begins a file that is written bit by bit.
+    ///
+    /// # Errors
+    /// As for [`write_new`].
+    pub fn stage(&self, name: &str) -> Result<Staged, Failure> {
+        let path = self.join(name);
+        Ok(Staged::create(&path).map_err(|source| OutputError::write(&path, source))?)
+    }
+
     /// Counts a file that someone else wrote into the folder among the run's.
     pub fn adopt(&mut self, file: PathBuf) {
         self.files.push(file);

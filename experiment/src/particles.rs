@@ -15,7 +15,7 @@ pub struct Particles {
     pub velocity: Vec<DVec3>,
     /// Volume, m³.
     pub volume: Vec<f64>,
-    /// Mass, kg.
+    /// Mass of the real one, kg: in a scene drawn smaller than it is simulated, less than in its report.
     pub mass: Vec<f64>,
     /// Number of the flask that it is in; −1 for none.
     pub flask: Vec<i32>,
@@ -53,7 +53,9 @@ impl Particles {
             volume: all()
                 .map(|slot| d3 * state.volume_of(slot) * cubed)
                 .collect(),
-            mass: all().map(|slot| rest_mass * state.mass_of(slot)).collect(),
+            mass: all()
+                .map(|slot| rest_mass * state.mass_of(slot) * cubed)
+                .collect(),
             flask: all()
                 .map(|slot| state.flask_of(slot).map_or(-1, |flask| flask as i32))
                 .collect(),

@@ -6,6 +6,7 @@ use vitriol_xr::{PoseFrame, PoseSource};
 use crate::clock::{SimulatedTime, Span};
 use crate::experiment::Experiment;
 use crate::failure::{Blame, Failure};
+use crate::interrupt;
 use crate::moment::{Moment, Watch};
 
 /// Runs an experiment with the poses of a source. Where the source ends before
@@ -24,6 +25,7 @@ pub fn run<E: Experiment + ?Sized>(
     watch.observe(&Moment { time, frame: None }, experiment)?;
     let mut held: Option<PoseFrame> = None;
     while !span.is_over(&time) {
+        interrupt::check()?;
         let step = time.steps();
         match source.next(step, time.seconds()).other()? {
             Some(frame) => held = Some(frame),

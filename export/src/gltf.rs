@@ -107,7 +107,8 @@ impl File {
     fn camera(&mut self, NamedView { name, view }: &NamedView) {
         let fov = view.fov;
         // The format has symmetric frusta alone: the one around it, and the true one beside it.
-        let half = |a: f32, b: f32| a.abs().max(b.abs()).tan();
+        // A reader of tracks takes any angle up to a right one, of which the tangent is no number that a viewer can use.
+        let half = |a: f32, b: f32| a.abs().max(b.abs()).clamp(0.01, 1.5).tan();
         let (across, up) = (half(fov.left, fov.right), half(fov.up, fov.down));
         let matrix = Mat4::from(view.stage_from_eye).to_cols_array();
         self.nodes.push(json!({

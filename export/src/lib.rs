@@ -122,6 +122,8 @@ pub struct Export {
 pub struct Origin {
     /// Scene, seed, preset.
     pub metadata: TrackMetadata,
+    /// Substeps and iterations in place of the preset's.
+    pub solver: Option<[u32; 2]>,
     /// JSON schema of a sample.
     pub sample_schema: String,
 }
@@ -146,10 +148,7 @@ impl Export {
                 Format::Gltf => Box::new(Gltf),
                 Format::Csv => Box::new(Measurements::new(TableFormat::Csv)),
                 Format::Parquet => Box::new(Measurements::new(TableFormat::Parquet)),
-                Format::Mcap => {
-                    let schema = origin.sample_schema.clone();
-                    Box::new(Recording::new(&origin.metadata, schema, &mut out)?)
-                }
+                Format::Mcap => Box::new(Recording::new(origin, &mut out)?),
             });
         }
         Ok(Self {
@@ -180,17 +179,18 @@ impl Export {
     }
 }
 
-/// Writes measurements that are there already.
+/// Writes measurements that are there already, of a run that brought up `scenes_before` others before.
 ///
 /// # Errors
 /// What the file system says.
 pub fn tables(
     samples: &[Sample],
+    scenes_before: u32,
     formats: &[TableFormat],
     out: &mut OutDir,
 ) -> Result<(), Failure> {
     for &format in formats {
-        let mut table = Measurements::new(format);
+        let mut table = Measurements::after(scenes_before, format);
         for sample in samples {
             table.sample(sample, out)?;
         }
@@ -218,7 +218,8 @@ impl Watch<Laboratory> for Export {
             self.written += 1;
         }
         let due = sample_is_due(&mut self.sampled, &moment.time);
-        if samples && (due || self.span.is_over(&moment.time)) {
+        let begun = seconds + 1e-6 >= self.times.from;
+        if samples && begun && (due || self.span.is_over(&moment.time)) {
             let sample = laboratory.sample(seconds)?;
             for sink in &mut self.sinks {
                 sink.sample(&sample, &mut self.out)?;

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use vitriol_experiment::output::OutDir;
 use vitriol_experiment::particles::Particles;
+use vitriol_experiment::switches::SWITCH_SOLVER;
 use vitriol_experiment::track::{STATE_HASH, blame};
 use vitriol_experiment::{
-    Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, FilmError, H264, Laboratory, Moment, Sample,
-    stage,
+    Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, H264, Laboratory, Moment, Sample, stage,
 };
-use vitriol_xr::PoseFrame;
-use vitriol_xr::track::{Annex, Existing, TrackMetadata, TrackWriter};
+use vitriol_xr::track::{Annex, Existing, TrackWriter};
+use vitriol_xr::{PoseFrame, Switch};
 
+use crate::Origin;
 use crate::sink::{Frame, Sink};
 
 /// Name of the file.
@@ -23,49 +24,62 @@ pub struct Recording {
     encoder: H264,
     /// Film frames so far.
     film: u32,
-    /// Time of the last frame, ns.
-    last_ns: Option<i64>,
+    /// The last frame.
+    last: Option<PoseFrame>,
+    /// Simulated time so far, ns.
+    now_ns: i64,
+    /// Substeps and iterations that the first frame says.
+    solver: Option<[u32; 2]>,
     schema: String,
 }
 
 impl Recording {
-    /// One of a run of what `metadata` says; samples have that JSON schema.
+    /// One of a run of that origin.
     ///
     /// # Errors
     /// What the file system says.
-    pub fn new(
-        metadata: &TrackMetadata,
-        schema: String,
-        out: &mut OutDir,
-    ) -> Result<Self, Failure> {
+    pub fn new(origin: &Origin, out: &mut OutDir) -> Result<Self, Failure> {
         let path = out.join(FILE);
-        let writer = TrackWriter::create(&path, metadata, Existing::Refuse).map_err(blame)?;
+        let writer = TrackWriter::create(&path, &origin.metadata, Existing::Refuse);
+        let writer = writer.map_err(blame)?;
         out.adopt(path);
         Ok(Self {
             writer,
             encoder: H264::new(FILM_SIZE, FILM_FPS).other()?,
             film: 0,
-            last_ns: None,
-            schema,
+            last: None,
+            now_ns: 0,
+            solver: origin.solver,
+            schema: origin.sample_schema.clone(),
         })
     }
 
+    /// Writes the frame of a step that ended at `end_ns`, with the time at which it began.
     fn write(
         &mut self,
         frame: &PoseFrame,
         laboratory: &Laboratory,
-        until_ns: i64,
+        end_ns: i64,
     ) -> Result<(), Failure> {
         let mut frame = frame.clone();
-        // Poses that are held after the track's end have the time of its last frame.
-        if let Some(last) = self.last_ns
-            && frame.time_ns <= last
-        {
-            frame.time_ns = until_ns.max(last + 1);
-        }
-        self.last_ns = Some(frame.time_ns);
+        frame.time_ns = std::mem::replace(&mut self.now_ns, end_ns);
+        let solver = self.solver.take().map(|[substeps, iterations]| Switch {
+            key: SWITCH_SOLVER.into(),
+            value: format!("{substeps}x{iterations}"),
+        });
+        // After a switch of scene, which brings its own.
+        frame.scenario.extend(solver);
         let flasks = stage::flasks(laboratory.world());
-        self.writer.write(&frame, &flasks).map_err(blame)
+        self.writer.write(&frame, &flasks).map_err(blame)?;
+        self.last = Some(frame);
+        Ok(())
+    }
+
+    /// Adds what is of the state after the last step, with the time of that step's frame: its flasks have that too, so
+    /// that a viewer shows liquid and glass of one moment.
+    fn add(&mut self, annex: &Annex<'_>) -> Result<(), Failure> {
+        let time_ns = self.last.as_ref().map_or(0, |frame| frame.time_ns);
+        self.writer.add(time_ns, annex).map_err(blame)
     }
 
     fn film(&mut self, moment: &Moment<'_>, laboratory: &mut Laboratory) -> Result<(), Failure> {
@@ -75,13 +89,16 @@ impl Recording {
             return Ok(());
         }
         let picture = laboratory.picture(0)?;
-        let coded = self.encoder.encode(picture).other()?;
-        let number = self.film;
-        let coded = coded.ok_or(FilmError::TooRich { number }).other()?;
-        let film = Annex::Film(coded.bytes);
-        self.writer
-            .add(nanoseconds(seconds), &film)
-            .map_err(blame)?;
+        let Some(coded) = self.encoder.encode(picture).other()? else {
+            let number = self.film;
+            return Err(format!(
+                "frame {number} of the film has more detail than H.264 is given room for; leave mcap out of --format"
+            ))
+            .other();
+        };
+        let time_ns = self.last.as_ref().map_or(0, |frame| frame.time_ns);
+        let added = self.writer.add(time_ns, &Annex::Film(coded.bytes));
+        added.map_err(blame)?;
         // A step that is longer than a frame has one all the same: messages have times of their own.
         self.film = due;
         Ok(())
@@ -107,28 +124,39 @@ impl Sink for Recording {
 
     fn frame(&mut self, frame: &Frame<'_>, _out: &mut OutDir) -> Result<(), Failure> {
         let (fields, rows) = rows(frame.particles());
-        let points = Annex::Points {
+        self.add(&Annex::Points {
             fields: &fields,
             rows: &rows,
-        };
-        let time_ns = nanoseconds(frame.seconds);
-        self.writer.add(time_ns, &points).map_err(blame)
+        })
     }
 
     fn sample(&mut self, sample: &Sample, _out: &mut OutDir) -> Result<(), Failure> {
         let json = serde_json::to_string(sample).other()?;
-        let measurement = Annex::Measurement {
+        let schema = std::mem::take(&mut self.schema);
+        let added = self.add(&Annex::Measurement {
             json: &json,
-            schema: &self.schema,
-        };
-        let time_ns = nanoseconds(sample.t_s);
-        self.writer.add(time_ns, &measurement).map_err(blame)
+            schema: &schema,
+        });
+        self.schema = schema;
+        added
     }
 
     fn finish(&mut self, hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
+        // A track lasts to its last frame, so that a replay needs one at the last step's end.
+        if let Some(mut end) = self.last.take() {
+            end.step += 1;
+            end.time_ns = self.now_ns;
+            end.scenario.clear();
+            self.writer.write(&end, &[]).map_err(blame)?;
+        }
         let said = BTreeMap::from([(STATE_HASH.to_owned(), format!("{hash:016x}"))]);
         self.writer.conclude(&said).map_err(blame)?;
         self.writer.finish().map_err(blame)?;
+        if !self.writer.fits_a_reader() {
+            tracing::warn!(
+                "{FILE} is too long to be replayed; viewers open it. Export fewer --seconds, or at a lower --rate"
+            );
+        }
         Ok(())
     }
 }

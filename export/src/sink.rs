@@ -120,6 +120,14 @@ pub trait Sink {
     fn finish(&mut self, hash: u64, out: &mut OutDir) -> Result<(), Failure>;
 }
 
+/// Name of the file that a run's scene of that number, from 1, is written to.
+fn part_name(what: &str, part: u32, ending: &str) -> String {
+    match part {
+        0 | 1 => format!("{what}.{ending}"),
+        part => format!("{what}-{part}.{ending}"),
+    }
+}
+
 /// Ends a file that was written bit by bit.
 pub(crate) fn keep(staged: Staged, out: &mut OutDir) -> Result<(), Failure> {
     let path = staged.path.clone();
@@ -128,20 +136,22 @@ pub(crate) fn keep(staged: Staged, out: &mut OutDir) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Particles, a `.vtu` a moment and the list of all.
+/// Particles, a `.vtu` a moment and a list of all of a scene.
 #[derive(Default)]
 pub struct Vtk {
     list: Option<Staged>,
+    part: u32,
 }
 
 impl Vtk {
     fn say(&mut self, text: &str, out: &OutDir) -> Result<(), Failure> {
-        let (list, begins) = match self.list.take() {
-            Some(list) => (list, false),
-            None => (
-                Staged::create(&out.join("particles.vtu.series")).other()?,
-                true,
-            ),
+        let begins = self.list.is_none();
+        let list = match self.list.take() {
+            Some(list) => list,
+            None => {
+                self.part += 1;
+                out.stage(&part_name("particles", self.part, "vtu.series"))?
+            }
         };
         let list = self.list.insert(list);
         let mut file = list.try_clone().other()?;
@@ -158,6 +168,11 @@ impl Sink for Vtk {
         self.say(&vtk::entry(&name, frame.seconds), out)
     }
 
+    /// Other particles, of other numbers.
+    fn start_over(&mut self, out: &mut OutDir) -> Result<(), Failure> {
+        self.finish(0, out)
+    }
+
     fn finish(&mut self, _hash: u64, out: &mut OutDir) -> Result<(), Failure> {
         let Some(list) = self.list.take() else {
             return Ok(());
@@ -168,18 +183,22 @@ impl Sink for Vtk {
     }
 }
 
-/// Surfaces and cameras, files a moment; table and room once.
+/// Surfaces and cameras, files a moment; table and room once for each scene.
 #[derive(Default)]
 pub struct Ply {
+    /// Whether the scene's are there.
     room: bool,
+    part: u32,
 }
 
 impl Sink for Ply {
     fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
         if !self.room {
             let [table, room] = room::meshes(frame.scene());
+            self.part += 1;
             for (name, mesh) in [("table", table), ("room", room)] {
-                out.write(&format!("{name}.ply"), &ply::bytes(&mesh, name))?;
+                let file = part_name(name, self.part, "ply");
+                out.write(&file, &ply::bytes(&mesh, name))?;
             }
             self.room = true;
         }
@@ -198,6 +217,11 @@ impl Sink for Ply {
         let cameras = cameras::json(&frame.cameras(), frame.seconds);
         let cameras = serde_json::to_vec_pretty(&cameras).other()?;
         out.write(&format!("cameras-{:06}.json", frame.number), &cameras)
+    }
+
+    fn start_over(&mut self, _out: &mut OutDir) -> Result<(), Failure> {
+        self.room = false;
+        Ok(())
     }
 
     fn finish(&mut self, _hash: u64, _out: &mut OutDir) -> Result<(), Failure> {
@@ -247,9 +271,14 @@ pub struct Measurements {
 impl Measurements {
     /// As that format.
     pub fn new(format: TableFormat) -> Self {
+        Self::after(0, format)
+    }
+
+    /// The same after so many scenes.
+    pub fn after(scenes: u32, format: TableFormat) -> Self {
         Self {
             format,
-            part: 0,
+            part: scenes,
             begun: None,
         }
     }
@@ -264,15 +293,11 @@ impl Measurements {
 
     fn begin(&mut self, first: &Sample, out: &OutDir) -> Result<(), Failure> {
         self.part += 1;
-        let part = match self.part {
-            1 => String::new(),
-            part => format!("-{part}"),
-        };
         let ending = match self.format {
             TableFormat::Csv => "csv",
             TableFormat::Parquet => "parquet",
         };
-        let staged = Staged::create(&out.join(&format!("measurements{part}.{ending}"))).other()?;
+        let staged = out.stage(&part_name("measurements", self.part, ending))?;
         let (file, columns) = (staged.try_clone().other()?, columns(first));
         let table: Box<dyn Table> = match self.format {
             TableFormat::Csv => Box::new(Csv::new(file, &columns)?),

@@ -64,15 +64,17 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         let key = || flask.clone();
         let (a, b, c) = (key(), key(), key());
         columns.extend([
-            Column::new(&format!("mass in {flask}"), "kg", move |s| {
+            Column::new(&format!("mass in flask {flask}"), "kg", move |s| {
                 s.mass_kg.flasks.get(&a).copied()
             }),
-            Column::new(&format!("mass that left {flask}"), "kg", move |s| {
+            Column::new(&format!("mass that left flask {flask}"), "kg", move |s| {
                 s.left_kg.get(&b).copied()
             }),
-            Column::new(&format!("mass above the rim of {flask}"), "kg", move |s| {
-                s.above_rim_kg.get(&c).copied()
-            }),
+            Column::new(
+                &format!("mass above the rim of flask {flask}"),
+                "kg",
+                move |s| s.above_rim_kg.get(&c).copied(),
+            ),
         ]);
     }
     let Some(heat) = &first.heat else {
@@ -98,17 +100,24 @@ pub fn columns(first: &Sample) -> Vec<Column> {
     for (end, place) in [("lowest", 0), ("highest", 1)] {
         for &flask in &flasks {
             let (a, b) = (flask.clone(), flask.clone());
-            let column = of_heat!(format!("temperature in {flask}, {end}"), "degC", heat => {
+            let column = of_heat!(format!("temperature in flask {flask}, {end}"), "degC", heat => {
                 heat.temperatures_in_flasks_c.get(&a).map(|ends| ends[place])
             });
             columns.push(column);
             if heat.temperatures_of_glass_c.contains_key(flask) {
-                let column = of_heat!(format!("temperature of the glass of {flask}, {end}"), "degC", heat => {
+                let column = of_heat!(format!("temperature of the glass of flask {flask}, {end}"), "degC", heat => {
                     heat.temperatures_of_glass_c.get(&b).map(|ends| ends[place])
                 });
                 columns.push(column);
             }
         }
+    }
+    for &flask in &flasks {
+        let key = flask.clone();
+        let column = of_heat!(format!("particles above the boiling point in flask {flask}"), "1", heat => {
+            heat.boiling_in_flasks.get(&key).map(|&count| count as f64)
+        });
+        columns.push(column);
     }
     if heat.ledger.is_some() {
         let of_ledger: [(&str, &str, OfLedger); 9] = [

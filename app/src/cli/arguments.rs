@@ -74,7 +74,7 @@ pub struct ReplayArgs {
     /// without it out/TRACK-NUMBER
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Where the film is seen from
+    /// Where the film is seen from; from the head, the film of the liquid shows the hands
     #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
     pub camera: CameraName,
     /// One film only, of the liquid or of particles coloured by this; without it
@@ -104,6 +104,9 @@ pub struct ExportArgs {
     /// A run's folder (with its report.json), a built-in track's name, or an MCAP file
     #[arg(value_name = "RUN|TRACK")]
     pub input: String,
+    /// The track of a run, where its report names a file that is elsewhere now
+    #[arg(long, value_name = "TRACK")]
+    pub track: Option<String>,
     /// What is written: vtk particles; ply and gltf surfaces, glass, room and cameras; csv and parquet
     /// measurements; mcap a recording with particles, film and measurements beside the track
     #[arg(long, required = true, value_delimiter = ',', value_parser = export_format(), value_name = "FORMAT")]
@@ -111,7 +114,7 @@ pub struct ExportArgs {
     /// Folder for the files, which may be new; without it out/NAME-NUMBER
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Moments a second, where the simulation has so many
+    /// Moments a second, where the simulation has so many; tables have a row each tenth of a second
     #[arg(long, value_name = "HZ", value_parser = rate, default_value_t = 30.0, conflicts_with = "at")]
     pub rate: f64,
     /// The first moment, s

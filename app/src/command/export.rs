@@ -8,21 +8,21 @@ use vitriol_experiment::output::{OutDir, REPORT_JSON};
 use vitriol_experiment::progress::Runs;
 use vitriol_experiment::track::{DEVICE, DRIVER, PRESET};
 use vitriol_experiment::{
-    Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, Span, device,
-    emit,
+    Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, device, emit,
 };
 use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
 use vitriol_shaders::Library;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::files;
 use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::cli::ExportArgs;
 use crate::command::plan::{Ask, Plan};
 use crate::command::stem;
-use crate::report::Report;
+use crate::report::{LAYOUT, Report};
 
-/// Most of a report's file, B: a run of a million steps of 1/90 s has 111,000 samples of some 2 kB.
-const REPORT: u64 = 512 << 20;
+/// Most of a report's file, B: a run of a million steps of 1/90 s has 111,000 samples of 1 to 2 kB.
+const REPORT: u64 = 256 << 20;
 
 /// What `vitriol export` prints.
 #[derive(Debug, Serialize)]
@@ -49,6 +49,13 @@ struct Done {
 /// is left then.
 pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
     let report = report(&args.input)?;
+    if args.at.is_some() && args.format.iter().any(|format| format.table().is_some()) {
+        return Err(
+            "--at: a table has samples over time; leave csv and parquet out, or take --seconds"
+                .to_owned(),
+        )
+        .input();
+    }
     let mut formats = args.format.clone();
     // Once each.
     let mut seen = Vec::new();
@@ -90,15 +97,39 @@ fn report(input: &str) -> Result<Option<Report>, Failure> {
         return Ok(None);
     };
     let bytes = files::read(&file, "report", REPORT).input()?;
-    let report = serde_json::from_slice(&bytes);
+    // The layout first: another one may not even be read.
+    #[derive(serde::Deserialize)]
+    struct Layout {
+        #[serde(default = "first")]
+        layout: u32,
+    }
+    fn first() -> u32 {
+        1
+    }
     let wrong = |error| format!("{}: is no report of a run: {error}", file.display());
-    report.map(Some).map_err(wrong).input()
+    let layout: Layout = serde_json::from_slice(&bytes).map_err(wrong).input()?;
+    if layout.layout != LAYOUT {
+        return Err(format!(
+            "{}: has the layout {}, and this program reads {LAYOUT}; export it with the program that made it",
+            file.display(),
+            layout.layout
+        ))
+        .input();
+    }
+    serde_json::from_slice(&bytes)
+        .map(Some)
+        .map_err(wrong)
+        .input()
 }
 
 /// Tables of what a report has already.
 fn of_report(report: &Report, formats: &[Exported], mut out: OutDir) -> Result<Done, Failure> {
+    if report.series.is_empty() {
+        return Err("the report has no series, as what `vitriol replay --json` prints has none; give the run's folder".to_owned())
+            .input();
+    }
     let tables: Vec<TableFormat> = formats.iter().filter_map(|format| format.table()).collect();
-    vitriol_export::tables(&report.series, &tables, &mut out)?;
+    vitriol_export::tables(&report.series, report.scenes_before, &tables, &mut out)?;
     finished(out, formats, 0)
 }
 
@@ -110,28 +141,23 @@ fn simulated(
     format: Format,
     out: OutDir,
 ) -> Result<Done, Failure> {
-    let preset = report.map(|report| preset(&report.preset)).transpose()?;
-    let asked = report.map(|report| &report.asked);
+    let made = report.map(Made::of).transpose()?.unwrap_or_default();
     let ask = Ask {
-        track: report.map_or(&args.input, |report| &report.track),
-        scene: args
-            .scene
-            .as_deref()
-            .or(asked.and_then(|asked| asked.scene.as_deref())),
-        preset: args.preset.or(preset),
+        track: args.track.as_deref().or(made.track).unwrap_or(&args.input),
+        scene: args.scene.as_deref().or(made.scene),
+        preset: args.preset.or(made.preset),
         budget_ms: None,
-        solver: args.solver.or(asked.and_then(|asked| asked.solver)),
-        seconds: args
-            .at
-            .or(args.seconds)
-            .or(asked.and_then(|asked| asked.seconds)),
-        seed: args.seed.or(report.map(|report| report.seed)),
+        // That of the run belongs to its scene and preset.
+        solver: args.solver.or(made
+            .solver
+            .filter(|_| args.preset.is_none() && args.scene.is_none())),
+        seconds: args.at.or(args.seconds).or(made.seconds),
+        seed: args.seed.or(made.seed),
         device: args.device.as_deref(),
-        accept_truncated: args.accept_truncated
-            || asked.is_some_and(|asked| asked.accept_truncated),
+        accept_truncated: args.accept_truncated || made.accept_truncated,
     };
     let plan = Plan::new(&ask)?;
-    let times = times(args, plan.span)?;
+    let times = times(args, &plan, made.seconds)?;
     let gpu = device::open(args.device.as_deref())?;
     let films = formats.contains(&Exported::Mcap);
     let mut laboratory = Laboratory::new(
@@ -157,6 +183,7 @@ fn simulated(
     )?;
     let origin = Origin {
         metadata: metadata(&plan, &device::statement(&gpu)),
+        solver: plan.chosen,
         sample_schema: schemars::schema_for!(Sample).as_value().to_string(),
     };
     let progress = Runs::new(format).of(&args.input, plan.span);
@@ -183,21 +210,73 @@ fn simulated(
     Ok(done)
 }
 
-fn preset(name: &str) -> Result<vitriol_sim::scene::Preset, Failure> {
-    let found = vitriol_sim::scene::Preset::ALL.into_iter();
-    let found = found.into_iter().find(|preset| preset.name() == name);
-    found
-        .ok_or_else(|| format!("the report names a preset {name:?}, which there is not"))
-        .input()
+/// What a report says of how its run was made.
+#[derive(Default)]
+struct Made<'a> {
+    track: Option<&'a str>,
+    scene: Option<&'a str>,
+    preset: Option<Preset>,
+    solver: Option<[u32; 2]>,
+    seconds: Option<f64>,
+    seed: Option<u64>,
+    accept_truncated: bool,
+}
+
+impl<'a> Made<'a> {
+    /// A report may come from anyone, as a track may: a scene's file is opened where the user names it, and not the report.
+    /// (The track's is: what a reader of tracks says of another file tells nothing of what is in it.)
+    fn of(report: &'a Report) -> Result<Self, Failure> {
+        let name = &report.preset;
+        let preset = Preset::ALL.into_iter().find(|preset| preset.name() == name);
+        if preset.is_none() {
+            return Err(format!(
+                "the report names a preset {name:?}, which there is not"
+            ))
+            .input();
+        }
+        let made = Self {
+            track: Some(&report.track),
+            preset,
+            seed: Some(report.seed),
+            ..Self::default()
+        };
+        let Some(asked) = &report.asked else {
+            return Ok(Self {
+                scene: Scene::builtin_text(&report.scene.name).map(|_| &*report.scene.name),
+                solver: Some([report.solver.substeps, report.solver.iterations]),
+                seconds: Some(report.simulated_s),
+                ..made
+            });
+        };
+        if let Some(scene) = &asked.scene
+            && Scene::builtin_text(scene).is_none()
+        {
+            return Err(format!(
+                "the report names the scene's file {scene:?}; if you trust it, name it with --scene"
+            ))
+            .input();
+        }
+        Ok(Self {
+            scene: asked.scene.as_deref(),
+            solver: asked.solver,
+            seconds: asked.seconds,
+            accept_truncated: asked.accept_truncated,
+            ..made
+        })
+    }
 }
 
 /// When moments are exported.
-fn times(args: &ExportArgs, span: Span) -> Result<Times, Failure> {
+fn times(args: &ExportArgs, plan: &Plan, whole: Option<f64>) -> Result<Times, Failure> {
     let from = args.at.or(args.from).unwrap_or(0.0);
-    if from > span.seconds() + 1e-6 {
+    // With --at the span is as long as that.
+    let end = match args.at {
+        Some(_) => whole.unwrap_or_else(|| plan.track.duration()),
+        None => plan.span.seconds(),
+    };
+    if from > end + plan.scene.scale.frame_time {
         return Err(format!(
-            "the run ends at {:.3} s, before the first moment at {from} s",
-            span.seconds()
+            "the run ends at {end:.3} s, before the first moment at {from} s"
         ))
         .input();
     }

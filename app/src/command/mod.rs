@@ -13,15 +13,21 @@ pub mod vr;
 
 use std::path::Path;
 
-use vitriol_experiment::{Failure, Format, prepare};
+use vitriol_experiment::{Failure, Format, interrupt, prepare};
 
 use crate::cli::{Cli, Command};
 
 /// Runs the subcommand that was asked for.
 ///
 /// # Errors
-/// What the subcommand fails with; nothing is on standard output then.
+/// What the subcommand fails with; nothing is on standard output then, but for several tracks what of them went well.
 pub fn run(cli: &Cli) -> Result<(), Failure> {
+    if matches!(
+        cli.command,
+        Command::Replay(_) | Command::Export(_) | Command::Picture(_)
+    ) {
+        stop_when_asked();
+    }
     let format = if cli.json { Format::Json } else { Format::Text };
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, prepare),
@@ -40,4 +46,17 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
 fn stem(track: &str) -> String {
     let stem = Path::new(track).file_stem();
     stem.map_or_else(|| "run".into(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Ctrl-C, or being terminated, ends a run after its step, so that it can take away what it began; a second time it ends the
+/// program.
+fn stop_when_asked() {
+    let set = ctrlc::set_handler(|| {
+        if interrupt::ask() {
+            std::process::exit(130);
+        }
+    });
+    if let Err(error) = set {
+        tracing::debug!("Ctrl-C ends the program at once: {error}");
+    }
 }

@@ -54,7 +54,7 @@ pub fn run(args: &PagesArgs, format: Format) -> Result<(), Failure> {
         generate(shell, &mut Cli::command(), NAME, &mut text);
         files.push(write(&args.out, name, &text)?);
     }
-    let schema = serde_json::to_vec_pretty(&schemars::schema_for!(Report)).other()?;
+    let schema = serde_json::to_vec_pretty(&Report::schema()).other()?;
     files.push(write(&args.out, SCHEMA, &schema)?);
     emit(format, &Pages { files }, |pages| pages.files.join("\n"))
 }

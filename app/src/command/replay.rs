@@ -66,6 +66,7 @@ pub fn run(
         return emit(format, &done, describe);
     }
     let (mut runs, mut failure) = (Vec::new(), None);
+    let made = args.out.as_ref().filter(|out| !out.exists());
     for (track, name) in args.tracks.iter().zip(folders(&args.tracks)) {
         let out = args.out.as_ref().map(|out| out.join(name));
         runs.push(match replay(args, track, out, &bars, &prepare) {
@@ -76,6 +77,10 @@ pub fn run(
                 Ended::Failed { track, error: text }
             }
         });
+    }
+    if let Some(out) = made {
+        // Where all failed; else it is not empty, and stays.
+        let _ = std::fs::remove_dir(out);
     }
     emit(format, &Several { runs }, |several| {
         let each = several.runs.iter().map(|run| match run {
@@ -94,7 +99,10 @@ fn folders(tracks: &[String]) -> Vec<String> {
         let stem = stem(track);
         let more = (2..).map(|number| format!("{stem}-{number}"));
         let free = std::iter::once(stem.clone()).chain(more);
-        names.extend(free.into_iter().find(|name| !names.contains(name)));
+        // Some file systems do not tell capitals from small letters.
+        let taken = |name: &String| names.iter().any(|other| other.eq_ignore_ascii_case(name));
+        let name = free.into_iter().find(|name| !taken(name));
+        names.extend(name);
     }
     names
 }
@@ -290,12 +298,12 @@ fn assemble(
         program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
         command: command_line((args, track), preset, seed, chosen),
         track: track.to_owned(),
-        asked: AskedStatement {
+        asked: Some(AskedStatement {
             scene: args.scene.clone(),
             solver: chosen,
             seconds: args.seconds,
             accept_truncated: args.accept_truncated,
-        },
+        }),
         preset: preset.name().into(),
         seed,
         fluid_particles: outcome.fluid_particles,
@@ -319,6 +327,7 @@ fn assemble(
         solver: SolverStatement::of(scene),
         counters: outcome.counters,
         recording: None,
+        scenes_before: observations.scenes_before,
         series: observations.samples,
     }
 }

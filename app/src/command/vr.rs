@@ -102,6 +102,9 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     } else {
         Timestamps::None
     };
+    if format == Format::Text && std::io::stdin().is_terminal() {
+        eprintln!("{}", menu::lines());
+    }
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;
         let outcome = begin(headset, options, !args.no_mirror)?.run(headset)?;
@@ -176,7 +179,6 @@ fn keys() -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
     })
     .other()?;
     if std::io::stdin().is_terminal() {
-        eprintln!("{}", menu::lines());
         std::thread::spawn(move || {
             for line in std::io::stdin().lines().map_while(Result::ok) {
                 let decided = line.trim().chars().next().and_then(menu::decision);

@@ -60,9 +60,9 @@ pub struct Report {
     pub command: String,
     /// The track: a built-in name or a file's path.
     pub track: String,
-    /// What was asked for beside it; empty in reports of older versions.
+    /// What was asked for beside it; `None` in reports of older versions.
     #[serde(default)]
-    pub asked: AskedStatement,
+    pub asked: Option<AskedStatement>,
     /// Preset: `fast`, `balanced` or `reference`.
     pub preset: String,
     /// Seed of the initial jitter.
@@ -111,6 +111,9 @@ pub struct Report {
     pub recording: Option<RecordingStatement>,
     /// What was counted.
     pub counters: Counters,
+    /// Scenes that the run brought up before the one that `series` is of.
+    #[serde(default)]
+    pub scenes_before: u32,
     /// The run over time. Empty in what `vitriol replay --json` prints, whole
     /// in `report.json`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -226,6 +229,17 @@ impl SolverStatement {
 }
 
 impl Report {
+    /// JSON schema of the layout that is written.
+    pub fn schema() -> serde_json::Value {
+        let mut schema = schemars::schema_for!(Self).to_value();
+        schema["$id"] = format!("vitriol-report-{LAYOUT}").into();
+        schema["properties"]["layout"]["const"] = LAYOUT.into();
+        if let Some(required) = schema["required"].as_array_mut() {
+            required.push("layout".into());
+        }
+        schema
+    }
+
     /// The report without its time series, as `vitriol replay --json` prints
     /// it.
     #[must_use]

@@ -32,11 +32,11 @@ def flux(mesh, origin):
 
 def particles():
     series = json.load(open(path("particles.vtu.series")))
-    reader = pyvista.get_reader(path("particles.vtu.series")) if hasattr(pyvista, "SeriesReader") else None
+    reader = pyvista.get_reader(path("particles.vtu.series"))
     last = pyvista.read(path(series["files"][-1]["name"]))
     return {
         "times": [entry["time"] for entry in series["files"]],
-        "series_times": list(reader.time_values) if reader else None,
+        "series_times": list(reader.time_values),
         "own_time": float(last.field_data["TimeValue"][0]),
         "count": last.n_points,
         "cells": last.n_cells,

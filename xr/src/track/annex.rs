@@ -10,7 +10,10 @@ use prost::Message;
 use super::message::{
     CompressedVideo, FieldType, PackedElementField, PointCloud, Quaternion, Vector3,
 };
-use super::{TrackError, TrackWriter, descriptor, encode, names};
+use super::{TrackError, TrackWriter, descriptor, encode, limits, names};
+
+/// Bytes after which a chunk ends.
+const LONGEST_CHUNK: usize = 8 << 20;
 
 /// Of one moment.
 #[derive(Clone, Copy, Debug)]
@@ -118,10 +121,23 @@ impl TrackWriter {
     pub fn add(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), TrackError> {
         self.make_room()?;
         let added = self.put_annex(time_ns, annex);
-        added.map_err(|error| self.failed(error))
+        let bytes = added.map_err(|error| self.failed(error))?;
+        self.annexed += bytes;
+        self.annexed_in_all += bytes as u64;
+        // A reader takes chunks up to a length.
+        if self.annexed > LONGEST_CHUNK {
+            self.flush()?;
+        }
+        Ok(())
     }
 
-    fn put_annex(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), McapError> {
+    /// Whether a reader of tracks takes the file, as far as its length goes.
+    pub fn fits_a_reader(&self) -> bool {
+        let unpacked = self.bytes + self.annexed_in_all;
+        self.file_bytes() <= limits::FILE && unpacked <= limits::RECORDS / 2
+    }
+
+    fn put_annex(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<usize, McapError> {
         let topic = annex.topic();
         let sequence = self.last_step();
         let known = self.annexes.get(topic.name).copied();
@@ -140,8 +156,9 @@ impl TrackWriter {
             log_time: time_ns as u64,
             publish_time: time_ns as u64,
         };
-        mcap.write_to_known_channel(&header, &annex.encoded(time_ns))?;
+        let message = annex.encoded(time_ns);
+        mcap.write_to_known_channel(&header, &message)?;
         self.annexes.insert(topic.name, channel_id);
-        Ok(())
+        Ok(message.len())
     }
 }

@@ -89,6 +89,9 @@ impl<'a> Reading<'a> {
     }
 
     fn records(&mut self, bytes: &[u8], finished: bool) -> Result<(), TrackError> {
+        if !lengths::fit_chunks(bytes) {
+            return Err(self.damaged("a record in it is longer than its chunk"));
+        }
         let mut reader = LinearReader::new_with_options(
             LinearReaderOptions::default()
                 .with_skip_end_magic(!finished)

@@ -61,6 +61,11 @@ impl Pending {
             >= MOST
     }
 
+    /// Bytes that the file holds.
+    pub(super) fn bytes(&self) -> u64 {
+        self.whole
+    }
+
     /// Frames that the file holds.
     pub(super) fn frames(&self) -> u64 {
         self.frames

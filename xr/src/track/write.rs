@@ -60,12 +60,16 @@ pub struct TrackWriter {
     channels: Channels,
     /// Channels of what is no part of the track, by topic.
     pub(super) annexes: BTreeMap<&'static str, u16>,
+    /// Bytes of it since the last flush.
+    pub(super) annexed: usize,
+    /// And in all.
+    pub(super) annexed_in_all: u64,
     buffer: Vec<u8>,
     /// Frames and switches taken.
     frames: u64,
     switches: usize,
     /// Bytes of their messages, unpacked.
-    bytes: u64,
+    pub(super) bytes: u64,
     last: Option<(u64, i64)>,
     concluded: bool,
     /// Whether its end was asked for: from then on it is not ended by being dropped.
@@ -120,6 +124,8 @@ impl TrackWriter {
             pending,
             channels,
             annexes: BTreeMap::new(),
+            annexed: 0,
+            annexed_in_all: 0,
             buffer: Vec::new(),
             frames: 0,
             switches: 0,
@@ -184,6 +190,11 @@ impl TrackWriter {
         self.mcap.as_mut().ok_or_else(finished)
     }
 
+    /// Bytes that the file holds.
+    pub(super) fn file_bytes(&self) -> u64 {
+        self.pending.bytes()
+    }
+
     /// Step of the last frame.
     pub(super) fn last_step(&self) -> u32 {
         self.last.map_or(0, |(step, _)| step as u32)
@@ -201,6 +212,7 @@ impl TrackWriter {
         // Also where that fails: the next try comes half a second later.
         self.flushed_ns = self.last.map_or(0, |(_, time_ns)| time_ns);
         self.flushed_at = Instant::now();
+        self.annexed = 0;
         if let Some(mcap) = &mut self.mcap {
             mcap.flush().map_err(|error| failed(&self.file, error))?;
         }

@@ -257,3 +257,36 @@ fn missing_steps_are_found() {
     assert_eq!(whole.stage_from_flasks.len(), 3);
     assert!(whole.outcome.is_empty());
 }
+
+/// The container's library subtracts a record from what is left of its chunk without looking: found by fuzzing, and so are the
+/// bytes. What is whole and not compressed is read.
+#[test]
+fn a_record_longer_than_its_chunk_is_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/track");
+    let bytes = std::fs::read(folder.join("chunk-shorter-than-its-record")).unwrap();
+    let error = Track::parse(&bytes, Path::new("bad.mcap")).unwrap_err();
+    assert!(
+        error.to_string().contains("longer than its chunk"),
+        "{error}"
+    );
+
+    let good = super::track(3);
+    let mut bytes = Vec::new();
+    let options = mcap::WriteOptions::new().compression(None);
+    let mut writer = options.create(std::io::Cursor::new(&mut bytes)).unwrap();
+    writer
+        .write_metadata(&mcap::records::Metadata {
+            name: "vitriol".into(),
+            metadata: [("scene", "s"), ("seed", "1"), ("program_version", "v")]
+                .map(|(key, value)| (key.to_owned(), value.to_owned()))
+                .into(),
+        })
+        .unwrap();
+    for message in mcap::MessageStream::new(&super::bytes(&good)).unwrap() {
+        writer.write(&message.unwrap()).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    let read = Track::parse(&bytes, Path::new("plain.mcap")).unwrap();
+    assert_eq!(read.frames, good.frames);
+}
