@@ -24,36 +24,39 @@ pub(super) fn fit(opcode: u8, record: &[u8]) -> bool {
     fits.is_some()
 }
 
-/// Whether all records of a file's chunks that are not compressed end within their chunk. mcap 0.26 subtracts each from what is
-/// left of the chunk without looking: a debug build panics, a release build goes on behind the chunk. In a compressed one
-/// it looks.
-pub(super) fn fit_chunks(file: &[u8]) -> bool {
-    let records = Records(file.get(MAGIC.len()..).unwrap_or_default());
-    for (opcode, content) in records {
-        if opcode != op::CHUNK {
-            continue;
-        }
-        // Times of its first and last message, size, checksum; then the compression's name.
-        let mut rest = Rest(content);
-        let header = rest.skip(28).and_then(|()| rest.length());
-        let Some(name) = header.and_then(|length| rest.take(length)) else {
-            return false;
-        };
-        if !name.is_empty() {
-            continue;
-        }
-        let records = rest.skip(8).map(|()| Records(rest.0));
-        let whole = |records: Records<'_>| {
-            let walked: usize = records
-                .map(|(_, content)| RECORD_HEADER + content.len())
-                .sum();
-            walked == rest.0.len()
-        };
-        if !records.is_some_and(whole) {
-            return false;
+/// Where the last chunk begins that a file does not hold the whole of, or else its end; `None` where a record of a chunk that
+/// is not compressed is longer than its chunk.
+///
+/// mcap 0.26 subtracts each of these from what is left of the chunk without looking: a debug build panics, a release
+/// build goes on behind the chunk. In a compressed one it looks. A chunk without a checksum it unpacks before it has the
+/// whole of it.
+pub(super) fn end_of_whole_chunks(file: &[u8]) -> Option<usize> {
+    let mut records = Records(file.get(MAGIC.len()..).unwrap_or_default());
+    for (opcode, content) in records.by_ref() {
+        if opcode == op::CHUNK && !holds_its_records(content) {
+            return None;
         }
     }
-    true
+    let rest = records.0;
+    let is_cut_chunk = rest.first() == Some(&op::CHUNK);
+    Some(file.len() - if is_cut_chunk { rest.len() } else { 0 })
+}
+
+/// Whether all records of a chunk end within it, as far as that shows before it is unpacked.
+fn holds_its_records(chunk: &[u8]) -> bool {
+    let mut rest = Rest(chunk);
+    // Times of its first and last message, size, checksum; then the compression's name.
+    let header = rest.skip(28).and_then(|()| rest.length());
+    let Some(name) = header.and_then(|length| rest.take(length)) else {
+        return false;
+    };
+    // The length of its records stands twice: here, which mcap believes, and by the chunk's own.
+    let Some((length, records)) = rest.0.split_first_chunk::<8>() else {
+        return false;
+    };
+    let walked = Records(records).map(|(_, content)| RECORD_HEADER + content.len());
+    let fits = usize::try_from(u64::from_le_bytes(*length)) == Ok(records.len());
+    fits && (!name.is_empty() || walked.sum::<usize>() == records.len())
 }
 
 /// Of a record, B: its kind and its length.

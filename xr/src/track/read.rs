@@ -89,9 +89,10 @@ impl<'a> Reading<'a> {
     }
 
     fn records(&mut self, bytes: &[u8], finished: bool) -> Result<(), TrackError> {
-        if !lengths::fit_chunks(bytes) {
-            return Err(self.damaged("a record in it is longer than its chunk"));
-        }
+        let end = lengths::end_of_whole_chunks(bytes)
+            .filter(|&end| end == bytes.len() || !finished)
+            .ok_or_else(|| self.damaged("a record in it is longer than its chunk"))?;
+        let bytes = &bytes[..end];
         let mut reader = LinearReader::new_with_options(
             LinearReaderOptions::default()
                 .with_skip_end_magic(!finished)

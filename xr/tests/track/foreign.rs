@@ -264,10 +264,32 @@ fn missing_steps_are_found() {
 fn a_record_longer_than_its_chunk_is_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/track");
     let bytes = std::fs::read(folder.join("chunk-shorter-than-its-record")).unwrap();
-    let error = Track::parse(&bytes, Path::new("bad.mcap")).unwrap_err();
+    // As a recorder that stopped hard left it, it has no frame in a whole chunk; as a file with an end it is damaged.
+    let cut = Track::parse(&bytes, Path::new("bad.mcap")).unwrap_err();
+    assert!(cut.to_string().contains("no topic"), "{cut}");
+    let ended = [&bytes[..], mcap::MAGIC].concat();
+    let damaged = Track::parse(&ended, Path::new("bad.mcap")).unwrap_err();
     assert!(
-        error.to_string().contains("longer than its chunk"),
-        "{error}"
+        damaged.to_string().contains("longer than its chunk"),
+        "{damaged}"
+    );
+    // A record of that length in a chunk that is whole.
+    let mut chunk = [&[0; 28][..], &0_u32.to_le_bytes(), &12_u64.to_le_bytes()].concat();
+    chunk.extend([&[5][..], &1000_u64.to_le_bytes(), &[0; 3]].concat());
+    let mut whole = mcap::MAGIC.to_vec();
+    whole.extend(
+        [
+            &[6][..],
+            &(chunk.len() as u64).to_le_bytes(),
+            &chunk,
+            mcap::MAGIC,
+        ]
+        .concat(),
+    );
+    let damaged = Track::parse(&whole, Path::new("bad.mcap")).unwrap_err();
+    assert!(
+        damaged.to_string().contains("longer than its chunk"),
+        "{damaged}"
     );
 
     let good = super::track(3);
