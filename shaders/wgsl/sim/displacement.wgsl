@@ -83,7 +83,7 @@ fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>) -> Displacement {
 
 /// Line 20: x* + ωΔx; ω lies in the multipliers already (`Relaxation`).
 fn displace(i: u32, x_star: vec3<f32>, delta: Displacement) -> vec3<f32> {
-    if (LOADS) { wall_push[i] += vec4<f32>(delta.wall, 0.0); }
+    if (LOADS) { wall_push[i] += pushed(delta.wall); }
     return x_star + delta.neighbours + delta.wall;
 }
 
@@ -96,6 +96,16 @@ fn within_list(i: u32, x_star: vec3<f32>) -> vec3<f32> {
         to = list_origin[i].xyz + strayed * (LIST_REACH / distance);
         atomicAdd(&counters.list_limited, 1u);
     }
+    return to;
+}
+
+/// x* no further from x than v_max goes in a substep: line 24 bounds the velocity alone, and line 25 would still tunnel.
+fn within_speed(x: vec3<f32>, x_star: vec3<f32>) -> vec3<f32> {
+    let way = x_star - x;
+    let distance = length(way);
+    let farthest = MAX_SPEED * step.time;
+    var to = x_star;
+    if (distance > farthest) { to = x + way * (farthest / distance); }
     return to;
 }
 
@@ -115,15 +125,19 @@ fn take_out(i: u32, identity: u32) {
 /// Lines 22 to 25 of a particle whose numbers are finite.
 fn commit(i: u32, membership: u32, x_star: vec3<f32>, multiplied: f32) {
     let x = position[i].xyz;
-    let to = within_list(i, x_star);
+    let near = within_speed(x, x_star);
+    let is_cut = any(near != x_star);
+    if (is_cut) { atomicAdd(&counters.speed_limited, 1u); }
+    let to = within_list(i, near);
     let allowed = constrain(membership, x, to, step.before, step.after); // 23
     if (allowed.generated) {
         atomicAdd(&counters.flask_constraints, 1u);
-        if (LOADS) { wall_push[i] += vec4<f32>(allowed.position - to, 0.0); }
+        if (LOADS) { wall_push[i] += pushed(allowed.position - to); }
     }
     // The position stays where the flask has it: cut back with the
     // velocity (line 24 alone), it would be left behind in the glass.
-    let v = clamp_speed((allowed.position - x) / step.time); // 24
+    var v = (allowed.position - x) / step.time; // 24
+    if (is_cut) { v = bounded_speed(v); } else { v = clamp_speed(v); }
     var carried = 0.0;
     if (CARRY) {
         carried = carried_by(velocity[i]);

@@ -213,12 +213,23 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let tag = tags[i].x;
     var drag = sums.drag;
     var acceleration = sums.attraction;
+    var by_walls = vec3<f32>(0.0);
     if (VISCOUS || PHYSICAL || ADHESION > 0.0) {
         let walls = contact(tag, x, before.xyz, lane);
-        if (DRAGS) { drag += wall_viscosity(own, walls.drag); } // 27
-        if (ADHESION > 0.0) { acceleration += ADHESION * walls.pull; } // 28
+        if (DRAGS) {
+            let dragged = wall_viscosity(own, walls.drag); // 27
+            drag += dragged;
+            by_walls += step.viscosity * dragged;
+        }
+        if (ADHESION > 0.0) {
+            let pulled = ADHESION * walls.pull; // 28
+            acceleration += pulled;
+            by_walls += step.time * pulled;
+        }
     }
     if (lane != 0u) { return; }
+    // Of the frame whose pushes are summed: the next one's begins with its own prediction.
+    if (LOADS) { wall_push[i] += vec4<f32>(step.time * by_walls, 0.0); }
 
     if (CONFINEMENT > 0.0) { acceleration += confinement(sums.eta, omega); } // 28
     var v = before.xyz;

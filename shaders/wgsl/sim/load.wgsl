@@ -51,7 +51,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(workgroup_id) gro
         if (PHYSICAL) { mass = unpack_content(matter[i]).mass; }
         impulse = wall_push[i].xyz * (-MASS * mass / step.time);
         x = position[i].xyz;
-        if (tag > NOBODYS && tag <= FLASKS && any(wall_push[i].xyz != vec3<f32>(0.0))) {
+        if (tag > NOBODYS && tag <= FLASKS && wall_push[i].w > 0.0) {
             let relative = velocity[i].xyz - velocity_of(tag - 1u, x);
             energy = 0.5 * MASS * mass * dot(relative, relative);
         }

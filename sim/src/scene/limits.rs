@@ -3,6 +3,7 @@
 use super::Scene;
 use super::error::Problem;
 use super::feature::Feature;
+use crate::chemistry::table::SolutionTable;
 
 /// Steps of single precision between 1 and 2.
 const PRECISION: f64 = 8_388_608.0;
@@ -81,24 +82,44 @@ impl Scene {
         self.check_substep().err().map(|problem| problem.problem)
     }
 
-    /// Whether the liquid of every flask stands up under the scene's substep.
+    /// Mean density of all liquids over the lightest one's: a column of it bears so many times its own pressure when what is
+    /// heavier is poured onto it. 1 where densities are not modelled.
+    fn heaviness(&self) -> f64 {
+        if !self.models(Feature::Density) {
+            return 1.0;
+        }
+        let table = SolutionTable::new();
+        let (mut mass, mut volume, mut lightest) = (0.0, 0.0, f64::INFINITY);
+        for liquid in &self.liquids {
+            let density = table
+                .at(liquid.acid_fraction)
+                .density_at(liquid.temperature);
+            mass += liquid.volume * density;
+            volume += liquid.volume;
+            lightest = lightest.min(density);
+        }
+        mass / (volume * lightest)
+    }
+
+    /// Whether all of the scene's liquid stands up under its substep, in whichever flask it is.
     pub(super) fn check_substep(&self) -> Result<(), Problem> {
         let (scale, solver) = (&self.scale, &self.solver);
         let substep = scale.frame_time / f64::from(solver.substeps);
-        for (index, flask) in self.flasks.iter().enumerate() {
-            let liquids = self.liquids.iter().filter(|liquid| liquid.flask == index);
-            let volume: f64 = liquids.map(|liquid| liquid.volume).sum();
+        let volume: f64 = self.liquids.iter().map(|liquid| liquid.volume).sum();
+        if volume <= 0.0 || scale.gravity <= 0.0 {
+            return Ok(());
+        }
+        let heaviness = self.heaviness();
+        for flask in &self.flasks {
+            // Any flask may be poured into, up to its rim.
             let full = flask.profile.rim_height();
             let level = flask.profile.level_for_volume(volume).unwrap_or(full);
-            if volume <= 0.0 || scale.gravity <= 0.0 {
-                continue;
-            }
-            let depth = (level - flask.profile.floor_height()).max(scale.spacing);
+            let depth = (level - flask.profile.floor_height()).max(scale.spacing) * heaviness;
             let limit = LONGEST_SUBSTEP * 0.4 * scale.spacing / (scale.gravity * depth).sqrt();
             if substep > limit {
                 let needed = (scale.frame_time / limit).ceil();
                 let problem = format!(
-                    "{} in {} s are too long for the {depth:.3} m of liquid in {:?}, which would \
+                    "{} in {} s are too long for the {depth:.3} m of liquid that {:?} may hold, which would \
                      leap out; take {needed} or more, a shorter frame_time, or a larger spacing",
                     solver.substeps, scale.frame_time, flask.name
                 );

@@ -41,6 +41,40 @@ fn speed_is_limited_and_counted() {
     assert!(again <= 2 + 3 * 2, "{again}");
 }
 
+/// Line 24 bounds a velocity; a correction that goes further than v_max in a substep would tunnel all the same. By the f64 reference,
+/// and by the bound itself.
+#[test]
+fn no_particle_goes_further_than_its_speed() {
+    let device = gpu::device();
+    let p = Parameters {
+        max_speed: 0.05,
+        ..weightless()
+    };
+    let farthest = p.max_speed * p.frame_time;
+    let mut random = Random(1);
+    // 40 in a ball of 2 mm, where 2 have room: unbounded they go as far as the list allows, eight times as far.
+    let all: Vec<_> = (0..40)
+        .map(|_| drop_at(random.point(0.002), DVec3::ZERO))
+        .collect();
+    let starts: Vec<DVec3> = all.iter().map(|particle| particle.position).collect();
+    let solver = Setup::new(p, Vec::new(), all).solver(&device);
+    frames(&device, &solver, &[], 1);
+    let found = particles(&solver.snapshot().unwrap());
+    let ways = found
+        .iter()
+        .zip(&starts)
+        .map(|(now, start)| now.position.distance(*start));
+    let (mut cut, mut longest) = (0, 0.0_f64);
+    for way in ways {
+        longest = longest.max(way);
+        cut += u32::from(way > 0.999 * farthest);
+    }
+    // Rounding of places some mm off.
+    assert!(longest < farthest + 1e-9, "{longest} m for {farthest} m");
+    assert!(cut > 10, "{cut}");
+    assert_eq!(solver.counters().unwrap().speed_limited, cut);
+}
+
 /// Two particles a hundredth of h apart are pushed further than half of the
 /// list's margin.
 #[test]

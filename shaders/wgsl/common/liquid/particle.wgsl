@@ -23,3 +23,8 @@ fn is_finite(v: vec3<f32>) -> bool {
 fn parked(index: u32) -> vec3<f32> {
     return vec3<f32>(1.0e4 + f32(index & 1023u) * 4.0, -1.0e4, f32(index >> 10u) * 4.0);
 }
+
+/// The record `wall_push` of a wall that pushes a particle by this, m: its load, and that it was pushed.
+fn pushed(by: vec3<f32>) -> vec4<f32> {
+    return vec4<f32>(by, select(0.0, 1.0, any(by != vec3<f32>(0.0))));
+}

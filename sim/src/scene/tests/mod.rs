@@ -54,6 +54,8 @@ fn nested_flasks_do_not_overlap() {
         .replace("[0.08, 0.03]", "[0.08, 0.015]")
         .replace("[0.0, 0.03]", "[0.0, 0.015]")
         .replace("[0.2, 0.5, 0.0]", "[0.0, 0.502, 0.0]")
+        // The narrow one may be filled to its rim.
+        .replace("substeps = 3", "substeps = 4")
         .replace("90.0]", "0.0]");
     Scene::parse(&inside, "nested.toml").unwrap();
     let through = inside.replace("[0.0, 0.502, 0.0]", "[0.0, 0.501, 0.0]");

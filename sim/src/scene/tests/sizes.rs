@@ -53,6 +53,48 @@ fn a_vessel_too_large_for_its_particles_is_refused() {
     alone("[[0.0, 0.03], [20.0, 0.03]]", "0.02").unwrap();
 }
 
+/// An empty flask may be poured into: the limit is that of the column which it may hold, 0.4 d/√(gH) times 1.4.
+#[test]
+fn what_may_be_poured_in_counts() {
+    let scene = |volume: &str, substeps: &str| {
+        let text = Scene::builtin_text("two-flasks").unwrap();
+        let text = text
+            .replace("beaker-400", "cylinder-100")
+            .replace("volume_ml = 150.0", &format!("volume_ml = {volume}"))
+            .replace("substeps = 10", &format!("substeps = {substeps}"));
+        let presets = text.find("[preset.fast]").unwrap();
+        Scene::parse(&text[..presets], "cylinder.toml")
+    };
+    // 256 mm high: 0.89 ms is the longest, of 11.1.
+    let error = scene("150.0", "12").unwrap_err().to_string();
+    assert!(
+        error.contains("\"target\" may hold") && error.contains("take 13 or more"),
+        "{error}"
+    );
+    scene("150.0", "13").unwrap();
+    // 20 mL stand 33 mm high in it: 2.4 ms.
+    scene("20.0", "5").unwrap();
+}
+
+/// 40 mL of acid (1.836 g/cm³ at 98 %) above 160 mL of water press on its bottom as 1 + 0.2 (1.836/0.998 − 1) = 1.168 times the
+/// column of water would.
+#[test]
+fn what_is_heavier_may_lie_above() {
+    let needed = |acid: &str| {
+        let text = Scene::builtin_text("acid-into-water").unwrap();
+        let presets = text.find("[preset.fast]").unwrap();
+        let text = text[..presets]
+            .replace("acid_fraction = 0.98", &format!("acid_fraction = {acid}"))
+            .replace("substeps = 10", "substeps = 2");
+        let error = Scene::parse(&text, "layers.toml").unwrap_err().to_string();
+        let (_, rest) = error.split_once("too long for the ").unwrap();
+        rest.split(' ').next().unwrap().parse::<f64>().unwrap()
+    };
+    let ratio = needed("0.98") / needed("0.0");
+    // The message has millimetres, of 29.
+    assert!((ratio - 1.168).abs() < 0.03, "{ratio}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None,
         ..ProptestConfig::default() })]
