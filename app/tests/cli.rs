@@ -5,12 +5,12 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use vitriol_tests::program::Program;
+
+const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+
 fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_vitriol"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    VITRIOL.run(folder, arguments)
 }
 
 fn text(bytes: &[u8]) -> &str {
@@ -40,11 +40,7 @@ fn refuses(folder: &Path, arguments: &[&str], code: i32, parts: &[&str]) {
 
 /// Succeeds, and standard output is one JSON object and nothing else.
 fn object(folder: &Path, arguments: &[&str]) -> serde_json::Value {
-    let mut arguments = arguments.to_vec();
-    arguments.push("--json");
-    let output = vitriol(folder, &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let value: serde_json::Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let value: serde_json::Value = serde_json::from_str(&VITRIOL.json(folder, arguments)).unwrap();
     assert!(value.is_object(), "{value}");
     value
 }

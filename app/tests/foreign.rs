@@ -6,15 +6,14 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use vitriol_sim::scene::Scene;
+use vitriol_tests::program::Program;
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Existing, Track, load, save};
 
+const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+
 fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_vitriol"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    VITRIOL.run(folder, arguments)
 }
 
 /// Everything that was printed.

@@ -24,7 +24,7 @@ use vitriol_xr::track::TrackMetadata;
 
 pub use mesh::Mesh;
 pub use sink::TableFormat;
-pub use surfaces::{Liquid, Surfaces};
+pub use surfaces::Surfaces;
 
 use recording::Recording;
 use sink::{Frame, Gltf, Measurements, Ply, Sink, Vtk};

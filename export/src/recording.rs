@@ -78,8 +78,13 @@ impl Recording {
     /// Adds what is of the state after the last step, with the time of that step's frame: its flasks have that too, so
     /// that a viewer shows liquid and glass of one moment.
     fn add(&mut self, annex: &Annex<'_>) -> Result<(), Failure> {
-        let time_ns = self.last.as_ref().map_or(0, |frame| frame.time_ns);
+        let time_ns = self.frame_ns();
         self.writer.add(time_ns, annex).map_err(blame)
+    }
+
+    /// Time of the last frame.
+    fn frame_ns(&self) -> i64 {
+        self.last.as_ref().map_or(0, |frame| frame.time_ns)
     }
 
     fn film(&mut self, moment: &Moment<'_>, laboratory: &mut Laboratory) -> Result<(), Failure> {
@@ -88,6 +93,7 @@ impl Recording {
         if moment.frame.is_none() || due <= self.film {
             return Ok(());
         }
+        let time_ns = self.frame_ns();
         let picture = laboratory.picture(0)?;
         let Some(coded) = self.encoder.encode(picture).other()? else {
             let number = self.film;
@@ -96,7 +102,7 @@ impl Recording {
             ))
             .other();
         };
-        let time_ns = self.last.as_ref().map_or(0, |frame| frame.time_ns);
+        // The bytes are the encoder's, so that all of `self` is not free.
         let added = self.writer.add(time_ns, &Annex::Film(coded.bytes));
         added.map_err(blame)?;
         // A step that is longer than a frame has one all the same: messages have times of their own.

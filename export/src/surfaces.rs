@@ -5,6 +5,7 @@
 //! the glass, and the glass along it: no gap of half a particle is left between liquid and wall, and none shines through.
 
 use glam::{DAffine3, DQuat, DVec3};
+use vitriol_experiment::Liquid;
 use vitriol_experiment::glassware::Glassware;
 use vitriol_render::reference::{Anisotropy, Field, Nothing, SURFACE, Shape, Surroundings};
 use vitriol_sim::flask::Profile;
@@ -37,23 +38,7 @@ pub struct Surfaces {
 impl Surfaces {
     /// Those of a state of a scene whose flasks are at `poses`.
     pub fn of(scene: &Scene, poses: &[Pose], state: &SolverState) -> Self {
-        let present: Vec<usize> = (0..state.positions.len())
-            .filter(|&slot| state.is_present(slot))
-            .collect();
-        let position = |&slot: &usize| {
-            let [x, y, z, _] = state.positions[slot];
-            DVec3::new(x.into(), y.into(), z.into())
-        };
-        let d3 = scene.scale.spacing.powi(3);
-        let particles = Liquid {
-            positions: present.iter().map(position).collect(),
-            volumes: present
-                .iter()
-                .map(|&slot| d3 * state.volume_of(slot))
-                .collect(),
-            members: present.iter().map(|&slot| state.flask_of(slot)).collect(),
-        };
-        Self::around(scene, poses, particles).into_stage(scene)
+        Self::around(scene, poses, Liquid::of(scene, state)).into_stage(scene)
     }
 
     /// Those of a liquid, in the scene's frame and unit.
@@ -86,7 +71,7 @@ impl Surfaces {
             .collect();
 
         let mut surfaces = Self::default();
-        let outside = Side::outside(&kernels, &vessels, spacing);
+        let outside = Side::outside(&kernels, (&vessels, &glassware), spacing);
         outside.add(&vessels, cell, &mut surfaces, |surfaces, field| {
             for vessel in &vessels {
                 surfaces.wet(&vessel.place(outer(&vessel.profile, cell)), field);
@@ -118,17 +103,6 @@ impl Surfaces {
             air_glass: place(self.air_glass),
         }
     }
-}
-
-/// Particles of a liquid, in the scene's frame and unit.
-#[derive(Debug, Clone, Default)]
-pub struct Liquid {
-    /// Where each is.
-    pub positions: Vec<DVec3>,
-    /// Its volume.
-    pub volumes: Vec<f64>,
-    /// The flask that it is in.
-    pub members: Vec<Option<usize>>,
 }
 
 /// A flask in its place.
@@ -205,7 +179,11 @@ struct Side<'a> {
 
 impl<'a> Side<'a> {
     /// Outside: what is in no vessel, and what of a vessel's liquid reaches over its rim.
-    fn outside(kernels: &[Kernel], vessels: &'a [Vessel], spacing: f64) -> Self {
+    fn outside(
+        kernels: &[Kernel],
+        (vessels, glassware): (&[Vessel], &'a Glassware),
+        spacing: f64,
+    ) -> Self {
         let counts = |kernel: &&Kernel| {
             let over = |flask: usize| {
                 vessels.get(flask).is_none_or(|vessel| {
@@ -217,7 +195,7 @@ impl<'a> Side<'a> {
         };
         let counting: Vec<&Kernel> = kernels.iter().filter(counts).collect();
         let solids = OverTheRim {
-            vessels,
+            glassware,
             members: counting.iter().map(|kernel| kernel.member).collect(),
         };
         Self::of(&counting, None, Box::new(solids), spacing)
@@ -294,18 +272,11 @@ impl Level for Outlined<'_> {
     }
 }
 
-/// What is solid for the outside: nothing for what is there, and for a vessel's liquid all below its rim that is not in
-/// the vessel.
+/// What is solid for the outside: nothing for what is there, and for a vessel's liquid what always is, all below its rim that
+/// is not in the vessel.
 struct OverTheRim<'a> {
-    vessels: &'a [Vessel],
+    glassware: &'a Glassware,
     members: Vec<Option<usize>>,
-}
-
-impl OverTheRim<'_> {
-    fn vessel(&self, side: usize) -> Option<&Vessel> {
-        side.checked_sub(1)
-            .and_then(|index| self.vessels.get(index))
-    }
 }
 
 impl Surroundings for OverTheRim<'_> {
@@ -314,19 +285,17 @@ impl Surroundings for OverTheRim<'_> {
     }
 
     fn distance(&self, side: usize, at: DVec3) -> f64 {
-        self.vessel(side).map_or(f64::INFINITY, |vessel| {
-            let (r, y) = vessel.cylindrical(at);
-            vessel.profile.signed_distance_inner(r, y)
-        })
+        match side {
+            0 => f64::INFINITY,
+            vessel => self.glassware.distance(vessel, at),
+        }
     }
 
     fn is_solid(&self, side: usize, at: DVec3) -> bool {
-        self.vessel(side).is_some_and(|vessel| {
-            let (r, y) = vessel.cylindrical(at);
-            y < vessel.profile.rim_height() && !vessel.profile.is_inside(r, y)
-        })
+        side > 0 && self.glassware.is_solid(side, at)
     }
 
+    /// The shapes are there already.
     fn apart(&self, _a: usize, _b: usize) -> bool {
         false
     }

@@ -257,3 +257,7 @@ impl Table for Parquet {
         Ok(())
     }
 }
+
+#[cfg(test)]
+#[path = "tests/table.rs"]
+mod tests;

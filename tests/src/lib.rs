@@ -6,6 +6,7 @@ pub mod browser;
 pub mod gpu;
 #[cfg(target_os = "linux")]
 pub mod monado;
+pub mod program;
 pub mod random;
 pub mod readers;
 #[cfg(target_os = "linux")]

@@ -56,15 +56,13 @@ pub fn run(args: &ExportArgs, format: Format) -> Result<(), Failure> {
         )
         .input();
     }
-    let mut formats = args.format.clone();
     // Once each.
-    let mut seen = Vec::new();
-    formats.retain(|format| {
-        !seen.contains(format) && {
-            seen.push(*format);
-            true
+    let mut formats: Vec<Exported> = Vec::new();
+    for format in &args.format {
+        if !formats.contains(format) {
+            formats.push(*format);
         }
-    });
+    }
     let out = OutDir::take(args.out.as_deref(), &stem(&args.input))?;
     let done = match &report {
         Some(report) if formats.iter().all(|format| format.table().is_some()) && is_whole(args) => {

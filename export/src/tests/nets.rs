@@ -49,6 +49,7 @@ fn volume_and_area_converge() {
             let area = 1.0 - mesh.area() / (4.0 * PI);
             [volume, if axes == DVec3::ONE { area } else { 0.0 }]
         });
+        eprintln!("axes {axes}: errors of volume and area {errors:?}");
         for pair in errors.windows(2) {
             for (coarse, fine) in pair[0].iter().zip(pair[1]) {
                 // Inscribed: less than the whole. A quarter, and 15 % for where the cells happen to lie.

@@ -93,6 +93,10 @@ fn a_filled_cylinder_has_its_areas_and_volumes() {
         let glass = |mesh: &Mesh| mesh.clone().moved(|at| at - centre, |n| n).flux();
         let glass = glass(&surfaces.air_glass) + glass(&surfaces.glass_liquid);
         let glass = glass / profile.glass_volume() - 1.0;
+        eprintln!(
+            "d {d}: volume {volume:.4}, free {free:.4}, wet {wet:.4}, glass {glass:.4}, gap {:.4}",
+            gap(&surfaces)
+        );
         // Bumps of rings and layers.
         assert!(volume.abs() < 0.003, "{volume}");
         assert!(free.abs() < 0.004, "{free}");

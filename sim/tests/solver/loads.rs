@@ -195,6 +195,7 @@ fn what_walls_drag_and_pull_drags_and_pulls_the_glass() {
         assert_eq!((counters.list_limited, counters.speed_limited), (0, 0));
         // Sums of floats, and velocities that each step rounds: 2e-5 was seen.
         let off = (gained + given).length() / whole;
+        eprintln!("μ {viscosity}, β {adhesion}: off by {off:.1e}");
         assert!(
             off < 1e-3,
             "μ {viscosity}, β {adhesion}: water {gained}, glass {given}"

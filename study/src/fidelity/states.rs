@@ -4,7 +4,7 @@
 use glam::DVec3;
 use vitriol_experiment::glassware::Glassware;
 use vitriol_experiment::stage::grip;
-use vitriol_experiment::{Blame, Failure, Span, track};
+use vitriol_experiment::{Blame, Failure, Liquid, Span, track};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -107,23 +107,15 @@ impl State {
     pub fn new(spec: StateSpec, world: World) -> Result<Self, Failure> {
         let scene = world.scene();
         let state = world.solver().snapshot().other()?;
-        let volume = scene.scale.spacing.powi(3);
-        let present: Vec<usize> = (0..state.positions.len())
-            .filter(|&slot| state.is_present(slot))
-            .collect();
-        let position = |&slot: &usize| {
-            let [x, y, z, _] = state.positions[slot];
-            DVec3::new(x.into(), y.into(), z.into())
-        };
-        let positions: Vec<DVec3> = present.iter().map(position).collect();
-        let members = present.iter().map(|&slot| state.flask_of(slot));
-        let glassware = Glassware::new(scene, world.poses(), positions.clone(), members.collect());
+        let Liquid {
+            positions,
+            volumes,
+            members,
+        } = Liquid::of(scene, &state);
+        let glassware = Glassware::new(scene, world.poses(), positions.clone(), members);
         Ok(Self {
             spec,
-            volumes: present
-                .iter()
-                .map(|&slot| volume * state.volume_of(slot))
-                .collect(),
+            volumes,
             positions,
             glassware,
             world,
