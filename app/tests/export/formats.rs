@@ -53,6 +53,7 @@ fn other_programs_read_what_is_there() {
     let particles = &found["particles"];
     assert_eq!(particles["count"], replayed["fluid_particles"]);
     assert_eq!(particles["cells"], particles["count"]);
+    assert_eq!(particles["vertices"], true);
     let times = numbers(&particles["times"]);
     // The first state at or after each, in steps of 1/90 s.
     let expected = [0.0, 5.0 / 90.0, 9.0 / 90.0];

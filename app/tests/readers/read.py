@@ -40,6 +40,9 @@ def particles():
         "own_time": float(last.field_data["TimeValue"][0]),
         "count": last.n_points,
         "cells": last.n_cells,
+        # Cell n is the vertex of point n alone.
+        "vertices": bool((last.cell_connectivity == numpy.arange(last.n_points)).all()
+                         and (last.offset == numpy.arange(last.n_points + 1)).all()),
         "names": sorted(last.point_data.keys()),
         "mass_kg": float(last.point_data["mass [kg]"].sum()),
         "volume_m3": float(last.point_data["volume [m3]"].sum()),

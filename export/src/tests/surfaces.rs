@@ -6,8 +6,8 @@ use vitriol_sim::scene::Preset;
 
 use super::*;
 
-/// A small beaker of 31 mm with 16 mm of liquid in it, at spacing `d`: rings that fill it evenly up to the wall.
-fn beaker(d: f64, pose: Pose) -> (Scene, Pose, Liquid) {
+/// A small beaker of 31 mm with `depth` (m) of liquid in it, at spacing `d`: rings that fill it evenly up to the wall.
+fn beaker(d: f64, depth: f64, pose: Pose) -> (Scene, Pose, Liquid) {
     let text = Scene::builtin_text("beaker").unwrap();
     let text = text
         .replace("spacing = 0.0025 ", &format!("spacing = {d} "))
@@ -22,7 +22,7 @@ fn beaker(d: f64, pose: Pose) -> (Scene, Pose, Liquid) {
     let profile = &scene.flasks[0].profile;
     let (radius, floor) = (profile.inner_radius(0.02), profile.floor_height());
     let rings = (radius / d).round() as usize;
-    let layers = (0.016 / d).round() as usize;
+    let layers = (depth / d).round() as usize;
     let filled = PI * radius * radius * d * layers as f64;
     let mut liquid = Liquid::default();
     for layer in 0..layers {
@@ -79,7 +79,7 @@ fn a_filled_cylinder_has_its_areas_and_volumes() {
     );
     let mut errors = Vec::new();
     for (d, pose) in [(0.002, upright), (0.002, tilted), (0.0014, upright)] {
-        let (scene, pose, liquid) = beaker(d, pose);
+        let (scene, pose, liquid) = beaker(d, 0.016, pose);
         let filled: f64 = liquid.volumes.iter().sum();
         let profile = scene.flasks[0].profile.clone();
         let surfaces = Surfaces::around(&scene, &[pose], liquid);
@@ -115,7 +115,7 @@ fn a_filled_cylinder_has_its_areas_and_volumes() {
 #[test]
 fn a_drop_outside_does_not_wet_the_inside() {
     let pose = Pose::new(Vec3::new(0.0, 0.75, -0.4), Quat::IDENTITY);
-    let (scene, pose, _) = beaker(0.002, pose);
+    let (scene, pose, _) = beaker(0.002, 0.016, pose);
     let outer = scene.flasks[0].profile.outer_radius_at(0.02);
     let d = scene.scale.spacing;
     let mut positions = Vec::new();
@@ -149,11 +149,30 @@ fn a_drop_outside_does_not_wet_the_inside() {
     assert!((0.75..1.05).contains(&volume), "{volume}");
 }
 
+/// A beaker filled to its rim, with glass thinner than a particle, is dry on its outside: what reaches over the rim counts there,
+/// what is behind the glass does not.
+#[test]
+fn a_full_beaker_is_dry_outside() {
+    let pose = Pose::new(Vec3::new(0.0, 0.75, -0.4), Quat::IDENTITY);
+    let (scene, pose, liquid) = beaker(0.002, 0.05, pose);
+    let profile = scene.flasks[0].profile.clone();
+    let surfaces = Surfaces::around(&scene, &[pose], liquid);
+    let (inner, rim) = (profile.inner_radius(0.02), 0.75 + profile.rim_height());
+    for at in &surfaces.glass_liquid.positions {
+        let outside = at.x.hypot(at.z + 0.4) > inner + 1e-5;
+        // The rim's top may be wet, half a spacing below the surface.
+        assert!(!outside || at.y > rim - 1e-5, "{at}");
+    }
+    for at in &surfaces.air_liquid.positions {
+        assert!(at.y > rim - 0.002, "{at}");
+    }
+}
+
 /// A jet that goes over the rim is one body: no wall of air stands in the mouth.
 #[test]
 fn liquid_over_the_rim_is_whole() {
     let pose = Pose::new(Vec3::new(0.0, 0.75, -0.4), Quat::IDENTITY);
-    let (scene, pose, _) = beaker(0.002, pose);
+    let (scene, pose, _) = beaker(0.002, 0.016, pose);
     let (rim, d) = (
         0.75 + scene.flasks[0].profile.rim_height(),
         scene.scale.spacing,
