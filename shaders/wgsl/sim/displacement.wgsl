@@ -1,13 +1,13 @@
 // Line 19, second half, and line 20: Δx from the multipliers' changes, and x*. In
 // the last iteration lines 23 to 25 too: flask constraint, velocity, position.
 //
-// The wall's gradient counts once, not mirrored as in Akinci et al. 2012: the
-// single form is the gradient of the constraint, and the mirrored one pumps
-// energy into a resting column.
+// A wall is a mirror (common/glass/mirror.wgsl): it bears the particle's own pressure, and what stands behind it has
+// the pressure gradient along it that the particle has.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/glass/constraint.wgsl
+//!include common/glass/mirror.wgsl
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
@@ -71,7 +71,8 @@ struct Displacement {
 
 /// Line 19: Δx by the constraints' gradients at a particle; `sum` is that of its neighbours.
 fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>) -> Displacement {
-    var delta = Displacement(sum * (weight_scale() / SUPPORT), change_in(own) * wall_gradient(boundary[i]));
+    let by_liquid = sum * (weight_scale() / SUPPORT);
+    var delta = Displacement(by_liquid, by_walls(by_liquid, change_in(own), boundary[i]));
     if (DENSITY) {
         // The same pressure moves what is light further: water rises in acid.
         let lightness = unpack_bulk(bulk[i]).lightness;

@@ -169,8 +169,8 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
 }
 
 /// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
-const INSIDE: f32 = 0.45;
-const SURFACE: f32 = 0.7;
+const INSIDE: f32 = 0.3;
+const SURFACE: f32 = 0.5;
 
 /// Area of the free surface of a particle of that volume (over V0) over 2V0, 1/m: the gradient there, but for
 /// that of disorder.

@@ -11,6 +11,10 @@ use glam::DVec3;
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
 
+/// Least 1 − V_b that the gradient along a wall is divided by: in a gap
+/// narrower than a particle.
+const LEAST_OPEN: f64 = 0.3;
+
 /// One iteration's multipliers from `densities` (ρ/ρ₀) and a =
 /// `gradient_sum`: λ ← min(0, λ − c_r·C/a + c_m·Δλ). `change` is Δλ, that of
 /// the iteration before on entry and this one's on return; both m².
@@ -57,14 +61,17 @@ impl Reference {
     /// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres: the same
     /// pressure moves what is light further, and a pair's momenta stay opposite.
     ///
-    /// The wall's term has Δλ_i once: it is the gradient of C_i, so that no work
-    /// is created. Mirroring it (2 Δλ_i), as Akinci et al. 2012 do with the
-    /// pressure, pumps energy into a column at rest (rms speed 0.055 m/s and
-    /// growing, against 0.016 m/s and falling).
+    /// A wall mirrors the liquid before it: across itself it has the particle's
+    /// own multiplier, 2 Δλ_i ∇V_b, and along itself the share V_b of the
+    /// pressure's gradient that the neighbours, 1 − V_b of a neighbourhood,
+    /// lack. With the first alone, as in Akinci et al. 2012, what touches a
+    /// wall is borne by too little, sinks, and the beaker turns over. Boundary
+    /// particles count once, as the paper has them: ψ is twice a half-space.
     pub fn displace(&self, at: &mut [DVec3], neighbours: &Neighbours, change: &[f64]) {
         let walls = self.surroundings.sums(at, &self.membership, &self.motion);
         let (kernel, ids) = (self.kernel(), &self.ids);
         let (volumes, lightness) = self.bulk();
+        let mirrors = !self.surroundings.has_boundary_particles();
         let displacement = |i: usize| {
             let by_liquid: DVec3 = neighbours
                 .of(i)
@@ -73,7 +80,15 @@ impl Reference {
                     gradient * (volumes[j] * (change[i] + change[j]))
                 })
                 .sum();
-            (by_liquid + walls[i].gradient * change[i]) * lightness[i]
+            let once = walls[i].gradient * change[i];
+            if !mirrors {
+                return (by_liquid + once) * lightness[i];
+            }
+            let both = by_liquid + 2.0 * once;
+            let normal = walls[i].gradient.normalize_or_zero();
+            let along = both - normal * both.dot(normal);
+            let open = (1.0 - walls[i].volume).max(LEAST_OPEN);
+            (both + along * (1.0 / open - 1.0)) * lightness[i]
         };
         let displacements: Vec<_> = (0..at.len()).map(displacement).collect();
         for (at, displacement) in at.iter_mut().zip(displacements) {

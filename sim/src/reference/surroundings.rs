@@ -132,6 +132,12 @@ impl Surroundings {
         }
     }
 
+    /// Whether some vessel's glass is made of boundary particles.
+    pub(super) fn has_boundary_particles(&self) -> bool {
+        let of_particles = |vessel: &Vessel| matches!(vessel.glass, Glass::Particles { .. });
+        self.vessels.iter().any(of_particles)
+    }
+
     /// Calls `visit` for every solid in reach of a particle at `position`
     /// (stage, metres).
     ///

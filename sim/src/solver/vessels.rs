@@ -12,7 +12,7 @@ use vitriol_shaders::layout;
 
 /// Entries of the half-space table over one support radius; its error is
 /// then below 3e-5 of a density.
-pub const PLANE_ENTRIES: usize = 129;
+pub const PLANE_ENTRIES: usize = 257;
 
 /// The buffers that `common/glass/vessel.wgsl` and `common/glass/ground.wgsl` read.
 pub struct Vessels {

@@ -172,15 +172,18 @@ fn density() {
     assert!(truth.iter().any(|&d| d > 0.99) && truth.iter().any(|&d| d < 0.6));
 }
 
-/// Twelve substeps with all of it, the glass on its way; then ten frames. A
+/// Twelve substeps with all of it, the glass on its way; then eight frames. A
 /// disturbance grows in a liquid (by about 3 a frame here), so that after
-/// ten frames what is compared is what does not depend on a single particle,
+/// eight frames what is compared is what does not depend on a single particle,
 /// and of the water in the glass alone, which no limiter has met.
 #[test]
 fn frames_on_end() {
     let device = gpu::device();
+    // A wide margin: the blocks on table and floor start compressed, and the
+    // reference does not cut what they throw.
     let p = Parameters {
         carry: 0.005,
+        list_margin: 0.3,
         ..parameters()
     };
     let mut setup = scene(p);
@@ -198,7 +201,7 @@ fn frames_on_end() {
             Quat::from_rotation_x(0.01 * frame as f32) * start.orientation,
         )
     };
-    for n in 0..10 {
+    for n in 0..8 {
         let (before, after) = ([pose_at(n)], [pose_at(n + 1)]);
         frame(&device, &solver, &before, &after);
         truth.step(&before, &after);
@@ -211,7 +214,7 @@ fn frames_on_end() {
             assert!(error < 40.0 * PLACE, "{i} is off by {error} m");
         }
         assert_eq!(truth.removed, 0);
-        if n == 9 {
+        if n == 7 {
             let mean = |of: &dyn Fn(usize) -> DVec3| (0..800).map(of).sum::<DVec3>() / 800.0;
             let own = (mean(&|i| found[i].position), mean(&|i| found[i].velocity));
             let theirs = (

@@ -243,10 +243,10 @@ fn spun_at_100_radians_a_second() {
     };
     let upright = about(Vec3::Y);
     let events = narrow(400, upright(0.0), &profile).along(&device, 120, upright);
-    assert!(events.inside > 350 && events.struck > 100, "{events:?}");
+    assert!(events.inside > 350 && events.struck > 30, "{events:?}");
     let over_head = about(Vec3::new(0.6, 0.0, 0.8));
     let events = narrow(400, over_head(0.0), &profile).along(&device, 120, over_head);
-    assert!(events.left > 5 && events.struck > 2000, "{events:?}");
+    assert!(events.left > 5 && events.struck > 500, "{events:?}");
 }
 
 #[test]

@@ -18,9 +18,9 @@ use vitriol_sim::solver::{Ground, Solver};
 /// Rounding of a place in the scene after a substep: some ten operations.
 pub const PLACE: f64 = 5e-8;
 
-/// What interpolating the half space's table linearly over h/128 makes of a
-/// density: V''·(h/128)²/8 with V'' = 3/h² at h/3.
-pub const PLANE: f64 = 3e-5;
+/// What interpolating the half space's table linearly over h/256 makes of a
+/// density: V''·(h/256)²/8 with V'' = 3/h² at h/3.
+pub const PLANE: f64 = 7.5e-6;
 
 pub const GROUND: Ground = Ground {
     floor: -0.05,

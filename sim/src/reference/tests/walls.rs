@@ -172,7 +172,7 @@ fn table_and_floor_hold() {
             + DVec3::new(0.1, 0.5 + 0.5 * D, 0.2)
     });
     let mut puddle = Reference::new(parameters(), surroundings.clone(), drops.collect(), &[]);
-    for _ in 0..45 {
+    for _ in 0..20 {
         puddle.step(&[], &[]);
     }
     let lowest = puddle.positions.iter().map(|x| x.y).fold(1.0, f64::min);

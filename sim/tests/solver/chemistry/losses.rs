@@ -2,6 +2,7 @@
 
 use super::setup::*;
 use crate::common::*;
+use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -11,10 +12,11 @@ use vitriol_sim::chemistry::glass::RINGS;
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::{Chemistry, Physical};
+use vitriol_sim::fill::fill as fill_glass;
 use vitriol_sim::flask::glass::find;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::solver::{Solver, SolverState};
+use vitriol_sim::solver::{Particle, Solver, SolverState};
 use vitriol_tests::gpu;
 
 /// A glass of water at 80 °C that has come to rest loses what Newton's law has for its surface, πr². A tenth
@@ -31,7 +33,7 @@ fn a_glass_loses_heat_by_its_surface() {
         }),
         ..mixing_alone()
     };
-    let solver = hot_glass(&device, law, 80.0);
+    let solver = hot_glass(&device, law, 80.0, D);
     frames(&device, &solver, &[Pose::IDENTITY], 40);
     let unit = solver.parameters().particle_mass();
     let at = || {
@@ -51,11 +53,23 @@ fn a_glass_loses_heat_by_its_surface() {
 /// What the liquid gives, the glass has; and it gives what Newton's law has for the glass that it wets, πr² +
 /// 2πr·level, through a film of 700 W/(m² K) and half of 2 mm of glass of 1.2 W/(m K).
 ///
-/// 12 % are allowed: in the corner of wall and floor two gradients add as vectors and not as areas, which takes
-/// 5 % off in so small a glass.
+/// 15 % are allowed: in the corner of wall and floor two gradients add as vectors and not as areas, and inside a
+/// curved wall less than half of a neighbourhood is liquid. Both go with h/r, so that half of it is with
+/// particles half as wide.
 #[test]
 fn what_the_liquid_gives_the_glass_has() {
     let device = gpu::device();
+    for (spacing, allowed) in [(D, 0.15), (0.5 * D, 0.075)] {
+        let found = wetted(&device, spacing);
+        assert!(
+            (found - 1.0).abs() < allowed,
+            "d = {spacing} m: {found} of the area"
+        );
+    }
+}
+
+/// The glass that hot water at that spacing (m) warms, over what it wets.
+fn wetted(device: &Gpu, spacing: f64) -> f64 {
     let radius = 0.013;
     let law = Physical {
         losses: Some(Losses {
@@ -65,11 +79,11 @@ fn what_the_liquid_gives_the_glass_has() {
         }),
         ..mixing_alone()
     };
-    let solver = hot_glass(&device, law, 80.0);
-    frames(&device, &solver, &[Pose::IDENTITY], 40);
+    let solver = hot_glass(device, law, 80.0, spacing);
+    frames(device, &solver, &[Pose::IDENTITY], 40);
     let p = solver.parameters();
     let unit = p.particle_mass();
-    let level = 800.0 * p.particle_volume() / (PI * radius * radius);
+    let level = 800.0 * D.powi(3) / (PI * radius * radius);
     let at = || {
         let state = solver.snapshot().unwrap();
         let lost = -unit * sum(&state.ledger, |row| row[1]);
@@ -82,8 +96,8 @@ fn what_the_liquid_gives_the_glass_has() {
         // What lies on the glass is colder than the mean.
         let lying: Vec<f64> = (state.positions.iter().zip(&state.heat))
             .filter(|([x, y, z, _], _)| {
-                let at_wall = radius as f32 - x.hypot(*z) < 0.75 * D as f32;
-                at_wall || *y < 0.002 + 0.75 * D as f32
+                let at_wall = radius as f32 - x.hypot(*z) < 0.75 * spacing as f32;
+                at_wall || *y < 0.002 + 0.75 * spacing as f32
             })
             .map(|(_, heat)| heat[0].into())
             .collect();
@@ -100,18 +114,27 @@ fn what_the_liquid_gives_the_glass_has() {
         (lost, wall / (1.0 / 700.0 + 1e-3 / 1.2))
     };
     let before = at();
-    frames(&device, &solver, &[Pose::IDENTITY], 5);
+    frames(device, &solver, &[Pose::IDENTITY], 5);
     let after = at();
     let power = (after.0 - before.0) / (5.0 * p.frame_time);
-    let found = power / (0.5 * (before.1 + after.1));
-    assert!((found - 1.0).abs() < 0.12, "{found} of the area");
+    power / (0.5 * (before.1 + after.1))
 }
 
-/// 800 particles of water of that temperature (°C) in the narrow glass.
-fn hot_glass(device: &Gpu, law: Physical, temperature: f64) -> Solver {
-    let p = with(Chemistry::Physical(law), parameters());
-    let particles = glass_of(800, |_| (temperature, 0.0));
-    Setup::new(p, vec![narrow_glass()], particles).solver(device)
+/// 12.5 mL of water of that temperature (°C) in the narrow glass, at that spacing (m).
+fn hot_glass(device: &Gpu, law: Physical, temperature: f64, spacing: f64) -> Solver {
+    let p = Parameters {
+        spacing,
+        support_radius: 2.0 * spacing,
+        ..with(Chemistry::Physical(law), parameters())
+    };
+    let count = (800.0 * (D / spacing).powi(3)) as usize;
+    let places = fill_glass(&narrow_glass(), Pose::IDENTITY, count, spacing, Some(1)).unwrap();
+    let particles = places.into_iter().map(|position| Particle {
+        flask: Some(0),
+        temperature,
+        ..drop_at(position, DVec3::ZERO)
+    });
+    Setup::new(p, vec![narrow_glass()], particles.collect()).solver(device)
 }
 
 fn mean_temperature(state: &SolverState) -> f64 {
@@ -157,7 +180,7 @@ fn open_water_evaporates_at_the_published_rate() {
             }),
             ..mixing_alone()
         };
-        let solver = hot_glass(&device, law, temperature);
+        let solver = hot_glass(&device, law, temperature, D);
         let p = solver.parameters();
         let (unit, frame_time) = (p.particle_mass(), p.frame_time);
         frames(&device, &solver, &[Pose::IDENTITY], 40);

@@ -95,10 +95,10 @@ fn against_the_reference() {
             let frame = errors(with(chemistry.clone(), parameters()), lanes);
             // Twelve substeps. Errors of velocity grow as in
             // `against_reference`, more where it boils, and by the last bits
-            // of who is at T_B; half a percent of all that changes.
+            // of who is at T_B; a percent of all that changes.
             assert!(frame.inner < 0.1, "{law:?} {lanes} {frame:?}");
             assert!(frame.temperature < 0.3, "{law:?} {lanes} {frame:?}");
-            assert!(frame.acid < 3e-4, "{law:?} {lanes} {frame:?}");
+            assert!(frame.acid < 5e-4, "{law:?} {lanes} {frame:?}");
             let grown = 120.0 * PLACE / SUBSTEP;
             assert!(frame.velocity < grown, "{law:?} {lanes} {frame:?}");
         }
