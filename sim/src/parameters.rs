@@ -51,8 +51,8 @@ pub struct Parameters {
     /// What each iteration makes of the constraint's value (line 20).
     pub relaxation: Relaxation,
     /// How fast the multiplier with which a substep starts follows the ones
-    /// that were found: a fraction per substep, 0 for a cold start.
-    pub carry: f64,
+    /// that were found, 1/s; 0 for a cold start.
+    pub carry_rate: f64,
     /// Acceleration by external forces, m/s².
     pub gravity: [f64; 3],
     /// v_max of line 24, m/s.
@@ -178,7 +178,7 @@ impl Parameters {
                     reduction: CHEBYSHEV_REDUCTION,
                 },
             },
-            carry: solver.carry,
+            carry_rate: solver.carry_rate,
             gravity: [0.0, -scale.gravity, 0.0],
             max_speed: solver.v_max,
             viscosity: solver.viscosity,
@@ -204,6 +204,12 @@ impl Parameters {
     /// Substep Δt_s of line 13, seconds.
     pub fn substep_time(&self) -> f64 {
         self.frame_time / f64::from(self.substeps)
+    }
+
+    /// α = 1 − exp(−rate·Δt_s): the share of a substep's multipliers that the
+    /// carried ones take on.
+    pub fn carried_share(&self) -> f64 {
+        -(-self.carry_rate * self.substep_time()).exp_m1()
     }
 
     /// Neighbours that a list has room for.
@@ -309,11 +315,11 @@ mod tests {
         let solver = &mut scene.solver;
         (solver.vorticity, solver.cohesion) = (Some(0.1), Some(0.2));
         (solver.adhesion, solver.viscosity) = (Some(0.3), 0.4);
-        (solver.carry, solver.omega, solver.v_max) = (0.5, 0.25, 7.0);
+        (solver.carry_rate, solver.omega, solver.v_max) = (0.5, 0.25, 7.0);
         (solver.substeps, solver.iterations) = (8, 9);
         let p = Parameters::from_scene(&scene);
         assert_eq!((p.vorticity, p.cohesion, p.adhesion), (0.1, 0.2, 0.3));
-        assert_eq!((p.viscosity, p.carry, p.max_speed), (0.4, 0.5, 7.0));
+        assert_eq!((p.viscosity, p.carry_rate, p.max_speed), (0.4, 0.5, 7.0));
         assert_eq!((p.substeps, p.iterations), (8, 9));
         assert_eq!((p.spacing, p.support_radius), (0.0025, 0.005));
         assert_eq!(p.gravity, [0.0, -9.81, 0.0]);

@@ -303,7 +303,7 @@ impl Vessel {
                 iterations,
                 relaxation: RelaxationKind::Chebyshev,
                 omega: 0.33,
-                carry: 0.005,
+                carry_rate: 2.25,
                 // Ten times what a fall through the vessel gives.
                 v_max: 10.0 * (2.0 * GRAVITY * self.height).sqrt(),
                 boundary: Boundary::Map,

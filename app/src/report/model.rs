@@ -205,8 +205,8 @@ pub struct SolverStatement {
     pub relaxation: String,
     /// Relaxation factor ω.
     pub omega: f64,
-    /// Low-pass weight of the carried multipliers; 0 where none are carried.
-    pub carry: f64,
+    /// Rate at which the carried multipliers follow, 1/s; 0 where none are carried.
+    pub carry_rate: f64,
     /// Speed at which particles are cut, the scene's unit per second.
     pub v_max: f64,
     /// Boundary handling: `map` or `particles`.
@@ -221,7 +221,7 @@ impl SolverStatement {
             iterations: scene.solver.iterations,
             relaxation: format!("{:?}", scene.solver.relaxation).to_lowercase(),
             omega: scene.solver.omega,
-            carry: scene.solver.carry,
+            carry_rate: scene.solver.carry_rate,
             v_max: scene.solver.v_max,
             boundary: format!("{:?}", scene.solver.boundary).to_lowercase(),
         }

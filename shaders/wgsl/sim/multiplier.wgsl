@@ -24,8 +24,12 @@ override FIRST: bool = false;
 override CARRY: bool = false;
 /// Whether this pass only applies what was carried.
 override APPLY_CARRIED: bool = false;
-/// Whether the rebuild's dispatch sizes return to zero here.
-override CLEAR_LIST_ARGS: bool = false;
+/// Whether this is a substep's first pass: the rebuild's dispatch sizes return to zero, and what the walls were before
+/// is found.
+override STARTS: bool = false;
+
+/// Most that what is mirrored adds: a lone particle at a wall lacks 0.18 of a full density.
+const MOST_MIRRORED: f32 = 0.1;
 
 @group(0) @binding(0) var<storage, read> trial: array<vec4<f32>>;
 /// (membership, identity)
@@ -38,6 +42,10 @@ override CLEAR_LIST_ARGS: bool = false;
 /// At x*.
 @group(0) @binding(7) var<storage, read_write> boundary: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> list_args: array<u32>;
+/// At the substep's start.
+@group(0) @binding(9) var<storage, read> position: array<vec4<f32>>;
+/// V there.
+@group(0) @binding(10) var<storage, read_write> wall_before: array<f32>;
 
 /// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
 fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
@@ -57,9 +65,22 @@ fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
     return lane_sum(sum);
 }
 
-/// Line 19, Eqs 1 and 2: C = ρ/ρ0 − 1 of a particle at x*.
-fn density_constraint(sum: f32, volume: f32, wall: f32) -> f32 {
-    return (sum + volume * spline(0.0)) * weight_scale() + wall - 1.0;
+/// Line 19, Eqs 1 and 2: C = ρ/ρ0 − 1 of a particle at x*. What is mirrored in a wall comes as fast as the particle goes
+/// there, so that the wall's part changes twice as much in a substep as the map's: then what the mirror pushes with is
+/// the gradient of this, and does no work on what rests. Up to a bound: a lone drop that flies at a wall has no liquid
+/// around it to be mirrored.
+fn density_constraint(sum: f32, volume: f32, wall: f32, before: f32) -> f32 {
+    let mirrored = clamp(wall - before, -MOST_MIRRORED, MOST_MIRRORED);
+    return (sum + volume * spline(0.0)) * weight_scale() + wall + mirrored - 1.0;
+}
+
+/// V of the walls at the substep's start; of boundary particles, which do not mirror, that at x*.
+fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
+    if (SOLIDS) { return wall; }
+    if (!STARTS) { return wall_before[i]; }
+    let before = wall_volume(boundary_volume(membership, position[i].xyz, step.before, lane));
+    if (lane == 0u) { wall_before[i] = before; }
+    return before;
 }
 
 /// Line 19: λ after this iteration, for C at x*, and its change.
@@ -88,7 +109,7 @@ fn apply_carried(i: u32, x: vec3<f32>) {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (CLEAR_LIST_ARGS) {
+    if (STARTS) {
         if (id.x == 0u) {
             list_args[PARTICLE_ARGS] = 0u;
             list_args[CELL_ARGS] = 0u;
@@ -103,6 +124,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (!APPLY_CARRIED) { sum = sum_weights(i, lane, x); }
     let membership = tags[i].x;
     let wall = boundary_volume(membership, x, step.after, lane);
+    let before = walls_before(i, lane, membership, wall_volume(wall));
     if (lane != 0u) { return; }
     if (membership == REMOVED) {
         solved[i] = pack_solved(x, 0.0);
@@ -115,5 +137,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         apply_carried(i, x);
         return;
     }
-    update_multiplier(i, x, density_constraint(sum, volume_in(own), wall_volume(wall)));
+    update_multiplier(i, x, density_constraint(sum, volume_in(own), wall_volume(wall), before));
 }

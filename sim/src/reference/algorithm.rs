@@ -61,7 +61,7 @@ impl Reference {
         let mut at = predicted;
         let mut lambda = vec![0.0; at.len()];
         let mut change = vec![0.0; at.len()];
-        if self.parameters.carry > 0.0 {
+        if self.parameters.carry_rate > 0.0 {
             lambda = self
                 .carried
                 .iter()
@@ -70,15 +70,17 @@ impl Reference {
             change.clone_from(&lambda);
             self.displace(&mut at, neighbours, &change);
         }
+        let before = self.walls_before();
         let iterations = self.parameters.iterations;
         for coefficients in self.parameters.relaxation.coefficients(iterations) {
-            let densities = self.densities(&at, neighbours);
+            let densities = self.mirrored_densities(&at, neighbours, &before);
             let a = self.parameters.gradient_sum();
             density::multipliers(&densities, a, coefficients, &mut lambda, &mut change); // line 19
             self.displace(&mut at, neighbours, &change); // line 20
         }
+        let share = self.parameters.carried_share();
         for (carried, lambda) in self.carried.iter_mut().zip(lambda) {
-            *carried += self.parameters.carry * (lambda / per_area - *carried);
+            *carried += share * (lambda / per_area - *carried);
         }
         at
     }

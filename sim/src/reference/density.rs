@@ -4,12 +4,17 @@
 //! x* ← x* + Σ_j (λ_i + λ_j)·V₀∇W_ij, λ/Δt² is −p/ρ.
 
 use super::neighbours::Neighbours;
+use super::placement::Motion;
 use super::state::Reference;
 use crate::kernel::Kernel;
 use glam::DVec3;
 
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
+
+/// Most that what is mirrored adds in a substep: a lone particle at a wall lacks
+/// 0.18 of a full density.
+const MOST_MIRRORED: f64 = 0.1;
 
 /// Least 1 − V_b that the gradient along a wall is divided by: in a gap
 /// narrower than a particle.
@@ -55,6 +60,35 @@ impl Reference {
             volumes[i] * kernel.w(0.0) + around + walls[i].volume
         };
         (0..positions.len()).map(density).collect()
+    }
+
+    /// ρ_i/ρ₀ of line 19: that of [`Self::densities`] at `at`, and by how much V_b has
+    /// grown since the substep's start, `before`, once more: what is mirrored in a
+    /// wall comes as fast as the particle goes there. Up to a bound, since a lone drop
+    /// has no liquid around it to be mirrored.
+    pub(super) fn mirrored_densities(
+        &self,
+        at: &[DVec3],
+        neighbours: &Neighbours,
+        before: &[f64],
+    ) -> Vec<f64> {
+        let mut densities = self.densities(at, neighbours);
+        if !self.surroundings.has_boundary_particles() {
+            let walls = self.surroundings.sums(at, &self.membership, &self.motion);
+            for ((density, wall), before) in densities.iter_mut().zip(walls).zip(before) {
+                *density += (wall.volume - before).clamp(-MOST_MIRRORED, MOST_MIRRORED);
+            }
+        }
+        densities
+    }
+
+    /// V_b of every particle at the substep's start.
+    pub(super) fn walls_before(&self) -> Vec<f64> {
+        let motion: Vec<_> = self.motion.iter().map(Motion::start).collect();
+        let walls = self
+            .surroundings
+            .sums(&self.positions, &self.membership, &motion);
+        walls.into_iter().map(|wall| wall.volume).collect()
     }
 
     /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask,

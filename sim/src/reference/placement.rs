@@ -77,6 +77,14 @@ impl Motion {
         }
     }
 
+    /// At rest where it is at the substep's start.
+    pub fn start(&self) -> Self {
+        Self {
+            after: self.before,
+            ..*self
+        }
+    }
+
     /// Velocity of the flask's point that is at `point` (stage, metres) at
     /// the substep's end, m/s: line 3 divided by the time, so that rotation
     /// is in it.

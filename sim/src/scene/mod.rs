@@ -117,13 +117,13 @@ impl Scene {
                 substeps,
                 iterations,
                 omega,
-                carry,
+                carry_rate,
                 spacing,
             } = *overrides;
             scene.solver.substeps = substeps.unwrap_or(scene.solver.substeps);
             scene.solver.iterations = iterations.unwrap_or(scene.solver.iterations);
             scene.solver.omega = omega.unwrap_or(scene.solver.omega);
-            scene.solver.carry = carry.unwrap_or(scene.solver.carry);
+            scene.solver.carry_rate = carry_rate.unwrap_or(scene.solver.carry_rate);
             scene.scale.spacing = spacing.unwrap_or(scene.scale.spacing);
         }
         scene

@@ -79,11 +79,12 @@ pub struct SolverSettings {
     /// 2/λ_max, Chebyshev's takes 2/ω for the end of the spectrum; a cubic
     /// lattice at h/d = 2 has λ_max = 2.82.
     pub omega: f64,
-    /// Fraction of a substep's multipliers that the carried ones take on:
-    /// each substep starts from a pressure that was found before instead of
-    /// from none. 0 leaves it out. More than the slowest mode's decay in a
-    /// substep (0.005 to 0.01 in a filled beaker) makes the column ring.
-    pub carry: f64,
+    /// Rate (1/s) at which the carried multipliers follow those that are
+    /// found: each substep starts from a pressure that was found before
+    /// instead of from none. 0 leaves it out. A share per substep above the
+    /// slowest mode's decay in a substep (0.03 in a filled beaker) makes the
+    /// column ring.
+    pub carry_rate: f64,
     /// v_max of line 24, m/s.
     pub v_max: f64,
     /// What walls are made of.
@@ -111,8 +112,8 @@ pub struct PresetOverrides {
     pub iterations: Option<u32>,
     /// ω.
     pub omega: Option<f64>,
-    /// How fast multipliers are carried on.
-    pub carry: Option<f64>,
+    /// Rate at which multipliers are carried on, 1/s.
+    pub carry_rate: Option<f64>,
     /// Particle spacing d, metres; volumes of liquid stay, so the number of
     /// particles follows.
     pub spacing: Option<f64>,
@@ -199,7 +200,8 @@ impl SolverSettings {
         let omega = self.omega;
         let ok = omega > 0.0 && omega < 2.0;
         require("solver.omega", omega, ok, "above 0 and below 2")?;
-        within("solver.carry", self.carry, 0.0..=1.0, "between 0 and 1")?;
+        let rate = self.carry_rate;
+        require("solver.carry_rate", rate, rate >= 0.0, "zero or more (1/s)")?;
         let v_max = self.v_max;
         require("solver.v_max", v_max, v_max > 0.0, "above zero (m/s)")?;
         let share = "between 0 and 1 (a share of relative velocities)";

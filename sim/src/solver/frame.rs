@@ -137,7 +137,7 @@ impl Solver {
     /// Lines 18 to 21; the last displacement goes on to lines 22 to 25.
     fn solve_density(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
         let p = &self.pipelines;
-        if self.parameters.carry > 0.0 {
+        if self.parameters.carry_rate > 0.0 {
             self.over_particles(rec, &p.carried_multiplier, step)?;
             self.over_particles(rec, &p.displacement, step)?;
         }
@@ -197,7 +197,7 @@ impl Solver {
         Step {
             time: self.parameters.substep_time() as f32,
             viscosity: self.viscosity_unit() as f32,
-            carry: self.parameters.carry as f32,
+            carry: self.parameters.carried_share() as f32,
             before: n * flasks,
             after: (n + 1) * flasks,
             next: (n + 2) * flasks,

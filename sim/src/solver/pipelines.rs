@@ -97,15 +97,14 @@ impl Pipelines {
         constants: &Constants,
         buffers: &[&Buffer],
     ) -> Result<Self, SolverError> {
-        let carry = flag(spec.parameters.carry > 0.0);
-        // The rebuild's dispatch sizes return to zero in a substep's first pass.
-        let clears = ("CLEAR_LIST_ARGS", 1.0);
+        let carry = flag(spec.parameters.carry_rate > 0.0);
+        let starts = ("STARTS", 1.0);
         let first = [
             ("FIRST", 1.0),
             if carry > 0.0 {
                 ("CARRY", carry)
             } else {
-                clears
+                starts
             },
         ];
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
@@ -129,7 +128,7 @@ impl Pipelines {
             cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
-            carried_multiplier: make(sim::MULTIPLIER, &[("APPLY_CARRIED", 1.0), clears])?,
+            carried_multiplier: make(sim::MULTIPLIER, &[("APPLY_CARRIED", 1.0), starts])?,
             first_multiplier: make(sim::MULTIPLIER, &first)?,
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
@@ -363,6 +362,8 @@ impl Constants {
                 "sorted_velocity" => "new_velocity",
                 // What is dead once x* is committed.
                 "kept" => "solved",
+                // What is of reports alone.
+                "wall_before" => "density",
                 name => {
                     let other = names.iter().find(|(own, _)| *own == name);
                     other.map_or(name, |(_, label)| label)

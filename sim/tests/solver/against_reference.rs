@@ -56,7 +56,7 @@ fn multipliers() {
     for iterations in [1, 4] {
         let p = Parameters {
             iterations,
-            carry: 1.0,
+            carry_rate: 1e9,
             ..single_substeps()
         };
         let (found, truth) = both(&device, &scene(p), glass_pose());
@@ -182,7 +182,7 @@ fn frames_on_end() {
     // A wide margin: the blocks on table and floor start compressed, and the
     // reference does not cut what they throw.
     let p = Parameters {
-        carry: 0.005,
+        carry_rate: 5.4,
         list_margin: 0.3,
         ..parameters()
     };
@@ -222,7 +222,8 @@ fn frames_on_end() {
                 mean(&|i| truth.velocities[i]),
             );
             assert!(own.0.distance(theirs.0) < 1e-5);
-            assert!(own.1.distance(theirs.1) < 1e-3);
+            // A percent of 0.23 m/s.
+            assert!(own.1.distance(theirs.1) < 2e-3);
             let energy = |velocity: &dyn Fn(usize) -> DVec3| -> f64 {
                 (0..800).map(|i| velocity(i).length_squared()).sum()
             };

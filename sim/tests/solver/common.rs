@@ -33,7 +33,7 @@ pub fn parameters() -> Parameters {
             spectral_bound: 6.0,
             reduction: 5.0,
         },
-        carry: 0.0,
+        carry_rate: 0.0,
         gravity: [0.0, -9.81, 0.0],
         max_speed: 8.0,
         viscosity: 0.02,

@@ -224,7 +224,7 @@ fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
     let device = gpu::device();
     let strength = if solids { 0.05 } else { 0.0 };
     let p = Parameters {
-        carry: 0.005,
+        carry_rate: 5.4,
         vorticity: strength,
         cohesion: strength,
         adhesion: strength,

@@ -23,7 +23,7 @@ fn a_glass_bears_the_weight_of_its_water() {
     ];
     let p = Parameters {
         substeps: 8,
-        carry: 0.005,
+        carry_rate: 5.4,
         viscosity: 0.3,
         ..parameters()
     };

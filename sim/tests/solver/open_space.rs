@@ -52,7 +52,7 @@ fn momentum_is_kept_without_gravity() {
     let p = Parameters {
         gravity: [0.0; 3],
         viscosity: 0.3,
-        carry: 0.005,
+        carry_rate: 5.4,
         ..parameters()
     };
     let mut random = Random(9);

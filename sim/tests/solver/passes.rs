@@ -135,7 +135,7 @@ fn frames_dispatch_what_the_scene_has() {
     let full = Setup {
         loads: true,
         parameters: Parameters {
-            carry: 0.01,
+            carry_rate: 10.0,
             ..p.clone()
         },
         ..Setup::new(p.clone(), vec![narrow_glass()], particles.clone())

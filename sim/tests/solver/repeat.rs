@@ -16,7 +16,7 @@ fn scene() -> Setup {
         drop_at(DVec3::new(0.03, 0.05, 0.0) + site * D, DVec3::ZERO)
     }));
     let p = Parameters {
-        carry: 0.005,
+        carry_rate: 5.4,
         substeps: 8,
         ..parameters()
     };

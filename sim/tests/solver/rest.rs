@@ -19,7 +19,7 @@ fn a_column_rests() {
     let p = Parameters {
         substeps,
         iterations,
-        carry: 0.005,
+        carry_rate: 5.4,
         ..parameters()
     };
     let particle_mass = p.particle_mass();
@@ -89,7 +89,7 @@ fn a_column_bears_its_weight() {
         let p = Parameters {
             substeps,
             iterations: 3,
-            carry: 0.001,
+            carry_rate: 2.25,
             viscosity: 0.05,
             ..parameters()
         };

@@ -140,7 +140,7 @@ fn maps_keep_the_volume_that_solids_do_not() {
     let p = Parameters {
         substeps: 10,
         iterations: 3,
-        carry: 0.005,
+        carry_rate: 5.4,
         ..parameters()
     };
     let glass = narrow_glass();

@@ -43,7 +43,7 @@ fn glasses_that_touch_do_not_feel_each_other() {
     let device = gpu::device();
     let p = Parameters {
         viscosity: 0.5,
-        carry: 0.005,
+        carry_rate: 5.4,
         ..parameters()
     };
     let first = full(0);
@@ -63,7 +63,7 @@ fn glasses_that_touch_do_not_feel_each_other() {
     // reach: relaxed less, they take their time.
     let gently = Parameters {
         relaxation: Relaxation::Jacobi { omega: 0.01 },
-        carry: 0.0,
+        carry_rate: 0.0,
         ..p.clone()
     };
     let run = |groups: &[&[Particle]], solids: Option<&[Vec<_>]>, glasses: usize| {

@@ -25,6 +25,7 @@ pub enum Extreme {
     /// h/d.
     Support(f64),
     Viscosity(f64),
+    /// 1/s.
     Carry(f64),
     Gravity(f64),
     Density(f64),
@@ -131,7 +132,7 @@ impl Extreme {
             E::Relaxation(omega, chebyshev) => (r.omega, r.chebyshev) = (omega, chebyshev),
             E::Support(ratio) => r.support_ratio = ratio,
             E::Viscosity(mu) => r.viscosity = mu,
-            E::Carry(carry) => r.carry = carry,
+            E::Carry(rate) => r.carry_rate = rate,
             E::Gravity(gravity) => r.gravity = gravity,
             E::Density(density) => r.rest_density = density,
             E::MaxSpeed(times) => r.v_max *= times,
@@ -165,7 +166,7 @@ impl Extreme {
             }
             E::Support(ratio) => format!("h/d = {ratio:.2}"),
             E::Viscosity(mu) => format!("viscosity {mu:.3}"),
-            E::Carry(carry) => format!("carry {carry:.3}"),
+            E::Carry(rate) => format!("carried at {rate:.2} 1/s"),
             E::Gravity(gravity) => format!("g = {gravity:.2} m/s²"),
             E::Density(density) => format!("ρ₀ = {density:.1} kg/m³"),
             E::MaxSpeed(times) => format!("v_max × {times:.3}"),
@@ -242,7 +243,7 @@ pub fn directed() -> Vec<Extreme> {
     }
     all.extend([1.2, 1.5, 2.5, 3.0].map(E::Support));
     all.extend([0.0, 0.5, 1.0, 3.0, 10.0].map(E::Viscosity));
-    all.extend([0.0, 0.02, 0.1, 1.0].map(E::Carry));
+    all.extend([0.0, 20.0, 90.0, 900.0].map(E::Carry));
     all.extend([0.0, 1.6, 100.0].map(E::Gravity));
     all.extend([1.0, 13_600.0].map(E::Density));
     all.extend([0.1, 10.0, 1e4].map(E::MaxSpeed));
@@ -305,7 +306,7 @@ pub fn random(draw: &mut impl FnMut() -> f64) -> Extreme {
         E::Relaxation(_, chebyshev) => E::Relaxation(between(s, 0.05, 1.0), chebyshev),
         E::Support(_) => E::Support(between(s, 1.2, 3.0)),
         E::Viscosity(_) => E::Viscosity(if s < 0.8 { s / 0.8 } else { 10.0 * s }),
-        E::Carry(_) => E::Carry(log(s, 1e-3, 1.0)),
+        E::Carry(_) => E::Carry(log(s, 0.9, 900.0)),
         E::Gravity(_) => E::Gravity(log(s, 0.1, 100.0)),
         E::Density(_) => E::Density(log(s, 1.0, 2e4)),
         E::MaxSpeed(_) => E::MaxSpeed(log(s, 0.1, 1e4)),

@@ -56,7 +56,7 @@ pub struct Recipe {
     pub iterations: u32,
     pub chebyshev: bool,
     pub omega: f64,
-    pub carry: f64,
+    pub carry_rate: f64,
     pub v_max: f64,
     pub boundary_particles: bool,
     pub viscosity: f64,
@@ -95,7 +95,7 @@ impl Recipe {
             iterations: 3,
             chebyshev: true,
             omega: 0.33,
-            carry: 0.005,
+            carry_rate: 2.25,
             v_max: 10.0,
             boundary_particles: false,
             viscosity: 0.05,
@@ -122,7 +122,7 @@ impl Recipe {
                 iterations: 2,
                 chebyshev: false,
                 omega: 0.35,
-                carry: 0.0,
+                carry_rate: 0.0,
                 v_max: 25.0,
                 viscosity: 0.3,
                 ..real
@@ -177,7 +177,7 @@ impl Recipe {
              origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
              [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{relaxation}\"\nomega = {:?}\n\
-             carry = {:?}\nv_max = {:?}\nboundary = \"{walls}\"\nviscosity = {:?}\n",
+             carry_rate = {:?}\nv_max = {:?}\nboundary = \"{walls}\"\nviscosity = {:?}\n",
             self.origin,
             self.support_ratio,
             self.frame_time,
@@ -187,7 +187,7 @@ impl Recipe {
             self.substeps,
             self.iterations,
             self.omega,
-            self.carry,
+            self.carry_rate,
             self.v_max,
             self.viscosity,
         );

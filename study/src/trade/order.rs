@@ -77,7 +77,7 @@ fn bare() -> Parameters {
         substeps: 1,
         iterations: 2,
         relaxation: Relaxation::Jacobi { omega: 0.35 },
-        carry: 0.0,
+        carry_rate: 0.0,
         gravity: [0.0; 3],
         max_speed: 100.0,
         viscosity: 0.0,

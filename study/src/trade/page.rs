@@ -81,7 +81,8 @@ fn presets(trade: &Trade) -> Markup {
         .iter()
         .filter(|point| point.knob == Knob::Preset);
     html! { div.wide { table {
-        (head(&["Preset", "Setting", "Frame's median; 1/90 s, 99th percentile", "At rest", "Pouring",
+        (head(&["Preset", "Setting", "Frame's median; 1/90 s, 99th percentile", "At rest", "Signed, below the surface",
+            "Pressure off ρgy", "Pouring",
             "Poured volume", "Lost volume", "Calorimeter, worst"]))
         tbody { @for point in rows {
             tr {
@@ -89,6 +90,8 @@ fn presets(trade: &Trade) -> Markup {
                 td { (point.setting.label()) }
                 td { (three_digits(point.rest.cost.median_ms)) " and " (three_digits(point.cost())) " ms" }
                 td { (percent(point.errors.rest_p99)) }
+                td { (percent(point.rest.density_signed)) }
+                td { (point.rest.pressure.map_or("not carried".into(), percent)) }
                 td { (percent(point.errors.pour_p99)) }
                 td { (percent(point.errors.poured)) }
                 td { (percent(point.errors.lost_volume)) }
@@ -132,7 +135,8 @@ fn boiling(trade: &Trade) -> Markup {
 
 fn settings(trade: &Trade) -> Markup {
     html! { div.wide { table {
-        (head(&["From", "Knob", "Setting", "Particles", "1/90 s, ms", "At rest", "Pouring",
+        (head(&["From", "Knob", "Setting", "Particles", "1/90 s, ms", "At rest", "Signed, below the surface",
+            "Pressure off ρgy", "Pouring",
             "Poured volume", "Lost volume", "Δt over its limit"]))
         tbody { @for point in &trade.points {
             tr {
@@ -142,6 +146,8 @@ fn settings(trade: &Trade) -> Markup {
                 td { (grouped(point.rest.particles.into())) }
                 td { (three_digits(point.cost())) }
                 td { (percent(point.errors.rest_p99)) }
+                td { (percent(point.rest.density_signed)) }
+                td { (point.rest.pressure.map_or("not carried".into(), percent)) }
                 td { (percent(point.errors.pour_p99)) }
                 td { (percent(point.errors.poured)) }
                 td { (percent(point.errors.lost_volume)) }

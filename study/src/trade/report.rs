@@ -129,7 +129,7 @@ impl Errors {
 pub fn describe(trade: &Trade) -> String {
     let mut t = format!(
         "{}, {}\n\npreset     knob                   setting                                             \
-         \u{20}       n   ms p99     rest     pour   poured     lost Δt/limit\n",
+         \u{20}       n   ms p99     rest   signed pressure     pour   poured     lost Δt/limit\n",
         trade.device.name, trade.device.driver
     );
     for point in &trade.points {
@@ -137,13 +137,15 @@ pub fn describe(trade: &Trade) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             t,
-            "{:<10} {:<22} {:<52} {:>8} {:>8.3} {:>8} {:>8} {:>8} {:>8} {:>8.2}",
+            "{:<10} {:<22} {:<52} {:>8} {:>8.3} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8.2}",
             point.preset,
             point.knob.name(),
             point.setting.label(),
             point.rest.particles,
             point.cost(),
             percent(e.rest_p99),
+            percent(point.rest.density_signed),
+            point.rest.pressure.map_or("-".into(), percent),
             percent(e.pour_p99),
             percent(e.poured),
             percent(e.lost_volume),

@@ -21,8 +21,8 @@ pub struct Setting {
     pub chebyshev: bool,
     /// ω.
     pub omega: f64,
-    /// Carried share of multipliers.
-    pub carry: f64,
+    /// Rate at which multipliers are carried on, 1/s.
+    pub carry_rate: f64,
     /// Whether walls are of boundary particles; else of maps.
     pub boundary_particles: bool,
     /// Margin of the neighbour list over h.
@@ -89,7 +89,7 @@ impl Setting {
             iterations: solver.iterations,
             chebyshev: solver.relaxation == RelaxationKind::Chebyshev,
             omega: solver.omega,
-            carry: solver.carry,
+            carry_rate: solver.carry_rate,
             boundary_particles: solver.boundary == Boundary::Particles,
             list_margin: Parameters::from_scene(&scene).list_margin,
         }
@@ -109,7 +109,7 @@ impl Setting {
         } else {
             RelaxationKind::Jacobi
         };
-        (solver.omega, solver.carry) = (self.omega, self.carry);
+        (solver.omega, solver.carry_rate) = (self.omega, self.carry_rate);
         Parameters {
             list_margin: self.list_margin,
             ..Parameters::from_scene(&scene)
@@ -132,10 +132,10 @@ impl Setting {
 
     /// In words.
     pub fn label(&self) -> String {
-        let iteration = match (self.chebyshev, self.carry > 0.0) {
+        let iteration = match (self.chebyshev, self.carry_rate > 0.0) {
             (false, _) => format!("Jacobi ω {}", self.omega),
             (true, false) => "Chebyshev".into(),
-            (true, true) => format!("Chebyshev, carry {}", self.carry),
+            (true, true) => format!("Chebyshev, carried at {} 1/s", self.carry_rate),
         };
         format!(
             "{} × {}, {iteration}, d {:.2} mm, {:.0} Hz",

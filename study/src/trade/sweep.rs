@@ -5,8 +5,8 @@ use vitriol_sim::scene::{Preset, Scene};
 use super::setting::{Knob, Setting};
 use super::tank::VOLUME;
 
-/// Carried share where it is not a preset's own.
-const CARRY: f64 = 0.005;
+/// Rate (1/s) of carrying where it is not a preset's own.
+const CARRY_RATE: f64 = 2.25;
 
 /// The finest setting, beyond all presets, with `particles` of them: what the f64
 /// reference vouches for, and what poured volumes are compared with.
@@ -71,7 +71,10 @@ fn one_at_a_time(own: Setting, quick: bool) -> Vec<(Knob, Setting)> {
     for &iterations in iterations {
         all.push((Knob::Iterations, Setting { iterations, ..own }));
     }
-    let cold = Setting { carry: 0.0, ..own };
+    let cold = Setting {
+        carry_rate: 0.0,
+        ..own
+    };
     let jacobi = Setting {
         chebyshev: false,
         omega: 0.35,
@@ -114,7 +117,7 @@ fn pairs(own: Setting) -> Vec<(Knob, Setting)> {
             let setting = Setting {
                 substeps,
                 iterations,
-                carry: CARRY,
+                carry_rate: CARRY_RATE,
                 ..own
             };
             all.push((Knob::SubstepsIterations, setting));

@@ -23,6 +23,8 @@ pub const VOLUME: f64 = 217.09e-6;
 const POURED_FROM: f64 = 150e-6;
 /// The vessel.
 const VESSEL: &str = "beaker-250";
+/// How long it stands before it is tipped, s.
+const SETTLED_IN: f64 = 1.0;
 /// How far it is tipped, radians, in which time, s, and how long it is held there.
 const TILT: f64 = 1.2;
 const TIPPED_IN: f64 = 1.5;
@@ -62,6 +64,8 @@ pub struct Rested {
     pub density_mean: f64,
     /// 99th percentile of the same.
     pub density_p99: f64,
+    /// Mean of ρ/ρ₀ − 1, of either sign, of what lies deeper than a support radius.
+    pub density_signed: f64,
     /// By how much the centre of mass is too low, over its height: lost volume.
     pub lost_volume: f64,
     /// Root mean square speed, m/s.
@@ -141,15 +145,14 @@ impl Tank {
     }
 
     /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of what is in the vessel.
-    fn density(&self, state: &SolverState) -> Result<(f64, f64), Failure> {
-        let densities = liquid::densities(&self.gpu, &self.solver)?;
+    fn density(&self, state: &SolverState, densities: &[f32]) -> (f64, f64) {
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
         let errors: Vec<f64> = members
             .map(|slot| (f64::from(densities[slot]) - 1.0).max(0.0))
             .collect();
         let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
         let p99 = Ranks::of(&errors).at(0.99).unwrap_or(0.0);
-        Ok((mean, p99))
+        (mean, p99)
     }
 
     fn rested(&self) -> Result<Look, Failure> {
@@ -171,8 +174,15 @@ impl Tank {
             let off = carried + self.gravity * (level - y).max(0.0);
             pressures += off * off / count;
         }
+        let densities = liquid::densities(&self.gpu, &self.solver)?;
+        let support = self.solver.parameters().support_radius;
+        let deep: Vec<f64> = (state.positions.iter().zip(&densities))
+            .filter(|(position, _)| level - f64::from(position[1]) > support)
+            .map(|(_, density)| f64::from(*density) - 1.0)
+            .collect();
         Ok(Look {
-            density: self.density(&state)?,
+            density: self.density(&state, &densities),
+            signed: deep.iter().sum::<f64>() / deep.len().max(1) as f64,
             lost_volume: 1.0 - (centre - floor) / exact,
             speed: squares.sqrt(),
             pressure: pressures.sqrt() / (self.gravity * (level - floor)),
@@ -225,14 +235,16 @@ pub fn rest(gpu: &Gpu, scene: &Scene, setting: &Setting, seconds: f64) -> Result
         cost: Cost::of(&times),
         density_mean: mean(&|look| look.density.0),
         density_p99: mean(&|look| look.density.1),
+        density_signed: mean(&|look| look.signed),
         lost_volume: mean(&|look| look.lost_volume),
         speed: mean(&|look| look.speed * look.speed).sqrt(),
-        pressure: (parameters.carry > 0.0).then(|| mean(&|look| look.pressure)),
+        pressure: (parameters.carry_rate > 0.0).then(|| mean(&|look| look.pressure)),
     })
 }
 
 struct Look {
     density: (f64, f64),
+    signed: f64,
     lost_volume: f64,
     speed: f64,
     pressure: f64,
@@ -250,6 +262,10 @@ pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failur
         let angle = TILT * part * part * (3.0 - 2.0 * part);
         Pose::new(Vec3::ZERO, Quat::from_rotation_z(-angle as f32))
     };
+    // The filling's lattice comes to rest first.
+    for _ in 0..(SETTLED_IN / tank.frame_time).ceil() as u32 {
+        tank.frame(pose(0.0), pose(0.0))?;
+    }
     let all = ((TIPPED_IN + HELD) / tank.frame_time).ceil() as u32;
     let (mut times, mut densities, mut lost) = (Vec::new(), Vec::new(), 0);
     for frame in 1..=all {
@@ -258,7 +274,8 @@ pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failur
         if frame % BETWEEN == 0 || frame == all {
             let state = tank.solver.snapshot().other()?;
             if time(frame) < TIPPED_IN {
-                densities.push(tank.density(&state)?.1);
+                let now = liquid::densities(gpu, &tank.solver)?;
+                densities.push(tank.density(&state, &now).1);
             }
             lost = lost.max(tank.through_glass(&state, pose(time(frame))));
         }

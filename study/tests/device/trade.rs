@@ -20,7 +20,7 @@ fn a_setting_is_judged_by_what_it_leaves() {
     let scene = Scene::builtin("beaker").unwrap();
     let coarse = Setting::of(&scene, Preset::Balanced).with_particles(1500.0, 217e-6);
     let cold = Setting {
-        carry: 0.0,
+        carry_rate: 0.0,
         iterations: 1,
         ..coarse
     };

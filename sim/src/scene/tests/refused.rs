@@ -210,19 +210,32 @@ fn missing_file_is_named_with_the_builtin_scenes() {
     );
 }
 
-/// Acid under water jitters at up to 6 cm/s with half of its multipliers carried, and at 3 with a tenth.
+/// Acid under water jitters at up to 6 cm/s with half of its multipliers carried on in a substep, and at 3 with a tenth:
+/// of 900 substeps a second, 90 1/s.
 #[test]
-fn unlike_liquids_carry_little() {
+fn little_is_carried_on_in_a_substep() {
     let scene = include_str!("../../../scenes/water-into-acid.toml");
-    let much = scene.replacen("carry = 0.005", "carry = 0.5", 1);
-    let message = Scene::parse(&much, "bad.toml").unwrap_err().to_string();
+    let with = |rate: &str| scene.replacen("carry_rate = 2.25", &format!("carry_rate = {rate}"), 1);
+    let message = Scene::parse(&with("90.5"), "bad.toml")
+        .unwrap_err()
+        .to_string();
     assert!(
-        message.contains("solver.carry") && message.contains("0.1 or less"),
+        message.contains("solver.carry_rate") && message.contains("take 90 or less"),
         "{message}"
     );
-    let little = scene.replacen("carry = 0.005", "carry = 0.1", 1);
-    Scene::parse(&little, "good.toml").unwrap();
-    let preset = scene.replacen("carry = 0.003", "carry = 0.5", 1);
-    let message = Scene::parse(&preset, "bad.toml").unwrap_err().to_string();
-    assert!(message.contains("preset.fast: solver.carry"), "{message}");
+    // `fast` has 8 substeps in place of 10.
+    let message = Scene::parse(&with("80"), "bad.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("preset.fast: solver.carry_rate"),
+        "{message}"
+    );
+    Scene::parse(&with("70"), "good.toml").unwrap();
+    let older = scene.replacen("carry_rate = 2.25", "carry = 0.005", 1);
+    let message = Scene::parse(&older, "bad.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("`carry`") && message.contains("`carry_rate`"),
+        "{message}"
+    );
 }

@@ -38,7 +38,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         all.extend(["cell_count", "cell_scan", "block_scan"]);
         all.extend(["cell_scatter", "reorder", "list"]);
         // What is carried is applied first.
-        let solves = p.iterations as usize + usize::from(p.carry > 0.0);
+        let solves = p.iterations as usize + usize::from(p.carry_rate > 0.0);
         all.extend(["multiplier", "displacement"].repeat(solves));
         all.extend(line_26);
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
