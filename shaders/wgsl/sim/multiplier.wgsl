@@ -74,7 +74,7 @@ fn density_constraint(sum: f32, volume: f32, wall: f32, before: f32) -> f32 {
     return (sum + volume * spline(0.0)) * weight_scale() + wall + mirrored - 1.0;
 }
 
-/// V of the walls at the substep's start; of boundary particles, which do not mirror, that at x*.
+/// Line 19: V of the walls at the substep's start; of boundary particles, which do not mirror, that at x*.
 fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
     if (SOLIDS) { return wall; }
     if (!STARTS) { return wall_before[i]; }
