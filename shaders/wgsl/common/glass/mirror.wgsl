@@ -18,7 +18,7 @@ override SOLIDS: bool = false;
 /// Least share of a neighbourhood that is liquid, as far as it is divided by: in a gap narrower than a particle.
 const LEAST_OPEN: f32 = 0.3;
 
-/// The walls' part of a displacement, m, for that of the neighbours, the change of the multiplier (m²) and the record
+/// Line 19: the walls' part of a displacement, m, for that of the neighbours, the change of the multiplier (m²) and the record
 /// `boundary`.
 fn by_walls(by_liquid: vec3<f32>, change: f32, boundary: vec4<f32>) -> vec3<f32> {
     let gradient = wall_gradient(boundary);
