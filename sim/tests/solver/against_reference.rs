@@ -172,9 +172,9 @@ fn density() {
     assert!(truth.iter().any(|&d| d > 0.99) && truth.iter().any(|&d| d < 0.6));
 }
 
-/// Twelve substeps with all of it, the glass on its way; then eight frames. A
+/// Twelve substeps with all of it, the glass on its way; then ten frames. A
 /// disturbance grows in a liquid (by about 3 a frame here), so that after
-/// eight frames what is compared is what does not depend on a single particle,
+/// ten frames what is compared is what does not depend on a single particle,
 /// and of the water in the glass alone, which no limiter has met.
 #[test]
 fn frames_on_end() {
@@ -201,7 +201,7 @@ fn frames_on_end() {
             Quat::from_rotation_x(0.01 * frame as f32) * start.orientation,
         )
     };
-    for n in 0..8 {
+    for n in 0..10 {
         let (before, after) = ([pose_at(n)], [pose_at(n + 1)]);
         frame(&device, &solver, &before, &after);
         truth.step(&before, &after);
@@ -214,7 +214,7 @@ fn frames_on_end() {
             assert!(error < 40.0 * PLACE, "{i} is off by {error} m");
         }
         assert_eq!(truth.removed, 0);
-        if n == 7 {
+        if n == 9 {
             let mean = |of: &dyn Fn(usize) -> DVec3| (0..800).map(of).sum::<DVec3>() / 800.0;
             let own = (mean(&|i| found[i].position), mean(&|i| found[i].velocity));
             let theirs = (
@@ -222,8 +222,7 @@ fn frames_on_end() {
                 mean(&|i| truth.velocities[i]),
             );
             assert!(own.0.distance(theirs.0) < 1e-5);
-            // A percent of 0.23 m/s.
-            assert!(own.1.distance(theirs.1) < 2e-3);
+            assert!(own.1.distance(theirs.1) < 1e-3);
             let energy = |velocity: &dyn Fn(usize) -> DVec3| -> f64 {
                 (0..800).map(|i| velocity(i).length_squared()).sum()
             };

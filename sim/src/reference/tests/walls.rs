@@ -171,8 +171,14 @@ fn table_and_floor_hold() {
         DVec3::new(f64::from(i % 3), f64::from(i / 9), f64::from(i / 3 % 3)) * D
             + DVec3::new(0.1, 0.5 + 0.5 * D, 0.2)
     });
-    let mut puddle = Reference::new(parameters(), surroundings.clone(), drops.collect(), &[]);
-    for _ in 0..20 {
+    // A wide one: nothing holds the puddle together, and it does not reach the edge.
+    let wide = Table {
+        size: DVec2::splat(2.0),
+        ..table
+    };
+    let surroundings = Surroundings::new(Vec::new(), Some(wide), Some(0.0), H);
+    let mut puddle = Reference::new(parameters(), surroundings, drops.collect(), &[]);
+    for _ in 0..45 {
         puddle.step(&[], &[]);
     }
     let lowest = puddle.positions.iter().map(|x| x.y).fold(1.0, f64::min);
