@@ -4,7 +4,7 @@ use crate::chemistry::Chemistry;
 use crate::chemistry::exchange::Exchange;
 use crate::kernel::Kernel;
 use crate::scene::{RelaxationKind, Scene};
-use crate::surface_tension::{adhesion_strength, cohesion_strength};
+use crate::surface_tension::SurfaceTension;
 use std::f64::consts::PI;
 
 /// Time over which [`Parameters::viscosity`] is defined, seconds: the substep
@@ -62,12 +62,8 @@ pub struct Parameters {
     /// Vorticity confinement ε (Macklin & Müller 2013, Eq. 16), m/s: the
     /// acceleration is ε·(N × ω). 0 leaves it out.
     pub vorticity: f64,
-    /// Cohesion (Akinci et al. 2013) as the surface tension that it makes,
-    /// N/m, water's being 0.072; see [`cohesion_strength`]. 0 leaves it out.
-    pub cohesion: f64,
-    /// Adhesion (Akinci et al. 2013), likewise, N/m; see
-    /// [`adhesion_strength`]. 0 leaves it out.
-    pub adhesion: f64,
+    /// Surface tension and wetting; `None` leaves them out.
+    pub surface: Option<SurfaceTension>,
     /// Heat, dilution and boiling; `None` where the scene models no heat.
     pub chemistry: Option<Chemistry>,
     /// Margin of a neighbour list that outlives its substep, fraction of h.
@@ -183,8 +179,7 @@ impl Parameters {
             max_speed: solver.v_max,
             viscosity: solver.viscosity,
             vorticity: solver.vorticity.unwrap_or(0.0),
-            cohesion: solver.cohesion.unwrap_or(0.0),
-            adhesion: solver.adhesion.unwrap_or(0.0),
+            surface: scene.surface_tension(),
             chemistry: Chemistry::from_scene(scene),
             list_margin: LIST_MARGIN,
             margin: FLASK_MARGIN * scale.support(),
@@ -250,18 +245,6 @@ impl Parameters {
             .sum()
     }
 
-    /// γm of cohesion, m⁴/s²: times C(r) an acceleration.
-    pub fn cohesion_scale(&self) -> f64 {
-        self.particle_mass()
-            * cohesion_strength(self.cohesion, self.rest_density, self.support_radius)
-    }
-
-    /// βρ₀ of adhesion, m/s²: times ∫ A(r)·r̂ over what is solid an
-    /// acceleration.
-    pub fn adhesion_scale(&self) -> f64 {
-        self.rest_density * adhesion_strength(self.adhesion, self.rest_density, self.support_radius)
-    }
-
     /// μ_s = 1 − (1 − μ)^(Δt_s/Δt_ref), the XSPH coefficient of one substep,
     /// so that what a second does to a velocity does not depend on the
     /// number of substeps.
@@ -313,12 +296,12 @@ mod tests {
     fn a_scenes_numbers_arrive() {
         let mut scene = Scene::builtin("water-into-acid").unwrap();
         let solver = &mut scene.solver;
-        (solver.vorticity, solver.cohesion) = (Some(0.1), Some(0.2));
-        (solver.adhesion, solver.viscosity) = (Some(0.3), 0.4);
+        (solver.vorticity, solver.viscosity) = (Some(0.1), 0.4);
+        solver.surface_tension = Some(0.06);
         (solver.carry_rate, solver.omega, solver.v_max) = (0.5, 0.25, 7.0);
         (solver.substeps, solver.iterations) = (8, 9);
         let p = Parameters::from_scene(&scene);
-        assert_eq!((p.vorticity, p.cohesion, p.adhesion), (0.1, 0.2, 0.3));
+        assert_eq!((p.vorticity, p.surface.unwrap().tension), (0.1, 0.06));
         assert_eq!((p.viscosity, p.carry_rate, p.max_speed), (0.4, 0.5, 7.0));
         assert_eq!((p.substeps, p.iterations), (8, 9));
         assert_eq!((p.spacing, p.support_radius), (0.0025, 0.005));

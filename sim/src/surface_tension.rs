@@ -1,200 +1,189 @@
-//! Surface tension and wetting after Akinci et al. 2013 (line 28): the two
-//! kernels, and the strengths that make a stated tension of them. Both solvers
-//! take them from here.
+//! Surface tension and wetting (line 28), as the energy of `shaders/wgsl/common/liquid/surface_energy.wgsl`: what both
+//! solvers take from here.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-/// ∫₀¹ q⁴·c(q) dq = 21/28160 for the cohesion kernel C = 32/(πh³)·c(r/h).
-const COHESION_MOMENT: f64 = 21.0 / 28160.0;
+/// Surface tension of water at 20 °C, N/m (IAPWS R1-76, 2014).
+pub const WATER: f64 = 0.072_75;
 
-/// ∫₀¹ q⁴·a(q) dq for the adhesion kernel A = 0.007/h³·a(r/h), by quadrature.
-const ADHESION_MOMENT: f64 = 0.116_585;
+/// |∇c| below which a gradient has no direction, over one per node: a lone particle has 0.02.
+pub(crate) const FAINTEST: f64 = 0.002;
 
-/// Intervals of [`HalfSpacePull`]'s table over the support radius.
-pub const PULL_SAMPLES: usize = 64;
+/// Least share of a node that is not solid, as far as it is divided by.
+pub(crate) const LEAST_SPACE: f64 = 0.05;
 
-/// C(r) of Akinci et al. 2013, Eq. 2, 1/m³: attracts beyond h/2, repels
-/// nearby.
-pub fn cohesion_kernel(r: f64, support: f64) -> f64 {
-    let scale = 32.0 / (PI * support.powi(3));
-    let q = r / support;
-    let shape = ((1.0 - q) * q).powi(3);
-    if q >= 1.0 {
-        0.0
-    } else if q > 0.5 {
-        scale * shape
-    } else {
-        scale * (2.0 * shape - 1.0 / 64.0)
-    }
+/// Neighbours below which a particle has no surface to speak of: it neither holds others nor is held.
+pub(crate) const FEWEST: usize = 6;
+
+/// How far from a mouth, in nodes, liquid is in the grids on both of its sides.
+pub(crate) const MOUTH_REACH: f64 = 4.0;
+
+/// Longest time between two forces of surface tension, over the period of the shortest wave that a grid of spacing d
+/// would have, √(ρd³/(2πσ)). The force is an impulse, which is stable up to 2/ω; the filter leaves ω a tenth of that wave's.
+const INTERVAL: f64 = 1.0;
+
+/// Acid mass fractions, and surface tensions at 25 °C, mN/m: CRC Handbook (97th ed., section 6), and from 45 % on what is
+/// read of its maximum and of 98 %.
+const TENSIONS: [(f64, f64); 8] = [
+    (0.0, 72.0),
+    (0.041, 72.2),
+    (0.122, 72.8),
+    (0.219, 73.9),
+    (0.291, 74.8),
+    (0.336, 75.3),
+    (0.45, 75.9),
+    (0.98, 55.0),
+];
+
+/// What water's surface tension loses a kelvin, of that at 20 °C: mean from there to 100 °C (IAPWS R1-76).
+const SLOPE: f64 = 0.002_378;
+
+/// Least that is left, far beyond any table.
+const LEAST: f64 = 0.1;
+
+/// Surface tension of acid and water over that of water at 20 °C, for an acid mass fraction and a temperature (°C).
+/// Acid's loss by temperature is taken to be water's.
+pub fn relative(acid: f64, temperature: f64) -> f64 {
+    let k = (0..TENSIONS.len() - 2)
+        .take_while(|&k| acid > TENSIONS[k + 1].0)
+        .count();
+    let ((a, low), (b, high)) = (TENSIONS[k], TENSIONS[k + 1]);
+    let t = ((acid - a) / (b - a)).clamp(0.0, 1.0);
+    let by_acid = (low + t * (high - low)) / TENSIONS[0].1;
+    by_acid * (1.0 - SLOPE * (temperature - 20.0)).clamp(LEAST, 1.1)
 }
 
-/// A(r) of Akinci et al. 2013, Eq. 7, 1/m³: attracts between h/2 and h.
-pub fn adhesion_kernel(r: f64, support: f64) -> f64 {
-    let q = r / support;
-    if (0.5..1.0).contains(&q) {
-        0.007 / support.powi(3) * (q * (6.0 - 4.0 * q) - 2.0).max(0.0).powf(0.25)
-    } else {
-        0.0
-    }
+/// Contact angle of water on laboratory glass in use (20° to 40°), radians.
+pub const GLASS: f64 = 30.0 * PI / 180.0;
+
+/// Contact angle of water on a bench's phenolic resin (50° to 80°), radians.
+pub const BENCH: f64 = 65.0 * PI / 180.0;
+
+/// What holds a liquid together, and to what is solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceTension {
+    /// σ, N/m.
+    pub tension: f64,
+    /// Angle between the liquid's surface and each flask's glass, measured in the liquid, radians; those that are not
+    /// there have [`GLASS`].
+    pub glass: Vec<f64>,
+    /// The same of table and floor.
+    pub ground: f64,
 }
 
-/// γ of Akinci et al. 2013 for a surface tension (N/m), m⁴/(kg·s²).
-///
-/// A liquid of number density n whose particles attract by f(r) has the
-/// surface tension (π/8)·n²·∫ r⁴ f dr (Fowler 1937, with particles spread
-/// evenly); with f = γm²C and nm = ρ₀ this is γ.
-pub fn cohesion_strength(tension: f64, rest_density: f64, support: f64) -> f64 {
-    tension / (4.0 * COHESION_MOMENT * (rest_density * support).powi(2))
-}
-
-/// β of Akinci et al. 2013, likewise: glass with as much adhesion as the
-/// liquid has surface tension attracts the liquid as it attracts itself.
-pub fn adhesion_strength(tension: f64, rest_density: f64, support: f64) -> f64 {
-    8.0 * tension / (PI * 0.007 * ADHESION_MOMENT * (rest_density * support).powi(2))
-}
-
-/// G(s) = ∫ A(r)·cos dV over a half space at distance s: what a flat wall of
-/// solid particles would attract with, since a volume map has none.
-#[derive(Clone, Debug)]
-pub struct HalfSpacePull {
-    support: f64,
-    samples: Vec<f64>,
-}
-
-impl HalfSpacePull {
-    /// Table for support radius `support`, metres.
-    pub fn new(support: f64) -> Self {
-        // The part of the sphere of radius r beyond the plane has
-        // ∫ cos dΩ = π(1 − s²/r²).
-        let value = |s: f64| {
-            let steps = 2000;
-            let dr = 0.5 * support / f64::from(steps);
-            (0..steps)
-                .map(|i| 0.5 * support + (f64::from(i) + 0.5) * dr)
-                .filter(|&r| r > s)
-                .map(|r| PI * adhesion_kernel(r, support) * (r * r - s * s) * dr)
-                .sum()
-        };
-        let step = support / PULL_SAMPLES as f64;
+impl SurfaceTension {
+    /// Of this tension (N/m), on laboratory glass and a bench.
+    pub fn new(tension: f64) -> Self {
         Self {
-            support,
-            samples: (0..=PULL_SAMPLES).map(|i| value(i as f64 * step)).collect(),
+            tension,
+            glass: Vec::new(),
+            ground: BENCH,
         }
     }
 
-    /// G at distance `distance` (metres) from the wall, that at the wall
-    /// within it; dimensionless.
-    pub fn at(&self, distance: f64) -> f64 {
-        let position = (distance / self.support).clamp(0.0, 1.0) * PULL_SAMPLES as f64;
-        let i = (position as usize).min(PULL_SAMPLES - 1);
-        let t = position - i as f64;
-        (1.0 - t) * self.samples[i] + t * self.samples[i + 1]
+    /// Contact angle of flask `index`'s glass, radians.
+    pub fn of_glass(&self, index: usize) -> f64 {
+        self.glass.get(index).copied().unwrap_or(GLASS)
     }
 
-    /// A(r), 1/m³.
-    pub fn kernel(&self, r: f64) -> f64 {
-        adhesion_kernel(r, self.support)
+    /// Longest time (s) between two impulses with particles of mass `mass` (kg).
+    pub fn longest_interval(&self, mass: f64) -> f64 {
+        INTERVAL * (mass / (TAU * self.tension)).sqrt()
     }
 
-    /// G at uniform steps from distance 0 to h, both included, for the GPU.
-    pub fn table(&self) -> Vec<f32> {
-        self.samples.iter().map(|&value| value as f32).collect()
+    /// Substeps of a frame after which the force is found, and for how many it acts, for `substeps` of `time` seconds
+    /// with particles of mass `mass` (kg).
+    pub fn impulses(&self, mass: f64, substeps: u32, time: f64) -> Vec<(u32, u32)> {
+        let wanted = (f64::from(substeps) * time / self.longest_interval(mass)).ceil() as u32;
+        let count = wanted.clamp(1, substeps);
+        let first = |n: u32| (u64::from(n) * u64::from(substeps) / u64::from(count)) as u32;
+        (0..count)
+            .map(|n| (first(n), first(n + 1) - first(n)))
+            .collect()
     }
+}
+
+/// What the energy of `surface_energy.wgsl` counts of a flat surface's area, on nodes that a particle's volume reaches
+/// by a cubic B-spline and a binomial filter: 1 but for what is fainter than 0.002 of one per node. Mean over places between nodes.
+pub fn flat() -> f64 {
+    const PLACES: i32 = 64;
+    let place = |k: i32| (f64::from(k) + 0.5) / f64::from(PLACES);
+    (0..PLACES).map(|k| flat_at(place(k))).sum::<f64>() / f64::from(PLACES)
+}
+
+/// The same with the surface `place` of a node's distance beyond a node.
+fn flat_at(place: f64) -> f64 {
+    let raw = |n: i32| filled(f64::from(n) - place);
+    let filtered = |n: i32| 0.25 * raw(n - 1) + 0.5 * raw(n) + 0.25 * raw(n + 1);
+    (-6..6)
+        .map(|n| {
+            let (a, b) = (filtered(n), filtered(n + 1));
+            let outermost = 1.5 * (1.0 - (0.5 * (a + b)).clamp(0.0, 1.0).powi(2));
+            outermost * ((b - a).hypot(FAINTEST) - FAINTEST)
+        })
+        .sum()
+}
+
+/// Integral of the cubic B-spline up to `x` nodes.
+fn filled(x: f64) -> f64 {
+    let power = |shift: f64| (x + shift).max(0.0).powi(4) / 24.0;
+    (power(2.0) - 4.0 * power(1.0) + 6.0 * power(0.0) - 4.0 * power(-1.0) + power(-2.0)).min(1.0)
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
     use super::*;
 
-    const H: f64 = 0.005;
-    const TENSION: f64 = 0.072;
-    const DENSITY: f64 = 1000.0;
-
+    /// ∫ F dc = 1, but for faint ends and the sum over cells, wherever the surface lies between nodes.
     #[test]
-    fn kernels_are_as_printed() {
-        for i in 0..=220 {
-            let r = H * f64::from(i) / 200.0;
-            // Akinci et al. 2013, Eqs 2 and 7, in their own form.
-            let product = (H - r).powi(3) * r.powi(3);
-            let far = 2.0 * r > H && r <= H;
-            let cohesion = match (far, r <= H) {
-                (true, _) => product,
-                (false, true) => 2.0 * product - H.powi(6) / 64.0,
-                (false, false) => 0.0,
-            };
-            let cohesion = 32.0 / (PI * H.powi(9)) * cohesion;
-            let adhesion = if far {
-                let root = -4.0 * r * r / H + 6.0 * r - 2.0 * H;
-                0.007 / H.powf(3.25) * root.max(0.0).powf(0.25)
-            } else {
-                0.0
-            };
-            // The largest values are 1/(2πh³) and 0.005/h³. The fourth root
-            // makes 1e-4 of a rounding of 1e-16 at its zero, r = h.
-            let own = [cohesion_kernel(r, H), adhesion_kernel(r, H)];
-            let off = (own[0] - cohesion).abs() * H.powi(3);
-            assert!(off < 1e-12, "{r}: {own:?} {cohesion}");
-            let off = (own[1] - adhesion).abs() * H.powi(3);
-            assert!(off < 2e-6, "{r}: {own:?} {adhesion}");
+    fn a_flat_surface_counts_once() {
+        assert!((0.99..1.01).contains(&flat()), "{}", flat());
+        for place in [0.0, 0.25, 0.5, 0.9] {
+            assert!((flat_at(place) / flat() - 1.0).abs() < 2e-3, "{place}");
         }
     }
 
-    /// ∫ r⁴ f(r) dr over the support by the midpoint rule.
-    fn fourth_moment(kernel: impl Fn(f64, f64) -> f64) -> f64 {
-        let n = 200_000;
-        let dr = H / f64::from(n);
-        let radii = (0..n).map(|i| (f64::from(i) + 0.5) * dr);
-        radii.map(|r| r.powi(4) * kernel(r, H) * dr).sum()
-    }
-
+    /// IAPWS R1-76: 235.8 mN/m (1 − T/T_c)^1.256 (1 − 0.625 (1 − T/T_c)); CRC's acids at 25 °C.
     #[test]
-    fn strengths_make_the_surface_tension_asked_for() {
-        for (kernel, strength) in [
-            (
-                cohesion_kernel as fn(f64, f64) -> f64,
-                cohesion_strength(TENSION, DENSITY, H),
-            ),
-            (adhesion_kernel, adhesion_strength(TENSION, DENSITY, H)),
-        ] {
-            // Fowler's formula with f = γm²C and n = ρ₀/m.
-            let tension = PI / 8.0 * DENSITY.powi(2) * strength * fourth_moment(kernel);
-            assert!((tension - TENSION).abs() < 1e-5, "{tension}");
-        }
-    }
-
-    /// Fowler's factor π/8, by the work that it takes to part two half spaces:
-    /// ∫ dL ∫ ρ₀·a(L + x) dx = ρ₀ ∫ s·a(s) ds with a = βρ₀G(s). It makes two
-    /// surfaces.
-    #[test]
-    fn parting_liquid_from_glass_takes_the_work_of_two_surfaces() {
-        let pull = HalfSpacePull::new(H);
-        let n = 2000;
-        let ds = H / f64::from(n);
-        let distances = (0..n).map(|i| (f64::from(i) + 0.5) * ds);
-        let moment: f64 = distances.map(|s| s * pull.at(s) * ds).sum();
-        let work = adhesion_strength(TENSION, DENSITY, H) * DENSITY.powi(2) * moment;
-        // The table is linear between 64 nodes.
-        assert!((work / (2.0 * TENSION) - 1.0).abs() < 2e-3, "{work}");
-    }
-
-    #[test]
-    fn half_space_pull_is_the_sum_over_a_wall() {
-        let pull = HalfSpacePull::new(H);
-        let step = H / 60.0;
-        for distance in [0.0, 0.3, 0.6, 0.9].map(|q| q * H) {
-            let mut sum = 0.0;
-            for (i, j, k) in
-                (-60..60).flat_map(|i| (-60..60).flat_map(move |j| (0..60).map(move |k| (i, j, k))))
-            {
-                let centre = [i, j, k].map(|n| (f64::from(n) + 0.5) * step);
-                let depth = centre[2] + distance;
-                let r = centre[0].hypot(centre[1]).hypot(depth);
-                sum += adhesion_kernel(r, H) * depth / r * step.powi(3);
-            }
-            // The kernel's edges are as steep as a fourth root.
+    fn tension_is_the_tables() {
+        for celsius in [20.0, 40.0, 60.0, 80.0, 100.0] {
+            let tau = 1.0 - (celsius + 273.15) / 647.096;
+            let water = 0.2358 * f64::powf(tau, 1.256) * (1.0 - 0.625 * tau);
+            let found = WATER * relative(0.0, celsius);
             assert!(
-                (sum - pull.at(distance)).abs() < 0.02 * pull.at(0.0),
-                "{distance}"
+                (found / water - 1.0).abs() < 0.01,
+                "{celsius} °C: {found} {water}"
+            );
+        }
+        for (acid, tension) in [(0.122, 72.8), (0.336, 75.3), (0.98, 55.0)] {
+            let found = 1e3 * WATER * relative(acid, 25.0);
+            assert!(
+                (found / tension - 1.0).abs() < 0.005,
+                "{acid}: {found} {tension}"
+            );
+        }
+    }
+
+    #[test]
+    fn impulses_share_a_frame() {
+        let surface = SurfaceTension::new(WATER);
+        for (d, substeps, count) in [
+            (2.5e-3_f64, 10, 2),
+            (1e-3, 16, 8),
+            (5e-3, 8, 1),
+            (1e-4, 4, 4),
+        ] {
+            let all = surface.impulses(
+                1000.0 * d.powi(3),
+                substeps,
+                1.0 / 90.0 / f64::from(substeps),
+            );
+            assert_eq!(all.len(), count, "{d}");
+            assert_eq!(all.iter().map(|&(_, time)| time).sum::<u32>(), substeps);
+            assert!(
+                all.windows(2)
+                    .all(|pair| pair[0].0 + pair[0].1 == pair[1].0)
             );
         }
     }

@@ -21,6 +21,7 @@ use vitriol_sim::scene::{
     SolverSettings,
 };
 use vitriol_sim::solver::{Counters, SolverSpec};
+use vitriol_sim::surface_tension::GLASS;
 use vitriol_sim::world;
 
 use crate::liquid;
@@ -309,8 +310,7 @@ impl Vessel {
                 boundary: Boundary::Map,
                 viscosity: 0.05,
                 vorticity: None,
-                cohesion: None,
-                adhesion: None,
+                surface_tension: None,
             },
             model: vec![
                 Feature::Heat,
@@ -333,6 +333,7 @@ impl Vessel {
                 profile: self.profile.clone(),
                 stage_from_flask: self.pose(0.0),
                 fixed: true,
+                contact_angle: GLASS,
             }],
             liquids: feeds
                 .iter()

@@ -85,7 +85,7 @@ const FEATURES: [Feature; 11] = [
     Feature::Steam,
     Feature::Losses,
     Feature::Segregation,
-    Feature::Cohesion,
+    Feature::Tension,
     Feature::Vorticity,
 ];
 

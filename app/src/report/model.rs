@@ -175,7 +175,7 @@ pub struct SceneStatement {
     pub gravity_m_s2: f64,
     /// Metres of the laboratory for a metre of the scene: 1 is real size.
     pub length_scale: f64,
-    /// What is modelled beyond incompressible flow, such as `cohesion`.
+    /// What is modelled beyond incompressible flow, such as `tension`.
     pub models: Vec<String>,
 }
 

@@ -38,7 +38,7 @@ const EPSILON: f32 = 1e-6;
 
 /// Whether line 27 has anything to do; whether line 28 has.
 override DRAGS: bool = VISCOUS || BOILING || PHYSICAL;
-override FORCES: bool = CONFINEMENT > 0.0 || COHESION > 0.0 || ADHESION > 0.0;
+override FORCES: bool = CONFINEMENT > 0.0;
 /// Whether line 26 left something to be read.
 override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 
@@ -71,9 +71,8 @@ struct Sums {
     push: vec3<f32>,
     /// Line 27 of the next substep: Σ w |v_j − v_i|², J/kg.
     agitation: f32,
-    /// Line 28: ∇|ω|, and cohesion in m/s².
+    /// Line 28: ∇|ω|.
     eta: vec3<f32>,
-    attraction: vec3<f32>,
 }
 
 /// Line 26, Eqs 8 and 11: the heat that i gets of a pair, J/kg.
@@ -144,7 +143,6 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
             if (CONFINEMENT > 0.0) {
                 sums.eta += offset * ((magnitude_in(vorticity[j]) - magnitude_in(omega)) / distance * spline_slope(q));
             }
-            if (COHESION > 0.0) { sums.attraction -= offset * (cohesion(q) / distance); }
         }
     }
     if (DRAGS) { sums.drag = lane_sum3(sums.drag) * weight_scale(); }
@@ -152,7 +150,6 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
     if (BOILING) { sums.agitation = lane_sum(sums.agitation) * weight_scale(); }
     if (DILUTION) { sums.warmed = lane_sum(sums.warmed); }
     if (CONFINEMENT > 0.0) { sums.eta = lane_sum3(sums.eta) * (weight_scale() / SUPPORT); }
-    if (COHESION > 0.0) { sums.attraction = lane_sum3(sums.attraction); }
     return sums;
 }
 
@@ -207,35 +204,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var own: Mixing;
     if (MIXES) { own = unpack_mixing(mixing[i]); }
     var sums: Sums;
-    if (DRAGS || DILUTION || CONFINEMENT > 0.0 || COHESION > 0.0) {
+    if (DRAGS || DILUTION || CONFINEMENT > 0.0) {
         sums = sum_neighbours(i, lane, x, before.xyz, own, omega);
     }
     let tag = tags[i].x;
     var drag = sums.drag;
-    var acceleration = sums.attraction;
     var by_walls = vec3<f32>(0.0);
-    if (VISCOUS || PHYSICAL || ADHESION > 0.0) {
-        let walls = contact(tag, x, before.xyz, lane);
-        if (DRAGS) {
-            let dragged = wall_viscosity(own, walls.drag); // 27
-            drag += dragged;
-            by_walls += step.viscosity * dragged;
-        }
-        if (ADHESION > 0.0) {
-            let pulled = ADHESION * walls.pull; // 28
-            acceleration += pulled;
-            by_walls += step.time * pulled;
-        }
+    if (VISCOUS || PHYSICAL) {
+        by_walls = wall_viscosity(own, drag_by_walls(tag, x, before.xyz, lane)); // 27
+        drag += by_walls;
     }
     if (lane != 0u) { return; }
     // Of the frame whose pushes are summed: the next one's begins with its own prediction.
-    if (LOADS) { wall_push[i] += vec4<f32>(step.time * by_walls, 0.0); }
+    if (LOADS) { wall_push[i] += vec4<f32>(step.time * step.viscosity * by_walls, 0.0); }
 
-    if (CONFINEMENT > 0.0) { acceleration += confinement(sums.eta, omega); } // 28
     var v = before.xyz;
     if (DRAGS) { v += step.viscosity * drag; } // 27
     if (PHYSICAL && BOILING) { v += sums.push; } // 27
-    if (FORCES) { v += step.time * acceleration; } // 28
+    if (FORCES) { v += step.time * confinement(sums.eta, omega); } // 28
     v = clamp_speed(v); // 24
     velocity[i] = pack_velocity(v, carried_by(before));
     var volume = 1.0;

@@ -79,6 +79,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::flask::Profile;
+    use crate::surface_tension::GLASS;
 
     /// Particles 0 and 1 as (height in metres, membership); by slot, in the order of `slots`.
     fn state(particles: [(f32, u32); 2], slots: [usize; 2]) -> SolverState {
@@ -106,6 +107,7 @@ mod tests {
             mass: 0.1,
             stage_from_flask: Pose::IDENTITY,
             fixed: true,
+            contact_angle: GLASS,
         };
         let poses = [flask.stage_from_flask];
         let mut departures = Departures::default();

@@ -16,6 +16,9 @@ impl Reference {
     pub fn step(&mut self, before: &[Pose], after: &[Pose]) {
         let count = self.parameters.substeps;
         let time = self.parameters.substep_time(); // line 13
+        let mass = self.parameters.particle_mass();
+        let surface = self.parameters.surface.as_ref();
+        let impulses = surface.map_or(Vec::new(), |s| s.impulses(mass, count, time));
         for substep in 0..count {
             // line 14; lines 1–5 belong in here, see Motion::of_substep
             self.motion = before
@@ -23,17 +26,22 @@ impl Reference {
                 .zip(after)
                 .map(|(&from, &to)| Motion::of_substep(from, to, substep, count, time))
                 .collect();
-            self.substep();
+            let impulse = impulses.iter().find(|&&(first, _)| first == substep);
+            self.substep(impulse.map(|&(_, substeps)| f64::from(substeps) * time));
         }
         self.warm_glass();
         self.find_eddies();
     }
 
-    fn substep(&mut self) {
+    /// `tension` is the time (s) for which surface tension acts at once, if it acts in this substep.
+    fn substep(&mut self, tension: Option<f64>) {
         let predicted = self.predict(); // lines 15–17
         let neighbours = self.neighbours(&predicted); // lines 9–12
         let solved = self.solve(predicted, &neighbours); // lines 18–21
         self.commit(&solved); // lines 22–25
+        if let Some(time) = tension {
+            self.hold_together(&neighbours, time); // line 28, surface tension
+        }
         self.dilute(&neighbours); // line 26
         let accelerations = self.internal_forces(&neighbours); // line 28
         self.smooth(&neighbours); // line 27
@@ -117,12 +125,6 @@ impl Reference {
             let confinement =
                 forces::confinement(&kernel, strength, positions, &vorticities, neighbours);
             accelerations.push(confinement);
-        }
-        if parameters.cohesion > 0.0 {
-            accelerations.push(self.cohesion(neighbours));
-        }
-        if parameters.adhesion > 0.0 {
-            accelerations.push(self.adhesion());
         }
         accelerations
     }

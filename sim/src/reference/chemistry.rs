@@ -37,6 +37,17 @@ pub enum Chemistry {
 }
 
 impl Chemistry {
+    /// T (°C) and acid mass fraction of particle `i`'s liquid.
+    pub(super) fn state(&self, i: usize) -> (f64, f64) {
+        match self {
+            Self::Paper(paper) => (paper.temperatures[i], paper.acid[i]),
+            Self::Physical(physical) => {
+                let content = &physical.contents[i];
+                (content.temperature(&physical.table), content.liquid_acid())
+            }
+        }
+    }
+
     /// Leaves out the particles that are not to `keep`.
     pub(super) fn retain(&mut self, keep: &[bool]) {
         match self {

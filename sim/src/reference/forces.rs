@@ -1,47 +1,8 @@
-//! Internal forces (line 28): vorticity confinement (Macklin & Müller 2013),
-//! cohesion and adhesion (Akinci et al. 2013), as accelerations.
+//! Internal forces (line 28): vorticity confinement (Macklin & Müller 2013), as an acceleration.
 
 use super::neighbours::Neighbours;
-use super::state::Reference;
 use crate::kernel::Kernel;
-use crate::surface_tension::cohesion_kernel;
 use glam::DVec3;
-
-impl Reference {
-    /// Acceleration by cohesion, −γ·Σ_j m·C(r)·r̂, m/s².
-    ///
-    /// Akinci's factor 2ρ₀/(ρ_i + ρ_j) and the curvature term are left out: the
-    /// density constraint keeps the first near one, and the second needs a
-    /// colour field and another pass.
-    pub(super) fn cohesion(&self, neighbours: &Neighbours) -> Vec<DVec3> {
-        let (support, strength) = (
-            self.parameters.support_radius,
-            self.parameters.cohesion_scale(),
-        );
-        let acceleration = |i: usize| -> DVec3 {
-            neighbours
-                .of(i)
-                .map(|j| self.positions[i] - self.positions[j])
-                .map(|apart| {
-                    let pull = cohesion_kernel(apart.length(), support);
-                    apart.normalize_or_zero() * (-strength * pull)
-                })
-                .sum()
-        };
-        (0..self.positions.len()).map(acceleration).collect()
-    }
-
-    /// Acceleration by adhesion, β·ρ₀·∫ A(r)·r̂ over what is solid, m/s².
-    pub(super) fn adhesion(&self) -> Vec<DVec3> {
-        let strength = self.parameters.adhesion_scale();
-        let acceleration = |i: usize| {
-            let mut sum = DVec3::ZERO;
-            self.contacts(i, |contact| sum += contact.pull);
-            sum * strength
-        };
-        (0..self.positions.len()).map(acceleration).collect()
-    }
-}
 
 /// ω_i = ∇ × v = Σ_j V₀·∇W_ij × (v_j − v_i), 1/s.
 pub fn vorticity(

@@ -24,6 +24,7 @@ pub mod placement;
 mod reaction;
 mod scene;
 mod state;
+pub mod surface;
 pub mod surroundings;
 mod viscosity;
 pub mod visibility;

@@ -5,7 +5,6 @@ use super::placement::{Motion, Placement};
 use crate::flask::particles::BoundaryParticle;
 use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
 use crate::kernel::Kernel;
-use crate::surface_tension::HalfSpacePull;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// What the glass is made of for the density sum.
@@ -88,7 +87,6 @@ pub struct Surroundings {
     pub floor: Option<f64>,
     kernel: Kernel,
     plane: PlaneMap,
-    pull: HalfSpacePull,
 }
 
 /// What one solid, or one solid particle, is to a fluid particle.
@@ -98,11 +96,10 @@ pub struct Contact {
     pub volume: f64,
     /// ∇V_b by the fluid particle's position, 1/m.
     pub gradient: DVec3,
-    /// ∫ A(r)·r̂ over the solid, dimensionless, towards it: times β·ρ₀ its
-    /// adhesion.
-    pub pull: DVec3,
     /// Velocity of the solid at the fluid particle's place, m/s.
     pub velocity: DVec3,
+    /// The flask that it is of; `None` for table and floor.
+    pub flask: Option<usize>,
 }
 
 /// Sum over the [`Contact`]s of a particle.
@@ -128,7 +125,6 @@ impl Surroundings {
             floor,
             kernel: Kernel::new(support),
             plane: PlaneMap::new(support),
-            pull: HalfSpacePull::new(support),
         }
     }
 
@@ -153,17 +149,11 @@ impl Surroundings {
         mut visit: impl FnMut(Contact),
     ) {
         if let Some(flask) = member_of {
-            self.touch(
-                &self.vessels[flask],
-                &motion[flask],
-                Side::Inside,
-                position,
-                &mut visit,
-            );
+            self.touch(flask, &motion[flask], Side::Inside, position, &mut visit);
             return;
         }
-        for (vessel, motion) in self.vessels.iter().zip(motion) {
-            self.touch(vessel, motion, Side::Outside, position, &mut visit);
+        for (flask, motion) in motion.iter().enumerate().take(self.vessels.len()) {
+            self.touch(flask, motion, Side::Outside, position, &mut visit);
         }
         if let Some(floor) = self.floor {
             self.touch_plane(position.y - floor, &mut visit);
@@ -200,15 +190,15 @@ impl Surroundings {
             visit(Contact {
                 volume: self.plane.volume(distance),
                 gradient: DVec3::Y * self.plane.slope(distance),
-                pull: -DVec3::Y * self.pull.at(distance),
                 velocity: DVec3::ZERO,
+                flask: None,
             });
         }
     }
 
     fn touch(
         &self,
-        vessel: &Vessel,
+        flask: usize,
         motion: &Motion,
         side: Side,
         position: DVec3,
@@ -216,10 +206,10 @@ impl Surroundings {
     ) {
         let local = motion.after.to_flask(position);
         let velocity = motion.velocity_at(position);
-        match (&vessel.glass, side) {
+        match (&self.vessels[flask].glass, side) {
             (Glass::Maps { inside: map, .. }, Side::Inside)
             | (Glass::Maps { outside: map, .. }, Side::Outside) => {
-                self.touch_map(map, &motion.after, local, velocity, visit);
+                self.touch_map((flask, map), &motion.after, local, velocity, visit);
             }
             // One sheet of particles stands for the glass on either side.
             (Glass::Particles { solids, cells }, _) => cells.near(local, |index| {
@@ -231,8 +221,8 @@ impl Surroundings {
                     visit(Contact {
                         volume: solid.volume * self.kernel.w(distance),
                         gradient: away * (solid.volume * self.kernel.dw(distance)),
-                        pull: -away * (solid.volume * self.pull.kernel(distance)),
                         velocity,
+                        flask: Some(flask),
                     });
                 }
             }),
@@ -241,7 +231,7 @@ impl Surroundings {
 
     fn touch_map(
         &self,
-        map: &VolumeMap,
+        (flask, map): (usize, &VolumeMap),
         stage_from_flask: &Placement,
         local: DVec3,
         velocity: DVec3,
@@ -259,8 +249,8 @@ impl Surroundings {
         visit(Contact {
             volume: sample.volume,
             gradient,
-            pull: gradient.normalize_or_zero() * self.pull.at(sample.distance),
             velocity,
+            flask: Some(flask),
         });
     }
 }

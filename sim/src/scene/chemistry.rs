@@ -123,7 +123,7 @@ pub(super) fn check_features(
     }
     let chemical = model
         .iter()
-        .find(|feature| !matches!(feature, Feature::Cohesion | Feature::Vorticity));
+        .find(|feature| !matches!(feature, Feature::Tension | Feature::Vorticity));
     match (paper, physical) {
         (Some(_), Some(_)) => {
             let problem = "the scene has [paper] and [physical]; keep one chemistry";

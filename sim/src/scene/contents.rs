@@ -31,6 +31,8 @@ pub struct Flask {
     pub stage_from_flask: Pose,
     /// Clamped to a stand.
     pub fixed: bool,
+    /// Angle between the liquid's surface and its glass, measured in the liquid, radians.
+    pub contact_angle: f64,
 }
 
 /// A liquid in a flask at the start.

@@ -13,8 +13,8 @@ pub enum Feature {
     Dilution,
     /// Anti-viscosity above the boiling point.
     Boiling,
-    /// Cohesion between particles and adhesion to glass.
-    Cohesion,
+    /// Surface tension, and what glass and table are wetted by.
+    Tension,
     /// Vorticity confinement.
     Vorticity,
     /// Density by composition and temperature: water floats on acid.

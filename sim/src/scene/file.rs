@@ -12,6 +12,7 @@ use super::settings::{
 use crate::fill;
 use crate::flask::{Profile, glass};
 use crate::pose::Pose;
+use crate::surface_tension;
 use glam::{DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -59,6 +60,8 @@ pub(super) struct FlaskEntry {
     #[serde(default)]
     rotation: [f64; 3],
     fixed: bool,
+    /// Contact angle of its glass, degrees.
+    contact_angle: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -107,6 +110,11 @@ impl FlaskEntry {
                 require(&field(name), value, true, "a finite number")?;
             }
         }
+        let angle = self
+            .contact_angle
+            .unwrap_or(surface_tension::GLASS.to_degrees());
+        let must = "from 0 to 180 (degrees)";
+        within(&field("contact_angle"), angle, 0.0..=180.0, must)?;
         let [yaw, pitch, roll] = self.rotation.map(f64::to_radians);
         let orientation = DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll);
         let flask = Flask {
@@ -118,6 +126,7 @@ impl FlaskEntry {
                 orientation.as_quat(),
             ),
             fixed: self.fixed,
+            contact_angle: angle.to_radians(),
         };
         Flask::check_sizes(std::slice::from_ref(&flask), scale)?;
         Ok(flask)

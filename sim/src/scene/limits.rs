@@ -106,6 +106,18 @@ impl Scene {
     pub(super) fn check_substep(&self) -> Result<(), Problem> {
         let (scale, solver) = (&self.scale, &self.solver);
         let substep = scale.frame_time / f64::from(solver.substeps);
+        if let Some(surface) = self.surface_tension() {
+            let longest = surface.longest_interval(scale.particle_mass());
+            if substep > longest {
+                let needed = (scale.frame_time / longest).ceil();
+                let problem = format!(
+                    "{} in {} s are too long for a surface tension of {} N/m at this spacing, whose short waves would \
+                     grow; take {needed} or more, or a larger spacing",
+                    solver.substeps, scale.frame_time, surface.tension
+                );
+                return Err(Problem::new("solver.substeps", problem));
+            }
+        }
         let volume: f64 = self.liquids.iter().map(|liquid| liquid.volume).sum();
         if volume <= 0.0 || scale.gravity <= 0.0 {
             return Ok(());

@@ -28,6 +28,7 @@ pub use settings::{
 
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
+use crate::surface_tension::SurfaceTension;
 use error::Problem;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -134,6 +135,22 @@ impl Scene {
         self.model.contains(&feature)
     }
 
+    /// What holds its liquid together, where it has surface tension.
+    pub fn surface_tension(&self) -> Option<SurfaceTension> {
+        let tension = self
+            .solver
+            .surface_tension
+            .filter(|&tension| tension > 0.0)?;
+        Some(SurfaceTension {
+            glass: self
+                .flasks
+                .iter()
+                .map(|flask| flask.contact_angle)
+                .collect(),
+            ..SurfaceTension::new(tension)
+        })
+    }
+
     /// The scene without `feature` and what is built upon it, and these.
     pub fn without(&self, feature: Feature) -> (Self, Vec<Feature>) {
         let gone = chemistry::built_upon(&self.model, feature, self.physical.is_some());
@@ -142,8 +159,8 @@ impl Scene {
         if gone.contains(&Feature::Vorticity) {
             scene.solver.vorticity = None;
         }
-        if gone.contains(&Feature::Cohesion) {
-            (scene.solver.cohesion, scene.solver.adhesion) = (None, None);
+        if gone.contains(&Feature::Tension) {
+            scene.solver.surface_tension = None;
         }
         (scene, gone)
     }

@@ -95,11 +95,8 @@ pub struct SolverSettings {
     /// Strength ε of vorticity confinement, m/s (Macklin & Müller 2013,
     /// Eq. 16); with the feature `vorticity`.
     pub vorticity: Option<f64>,
-    /// Cohesion γ, N/m (Akinci et al. 2013); with the feature `cohesion`.
-    pub cohesion: Option<f64>,
-    /// Adhesion β to glass, N/m (Akinci et al. 2013); with the feature
-    /// `cohesion`.
-    pub adhesion: Option<f64>,
+    /// Surface tension σ of water at 20 °C, N/m; with the feature `tension`.
+    pub surface_tension: Option<f64>,
 }
 
 /// What a preset changes; what it does not name stays as the scene has it.
@@ -178,12 +175,16 @@ impl Scale {
 }
 
 impl SolverSettings {
-    pub(super) fn fields(&self) -> [Field; 3] {
-        use Feature::{Cohesion, Vorticity};
+    pub(super) fn fields(&self) -> [Field; 2] {
+        use Feature::{Tension, Vorticity};
         [
             ("vorticity", Vorticity, self.vorticity, NOT_NEGATIVE),
-            ("cohesion", Cohesion, self.cohesion, NOT_NEGATIVE),
-            ("adhesion", Cohesion, self.adhesion, NOT_NEGATIVE),
+            (
+                "surface_tension",
+                Tension,
+                self.surface_tension,
+                NOT_NEGATIVE,
+            ),
         ]
     }
 
@@ -206,6 +207,11 @@ impl SolverSettings {
         require("solver.v_max", v_max, v_max > 0.0, "above zero (m/s)")?;
         let share = "between 0 and 1 (a share of relative velocities)";
         within("solver.viscosity", self.viscosity, 0.0..=1.0, share)?;
+        let tension = self.surface_tension.unwrap_or(0.0);
+        if tension > 0.0 && self.boundary == Boundary::Particles {
+            let problem = "needs walls of volume maps, whose share of space it reads; take `boundary = \"map\"` or leave it out";
+            return Err(Problem::new("solver.surface_tension", problem));
+        }
         check_fields("solver", &self.fields())
     }
 }

@@ -1,6 +1,7 @@
 //! The particles' state and the solver's scratch memory. A particle's place in
 //! every array is the same; it changes when the list is rebuilt.
 
+use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::glass;
 use super::pipelines::Grid;
@@ -16,7 +17,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 30;
+pub(super) const OF_PARTICLES: usize = 38;
 
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
@@ -74,6 +75,16 @@ pub(super) struct Buffers {
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
     pub(super) glass_taken: Buffer,
+    // Surface tension's nodes.
+    pub(super) colour_keys: Buffer,
+    pub(super) colour_used: Buffer,
+    pub(super) colour_blocks: Buffer,
+    pub(super) colour_args: Buffer,
+    pub(super) colour: Buffer,
+    pub(super) colour_solid: Buffer,
+    pub(super) interface_stress: Buffer,
+    pub(super) node_space: Buffer,
+    pub(super) curvature: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
     pub(super) wall_push: Buffer,
@@ -113,6 +124,9 @@ impl Buffers {
         };
         let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
         let confined = spec.parameters.vorticity > 0.0;
+        let colour = Colour::new(&spec.parameters, count);
+        let slots = where_asked(spec.parameters.surface.is_some(), colour.slots.into());
+        let nodes = colour::BLOCK_NODES * slots;
         Ok(Self {
             position: words("position", 4 * n)?,
             velocity: words("velocity", 4 * n)?,
@@ -151,6 +165,15 @@ impl Buffers {
             lamellae: upload(gpu, "lamellae", &lamellae)?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
+            colour_keys: words("colour_keys", slots)?,
+            colour_used: words("colour_used", slots)?,
+            colour_blocks: words("colour_blocks", 4 * slots)?,
+            colour_args: words("colour_args", 4)?,
+            colour: words("colour", nodes)?,
+            colour_solid: words("colour_solid", 2 * nodes)?,
+            interface_stress: words("interface_stress", 4 * nodes)?,
+            node_space: words("node_space", nodes)?,
+            curvature: words("curvature", nodes)?,
             poses: Buffer::storage(
                 gpu,
                 "poses",
@@ -196,6 +219,15 @@ impl Buffers {
             &self.sorted_eddies,
             &self.wall_push,
             &self.density,
+            &self.colour_keys,
+            &self.colour_used,
+            &self.colour_blocks,
+            &self.colour,
+            &self.colour_solid,
+            &self.interface_stress,
+            &self.node_space,
+            &self.curvature,
+            &self.colour_args,
             &self.counters,
             &self.cell_counts,
             &self.cell_starts,
@@ -213,7 +245,6 @@ impl Buffers {
             &vessels.distances,
             &vessels.glass_rings,
             &vessels.plane,
-            &vessels.pulls,
             &vessels.solids.cells,
             &vessels.solids.starts,
             &vessels.solids.solids,

@@ -32,4 +32,6 @@ pub struct Counters {
     /// Particles and substeps in which a density was that of the end of its
     /// table, 0 or 200 °C.
     pub table_ends: u32,
+    /// Times that surface tension was left out: liquid lay in more places than its table has room for.
+    pub tension_skipped: u32,
 }

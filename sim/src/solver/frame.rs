@@ -66,10 +66,14 @@ impl Solver {
         self.pass(rec, &p.predict)
             .constants(&self.step(0))
             .invocations(self.count)?;
+        let impulses = self.impulses();
         for n in 0..substeps {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
+            if let Some(&(_, substeps)) = impulses.iter().find(|&&(first, _)| first == n) {
+                self.hold_together(rec, &step, substeps)?; // 28, surface tension
+            }
             // 26 of either chemistry, but for the heat of solution and what boiling costs.
             for mixing in &p.mixing {
                 self.over_particles(rec, mixing, &step)?;

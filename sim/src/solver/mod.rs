@@ -11,6 +11,7 @@
 //! margin; the GPU decides, by the sizes of six indirect dispatches.
 
 mod buffers;
+mod colour;
 mod counters;
 mod error;
 mod frame;

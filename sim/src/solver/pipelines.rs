@@ -1,5 +1,6 @@
 //! The passes, specialised for what the scene asks for.
 
+use super::colour::Colour;
 use super::glass;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
@@ -12,7 +13,6 @@ use crate::chemistry::{
     WATER_MOLAR_MASS,
 };
 use crate::parameters::Parameters;
-use crate::surface_tension::PULL_SAMPLES;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 
@@ -78,6 +78,8 @@ pub(super) struct Pipelines {
     pub(super) mixing: Vec<SolverPass>,
     /// Where the scene has vorticity confinement.
     pub(super) vorticity: Option<SolverPass>,
+    /// Where the scene has surface tension.
+    pub(super) tension: Option<Tension>,
     pub(super) forces: SolverPass,
     /// Of a frame's last substep: predicts none.
     pub(super) last_forces: SolverPass,
@@ -87,6 +89,15 @@ pub(super) struct Pipelines {
     pub(super) glass: Option<SolverPass>,
     pub(super) load: SolverPass,
     pub(super) density: SolverPass,
+}
+
+/// Surface tension's, in their order.
+pub(super) struct Tension {
+    pub(super) colour: SolverPass,
+    pub(super) walls: SolverPass,
+    pub(super) interface: SolverPass,
+    pub(super) curvature: SolverPass,
+    pub(super) push: SolverPass,
 }
 
 impl Pipelines {
@@ -108,10 +119,19 @@ impl Pipelines {
             },
         ];
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
-        let pull = ("PULL", flag(spec.parameters.adhesion > 0.0));
         let vorticity = match spec.parameters.vorticity {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
+        };
+        let tension = match spec.parameters.surface {
+            None => None,
+            Some(_) => Some(Tension {
+                colour: make(sim::COLOUR, &[])?,
+                walls: make(sim::COLOUR_WALLS, &[])?,
+                interface: make(sim::INTERFACE, &[])?,
+                curvature: make(sim::CURVATURE, &[])?,
+                push: make(sim::TENSION, &[])?,
+            }),
         };
         let mixing = match spec.parameters.chemistry {
             None => Vec::new(),
@@ -135,8 +155,9 @@ impl Pipelines {
             last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,
             mixing,
             vorticity,
-            forces: make(sim::FORCES, &[pull, ("PREDICT", 1.0)])?,
-            last_forces: make(sim::FORCES, &[pull])?,
+            tension,
+            forces: make(sim::FORCES, &[("PREDICT", 1.0)])?,
+            last_forces: make(sim::FORCES, &[])?,
             eddies: eddies(gpu, library, spec, constants, buffers)?,
             glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
                 0 => None,
@@ -283,9 +304,6 @@ impl Constants {
             ("GRAVITY_Z", p.gravity[2]),
             ("VISCOUS", flag(p.viscosity > 0.0)),
             ("CONFINEMENT", p.vorticity),
-            ("COHESION", p.cohesion_scale()),
-            ("ADHESION", p.adhesion_scale()),
-            ("PULL_COUNT", (PULL_SAMPLES + 1) as f64),
             ("CELL", grid.cell),
             ("CELL_BITS_X", f64::from(grid.bits[0])),
             ("CELL_BITS_Y", f64::from(grid.bits[1])),
@@ -313,6 +331,9 @@ impl Constants {
                 ("TABLE_HALF_X", 0.5 * size.x),
                 ("TABLE_HALF_Z", 0.5 * size.y),
             ]);
+        }
+        if let Some(surface) = &p.surface {
+            all.extend(Colour::new(p, count).constants(p, surface));
         }
         match &p.chemistry {
             None => {}

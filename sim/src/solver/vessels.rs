@@ -6,7 +6,6 @@ use super::spec::SolverSpec;
 use super::transfer::upload;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
-use crate::surface_tension::HalfSpacePull;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
 use vitriol_shaders::layout;
 
@@ -22,7 +21,6 @@ pub struct Vessels {
     pub(super) distances: Buffer,
     pub(super) glass_rings: Buffer,
     pub(super) plane: Buffer,
-    pub(super) pulls: Buffer,
     pub(super) solids: Solids,
 }
 
@@ -35,7 +33,8 @@ impl Vessels {
         let mut radii: Vec<f32> = Vec::new();
         let mut maps: Vec<[f32; 4]> = Vec::new();
         let mut distances: Vec<f32> = Vec::new();
-        for profile in spec.flasks {
+        let surface = spec.parameters.surface.as_ref();
+        for (index, profile) in spec.flasks.iter().enumerate() {
             let outside = VolumeMap::new(profile, Side::Outside, support);
             let table = profile.radius_table();
             let height = profile.rim_height() - profile.floor_height();
@@ -55,6 +54,7 @@ impl Vessels {
                 map_rows: outside.rows as u32,
                 map_scale: (1.0 / outside.spacing) as f32,
                 map_base: outside.base as f32,
+                wetting: surface.map_or(0.0, |s| s.of_glass(index).cos()) as f32,
             });
             radii.extend(table);
             if spec.solids.is_none() {
@@ -66,11 +66,6 @@ impl Vessels {
             distances.extend(outside.nodes.iter().map(|node| node[0]));
         }
         let plane = PlaneMap::new(support).table(PLANE_ENTRIES);
-        let pulls = if spec.parameters.adhesion > 0.0 {
-            HalfSpacePull::new(support).table()
-        } else {
-            Vec::new()
-        };
         Ok(Self {
             flasks: upload(gpu, "flasks", &flasks)?,
             radii: upload(gpu, "radii", &radii)?,
@@ -78,7 +73,6 @@ impl Vessels {
             distances: upload(gpu, "distances", &distances)?,
             glass_rings: upload(gpu, "glass_rings", &glass::constants(spec))?,
             plane: upload(gpu, "plane", &plane)?,
-            pulls: upload(gpu, "pulls", &pulls)?,
             solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,
         })
     }

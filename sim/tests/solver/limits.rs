@@ -7,6 +7,7 @@ use vitriol_sim::flask::particles::sample;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::Particle;
+use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_tests::gpu;
 
 /// Parameters under which a lone particle keeps its velocity.
@@ -162,28 +163,29 @@ fn full_lists_make_no_acid() {
     assert!(drift < 1e-6, "{drift}");
 }
 
-/// Cohesion that would throw a pair together in a substep: line 24 holds after the
+/// Surface tension that would throw a cube together in a substep: line 24 holds after the
 /// forces as well.
 #[test]
 fn speed_is_limited_after_the_forces_too() {
     let device = gpu::device();
     let p = Parameters {
         max_speed: 0.5,
-        cohesion: 1e4,
+        surface: Some(SurfaceTension::new(1e4)),
         ..weightless()
     };
-    let pair = vec![
-        drop_at(DVec3::ZERO, DVec3::ZERO),
-        drop_at(DVec3::X * 0.7 * H, DVec3::ZERO),
-    ];
-    let solver = Setup::new(p, Vec::new(), pair).solver(&device);
+    // Eight particles in a cube: each is pulled to the middle.
+    let corner = |i: i32| DVec3::new((i % 2).into(), (i / 2 % 2).into(), (i / 4).into());
+    let cube = (0..8)
+        .map(|i| drop_at(corner(i) * D, DVec3::ZERO))
+        .collect();
+    let solver = Setup::new(p, Vec::new(), cube).solver(&device);
     frames(&device, &solver, &[], 1);
     let found = particles(&solver.snapshot().unwrap());
     for particle in found {
         let speed = particle.velocity.length();
         assert!((speed - 0.5).abs() < 1e-5, "{speed}");
     }
-    assert_eq!(solver.counters().unwrap().speed_limited, 2);
+    assert_eq!(solver.counters().unwrap().speed_limited, 8);
 }
 
 /// A lump in the middle of the glass that its own pressure throws against the
@@ -226,8 +228,7 @@ fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
     let p = Parameters {
         carry_rate: 5.4,
         vorticity: strength,
-        cohesion: strength,
-        adhesion: strength,
+        surface: (!solids).then(|| SurfaceTension::new(0.05)),
         ..parameters()
     };
     let mut particles_at_start = water(&narrow_glass(), 0, Pose::IDENTITY, 300);

@@ -5,6 +5,7 @@ use glam::{DVec3, Quat, Vec3};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::Particle;
+use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_tests::gpu;
 
 fn vector(v: [f32; 4]) -> DVec3 {
@@ -149,16 +150,16 @@ fn what_a_wall_pushes_stirs() {
     }
 }
 
-/// Newton's third law for what walls drag and pull along: a glass is drawn down its own axis from under its water, without
-/// weight, so that its side gives the water momentum along the axis by drag and adhesion alone. The glass gets the opposite.
+/// Newton's third law for what walls drag and wet: a glass is drawn down its own axis from under its water, without
+/// weight, so that its side gives the water momentum along the axis by drag and wetting alone. The glass gets the opposite.
 #[test]
-fn what_walls_drag_and_pull_drags_and_pulls_the_glass() {
+fn what_walls_drag_and_wet_drags_and_pulls_the_glass() {
     let device = gpu::device();
-    for (viscosity, adhesion) in [(0.3, 0.0), (0.0, 0.05), (0.3, 0.05)] {
+    for (viscosity, tension) in [(0.3, 0.0), (0.0, 0.072), (0.3, 0.072)] {
         let p = Parameters {
             gravity: [0.0; 3],
             viscosity,
-            adhesion,
+            surface: (tension > 0.0).then(|| SurfaceTension::new(tension)),
             ..parameters()
         };
         let mass = p.particle_mass();
@@ -195,10 +196,10 @@ fn what_walls_drag_and_pull_drags_and_pulls_the_glass() {
         assert_eq!((counters.list_limited, counters.speed_limited), (0, 0));
         // Sums of floats, and velocities that each step rounds: 2e-5 was seen.
         let off = (gained + given).length() / whole;
-        eprintln!("μ {viscosity}, β {adhesion}: off by {off:.1e}");
+        eprintln!("μ {viscosity}, σ {tension}: off by {off:.1e}");
         assert!(
             off < 1e-3,
-            "μ {viscosity}, β {adhesion}: water {gained}, glass {given}"
+            "μ {viscosity}, σ {tension}: water {gained}, glass {given}"
         );
     }
 }

@@ -20,4 +20,5 @@ mod random_glass;
 mod repeat;
 mod rest;
 mod solids;
+mod tension;
 mod walls;

@@ -6,6 +6,7 @@ use vitriol_shaders::{Library, ShaderId, sim};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::SolverError;
+use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_tests::gpu;
 
 pub const PASSES: [ShaderId; 13] = [
@@ -67,11 +68,9 @@ fn shaders_bind_what_the_scene_has() {
     assert_eq!((seen_flasks, seen_loads), (7, 6));
     let forces = |constants: &[(&str, f64)]| {
         let bound = bindings(sim::FORCES, constants);
-        ["vorticity", "pulls"].map(|name| bound.contains(&name.to_owned()))
+        bound.contains(&"vorticity".to_owned())
     };
-    assert_eq!(forces(&[("COHESION", 1.0)]), [false, false]);
-    assert_eq!(forces(&[("CONFINEMENT", 1.0)]), [true, false]);
-    assert_eq!(forces(&[("ADHESION", 1.0), ("PULL", 1.0)]), [false, true]);
+    assert!(!forces(&[]) && forces(&[("CONFINEMENT", 1.0)]));
     // A wall is of maps or of solids, never of both.
     for (shader, solids) in [sim::MULTIPLIER, sim::FORCES, sim::DENSITY]
         .into_iter()
@@ -157,22 +156,31 @@ fn frames_dispatch_what_the_scene_has() {
     assert_eq!(count(&theirs, "sim/load"), 1, "{theirs:?}");
     // What is carried costs two more a substep.
     assert_eq!(sum(&theirs), 21, "{theirs:?}");
-    let with_forces = |vorticity: f64| {
+    let with_forces = |vorticity: f64, tension: f64| {
         let setup = Setup {
             parameters: Parameters {
                 vorticity,
-                cohesion: 0.05,
-                adhesion: 0.05,
+                surface: (tension > 0.0).then(|| SurfaceTension::new(tension)),
                 ..bare.parameters.clone()
             },
             ..bare.clone()
         };
         passes(&setup, &[])
     };
-    // Cohesion and adhesion cost none, vorticity one a substep.
-    let vorticity = with_forces(0.1);
+    // Vorticity costs one a substep.
+    let vorticity = with_forces(0.1, 0.0);
     assert_eq!(count(&vorticity, "sim/vorticity"), 3, "{vorticity:?}");
-    assert_eq!(with_forces(0.0), own);
+    assert_eq!(with_forces(0.0, 0.0), own);
+    // Surface tension costs five passes every 4 ms, and clears its table.
+    let tension = with_forces(0.0, 0.072);
+    let of_tension = [
+        "sim/colour",
+        "sim/interface",
+        "sim/curvature",
+        "sim/tension",
+    ];
+    let impulses = of_tension.map(|name| count(&tension, name));
+    assert_eq!(impulses, [6, 3, 3, 3], "{tension:?}");
 }
 
 #[test]

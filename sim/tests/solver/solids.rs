@@ -60,13 +60,12 @@ fn density_is_the_references() {
     }
 }
 
-/// A substep with a glass on its way: density, drag and adhesion by the solids.
+/// A substep with a glass on its way: density and drag by the solids.
 #[test]
 fn a_substep_is_the_references() {
     let device = gpu::device();
     let p = Parameters {
         viscosity: 0.6,
-        adhesion: 0.072,
         // Solids press harder on a filling lattice than maps do: relaxed less,
         // the GPU would cut displacements to the list's margin.
         relaxation: Relaxation::Jacobi { omega: 0.05 },

@@ -262,11 +262,10 @@ impl Work<'_> {
     /// none of what is numerics alone.
     fn effects(&mut self, scene: &Scene) -> Result<(), Failure> {
         type Change = fn(&mut SolverSettings);
-        let all: [(&'static str, Change); 5] = [
+        let all: [(&'static str, Change); 4] = [
             ("as it is", |_| {}),
-            ("with cohesion of 0.072 N/m", |s| s.cohesion = Some(0.072)),
-            ("with cohesion and adhesion of 0.072 N/m", |s| {
-                (s.cohesion, s.adhesion) = (Some(0.072), Some(0.072));
+            ("with surface tension of 0.0728 N/m", |s| {
+                s.surface_tension = Some(0.0728);
             }),
             ("with vorticity confinement of 0.005 m/s", |s| {
                 s.vorticity = Some(0.005)
@@ -278,7 +277,7 @@ impl Work<'_> {
         } else {
             (Preset::Balanced, 1.5)
         };
-        for (name, change) in &all[..if self.args.quick { 2 } else { 5 }] {
+        for (name, change) in &all[..if self.args.quick { 2 } else { 4 }] {
             let mut scene = scene.clone();
             change(&mut scene.solver);
             let setting = Setting::of(&scene, preset);

@@ -1,4 +1,4 @@
-// What is solid, as the density sum and the adhesion have it.
+// What is solid, as the density sum has it.
 //!include common/glass/ground.wgsl
 //!include common/glass/solids.wgsl
 //!include common/glass/vessel.wgsl
@@ -7,13 +7,6 @@
 
 /// Whether glass is made of boundary particles; else of volume maps.
 override SOLIDS: bool = false;
-/// Whether the walls' pull (adhesion, line 28) is asked for.
-override PULL: bool = false;
-/// Entries of the table of half-space pulls over one support radius.
-override PULL_COUNT: u32 = 2u;
-
-/// G at distances 0 to h: what a half-space of solid particles attracts with.
-@group(0) @binding(26) var<storage, read> pulls: array<f32>;
 
 /// What one flask's glass is to a particle.
 struct Wall {
@@ -21,15 +14,6 @@ struct Wall {
     gradient: vec3<f32>,
     /// V, its part of a full density.
     volume: f32,
-    /// ∫ A·r̂ over the glass, towards it, dimensionless; zero without PULL.
-    pull: vec3<f32>,
-}
-
-/// G of a half-space whose surface lies `distance` away, that at its surface within it.
-fn half_space_pull(distance: f32) -> f32 {
-    let at = clamp(distance / SUPPORT, 0.0, 1.0) * f32(PULL_COUNT - 1u);
-    let i = min(u32(at), PULL_COUNT - 2u);
-    return mix(pulls[i], pulls[i + 1u], at - f32(i));
 }
 
 /// Whether flask k's glass may act on a particle at `x` (stage frame). What is
@@ -47,12 +31,7 @@ fn wall_of_map(k: u32, membership: u32, p: vec3<f32>) -> Wall {
     let map = sample_map(k, first, r, p.y);
     let out = p.xz / max(r, 1e-9);
     let gradient = vec3<f32>(out.x * map.slope.x, map.slope.y, out.y * map.slope.x);
-    var pull = vec3<f32>(0.0);
-    if (PULL) {
-        // No wall in reach has no gradient and no direction either.
-        pull = gradient * (half_space_pull(map.distance) / max(length(gradient), 1e-9));
-    }
-    return Wall(gradient, map.volume, pull);
+    return Wall(gradient, map.volume);
 }
 
 /// This lane's part of flask k's wall at `x`, in the stage's frame. The lanes
@@ -62,7 +41,6 @@ fn wall_of(k: u32, membership: u32, pose: FlaskPose, x: vec3<f32>, lane: u32) ->
     var wall: Wall;
     if (SOLIDS) { wall = wall_of_solids(k, p, lane); } else { wall = wall_of_map(k, membership, p); }
     wall.gradient = rotate(pose.orientation, wall.gradient);
-    if (PULL) { wall.pull = rotate(pose.orientation, wall.pull); }
     return wall;
 }
 

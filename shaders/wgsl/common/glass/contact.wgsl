@@ -1,16 +1,8 @@
 // What walls do to a particle's velocity, at the place and with the membership
-// that it has after lines 22 to 25: they drag it along (line 27) and attract it
-// (line 28).
+// that it has after lines 22 to 25: they drag it along (line 27).
 //!include common/glass/boundary.wgsl
 //!include common/liquid/max_speed.wgsl
 //!include common/liquid/step.wgsl
-
-struct Contact {
-    /// Σ V·(v_wall − v), m/s.
-    drag: vec3<f32>,
-    /// ∫ A·r̂ over all that is solid, dimensionless.
-    pull: vec3<f32>,
-}
 
 /// Line 3: velocity of flask k's glass at `x`, its displacement over the time; no faster than the liquid may be.
 fn wall_velocity(k: u32, x: vec3<f32>) -> vec3<f32> {
@@ -19,29 +11,24 @@ fn wall_velocity(k: u32, x: vec3<f32>) -> vec3<f32> {
     return velocity * min(1.0, MAX_SPEED / max(length(velocity), 1e-9));
 }
 
-/// Lines 27 and 28: all walls that a particle at `x` with velocity `v` touches;
+/// Line 27: Σ V·(v_wall − v) over all walls that a particle at `x` with velocity `v` touches, m/s;
 /// for lane 0, but all lanes must ask.
-fn contact(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> Contact {
-    var sum = Contact(vec3<f32>(0.0), vec3<f32>(0.0));
+fn drag_by_walls(membership: u32, x: vec3<f32>, v: vec3<f32>, lane: u32) -> vec3<f32> {
+    var drag = vec3<f32>(0.0);
     if (FLASKS > 0u && (SOLIDS || lane == 0u)) {
         for (var k = 0u; k < FLASKS; k++) {
             let pose = poses[step.after + k];
             if (may_touch(k, membership, pose, x)) {
                 let wall = wall_of(k, membership, pose, x, lane);
-                sum.drag += wall.volume * (wall_velocity(k, x) - v);
-                sum.pull += wall.pull;
+                drag += wall.volume * (wall_velocity(k, x) - v);
             }
         }
     }
-    if (SOLIDS) {
-        sum.drag = lane_sum3(sum.drag);
-        if (PULL) { sum.pull = lane_sum3(sum.pull); }
-    }
+    if (SOLIDS) { drag = lane_sum3(drag); }
     if (membership == NOBODYS) {
         // Table and floor stand still.
         let above = heights(x);
-        sum.drag -= (half_space(above.table).volume + half_space(above.floor).volume) * v;
-        if (PULL) { sum.pull.y -= half_space_pull(above.table) + half_space_pull(above.floor); }
+        drag -= (half_space(above.table).volume + half_space(above.floor).volume) * v;
     }
-    return sum;
+    return drag;
 }

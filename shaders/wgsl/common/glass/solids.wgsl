@@ -23,12 +23,6 @@ struct SolidCells {
 /// (position in the flask's frame, volume times W(0)), a solid as often as cells list it.
 @group(0) @binding(29) var<storage, read> solids: array<vec4<f32>>;
 
-/// Line 28: A(r)·πh³/8 over W(0)'s unit: adhesion by a solid of volume·W(0) = 1 (Akinci et al. 2013, Eq. 7).
-fn adhesion(q: f32) -> f32 {
-    let inner = max(q * (6.0 - 4.0 * q) - 2.0, 0.0);
-    return select(0.0, 0.007 * 3.14159265358979 / 8.0 * sqrt(sqrt(inner)), q >= 0.5 && q < 1.0);
-}
-
 /// This lane's part of flask k's wall at `p`, in the flask's frame.
 fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
     let low = vec3<f32>(solid_cells[k].low_x, solid_cells[k].low_y, solid_cells[k].low_z);
@@ -40,7 +34,7 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
     let cell = solid_cells[k].first + c.x + counts.x * (c.y + counts.y * c.z);
     let begin = solid_starts[cell];
     let end = select(begin, solid_starts[cell + 1u], all(at == edge));
-    var wall = Wall(vec3<f32>(0.0), 0.0, vec3<f32>(0.0));
+    var wall = Wall(vec3<f32>(0.0), 0.0);
     for (var n = begin + lane; n < end; n += LANES) {
         let solid = solids[n];
         let volume = solid.w;
@@ -50,7 +44,6 @@ fn wall_of_solids(k: u32, p: vec3<f32>, lane: u32) -> Wall {
         let q = square * per_distance * INVERSE_SUPPORT;
         wall.volume += volume * spline(q);
         wall.gradient += offset * (volume * per_distance * spline_slope(q) / SUPPORT);
-        if (PULL) { wall.pull -= offset * (volume * per_distance * adhesion(q)); }
     }
     return wall;
 }

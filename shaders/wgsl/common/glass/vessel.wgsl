@@ -36,6 +36,8 @@ struct Flask {
     map_scale: f32,
     /// Height of the first row.
     map_base: f32,
+    /// Cosine of its contact angle.
+    wetting: f32,
 }
 
 /// stage_from_flask.

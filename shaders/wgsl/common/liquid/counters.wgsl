@@ -19,4 +19,6 @@ struct Counters {
     growth_limited: atomic<u32>,
     /// Particles hotter or colder than their properties' tables go.
     table_ends: atomic<u32>,
+    /// Times that surface tension was left out, its table being full.
+    tension_skipped: atomic<u32>,
 }

@@ -10,6 +10,8 @@ struct Step {
     viscosity: f32,
     /// Low-pass weight of the carried multiplier.
     carry: f32,
+    /// Time for which surface tension acts at once, seconds.
+    tension: f32,
     /// First pose of the substep's start.
     before: u32,
     /// First pose of the substep's end.

@@ -11,6 +11,7 @@ mod mixing;
 mod mixing_line;
 mod passes;
 mod rest;
+mod surface;
 mod walls;
 
 use super::Reference;
@@ -44,8 +45,7 @@ fn parameters() -> Parameters {
         max_speed: 8.0,
         viscosity: 0.02,
         vorticity: 0.0,
-        cohesion: 0.0,
-        adhesion: 0.0,
+        surface: None,
         chemistry: None,
         list_margin: 0.15,
         margin: 0.001 * H,

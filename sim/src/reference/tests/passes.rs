@@ -255,45 +255,6 @@ fn vorticity_of_a_rigid_rotation_is_twice_its_rate() {
 }
 
 #[test]
-fn cohesion_attracts_and_keeps_momentum() {
-    let p = Parameters {
-        cohesion: 0.072,
-        gravity: [0.0; 3],
-        ..parameters()
-    };
-    let mut pair = in_the_open(p, vec![DVec3::ZERO, DVec3::X * 0.7 * H]);
-    pair.step(&[], &[]);
-    assert!(pair.positions[1].x - pair.positions[0].x < 0.7 * H);
-    assert!(pair.momentum().length() < 1e-18);
-}
-
-#[test]
-fn adhesion_pulls_towards_the_glass() {
-    let p = Parameters {
-        adhesion: 0.072,
-        gravity: [0.0; 3],
-        ..parameters()
-    };
-    for x in [0.0095, 0.0155 + 0.003] {
-        let mut drop = glass_of_water(p.clone(), 1, Pose::IDENTITY);
-        drop.positions = vec![DVec3::new(x, 0.03, 0.0)];
-        drop.membership = vec![(x < 0.013).then_some(0)];
-        for _ in 0..3 {
-            drop.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
-        }
-        let moved = drop.positions[0].x - x;
-        assert!(
-            if x < 0.013 {
-                moved > 1e-5
-            } else {
-                moved < -1e-5
-            },
-            "{x}: {moved}"
-        );
-    }
-}
-
-#[test]
 fn percentile_is_by_rank() {
     let densities: Vec<_> = (1..=200).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
     let error = DensityError::of(&densities);

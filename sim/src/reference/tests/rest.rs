@@ -29,7 +29,6 @@ fn momentum_is_kept() {
     let p = Parameters {
         gravity: [0.0; 3],
         viscosity: 0.3,
-        cohesion: 0.072,
         carry_rate: 20.0,
         // Line 24 does not keep momentum.
         max_speed: 1e3,

@@ -5,6 +5,7 @@ use crate::flask::{Side, VolumeMap, particles};
 use crate::reference::motion::constrain;
 use crate::reference::placement::Motion;
 use crate::reference::surroundings::Table;
+use crate::surface_tension::SurfaceTension;
 use glam::{DVec2, Vec3};
 
 /// Two glasses side by side whose outer walls touch: 4 mm between liquids.
@@ -34,7 +35,7 @@ fn glasses_that_touch_do_not_feel_each_other() {
     };
     let p = Parameters {
         viscosity: 0.3,
-        cohesion: 0.072,
+        surface: Some(SurfaceTension::new(0.072)),
         ..parameters()
     };
     let (mut alone, poses) = two_glasses(p.clone(), fill_at(0.0));

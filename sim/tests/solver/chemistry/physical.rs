@@ -11,6 +11,7 @@ use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::chemistry as reference;
+use vitriol_sim::surface_tension::{SurfaceTension, WATER};
 use vitriol_tests::gpu;
 
 /// Largest differences after `frames` frames of `law`, and the largest
@@ -150,7 +151,11 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
 #[test]
 fn against_the_reference() {
     for lanes in lanes(&gpu::device()) {
-        let one = errors(everything(), single_substeps(), lanes, 1);
+        let tense = Parameters {
+            surface: Some(SurfaceTension::new(WATER)),
+            ..single_substeps()
+        };
+        let one = errors(everything(), tense, lanes, 1);
         let [acid, enthalpy, vapour, mass] = one.matter;
         // Masses and capacities are of 11 bits: 5e-4 of what a pair
         // exchanges, some 1e-3 of c and 1 kJ/kg.

@@ -1,0 +1,29 @@
+// The energy of a liquid's surface, over σ, as an integral over space:
+//
+//   ∫ (1 − S) F(c)·|∇c| dV − cos θ ∫ G(c)·|∇S| dV,   G(c) = 1.5 c − 0.5 c³, F = G′ = 1.5 (1 − c²),
+//
+// with the share S of space that is solid and the colour c of what is not. Each level of c counts |∇c|, its area; F gives
+// most weight to the outermost, so that what the surface pulls with falls towards the inside and a liquid that can only
+// push bears it. The second term is Young's: a wetted wall costs cos θ less than a dry one.
+
+/// |∇c| below which a gradient has no direction, over one per node: a lone particle has 0.02.
+const FAINTEST: f32 = 0.002;
+/// Least share of a node that is not solid, as far as it is divided by.
+const LEAST_SPACE: f32 = 0.05;
+
+/// F, 0 where it is more than full.
+fn outermost(colour: f32) -> f32 {
+    let full = clamp(colour, 0.0, 1.0);
+    return 1.5 * (1.0 - full * full);
+}
+
+/// F′.
+fn outermost_slope(colour: f32) -> f32 {
+    return select(0.0, -3.0 * colour, colour > 0.0 && colour < 1.0);
+}
+
+/// Weights ¼, ½, ¼ of the binomial filter, by the distance in nodes.
+fn filter_weight(offset: vec3<i32>) -> f32 {
+    let a = vec3<f32>(2.0) - vec3<f32>(abs(offset));
+    return a.x * a.y * a.z / 64.0;
+}

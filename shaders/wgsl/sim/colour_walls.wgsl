@@ -1,0 +1,38 @@
+// Line 28, surface tension, 2 of 5: how much of each node is solid, and how that is wetted.
+//!include common/glass/boundary.wgsl
+//!include common/liquid/colour.wgsl
+//!include common/liquid/step.wgsl
+
+/// Cosine of the contact angle of table and floor.
+override GROUND_WETTING: f32 = 0.0;
+
+@group(0) @binding(41) var<storage, read> colour_used: array<u32>;
+@group(0) @binding(42) var<storage, read> colour_blocks: array<vec4<i32>>;
+/// By node: S, and S·cos θ.
+@group(0) @binding(45) var<storage, read_write> colour_solid: array<vec2<f32>>;
+
+/// What is solid of a node of a flask's inside, or of the outside of all.
+fn solid_at(grid: u32, x: vec3<f32>) -> vec2<f32> {
+    var sum = vec2<f32>(0.0);
+    for (var k = 0u; k < FLASKS; k++) {
+        let pose = poses[step.after + k];
+        if (may_touch(k, grid, pose, x)) {
+            let volume = wall_of_map(k, grid, flask_from_stage(pose, x)).volume;
+            sum += volume * vec2<f32>(1.0, flasks[k].wetting);
+        }
+    }
+    if (grid == NOBODYS) {
+        let above = heights(x);
+        let volume = half_space(above.table).volume + half_space(above.floor).volume;
+        sum += volume * vec2<f32>(1.0, GROUND_WETTING);
+    }
+    return sum / max(sum.x, 1.0);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let slot = colour_used[group.x];
+    let block = colour_blocks[slot];
+    let x = vec3<f32>(block.xyz * 4 + node_of(local)) * NODE;
+    colour_solid[slot * BLOCK_NODES + local] = solid_at(u32(block.w), x);
+}

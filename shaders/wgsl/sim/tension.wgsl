@@ -1,0 +1,80 @@
+// Line 28, surface tension, 5 of 5: the force of the surface's energy on each particle, −V_i ∇ of what a volume there costs,
+// as the change of velocity over the time until it is found again.
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/chemistry/heat.wgsl
+//!include common/chemistry/surface_tension.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/find_block.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
+//!include common/liquid/velocity.wgsl
+
+/// σ/(ρ0·node²), m/s².
+override TENSION: f32 = 0.0;
+/// Blocks from which on the table is full, and tension is left out.
+override MOST_BLOCKS: u32 = 48u;
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+/// (membership, identity)
+@group(0) @binding(1) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> bulk: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> new_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> wall_push: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> counters: Counters;
+@group(0) @binding(6) var<storage, read> list_counts: array<u32>;
+@group(0) @binding(7) var<storage, read> heat: array<vec4<f32>>;
+@group(0) @binding(43) var<storage, read> colour_args: array<u32>;
+@group(0) @binding(48) var<storage, read> curvature: array<f32>;
+
+/// ∇ of the curvature at `x`, per node: this lane's rows of it.
+fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
+    let below = floor(x / NODE);
+    let within = x / NODE - below;
+    let node = vec3<i32>(below);
+    var sum = vec3<f32>(0.0);
+    for (var row = lane; row < ROWS; row += LANES) {
+        let first = first_of_row(node, row);
+        let away = vec3<f32>(first - node) - within;
+        var slot = NO_BLOCK;
+        // Σ of the row's values by the weights along x, and by their slopes.
+        var along = vec2<f32>(0.0);
+        for (var i = 0; i < 4; i++) {
+            let at = first + vec3<i32>(i, 0, 0);
+            if (i == 0 || (at.x & 3) == 0) { slot = find_block(at >> vec3<u32>(2u), grid); }
+            if (slot == NO_BLOCK) { continue; }
+            let value = curvature[slot * BLOCK_NODES + node_in_block(at)];
+            let distance = away.x + f32(i);
+            along += value * vec2<f32>(spread(distance), spread_slope(distance));
+        }
+        let weight = vec2<f32>(spread(away.y), spread(away.z));
+        let slope = vec2<f32>(spread_slope(away.y), spread_slope(away.z));
+        sum -= vec3<f32>(along.y * weight.x * weight.y, along.x * slope.x * weight.y, along.x * weight.x * slope.y);
+    }
+    return sum;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x / LANES;
+    let lane = id.x % LANES;
+    if (colour_args[0] >= MOST_BLOCKS) {
+        if (id.x == 0u) { atomicAdd(&counters.tension_skipped, 1u); }
+        return;
+    }
+    if (i >= COUNT) { return; }
+    let membership = tags[i].x;
+    let takes_part = membership != REMOVED && list_counts[i] >= FEWEST;
+    var slope = vec3<f32>(0.0);
+    if (takes_part) { slope = curvature_slope(membership, position[i].xyz, lane); }
+    slope = lane_sum3(slope);
+    if (lane != 0u || !takes_part) { return; }
+    var strength = TENSION;
+    if (DENSITY) { strength *= unpack_bulk(bulk[i]).lightness; }
+    if (HEAT) { strength *= relative_tension(acid_in(heat[i]), temperature_in(heat[i])); }
+    let change = -strength * step.tension * slope;
+    let before = new_velocity[i];
+    new_velocity[i] = pack_velocity(before.xyz + change, carried_by(before));
+    // What liquid does to itself sums to nothing; what is left over a flask's liquid is its glass's.
+    if (LOADS && membership != NOBODYS) { wall_push[i] += vec4<f32>(step.time * change, 0.0); }
+}
