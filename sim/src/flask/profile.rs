@@ -66,6 +66,9 @@ pub enum ProfileError {
         /// Height or radius, metres.
         size: f64,
     },
+    /// So large or so small that single numbers tell no volume of it.
+    #[error("its glass has the volume {0} m³; give sizes of millimetres to metres")]
+    NoVolume(f64),
     /// Too narrow for a particle.
     #[error(
         "{diameter} m wide at height {height} m, narrower than a particle ({spacing} m); \
@@ -132,6 +135,10 @@ impl Profile {
         };
         profile.inner = profile.build_inner();
         profile.outer = profile.build_outer();
+        let volume = profile.glass_volume();
+        if volume.is_nan() || volume <= 0.0 {
+            return Err(ProfileError::NoVolume(volume));
+        }
         Ok(profile)
     }
 

@@ -171,7 +171,7 @@ fn frames_dispatch_what_the_scene_has() {
     let vorticity = with_forces(0.1, 0.0);
     assert_eq!(count(&vorticity, "sim/vorticity"), 3, "{vorticity:?}");
     assert_eq!(with_forces(0.0, 0.0), own);
-    // Surface tension costs five passes every 4 ms, and clears its table.
+    // Surface tension costs five passes every 5 ms, and clears its table.
     let tension = with_forces(0.0, 0.072);
     let of_tension = [
         "sim/colour",
@@ -180,7 +180,7 @@ fn frames_dispatch_what_the_scene_has() {
         "sim/tension",
     ];
     let impulses = of_tension.map(|name| count(&tension, name));
-    assert_eq!(impulses, [6, 3, 3, 3], "{tension:?}");
+    assert_eq!(impulses, [4, 2, 2, 2], "{tension:?}");
 }
 
 #[test]
