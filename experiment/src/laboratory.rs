@@ -332,6 +332,7 @@ impl Experiment for Laboratory {
                 counted.growth_limited,
             ),
             ("density taken at the end of its table", counted.table_ends),
+            ("surface tension left out", counted.tension_skipped),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),

@@ -18,8 +18,8 @@ pub(crate) const FEWEST: usize = 6;
 /// How far from a mouth, in nodes, liquid is in the grids on both of its sides.
 pub(crate) const MOUTH_REACH: f64 = 4.0;
 
-/// Longest time between two forces of surface tension, over the period of the shortest wave that a grid of spacing d
-/// would have, √(ρd³/(2πσ)). The force is an impulse, which is stable up to 2/ω; the filter leaves ω a tenth of that wave's.
+/// Longest time between two impulses of surface tension, over √(ρd³/(2πσ)). An impulse is stable up to 2/ω. What the
+/// filter leaves of short waves has at most 0.3 of the frequency √(2πσ/(ρd³)).
 const INTERVAL: f64 = 1.0;
 
 /// Acid mass fractions, and surface tensions at 25 °C, mN/m: CRC Handbook (97th ed., section 6), and from 45 % on what is

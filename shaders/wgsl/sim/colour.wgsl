@@ -10,8 +10,8 @@
 /// Blocks from which on the table is full, and tension is left out.
 override MOST_BLOCKS: u32 = 48u;
 
-/// V0 over a node's volume, in units of which a node's sum counts 2⁻²⁴.
-override COLOUR_UNIT: f32 = 1.0;
+/// V0 over a node's volume.
+override COLOUR_SHARE: f32 = 1.0;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 /// (membership, identity)
@@ -84,7 +84,7 @@ fn add_volume(grid: u32, x: vec3<f32>, volume: f32, lane: u32) {
     for (var row = lane; row < ROWS; row += LANES) {
         let first = first_of_row(node, row);
         let away = vec3<f32>(first - node) - within;
-        let across = spread(away.y) * spread(away.z) * volume * COLOUR_UNIT;
+        let across = spread(away.y) * spread(away.z) * volume * (COLOUR_SHARE * COLOUR_FULL);
         var slot = NO_BLOCK;
         for (var i = 0; i < 4; i++) {
             let at = first + vec3<i32>(i, 0, 0);

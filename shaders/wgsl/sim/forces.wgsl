@@ -36,9 +36,8 @@ override HEATING: f32 = 0.0;
 /// ε of Eqs 11 and 12.
 const EPSILON: f32 = 1e-6;
 
-/// Whether line 27 has anything to do; whether line 28 has.
+/// Whether line 27 has anything to do.
 override DRAGS: bool = VISCOUS || BOILING || PHYSICAL;
-override FORCES: bool = CONFINEMENT > 0.0;
 /// Whether line 26 left something to be read.
 override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 
@@ -221,7 +220,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var v = before.xyz;
     if (DRAGS) { v += step.viscosity * drag; } // 27
     if (PHYSICAL && BOILING) { v += sums.push; } // 27
-    if (FORCES) { v += step.time * confinement(sums.eta, omega); } // 28
+    if (CONFINEMENT > 0.0) { v += step.time * confinement(sums.eta, omega); } // 28
     v = clamp_speed(v); // 24
     velocity[i] = pack_velocity(v, carried_by(before));
     var volume = 1.0;

@@ -25,7 +25,7 @@ fn load_raw(local: u32) {
     for (var n = local; n < RAW * RAW * RAW; n += BLOCK_NODES) {
         let place = place_around(node_at(n, RAW, -1));
         var value = vec3<f32>(0.0);
-        if (place != NO_BLOCK) { value = vec3<f32>(f32(colour[place]) * (1.0 / 16777216.0), colour_solid[place]); }
+        if (place != NO_BLOCK) { value = vec3<f32>(f32(colour[place]) / COLOUR_FULL, colour_solid[place]); }
         raw[n] = value;
     }
     workgroupBarrier();

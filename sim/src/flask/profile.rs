@@ -66,9 +66,6 @@ pub enum ProfileError {
         /// Height or radius, metres.
         size: f64,
     },
-    /// So large or so small that single numbers tell no volume of it.
-    #[error("its glass has the volume {0} m³; give sizes of millimetres to metres")]
-    NoVolume(f64),
     /// Too narrow for a particle.
     #[error(
         "{diameter} m wide at height {height} m, narrower than a particle ({spacing} m); \
@@ -135,10 +132,6 @@ impl Profile {
         };
         profile.inner = profile.build_inner();
         profile.outer = profile.build_outer();
-        let volume = profile.glass_volume();
-        if volume.is_nan() || volume <= 0.0 {
-            return Err(ProfileError::NoVolume(volume));
-        }
         Ok(profile)
     }
 
@@ -270,9 +263,14 @@ impl Profile {
         Some(high)
     }
 
-    /// Volume of the glass, m³.
+    /// Volume of the glass, m³; infinite where its sizes' cubes are no numbers.
     pub fn glass_volume(&self) -> f64 {
-        outline::volume(&self.outer) - self.capacity()
+        let volume = outline::volume(&self.outer) - self.capacity();
+        if volume.is_nan() {
+            f64::INFINITY
+        } else {
+            volume
+        }
     }
 
     /// Inner surface as points (r, y), from the axis on the inner floor to

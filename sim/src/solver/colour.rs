@@ -9,9 +9,6 @@ use vitriol_shaders::layout::Step;
 /// Nodes of a block, as in `common/liquid/colour.wgsl`.
 pub(super) const BLOCK_NODES: u64 = 64;
 
-/// A node's sum counts its volume in units of 2⁻²⁴.
-const COLOUR_UNIT: f64 = 16_777_216.0;
-
 /// The table of blocks of nodes.
 pub(super) struct Colour {
     /// Its slots, a power of two.
@@ -19,14 +16,16 @@ pub(super) struct Colour {
 }
 
 impl Colour {
-    /// A lone piece of liquid takes about 34 blocks, and a particle within liquid a thirtieth of one: room for a hundred
-    /// pieces, and for one to every hundred particles.
+    /// A small piece of liquid takes some 44 blocks, and a particle within liquid a thirtieth of one: room for 75 pieces,
+    /// and for one more to every 130 particles.
     pub(super) fn new(parameters: &Parameters, count: u32) -> Self {
-        let lone = 34 * (100 + count / 100);
-        let asked = parameters.surface.is_some();
-        let wanted = if asked { lone + count / 16 } else { 1 };
+        let pieces = 34 * (100 + count / 100);
+        let wanted = match parameters.surface {
+            Some(_) => pieces + count / 16,
+            None => 1,
+        };
         Self {
-            slots: wanted.max(1024).next_power_of_two(),
+            slots: wanted.next_power_of_two(),
         }
     }
 
@@ -46,10 +45,7 @@ impl Colour {
             ("BLOCK_SLOTS", self.slots.into()),
             ("MOST_BLOCKS", f64::from(self.slots / 4 * 3)),
             ("NODE", node),
-            (
-                "COLOUR_UNIT",
-                COLOUR_UNIT * p.particle_volume() / node.powi(3),
-            ),
+            ("COLOUR_SHARE", p.particle_volume() / node.powi(3)),
             ("FLAT", flat()),
             (
                 "TENSION",

@@ -12,6 +12,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::forces::vorticity;
 use vitriol_sim::reference::neighbours::find;
 use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::solver::Particle;
 use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
@@ -157,6 +158,40 @@ fn forces_are_the_references() {
         assert!(effect > 0.005, "{name}: {effect}");
         assert!(error < PLACE / SUBSTEP, "{name}: {i} is off by {error} m/s");
     }
+}
+
+/// Height of the rim of `narrow_glass` over its base, m.
+const RIM: f64 = 0.062;
+
+/// A column that stands over the rim: what is in the glass and what is above it are in each other's grid.
+#[test]
+fn tension_through_a_mouth_is_the_references() {
+    let device = gpu::device();
+    let p = Parameters {
+        surface: Some(SurfaceTension::new(0.072)),
+        viscosity: 0.0,
+        ..single_substeps()
+    };
+    let column = (0..6 * 6 * 12).map(|i| {
+        let site = DVec3::new((i % 6).into(), (i / 36).into(), (i / 6 % 6).into());
+        let local = (site - DVec3::new(2.5, 5.3, 2.5)) * D + DVec3::Y * RIM;
+        let at = glass_pose().transform_point(local.as_vec3()).as_dvec3();
+        Particle {
+            flask: (local.y < RIM).then_some(0),
+            ..drop_at(at, DVec3::ZERO)
+        }
+    });
+    let setup = Setup {
+        particles: column.collect(),
+        ..scene(p)
+    };
+    let (found, truth) = both(&device, &setup, glass_pose());
+    let inside = truth.membership.iter().filter(|of| of.is_some()).count();
+    assert!((150..280).contains(&inside), "{inside}");
+    let (error, i) = worst(0..found.len(), |i| {
+        found[i].velocity.distance(truth.velocities[i])
+    });
+    assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
 }
 
 /// A scene that names its forces at no strength has the bits of one that does

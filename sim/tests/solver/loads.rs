@@ -191,6 +191,9 @@ fn what_walls_drag_and_wet_drags_and_pulls_the_glass() {
         if viscosity > 0.0 {
             assert!(gained.y < -0.05 * whole, "{gained}");
         }
+        if tension > 0.0 {
+            assert!(gained.length() > 0.01 * whole, "{gained} of {whole}");
+        }
         // Where a way is cut to the neighbour list's, or to v_max, its momentum is nobody's.
         let counters = solver.counters().unwrap();
         assert_eq!((counters.list_limited, counters.speed_limited), (0, 0));

@@ -1,6 +1,7 @@
 //! Surface tension (line 28), against Laplace, Rayleigh, and Young and Laplace.
 
 use crate::common::*;
+use crate::leaning_glass::worst;
 use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_gpu::Gpu;
@@ -79,6 +80,7 @@ fn a_ball_at_rest_has_laplaces_pressure() {
     assert_eq!((counters.tension_skipped, counters.list_limited), (0, 0));
     let pressure = inner_pressure(&solver, radius);
     assert!((pressure - 1.0).abs() < 0.05, "{pressure}");
+    assert!(mean_speed(&solver) < 1e-3);
 }
 
 fn mean_speed(solver: &Solver) -> f64 {
@@ -256,4 +258,26 @@ fn a_drop_stands_as_young_and_laplace_say() {
         assert!((height - 1.0).abs() < 0.05, "{angle}°: {height}");
         assert!((base - 1.0).abs() < 0.05, "{angle}°: {base}");
     }
+}
+
+/// Cubes of eight particles in more places than the table has room for: nothing acts, and it is said. In a few places they draw
+/// together.
+#[test]
+fn a_table_that_is_full_is_counted() {
+    let device = gpu::device();
+    let fastest = |places: i32| {
+        let corner = |i: i32| DVec3::new((i % 2).into(), (i / 2 % 2).into(), (i / 4).into());
+        let place = |i: i32| DVec3::new((i % 10).into(), (i / 10).into(), 0.0) * 0.1;
+        let cubes = (0..8 * places).map(|i| place(i / 8) + corner(i % 8) * 1.1 * D);
+        let start = cubes.map(|at| drop_at(at, DVec3::ZERO)).collect();
+        let solver = Setup::new(tense(D), Vec::new(), start).solver(&device);
+        frames(&device, &solver, &[], 1);
+        let found = particles(&solver.snapshot().unwrap());
+        let fastest = worst(0..found.len(), |i| found[i].velocity.length()).0;
+        (fastest, solver.counters().unwrap().tension_skipped)
+    };
+    let (speed, skipped) = fastest(10);
+    assert!(speed > 1e-3 && skipped == 0, "{speed} {skipped}");
+    // Two impulses a frame.
+    assert_eq!(fastest(200), (0.0, 2));
 }

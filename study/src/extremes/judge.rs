@@ -218,6 +218,7 @@ fn limiters(run: &Run) -> BTreeMap<&'static str, u32> {
             c.growth_limited,
         ),
         ("density taken at the end of its table", c.table_ends),
+        ("surface tension left out", c.tension_skipped),
     ]
     .into_iter()
     .filter(|&(_, times)| times > 0)

@@ -9,6 +9,9 @@ override BLOCK_SLOTS: u32 = 64u;
 /// Distance between nodes, metres.
 override NODE: f32 = 1.0;
 
+/// What a node that is full counts: sums of shares are of integers.
+const COLOUR_FULL: f32 = 16777216.0;
+
 /// Slot of a block that does not exist.
 const NO_BLOCK: u32 = 0xffffffffu;
 

@@ -2,6 +2,7 @@
 
 use super::GOOD;
 use crate::scene::Scene;
+use crate::surface_tension::GLASS;
 
 fn broken(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from} is not in the good scene");
@@ -237,5 +238,44 @@ fn little_is_carried_on_in_a_substep() {
     assert!(
         message.contains("`carry`") && message.contains("`carry_rate`"),
         "{message}"
+    );
+}
+
+#[test]
+fn surface_tension_needs_maps_short_substeps_and_angles() {
+    let scene = Scene::builtin_text("beaker").unwrap();
+    let tense = |tension: &str| {
+        let scene = scene.replacen("model = []", "model = [\"tension\"]", 1);
+        let key = format!("viscosity = 0.05\nsurface_tension = {tension}");
+        scene.replacen("viscosity = 0.05", &key, 1)
+    };
+    let message = |text: String| Scene::parse(&text, "t.toml").unwrap_err().to_string();
+    let good = Scene::parse(&tense("0.0728"), "t.toml").unwrap();
+    let surface = good.surface_tension().unwrap();
+    assert_eq!((surface.tension, surface.glass[0]), (0.0728, GLASS));
+    // √(ρd³/(2πσ)) is 1.39 ms, a substep of `fast`, at 1.29 N/m.
+    Scene::parse(&tense("1.2"), "t.toml").unwrap();
+    let short = message(tense("2.5"));
+    assert!(
+        short.contains("solver.substeps") && short.contains("surface tension of 2.5 N/m"),
+        "{short}"
+    );
+    let particles = message(tense("0.07").replacen("\"map\"", "\"particles\"", 1));
+    assert!(
+        particles.contains("solver.surface_tension") && particles.contains("boundary"),
+        "{particles}"
+    );
+    let flat =
+        message(tense("0.07").replacen("fixed = false", "fixed = false\ncontact_angle = 181", 1));
+    assert!(
+        flat.contains("contact_angle") && flat.contains("from 0 to 180"),
+        "{flat}"
+    );
+    let negative = message(tense("-0.1"));
+    assert!(negative.contains("solver.surface_tension"), "{negative}");
+    let nobody = message(tense("0.07").replacen("[\"tension\"]", "[]", 1));
+    assert!(
+        nobody.contains("surface_tension") && nobody.contains("tension"),
+        "{nobody}"
     );
 }

@@ -37,25 +37,16 @@ fn a_vessel_too_large_for_its_particles_is_refused() {
     for (points, wall) in [
         (beaker, "1e3"),
         (beaker, "1e6"),
-        (beaker, "1e100"),
+        (beaker, "1e300"),
         ("[[0.0, 0.003], [500.0, 0.003]]", "500.0"),
         ("[[0.0, 0.003], [0.01, 1e6]]", "1e3"),
-        ("[[0.0, 1e-9], [1e100, 1e50]]", "1e100"),
+        ("[[0.0, 1e-9], [1e200, 1e100]]", "1e200"),
     ] {
         let error = alone(points, wall).unwrap_err().to_string();
         assert!(
             error.starts_with("alone.toml: scale.spacing: "),
             "{points} {wall}: {error}"
         );
-    }
-    // Cubes of these are no numbers.
-    for (points, wall) in [
-        (beaker, "1e300"),
-        ("[[0.0, 1e-9], [1e200, 1e100]]", "1e200"),
-    ] {
-        let error = alone(points, wall).unwrap_err().to_string();
-        let begins = "alone.toml: flask[0].points: its glass has the volume";
-        assert!(error.starts_with(begins), "{points} {wall}: {error}");
     }
     // A wall as thick as the vessel is high, and a stove pipe, are allowed.
     alone(beaker, "0.08").unwrap();
