@@ -12,6 +12,24 @@ pub(crate) const FAINTEST: f64 = 0.002;
 /// Least share of a node that is not solid, as far as it is divided by.
 pub(crate) const LEAST_SPACE: f64 = 0.05;
 
+/// Where a cell's core is looked for up the gradient: nodes between one place and the next, and how many.
+pub(crate) const CORE_STRIDE: f64 = 1.05;
+pub(crate) const CORE_STEPS: u32 = 4;
+
+/// Colour up to which a core is one of a sheet, and from which it is taken to be full.
+const CORE_THIN: f64 = 0.75;
+const CORE_THICK: f64 = 0.85;
+
+/// Least colour of a core: a lone particle's is 0.15.
+const LEAST_CORE: f64 = 0.25;
+
+/// What colours are divided by, for the fullest that was found up the gradient.
+pub(crate) fn core_for(fullest: f64) -> f64 {
+    let t = ((fullest - CORE_THIN) / (CORE_THICK - CORE_THIN)).clamp(0.0, 1.0);
+    let thick = t * t * (3.0 - 2.0 * t);
+    (fullest + thick * (1.0 - fullest)).max(LEAST_CORE)
+}
+
 /// Neighbours below which a particle has no surface to speak of: it neither holds others nor is held.
 pub(crate) const FEWEST: usize = 6;
 

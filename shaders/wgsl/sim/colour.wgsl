@@ -1,4 +1,4 @@
-// Line 28, surface tension, 1 of 5: each particle's volume on the nodes about it, as sums of integers, which do not depend on
+// Line 28, surface tension, 1 of 6: each particle's volume on the nodes about it, as sums of integers, which do not depend on
 // order. Claims the blocks of nodes that what follows reads about the particle.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl

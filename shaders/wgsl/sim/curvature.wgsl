@@ -1,11 +1,11 @@
-// Line 28, surface tension, 4 of 5: the derivative of the surface's energy by the volume that lies on each node, in σ over a
+// Line 28, surface tension, 5 of 6: the derivative of the surface's energy by the volume that lies on each node, in σ over a
 // node's distance: at a surface, its curvature. Leaves the nodes' volumes at 0.
 //!include common/liquid/block_halo.wgsl
 //!include common/liquid/surface_energy.wgsl
 
 @group(0) @binding(44) var<storage, read_write> colour: array<u32>;
 @group(0) @binding(46) var<storage, read> interface_stress: array<vec4<f32>>;
-@group(0) @binding(47) var<storage, read> node_space: array<f32>;
+@group(0) @binding(47) var<storage, read> smooth_colour: array<vec4<f32>>;
 /// By node.
 @group(0) @binding(48) var<storage, read_write> curvature: array<f32>;
 
@@ -39,7 +39,7 @@ fn gather_stress(local: u32) {
         }
         let place = place_around(node);
         var space = 1.0;
-        if (place != NO_BLOCK) { space = node_space[place]; }
+        if (place != NO_BLOCK) { space = smooth_colour[place].w; }
         unfiltered[n] = sum * space;
     }
     workgroupBarrier();

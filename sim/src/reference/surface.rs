@@ -4,7 +4,8 @@
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use crate::surface_tension::{
-    FAINTEST, FEWEST, LEAST_SPACE, MOUTH_REACH, SurfaceTension, flat, relative,
+    CORE_STEPS, CORE_STRIDE, FAINTEST, FEWEST, LEAST_SPACE, MOUTH_REACH, SurfaceTension, core_for,
+    flat, relative,
 };
 use glam::{DVec2, DVec3, IVec3};
 
@@ -18,6 +19,8 @@ pub struct SurfaceForces {
     pub energy: f64,
     /// N, by particle.
     pub forces: Vec<DVec3>,
+    /// What the colour of each cell was divided by, grid by grid.
+    pub(super) cores: Vec<f64>,
 }
 
 /// A box of nodes, x running fastest.
@@ -94,6 +97,24 @@ impl Nodes {
         found
     }
 
+    /// The fullest of a colour up its `gradient` (1/m) from the cell at `at`, whose own is `mean`: of the nodes nearest to some
+    /// places there, as far as the blocks of four nodes around the cell's have them.
+    fn fullest(&self, colour: &[f64], at: IVec3, mean: f64, gradient: DVec3) -> f64 {
+        let inward = gradient / gradient.length().max(1e-6 / self.spacing);
+        let in_block = (self.first + at) & 3;
+        let fullest = |found: f64, k: u32| {
+            let to = in_block.as_dvec3() + 1.0 + inward * (CORE_STRIDE * f64::from(k));
+            let node = to.clamp(DVec3::splat(-4.0), DVec3::splat(7.5)).floor();
+            let node = at + node.as_ivec3() - in_block;
+            if self.contains(node) {
+                found.max(colour[self.index(node)])
+            } else {
+                found
+            }
+        };
+        (1..=CORE_STEPS).fold(mean, fullest)
+    }
+
     /// The eight corners of the cell whose first node is `at`, with the weights of its gradient (1/m).
     fn corners(&self, at: IVec3) -> [(usize, DVec3); 8] {
         std::array::from_fn(|k| {
@@ -138,9 +159,19 @@ impl Reference {
 
     /// The surface's energy, and each particle's force over its volume's share of V₀.
     pub fn surface_forces(&self, neighbours: &Neighbours) -> SurfaceForces {
+        self.surface_forces_of(neighbours, None)
+    }
+
+    /// The same with the cores of a state nearby, whose slope the forces are.
+    pub(super) fn surface_forces_of(
+        &self,
+        neighbours: &Neighbours,
+        cores: Option<&[f64]>,
+    ) -> SurfaceForces {
         let mut found = SurfaceForces {
             energy: 0.0,
             forces: vec![DVec3::ZERO; self.positions.len()],
+            cores: Vec::new(),
         };
         if let Some(surface) = &self.parameters.surface {
             let grids = self.surroundings.vessels.len();
@@ -149,7 +180,7 @@ impl Reference {
                     |&i: &usize| self.is_part_of(grid, i) && neighbours.of(i).count() >= FEWEST;
                 let part: Vec<_> = (0..self.positions.len()).filter(part).collect();
                 if !part.is_empty() {
-                    self.grid_forces(surface, grid, part, &mut found);
+                    self.grid_forces(surface, grid, part, cores, &mut found);
                 }
             }
         }
@@ -187,6 +218,7 @@ impl Reference {
         surface: &SurfaceTension,
         grid: Option<usize>,
         part: Vec<usize>,
+        cores: Option<&[f64]>,
         found: &mut SurfaceForces,
     ) {
         let places: Vec<_> = part.iter().map(|&i| self.positions[i]).collect();
@@ -233,6 +265,12 @@ impl Reference {
             let (c, s, gradient, wall) =
                 (mean(&colour), mean(&share), slope(&colour), slope(&share));
             let faint = FAINTEST / nodes.spacing;
+            let core = match cores {
+                Some(cores) => cores[found.cores.len()],
+                None => core_for(nodes.fullest(&colour, at, c, gradient)),
+            };
+            found.cores.push(core);
+            let (c, gradient) = (c / core, gradient / core);
             let size = gradient.length().hypot(faint);
             let full = c.clamp(0.0, 1.0);
             let outermost = 1.5 * (1.0 - full * full);
@@ -247,7 +285,7 @@ impl Reference {
             found.energy += strength * density * cell;
             for (k, weight) in corners {
                 let by_gradient = (1.0 - s) * outermost * gradient.dot(weight) / size;
-                derivative[k] += by_gradient + by_colour / 8.0;
+                derivative[k] += (by_gradient + by_colour / 8.0) / core;
             }
         }
         for (node, value) in derivative.iter_mut().enumerate() {

@@ -83,7 +83,7 @@ pub(super) struct Buffers {
     pub(super) colour: Buffer,
     pub(super) colour_solid: Buffer,
     pub(super) interface_stress: Buffer,
-    pub(super) node_space: Buffer,
+    pub(super) smooth_colour: Buffer,
     pub(super) curvature: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
@@ -172,7 +172,7 @@ impl Buffers {
             colour: words("colour", nodes)?,
             colour_solid: words("colour_solid", 2 * nodes)?,
             interface_stress: words("interface_stress", 4 * nodes)?,
-            node_space: words("node_space", nodes)?,
+            smooth_colour: words("smooth_colour", 4 * nodes)?,
             curvature: words("curvature", nodes)?,
             poses: Buffer::storage(
                 gpu,
@@ -225,7 +225,7 @@ impl Buffers {
             &self.colour,
             &self.colour_solid,
             &self.interface_stress,
-            &self.node_space,
+            &self.smooth_colour,
             &self.curvature,
             &self.colour_args,
             &self.counters,

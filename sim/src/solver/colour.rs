@@ -1,4 +1,4 @@
-//! Line 28: surface tension, by five passes over particles and over nodes between them.
+//! Line 28: surface tension, by six passes over particles and over nodes between them.
 
 use super::{Solver, SolverError};
 use crate::parameters::Parameters;
@@ -86,6 +86,7 @@ impl Solver {
         self.pass(rec, &tension.walls)
             .constants(step)
             .indirect(blocks, 0)?;
+        self.pass(rec, &tension.smooth).indirect(blocks, 0)?;
         self.pass(rec, &tension.interface).indirect(blocks, 0)?;
         self.pass(rec, &tension.curvature).indirect(blocks, 0)?;
         let step = Step {

@@ -95,6 +95,7 @@ pub(super) struct Pipelines {
 pub(super) struct Tension {
     pub(super) colour: SolverPass,
     pub(super) walls: SolverPass,
+    pub(super) smooth: SolverPass,
     pub(super) interface: SolverPass,
     pub(super) curvature: SolverPass,
     pub(super) push: SolverPass,
@@ -128,6 +129,7 @@ impl Pipelines {
             Some(_) => Some(Tension {
                 colour: make(sim::COLOUR, &[])?,
                 walls: make(sim::COLOUR_WALLS, &[])?,
+                smooth: make(sim::SMOOTH_COLOUR, &[])?,
                 interface: make(sim::INTERFACE, &[])?,
                 curvature: make(sim::CURVATURE, &[])?,
                 push: make(sim::TENSION, &[])?,

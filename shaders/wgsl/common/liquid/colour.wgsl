@@ -19,7 +19,7 @@ const NO_BLOCK: u32 = 0xffffffffu;
 const BLOCK_NODES: u32 = 64u;
 
 /// Reach of what a particle feels: from 4 nodes before the one below it to 5 beyond. Its own colour reaches 2, either
-/// filter 1, and either difference ½.
+/// filter 1, and either difference ½. Cores are looked for within that.
 const NODES_BEFORE: i32 = 4;
 const NODES_BEYOND: i32 = 5;
 

@@ -1,5 +1,6 @@
 //! Surface tension: the force against differences of the energy, the energy against areas, the law of Young.
 
+use super::super::surface::SurfaceForces;
 use super::*;
 use crate::surface_tension::{SurfaceTension, WATER};
 use std::f64::consts::PI;
@@ -72,7 +73,7 @@ fn energy_of_a_ball_is_its_area() {
     }
 }
 
-/// The force is −∂E/∂x, of liquid in the open and against glass of any angle.
+/// The force is −∂E/∂x with each cell's core as it is, of liquid in the open and against glass of any angle.
 #[test]
 fn force_is_the_slope_of_the_energy() {
     let mut random = Random(5);
@@ -86,14 +87,15 @@ fn force_is_the_slope_of_the_energy() {
         glass_of_water(tense(110.0), 120, Pose::IDENTITY),
     ];
     for mut liquid in cases {
-        let forces = forces_of(&liquid);
+        let neighbours = liquid.neighbours(&liquid.positions);
+        let SurfaceForces { forces, cores, .. } = liquid.surface_forces(&neighbours);
         let largest = forces.iter().fold(0.0, |a: f64, f| a.max(f.length()));
         for i in (0..forces.len()).step_by(17) {
             for axis in 0..3 {
                 let mut energy = |by: f64| {
                     let at = liquid.positions[i];
                     liquid.positions[i][axis] += by;
-                    let energy = energy_of(&liquid);
+                    let energy = liquid.surface_forces_of(&neighbours, Some(&cores)).energy;
                     liquid.positions[i] = at;
                     energy
                 };
