@@ -1,4 +1,4 @@
-// Line 28, surface tension, 2 of 6: how much of each node is solid, and how that is wetted.
+// Line 28, surface tension, 3 of 7: how much of each node is solid, and how that is wetted.
 //!include common/glass/boundary.wgsl
 //!include common/liquid/colour.wgsl
 //!include common/liquid/step.wgsl

@@ -1,4 +1,4 @@
-// Line 28, surface tension, 5 of 6: the derivative of the surface's energy by the volume that lies on each node, in σ over a
+// Line 28, surface tension, 6 of 7: the derivative of the surface's energy by the volume that lies on each node, in σ over a
 // node's distance: at a surface, its curvature. Leaves the nodes' volumes at 0.
 //!include common/liquid/block_halo.wgsl
 //!include common/liquid/surface_energy.wgsl

@@ -1,4 +1,4 @@
-// Line 28, surface tension, 4 of 6: the derivative of the surface's energy by the colour's gradient and by the colour, on
+// Line 28, surface tension, 5 of 7: the derivative of the surface's energy by the colour's gradient and by the colour, on
 // cells between nodes.
 //!include common/liquid/block_halo.wgsl
 //!include common/liquid/surface_energy.wgsl

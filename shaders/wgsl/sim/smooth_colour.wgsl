@@ -1,4 +1,4 @@
-// Line 28, surface tension, 3 of 6: the colour of what is not solid, filtered.
+// Line 28, surface tension, 4 of 7: the colour of what is not solid, filtered.
 //!include common/liquid/block_halo.wgsl
 //!include common/liquid/surface_energy.wgsl
 

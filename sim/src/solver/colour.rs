@@ -1,4 +1,4 @@
-//! Line 28: surface tension, by six passes over particles and over nodes between them.
+//! Line 28: surface tension, by seven passes over particles and over nodes between them.
 
 use super::{Solver, SolverError};
 use crate::parameters::Parameters;
@@ -16,10 +16,10 @@ pub(super) struct Colour {
 }
 
 impl Colour {
-    /// A small piece of liquid takes some 44 blocks, and a particle within liquid a thirtieth of one: room for 75 pieces,
+    /// A small piece of liquid takes some 60 blocks, and a particle within liquid a thirtieth of one: room for 80 pieces,
     /// and for one more to every 130 particles.
     pub(super) fn new(parameters: &Parameters, count: u32) -> Self {
-        let pieces = 34 * (100 + count / 100);
+        let pieces = 50 * (100 + count / 100);
         let wanted = match parameters.surface {
             Some(_) => pieces + count / 16,
             None => 1,
@@ -83,6 +83,7 @@ impl Solver {
             .constants(step)
             .invocations(self.count * self.lanes)?;
         let blocks = &self.buffers.colour_args;
+        self.pass(rec, &tension.rim).indirect(blocks, 0)?;
         self.pass(rec, &tension.walls)
             .constants(step)
             .indirect(blocks, 0)?;

@@ -94,6 +94,7 @@ pub(super) struct Pipelines {
 /// Surface tension's, in their order.
 pub(super) struct Tension {
     pub(super) colour: SolverPass,
+    pub(super) rim: SolverPass,
     pub(super) walls: SolverPass,
     pub(super) smooth: SolverPass,
     pub(super) interface: SolverPass,
@@ -128,6 +129,7 @@ impl Pipelines {
             None => None,
             Some(_) => Some(Tension {
                 colour: make(sim::COLOUR, &[])?,
+                rim: make(sim::COLOUR_RIM, &[])?,
                 walls: make(sim::COLOUR_WALLS, &[])?,
                 smooth: make(sim::SMOOTH_COLOUR, &[])?,
                 interface: make(sim::INTERFACE, &[])?,

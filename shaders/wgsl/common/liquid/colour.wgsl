@@ -18,10 +18,8 @@ const NO_BLOCK: u32 = 0xffffffffu;
 /// Nodes of a block.
 const BLOCK_NODES: u32 = 64u;
 
-/// Reach of what a particle feels: from 4 nodes before the one below it to 5 beyond. Its own colour reaches 2, either
-/// filter 1, and either difference ½. Cores are looked for within that.
-const NODES_BEFORE: i32 = 4;
-const NODES_BEYOND: i32 = 5;
+// What a particle feels reaches from 4 nodes before the one below it to 5 beyond: its own colour reaches 2, either filter 1,
+// and either difference ½. The blocks around those of its own colour have all of them.
 
 /// Neighbours below which a particle has no surface to speak of: it neither holds others nor is held.
 const FEWEST: u32 = 6u;

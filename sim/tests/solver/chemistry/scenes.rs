@@ -9,6 +9,7 @@ use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::Particle;
+use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_sim::world::ground;
 use vitriol_tests::gpu;
 
@@ -34,12 +35,20 @@ fn setup(scene: &Scene) -> Setup {
 /// Labels of a frame's passes, in their order; `line_26` is the chemistry's.
 fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String> {
     let mut all = vec!["predict"];
-    for _ in 0..p.substeps {
+    let of_surface =
+        |s: &SurfaceTension| s.impulses(p.particle_mass(), p.substeps, p.substep_time());
+    let impulses = p.surface.as_ref().map(of_surface).unwrap_or_default();
+    for n in 0..p.substeps {
         all.extend(["cell_count", "cell_scan", "block_scan"]);
         all.extend(["cell_scatter", "reorder", "list"]);
         // What is carried is applied first.
         let solves = p.iterations as usize + usize::from(p.carry_rate > 0.0);
         all.extend(["multiplier", "displacement"].repeat(solves));
+        if impulses.iter().any(|&(first, _)| first == n) {
+            // Its table is cleared.
+            all.extend(["fill", "upload", "colour", "colour_rim", "colour_walls"]);
+            all.extend(["smooth_colour", "interface", "curvature", "tension"]);
+        }
         all.extend(line_26);
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
         all.push("forces");
@@ -57,7 +66,10 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         );
     }
     all.extend(loads.then_some("load"));
-    let passes = all.iter().map(|name| format!("sim/{name}:main"));
+    let passes = all.iter().map(|&name| match name {
+        "fill" | "upload" => name.to_owned(),
+        pass => format!("sim/{pass}:main"),
+    });
     // The poses go first, the loads come back, and a frame has its sum.
     let mut all = vec!["upload".to_owned()];
     all.extend(passes);
