@@ -83,7 +83,11 @@ fn a_loss_in_mid_pour_loses_no_particle() {
     assert!((0..state.tags.len()).all(|slot| state.is_present(slot)));
     let measured = outcome.bench.world.measure().unwrap();
     assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
-    assert!(measured.in_air > 0.0, "it was not poured");
+    // 150 g were in the first beaker; some have come to the second.
+    assert!(
+        measured.in_flasks[1] > 0.01,
+        "it was not poured: {measured:?}"
+    );
     // And it went on as if nothing had been: one device, never lost, comes to the same bits.
     let expected = hash(&outcome);
     assert_eq!(replayed(&first, track), expected);

@@ -98,6 +98,10 @@ impl Solver {
         let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
         rec.fill(&b.glass_taken, 0)?;
+        if self.parameters.surface.is_some() {
+            // Volumes are added to it, and each impulse leaves it at 0.
+            rec.fill(&b.colour, 0)?;
+        }
         // Nothing is stale yet; y and z of the dispatch sizes are 1.
         rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
         gpu.submit(rec)?.wait()?;

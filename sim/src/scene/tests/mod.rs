@@ -119,7 +119,8 @@ fn what_is_built_upon_a_feature_goes_with_it() {
     );
     assert!(gone.iter().all(|&feature| !less.models(feature)));
     assert!(less.models(Feature::Density));
-    assert!(scene.without(Feature::Dilution).0.model.is_empty());
+    let (bare, _) = scene.without(Feature::Dilution);
+    assert_eq!(bare.model, [Feature::Tension]);
 }
 
 #[test]

@@ -244,11 +244,8 @@ fn little_is_carried_on_in_a_substep() {
 #[test]
 fn surface_tension_needs_maps_short_substeps_and_angles() {
     let scene = Scene::builtin_text("beaker").unwrap();
-    let tense = |tension: &str| {
-        let scene = scene.replacen("model = []", "model = [\"tension\"]", 1);
-        let key = format!("viscosity = 0.05\nsurface_tension = {tension}");
-        scene.replacen("viscosity = 0.05", &key, 1)
-    };
+    let key = |tension: &str| format!("surface_tension = {tension}");
+    let tense = |tension: &str| scene.replacen(&key("0.0728"), &key(tension), 1);
     let message = |text: String| Scene::parse(&text, "t.toml").unwrap_err().to_string();
     let good = Scene::parse(&tense("0.0728"), "t.toml").unwrap();
     let surface = good.surface_tension().unwrap();
