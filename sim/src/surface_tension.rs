@@ -20,6 +20,9 @@ pub(crate) const CORE_STEPS: u32 = 4;
 const CORE_THIN: f64 = 0.75;
 const CORE_THICK: f64 = 0.85;
 
+/// Core's colour from which F is that of a thick liquid.
+const THICK_PULL: f64 = 0.9;
+
 /// Least colour of a core: a lone particle's is 0.15.
 const LEAST_CORE: f64 = 0.25;
 
@@ -30,8 +33,14 @@ pub(crate) fn core_for(fullest: f64) -> f64 {
     (fullest + thick * (1.0 - fullest)).max(LEAST_CORE)
 }
 
-/// Neighbours below which a particle has no surface to speak of: it neither holds others nor is held.
-pub(crate) const FEWEST: usize = 6;
+/// How much of F is that of a thick liquid, for a core's colour.
+pub(crate) fn thickness_for(core: f64) -> f64 {
+    let t = ((core - CORE_THIN) / (THICK_PULL - CORE_THIN)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Neighbours below which a particle has no surface to speak of.
+pub(crate) const FEWEST: usize = 1;
 
 /// How far from a mouth, in nodes, liquid is in the grids on both of its sides.
 pub(crate) const MOUTH_REACH: f64 = 4.0;

@@ -65,17 +65,18 @@ fn stress_of(node: vec3<u32>) -> vec4<f32> {
     }
     if (1.0 - most_solid <= LEAST_SPACE) { return vec4<f32>(0.0); }
     let core = core_of(node, mean.x, gradient);
+    let thickness = thickness_for(core);
     let colour = mean.x / core;
     gradient /= core;
     let size = sqrt(dot(gradient, gradient) + FAINTEST * FAINTEST);
     let space = 1.0 - mean.y;
-    let weight = space * outermost(colour);
-    var by_colour = space * outermost_slope(colour) * (size - FAINTEST);
+    let pull = outermost(colour, thickness);
+    var by_colour = space * outermost_slope(colour, thickness) * (size - FAINTEST);
     let wall = length(solid_gradient);
     if (wall > 0.0) {
-        by_colour -= mean.z / mean.y * FLAT * outermost(colour) * wall;
+        by_colour -= mean.z / mean.y * FLAT * pull * wall;
     }
-    return vec4<f32>(weight * gradient / size, by_colour) / core;
+    return vec4<f32>(space * pull * gradient / size, by_colour) / core;
 }
 
 @compute @workgroup_size(64)

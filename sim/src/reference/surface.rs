@@ -5,7 +5,7 @@ use super::neighbours::Neighbours;
 use super::state::Reference;
 use crate::surface_tension::{
     CORE_STEPS, CORE_STRIDE, FAINTEST, FEWEST, LEAST_SPACE, MOUTH_REACH, SurfaceTension, core_for,
-    flat, relative,
+    flat, relative, thickness_for,
 };
 use glam::{DVec2, DVec3, IVec3};
 
@@ -159,13 +159,18 @@ impl Reference {
 
     /// The surface's energy, and each particle's force over its volume's share of V₀.
     pub fn surface_forces(&self, neighbours: &Neighbours) -> SurfaceForces {
-        self.surface_forces_of(neighbours, None)
+        self.surface_forces_of(Some(neighbours), None)
     }
 
-    /// The same with the cores of a state nearby, whose slope the forces are.
+    /// The surface's energy with what has no neighbour counted too, J: what a drop has before and after it falls apart.
+    pub fn surface_energy(&self) -> f64 {
+        self.surface_forces_of(None, None).energy
+    }
+
+    /// The same with the cores of a state nearby, whose slope the forces are; without neighbours, of all particles.
     pub(super) fn surface_forces_of(
         &self,
-        neighbours: &Neighbours,
+        neighbours: Option<&Neighbours>,
         cores: Option<&[f64]>,
     ) -> SurfaceForces {
         let mut found = SurfaceForces {
@@ -176,8 +181,9 @@ impl Reference {
         if let Some(surface) = &self.parameters.surface {
             let grids = self.surroundings.vessels.len();
             for grid in std::iter::once(None).chain((0..grids).map(Some)) {
-                let part =
-                    |&i: &usize| self.is_part_of(grid, i) && neighbours.of(i).count() >= FEWEST;
+                let has_company =
+                    |i: usize| neighbours.is_none_or(|all| all.of(i).count() >= FEWEST);
+                let part = |&i: &usize| self.is_part_of(grid, i) && has_company(i);
                 let part: Vec<_> = (0..self.positions.len()).filter(part).collect();
                 if !part.is_empty() {
                     self.grid_forces(surface, grid, part, cores, &mut found);
@@ -273,14 +279,19 @@ impl Reference {
             let (c, gradient) = (c / core, gradient / core);
             let size = gradient.length().hypot(faint);
             let full = c.clamp(0.0, 1.0);
-            let outermost = 1.5 * (1.0 - full * full);
-            let outermost_slope = if c < 1.0 { -3.0 * full } else { 0.0 };
+            let thickness = thickness_for(core);
+            let by_thickness = |thin: f64, thick: f64| thin + thickness * (thick - thin);
+            let outermost = by_thickness(2.0 * (1.0 - full), 1.5 * (1.0 - full * full));
+            let outermost_slope = by_thickness(-2.0, -3.0 * full);
+            let outermost_slope = if c < 1.0 { outermost_slope } else { 0.0 };
+            let wetted_share =
+                by_thickness(2.0 * full - full * full, 1.5 * full - 0.5 * full.powi(3));
             let mut by_colour = (1.0 - s) * outermost_slope * (size - faint);
             let mut density = (1.0 - s) * outermost * (size - faint);
             if wall.length() > 0.0 {
                 let wetting = mean(&wetted) / s * flat();
                 by_colour -= wetting * outermost * wall.length();
-                density -= wetting * (1.5 * full - 0.5 * full.powi(3)) * wall.length();
+                density -= wetting * wetted_share * wall.length();
             }
             found.energy += strength * density * cell;
             for (k, weight) in corners {

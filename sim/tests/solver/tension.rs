@@ -350,3 +350,58 @@ fn a_sheet_draws_in_as_taylor_and_culick_say() {
         );
     }
 }
+
+/// What splashes: drops of 32 to 88 particles, 4 to 5.5 of them across, stay one for a second. With the F of thick liquid alone those
+/// of less than 60 fly apart at 0.15 m/s.
+#[test]
+fn small_drops_stay_whole() {
+    let device = gpu::device();
+    for across in [4.0, 4.8, 5.6] {
+        let (start, radius) = ball(across);
+        let solver = Setup::new(tense(D), Vec::new(), start).solver(&device);
+        frames(&device, &solver, &[], 90);
+        let found = particles(&solver.snapshot().unwrap());
+        let centre = found.iter().map(|p| p.position).sum::<DVec3>() / found.len() as f64;
+        let furthest = worst(0..found.len(), |i| found[i].position.distance(centre)).0;
+        eprintln!(
+            "{} particles: {} of the radius",
+            found.len(),
+            furthest / radius
+        );
+        assert!(furthest < 1.5 * radius, "{across}: {furthest} {radius}");
+    }
+}
+
+/// What lies on the bench: 104 particles that splash down as half a ball lie in puddles in the end, which rest. Their layer is one
+/// particle thick, as thick as a puddle of 65° is (2a sin 32.5° = 2.9 mm). One that lies alone has 0.82 of a density.
+#[test]
+fn small_puddles_gather_and_rest() {
+    let device = gpu::device();
+    let (start, _) = ball(7.4);
+    let start: Vec<_> = start.into_iter().filter(|p| p.position.y > 0.0).collect();
+    let p = Parameters {
+        gravity: [0.0, -9.81, 0.0],
+        viscosity: 0.02,
+        ..tense(D)
+    };
+    let setup = Setup {
+        ground: Ground {
+            floor: 0.0,
+            table: None,
+            scale: 1.0,
+        },
+        ..Setup::new(p, Vec::new(), start)
+    };
+    let solver = setup.solver(&device);
+    frames(&device, &solver, &[], 270);
+    let densities = densities(&device, &solver);
+    let gathered = densities.iter().filter(|&&density| density > 0.95).count();
+    let speed = mean_speed(&solver);
+    eprintln!(
+        "{gathered} of {} gathered, {} mm/s",
+        densities.len(),
+        1e3 * speed
+    );
+    assert!(10 * gathered > 9 * densities.len(), "{gathered}");
+    assert!(speed < 0.01, "{speed}");
+}

@@ -21,8 +21,9 @@ const BLOCK_NODES: u32 = 64u;
 // What a particle feels reaches from 4 nodes before the one below it to 5 beyond: its own colour reaches 2, either filter 1,
 // and either difference ½. The blocks around those of its own colour have all of them.
 
-/// Neighbours below which a particle has no surface to speak of: it neither holds others nor is held.
-const FEWEST: u32 = 6u;
+/// Neighbours below which a particle has no surface to speak of. One alone would only claim blocks: with more asked for, what
+/// leaves a drop is let go of for good, and puddles fall apart.
+const FEWEST: u32 = 1u;
 
 /// Where a block lies: its first node's indices, and its grid (0: outside of all flasks; k + 1: in flask k).
 fn pack_block(block: vec3<i32>, grid: u32) -> vec4<i32> {

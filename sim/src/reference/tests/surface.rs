@@ -95,7 +95,9 @@ fn force_is_the_slope_of_the_energy() {
                 let mut energy = |by: f64| {
                     let at = liquid.positions[i];
                     liquid.positions[i][axis] += by;
-                    let energy = liquid.surface_forces_of(&neighbours, Some(&cores)).energy;
+                    let energy = liquid
+                        .surface_forces_of(Some(&neighbours), Some(&cores))
+                        .energy;
                     liquid.positions[i] = at;
                     energy
                 };
