@@ -45,6 +45,35 @@ impl Scene {
         Ok(())
     }
 
+    /// Whether weight outdoes what a wetted wall sucks liquid up with, 2σ cos θ/R: under suction a liquid that can only push
+    /// tears, and wanders about its glass.
+    pub(super) fn check_suction(&self) -> Result<(), Problem> {
+        let Some(surface) = self.surface_tension() else {
+            return Ok(());
+        };
+        let scale = &self.scale;
+        let volume: f64 = self.liquids.iter().map(|liquid| liquid.volume).sum();
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let full = flask.profile.rim_height();
+            let level = flask.profile.level_for_volume(volume).unwrap_or(full);
+            let depth = (level - flask.profile.floor_height()).max(scale.spacing);
+            let radius = flask.profile.inner_radius(level).max(scale.spacing);
+            let suction = 2.0 * surface.tension * flask.contact_angle.cos() / radius;
+            if volume > 0.0 && suction > scale.rest_density * scale.gravity * depth {
+                let problem = format!(
+                    "glass {radius:.4} m in radius that liquid wets so well sucks it up with {suction:.1} Pa, more than \
+                     {depth:.4} m of it weigh, and particles bear no suction; take 90 or more, a wider flask, or more \
+                     weight"
+                );
+                return Err(Problem::new(
+                    format!("flask[{index}].contact_angle"),
+                    problem,
+                ));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether what is carried on in a substep leaves the liquid rest, at up to
     /// 0.15·√(gH). Acid under water, 400 particles of 2.5 mm, moves at 2 cm/s
     /// with 0.005, 3 with 0.1, up to 6 with 0.2 and more; water at 6.5 with 0.3

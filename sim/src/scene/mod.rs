@@ -272,6 +272,7 @@ impl Scene {
         scene.check_fill("liquid")?;
         scene.check_reach()?;
         scene.check_carry()?;
+        scene.check_suction()?;
         scene.check_substep()?;
         for (preset, overrides) in &scene.presets {
             let changed = scene.with_preset(*preset);

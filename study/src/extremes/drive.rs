@@ -11,8 +11,10 @@ use vitriol_sim::solver::{Counters, SolverState};
 use vitriol_sim::world::{StepInput, World};
 
 use super::case::Case;
+use super::judge::ENERGY;
 use super::motion::{BEFORE, LASTS, Motion};
 use super::recipe::{Base, Crowd};
+use super::surface::Surface;
 
 /// Time in which what moves has to come to rest, s.
 pub(super) const REST: f64 = 1.0;
@@ -108,20 +110,26 @@ fn hand(case: &Case, scene: &Scene, time: f64) -> Hand {
 
 /// Puts particles where no filling puts them.
 fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
-    if case.recipe.crowd == Crowd::Filled {
+    let recipe = &case.recipe;
+    if recipe.crowd == Crowd::Filled {
         return Ok(());
     }
     let mut state = world.snapshot().other()?;
     let count = state.solver.positions.len();
-    let Some(&[x, y, z, _]) = state.solver.positions.get(count / 2) else {
+    let Some(flask) = world.scene().flasks.first() else {
         return Ok(());
     };
-    let centre = Vec3::new(x, y, z);
-    let (share, radius) = match case.recipe.crowd {
+    let (share, radius) = match recipe.crowd {
         Crowd::Filled => (0.0, 0.0),
         Crowd::OnePlace(share) => (share, 0.0),
-        Crowd::Ball(radius) => (1.0, radius * case.recipe.support()),
+        Crowd::Ball(radius) => (1.0, radius * recipe.support()),
     };
+    // Within the glass: what is put beyond it is no fault of the solver.
+    let room = (recipe.radius - 1.0) * recipe.spacing;
+    let radius = radius.min(room);
+    let middle = (0.5 * recipe.depth()).max(radius + recipe.spacing);
+    let centre = Vec3::Y * (flask.profile.floor_height() + middle) as f32;
+    let centre = flask.stage_from_flask.transform_point(centre);
     let chosen = ((share * count as f64).ceil() as usize).max(2).min(count);
     for (index, position) in state.solver.positions.iter_mut().take(chosen).enumerate() {
         // Even over the ball, by the golden angle and the cube root.
@@ -129,7 +137,6 @@ fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
         let (turn, up) = (2.399_963 * index as f64, (7.0 * part).fract() * 2.0 - 1.0);
         let aside = (1.0 - up * up).sqrt();
         let out = DVec3::new(aside * turn.cos(), up, aside * turn.sin());
-        // Within the glass, which is ten spacings wide.
         let place = centre + (out * radius * part.cbrt()).as_vec3();
         (position[0], position[1], position[2]) = (place.x, place.y, place.z);
     }
@@ -155,11 +162,14 @@ struct Watch {
     /// Height that potential energy counts from, m.
     base: f64,
     frame_time: f64,
+    surface: Option<Surface>,
     boiling: Option<(f64, f64)>,
     literal_limit: f64,
     last: Vec<Held>,
     last_step: u64,
     start_energy: f64,
+    /// Of the surface, J, when it was last asked for: it takes longer than the simulation.
+    surface_energy: f64,
     start: Amounts,
     /// Work by glass, and all else that may become motion, J.
     declared: f64,
@@ -186,6 +196,7 @@ impl Watch {
             particle_mass: parameters.particle_mass(),
             base: world.scene().floor.height,
             frame_time: recipe.frame_time,
+            surface: Surface::of(world.scene(), parameters),
             boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
             literal_limit: 0.5 * recipe.v_max * recipe.v_max,
             run: Run {
@@ -198,7 +209,8 @@ impl Watch {
         };
         let state = world.solver().snapshot().other()?;
         watch.last = watch.energies(&state);
-        watch.start_energy = watch.last.iter().map(|held| held.energy).sum();
+        let start = watch.last.clone();
+        watch.start_energy = watch.all_of(&start, &state, world, true);
         watch.start = watch.amounts(world, &state);
         // A lattice that settles by a spacing, and what it is compared with at least.
         watch.run.turnover = watch.least();
@@ -224,6 +236,18 @@ impl Watch {
             };
         }
         held
+    }
+
+    /// Energy of motion, height and surface, J; the surface's as it was last asked for, unless that is too much or `anew`.
+    fn all_of(&mut self, held: &[Held], state: &SolverState, world: &World, anew: bool) -> f64 {
+        let bare: f64 = held.iter().map(|held| held.energy).sum();
+        let excess = bare + self.surface_energy - self.start_energy - self.declared;
+        if let Some(surface) = &self.surface
+            && (anew || excess > 0.5 * ENERGY * self.run.turnover)
+        {
+            self.surface_energy = surface.energy(state, world.poses());
+        }
+        bare + self.surface_energy
     }
 
     fn amounts(&self, world: &World, state: &SolverState) -> Amounts {
@@ -255,8 +279,15 @@ impl Watch {
             let turn = (to.orientation * from.orientation.conjugate()).normalize();
             let turn = if turn.w < 0.0 { -turn } else { turn };
             let turned = turn.to_scaled_axis().as_dvec3();
-            let work =
-                load.impulse.as_dvec3().dot(moved) + load.angular_impulse.as_dvec3().dot(turned);
+            // Force and path turn with the glass, so both are longer than what their vectors add up to.
+            let half = 0.5 * turned.length();
+            let bent = if half > 1e-3 {
+                (half / half.sin()).powi(2)
+            } else {
+                1.0
+            };
+            let work = bent * load.impulse.as_dvec3().dot(moved)
+                + load.angular_impulse.as_dvec3().dot(turned);
             // The load is the liquid's on the glass.
             self.declared -= work / self.frame_time;
             self.run.turnover += (work / self.frame_time).abs();
@@ -290,12 +321,13 @@ impl Watch {
             self.declared += ledger.kinetic - self.paid;
             self.paid = ledger.kinetic;
         }
-        let energy: f64 = now.iter().map(|held| held.energy).sum();
+        let settles = self.frame_time * step as f64 <= BEFORE;
+        let energy = self.all_of(&now, &state, world, settles);
         let kinetic = measured.kinetic_energy;
         self.run.turnover = self.run.turnover.max(self.least() + kinetic);
         let excess = energy - self.start_energy - self.declared;
         self.run.excess = larger(self.run.excess, excess);
-        if self.frame_time * step as f64 <= BEFORE {
+        if settles {
             // A filling is no equilibrium: the lattice is too dense at the wall, and
             // what is in one place is pushed apart. What that sets free counts as there.
             self.run.settling += excess.max(0.0);

@@ -1,5 +1,7 @@
 //! The extremes, one by one.
 
+use vitriol_sim::surface_tension::WATER;
+
 use super::motion::{Broken, Motion};
 use super::recipe::{Base, Crowd, Recipe};
 
@@ -25,6 +27,8 @@ pub enum Extreme {
     /// h/d.
     Support(f64),
     Viscosity(f64),
+    /// σ over water's, and the glass's contact angle, degrees.
+    Tension(f64, f64),
     /// 1/s.
     Carry(f64),
     Gravity(f64),
@@ -65,6 +69,7 @@ impl Extreme {
             E::Relaxation(..) => "relaxation",
             E::Support(_) => "h/d",
             E::Viscosity(_) => "viscosity",
+            E::Tension(..) => "surface tension",
             E::Carry(_) => "carried multipliers",
             E::Gravity(_) => "gravity",
             E::Density(_) => "rest density",
@@ -103,6 +108,7 @@ impl Extreme {
         match self {
             E::BoilingPoint(_) => base == Base::Paper,
             E::Intensity(_) | E::Diffusion(_) | E::Temperature(_) => base != Base::Water,
+            E::Tension(..) => base != Base::Paper,
             _ => true,
         }
     }
@@ -132,6 +138,7 @@ impl Extreme {
             E::Relaxation(omega, chebyshev) => (r.omega, r.chebyshev) = (omega, chebyshev),
             E::Support(ratio) => r.support_ratio = ratio,
             E::Viscosity(mu) => r.viscosity = mu,
+            E::Tension(times, angle) => r.tension = Some([times * WATER, angle]),
             E::Carry(rate) => r.carry_rate = rate,
             E::Gravity(gravity) => r.gravity = gravity,
             E::Density(density) => r.rest_density = density,
@@ -166,6 +173,9 @@ impl Extreme {
             }
             E::Support(ratio) => format!("h/d = {ratio:.2}"),
             E::Viscosity(mu) => format!("viscosity {mu:.3}"),
+            E::Tension(times, angle) => {
+                format!("σ × {times:.3} and a contact angle of {angle:.0}°")
+            }
             E::Carry(rate) => format!("carried at {rate:.2} 1/s"),
             E::Gravity(gravity) => format!("g = {gravity:.2} m/s²"),
             E::Density(density) => format!("ρ₀ = {density:.1} kg/m³"),
@@ -243,6 +253,8 @@ pub fn directed() -> Vec<Extreme> {
     }
     all.extend([1.2, 1.5, 2.5, 3.0].map(E::Support));
     all.extend([0.0, 0.5, 1.0, 3.0, 10.0].map(E::Viscosity));
+    all.extend([0.01, 3.0, 10.0].map(|times| E::Tension(times, 30.0)));
+    all.extend([0.0, 90.0, 180.0].map(|angle| E::Tension(1.0, angle)));
     all.extend([0.0, 20.0, 90.0, 900.0].map(E::Carry));
     all.extend([0.0, 1.6, 100.0].map(E::Gravity));
     all.extend([1.0, 13_600.0].map(E::Density));
@@ -306,6 +318,7 @@ pub fn random(draw: &mut impl FnMut() -> f64) -> Extreme {
         E::Relaxation(_, chebyshev) => E::Relaxation(between(s, 0.05, 1.0), chebyshev),
         E::Support(_) => E::Support(between(s, 1.2, 3.0)),
         E::Viscosity(_) => E::Viscosity(if s < 0.8 { s / 0.8 } else { 10.0 * s }),
+        E::Tension(..) => E::Tension(log(s, 0.01, 10.0), 180.0 * draw()),
         E::Carry(_) => E::Carry(log(s, 0.9, 900.0)),
         E::Gravity(_) => E::Gravity(log(s, 0.1, 100.0)),
         E::Density(_) => E::Density(log(s, 1.0, 2e4)),

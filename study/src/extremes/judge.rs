@@ -110,7 +110,7 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
 /// v_max may be passed by rounding.
 const SPEED_ROUNDING: f64 = 1e-5;
 /// Energy that may appear over what was turned over: lattices settle, lists are cut.
-const ENERGY: f64 = 0.05;
+pub(super) const ENERGY: f64 = 0.05;
 /// Relative changes of acid, mass and enthalpy that rounding of f32 explains.
 const KEPT: [f64; 3] = [1e-5, 1e-5, 1e-4];
 
@@ -196,8 +196,11 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
     if !run.rested || free || sloshes || thrown || run.members < FEW {
         return None;
     }
-    // In energy 2 % of what its depth holds.
-    let jitter = 0.15 * (recipe.gravity * recipe.depth()).sqrt();
+    // In energy 2 % of what its depth and its surface hold.
+    let surface = recipe.surface().map_or(0.0, |[tension, _]| {
+        tension / (recipe.rest_density * recipe.depth())
+    });
+    let jitter = 0.15 * (recipe.gravity * recipe.depth() + surface).sqrt();
     match recipe.motion {
         Motion::Still | Motion::NoPose(_) => Some(jitter),
         // Waves in a glass ring on, and what turns turns on.

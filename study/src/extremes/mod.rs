@@ -12,6 +12,7 @@ mod judge;
 mod motion;
 mod recipe;
 mod report;
+mod surface;
 
 pub use case::{Case, cases};
 pub use judge::{Finding, Verdict, judge};

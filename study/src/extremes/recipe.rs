@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
+use vitriol_sim::surface_tension::WATER;
+
 use super::motion::Motion;
 
 /// Which scene a case changes.
@@ -60,6 +62,8 @@ pub struct Recipe {
     pub v_max: f64,
     pub boundary_particles: bool,
     pub viscosity: f64,
+    /// σ, N/m, and the glass's contact angle, degrees; `None` at the paper's scale.
+    pub tension: Option<[f64; 2]>,
     /// Inner radius and height over d.
     pub radius: f64,
     pub height: f64,
@@ -99,6 +103,7 @@ impl Recipe {
             v_max: 10.0,
             boundary_particles: false,
             viscosity: 0.05,
+            tension: Some([WATER, 30.0]),
             radius: 5.0,
             height: 24.0,
             particles: Some(400),
@@ -125,6 +130,7 @@ impl Recipe {
                 carry_rate: 0.0,
                 v_max: 25.0,
                 viscosity: 0.3,
+                tension: None,
                 ..real
             },
         }
@@ -156,24 +162,43 @@ impl Recipe {
         [0.01, 0.007].map(|d| d * self.diffusion)
     }
 
+    /// Surface tension and contact angle, which boundary particles do not have.
+    pub fn surface(&self) -> Option<[f64; 2]> {
+        self.tension.filter(|_| !self.boundary_particles)
+    }
+
+    /// Names of what is modelled.
+    fn model(&self) -> Vec<&'static str> {
+        let mut model = match self.base {
+            Base::Water => Vec::new(),
+            Base::Paper => vec!["heat", "dilution", "boiling"],
+            Base::Physical => vec![
+                "heat",
+                "dilution",
+                "boiling",
+                "density",
+                "viscosity",
+                "evaporation",
+                "steam",
+                "losses",
+                "segregation",
+            ],
+        };
+        model.extend(self.surface().map(|_| "tension"));
+        model
+    }
+
     /// The scene's file.
     pub fn text(&self) -> String {
         let mut t = String::new();
         let d = self.spacing;
-        let model = match self.base {
-            Base::Water => "",
-            Base::Paper => "\"heat\", \"dilution\", \"boiling\"",
-            Base::Physical => {
-                "\"heat\", \"dilution\", \"boiling\", \"density\", \"viscosity\", \
-                 \"evaporation\", \"steam\", \"losses\", \"segregation\""
-            }
-        };
+        let model = self.model();
         let relaxation = ["jacobi", "chebyshev"][usize::from(self.chebyshev)];
         let walls = ["map", "particles"][usize::from(self.boundary_particles)];
         // Writing to a string cannot fail.
         let _ = write!(
             t,
-            "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = [{model}]\n\
+            "name = \"extreme\"\ndescription = \"A case of vitriol extremes.\"\nmodel = {model:?}\n\
              origin = {:?}\n[scale]\nspacing = {d:?}\nsupport_ratio = {:?}\nframe_time = {:?}\ngravity = {:?}\n\
              rest_density = {:?}\nlength_scale = {:?}\nboundary_spacing_ratio = 0.5\n\
              [solver]\nsubsteps = {}\niterations = {}\nrelaxation = \"{relaxation}\"\nomega = {:?}\n\
@@ -191,6 +216,13 @@ impl Recipe {
             self.v_max,
             self.viscosity,
         );
+        let angle = match self.surface() {
+            None => String::new(),
+            Some([tension, angle]) => {
+                let _ = writeln!(t, "surface_tension = {tension:?}");
+                format!("contact_angle = {angle:?}\n")
+            }
+        };
         let [d_t, d_c] = self.diffusivities();
         let _ = match self.base {
             Base::Water => Ok(()),
@@ -221,7 +253,7 @@ impl Recipe {
              [floor]\nheight = {y:?}\n\
              [[flask]]\nname = \"glass\"\npoints = [[0.0, {radius:?}], [{height:?}, {radius:?}]]\n\
              wall = {:?}\nposition = [{fx:?}, {fy:?}, {fz:?}]\nrotation = [0.0, 0.0, {roll:?}]\n\
-             fixed = {}\n",
+             fixed = {}\n{angle}",
             y + TABLE * d,
             WALL * d,
             self.upside_down,
