@@ -23,6 +23,9 @@ use vitriol_shaders::layout::LiquidLoad;
 /// replay has the same bits as the live session.
 const LOAD_DELAY: usize = 2;
 
+/// Most substeps of a step over the scene's, however fast a flask is.
+const MOST_TIMES: u32 = 3;
+
 /// What a step is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInput {
@@ -173,6 +176,7 @@ impl World {
         let loads = self.due_loads()?;
         let before = self.bodies.poses().to_vec();
         self.bodies.step(&input.hands, &loads);
+        self.follow_walls(&before)?;
         let mut rec = self.gpu.recorder(queue)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;
@@ -180,6 +184,31 @@ impl World {
             .push_back(PendingLoad::Device(record, ticket.clone()));
         self.last = Some(ticket);
         self.step += 1;
+        Ok(())
+    }
+
+    /// As many substeps as the fastest wall asks for ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that
+    /// goes further than the particles it meets are wide presses them into each other, and the list's margin
+    /// keeps them there for several substeps.
+    fn follow_walls(&mut self, before: &[Pose]) -> Result<(), WorldError> {
+        let solver = &self.scene.solver;
+        let Some(most) = solver.wall_step else {
+            return Ok(());
+        };
+        let furthest = self
+            .scene
+            .flasks
+            .iter()
+            .zip(before)
+            .zip(self.bodies.poses())
+            .map(|((flask, from), to)| flask.profile.furthest(*from, *to))
+            .fold(0.0, f64::max);
+        let wanted = (furthest / (most * self.scene.scale.spacing)).ceil();
+        let [least, iterations] = [solver.substeps, solver.iterations];
+        let substeps = (wanted as u32).clamp(least, MOST_TIMES * least);
+        if substeps != self.solver.parameters().substeps {
+            self.solver.set_effort(substeps, iterations)?;
+        }
         Ok(())
     }
 

@@ -1,6 +1,8 @@
 //! The shape of an axisymmetric vessel.
 
 use super::outline;
+use crate::pose::Pose;
+use glam::Vec3;
 use thiserror::Error;
 
 /// Intervals of the radius lookup table over the inner height.
@@ -167,6 +169,15 @@ impl Profile {
     /// Height of the rim in the flask's frame, metres.
     pub fn rim_height(&self) -> f64 {
         self.wall + self.inner_height()
+    }
+
+    /// Furthest that any of its glass goes, at most, as it moves from `before` to `after` (stage_from_flask), m.
+    pub fn furthest(&self, before: Pose, after: Pose) -> f64 {
+        let half = 0.5 * self.rim_height();
+        let middle = Vec3::Y * half as f32;
+        let moved = after.transform_point(middle) - before.transform_point(middle);
+        let turned = before.orientation.angle_between(after.orientation);
+        f64::from(moved.length()) + f64::from(turned) * half.hypot(self.outer_radius())
     }
 
     /// Inner radius at the rim, metres: what may be poured through.

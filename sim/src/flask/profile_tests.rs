@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
 use crate::flask::glass;
+use glam::Quat;
 use std::f64::consts::PI;
 
 fn beaker() -> Profile {
@@ -130,4 +131,22 @@ fn refuses_what_is_no_vessel() {
         .profile(1.0)
         .unwrap();
     assert!(round.check_particle(0.005).is_ok());
+}
+
+/// Half a turn across its axis about its middle takes rim and base round by π times half its diagonal; a push is a push.
+#[test]
+fn no_glass_goes_further_than_the_furthest() {
+    let profile = beaker();
+    let push = Pose::from_position(Vec3::new(0.03, -0.04, 0.0));
+    assert!((profile.furthest(Pose::IDENTITY, push) - 0.05).abs() < 1e-4);
+    let turn = Quat::from_rotation_z(0.5);
+    let after = Pose::new(Vec3::new(0.01, 0.0, 0.0), turn);
+    let most = profile.furthest(Pose::IDENTITY, after);
+    for &[r, y] in profile.outer_outline() {
+        for side in [-r, r] {
+            let point = Vec3::new(side as f32, y as f32, 0.0);
+            let moved = after.transform_point(point) - point;
+            assert!(f64::from(moved.length()) <= most, "{r} {y}");
+        }
+    }
 }

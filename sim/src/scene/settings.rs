@@ -97,6 +97,9 @@ pub struct SolverSettings {
     pub vorticity: Option<f64>,
     /// Surface tension σ of water at 20 °C, N/m; with the feature `tension`.
     pub surface_tension: Option<f64>,
+    /// Most of d that a flask's wall goes in a substep: a hand that is faster has more substeps, up to three times as many.
+    /// Without it none has.
+    pub wall_step: Option<f64>,
 }
 
 /// What a preset changes; what it does not name stays as the scene has it.
@@ -207,6 +210,10 @@ impl SolverSettings {
         require("solver.v_max", v_max, v_max > 0.0, "above zero (m/s)")?;
         let share = "between 0 and 1 (a share of relative velocities)";
         within("solver.viscosity", self.viscosity, 0.0..=1.0, share)?;
+        if let Some(step) = self.wall_step {
+            let range = "between 0.1 and 10 (of the spacing)";
+            within("solver.wall_step", step, 0.1..=10.0, range)?;
+        }
         let tension = self.surface_tension.unwrap_or(0.0);
         if tension > 0.0 && self.boundary == Boundary::Particles {
             let problem = "needs walls of volume maps, whose share of space it reads; take `boundary = \"map\"` or leave it out";

@@ -1,11 +1,14 @@
 //! Substeps and iterations that change while it runs.
 
-use glam::Vec3;
+use crate::common::densities;
+use glam::{Quat, Vec3};
+use std::f64::consts::TAU;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
+use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_tests::gpu;
 
@@ -133,4 +136,66 @@ fn what_no_liquid_stands_up_under_is_refused() {
         );
         assert_eq!(world.effort(), [5, 3]);
     }
+}
+
+/// A flask whose neck is a particle wide, at `balanced`, shaken as a hand can: to and fro at up to 2.7 m/s, turned at up to 900°/s.
+/// The greatest 99th percentile of the density error in it at any step's end, and the most substeps of a step.
+fn shaken(gpu: &Gpu, wall_step: Option<f64>) -> (f64, u32) {
+    let mut scene = Scene::builtin("beaker")
+        .unwrap()
+        .with_preset(Preset::Balanced);
+    let d = scene.scale.spacing;
+    let points = [[0.0, 8.0], [12.0, 8.0], [16.0, 0.55], [24.0, 0.55]];
+    scene.flasks[0].profile = Profile::new(&points.map(|p| p.map(|x| x * d)), 0.8 * d).unwrap();
+    scene.liquids.truncate(1);
+    scene.liquids[0].volume = 1200.0 * d.powi(3);
+    scene.solver.wall_step = wall_step;
+    let mut world = World::new(gpu, &Library::watching(), &scene, 1).unwrap();
+    let grip = scene.flasks[0]
+        .stage_from_flask
+        .transform_point(Vec3::Y * (12.0 * d) as f32);
+    let hand = |time: f64| {
+        let lift = 0.3 * (time / 0.5).min(1.0);
+        let time = (time - 0.5).max(0.0);
+        let ramp = (time / 0.3).min(1.0);
+        let (ramp, pace) = (ramp * ramp * (3.0 - 2.0 * ramp), TAU * 3.0);
+        let aside = ramp * 2.7 / pace * (pace * time).sin();
+        let up = lift + ramp * 0.8 / pace * (1.3 * pace * time).sin();
+        let turn = ramp * f64::to_radians(900.0) / pace * (pace * time).sin();
+        Hand {
+            stage_from_grip: Pose::new(
+                grip + Vec3::new(aside as f32, up as f32, 0.0),
+                Quat::from_rotation_z(turn as f32),
+            ),
+            squeeze: 1.0,
+            present: true,
+        }
+    };
+    let (mut most, mut substeps, mut furthest) = (0.0_f64, 0, 0.0_f32);
+    for step in 1..=120 {
+        let hands = [hand(f64::from(step) / 90.0), Hand::ABSENT];
+        world.step(&StepInput { hands }).unwrap();
+        let state = world.snapshot().unwrap().solver;
+        let all = densities(gpu, world.solver());
+        let inside = (0..all.len()).filter(|&slot| state.flask_of(slot).is_some());
+        let errors = inside.map(|slot| (all[slot] - 1.0).max(0.0));
+        let mut errors: Vec<_> = errors.collect();
+        errors.sort_by(f64::total_cmp);
+        most = most.max(errors[errors.len() * 99 / 100]);
+        substeps = substeps.max(world.solver().parameters().substeps);
+        furthest = furthest.max(world.poses()[0].position.y);
+    }
+    assert!(furthest > 0.3, "the hand does not hold it: {furthest}");
+    (most, substeps)
+}
+
+/// 10 % of a density; with no more substeps than the scene has it is 40 to 60.
+#[test]
+fn a_flask_that_is_shaken_has_more_substeps() {
+    let gpu = gpu::device();
+    let (without, substeps) = shaken(&gpu, None);
+    assert!(without > 0.3 && substeps == 10, "{without} {substeps}");
+    let (with, substeps) = shaken(&gpu, Some(0.4));
+    eprintln!("{without} without, {with} with {substeps} substeps");
+    assert!(with < 0.1 && substeps > 20, "{with} {substeps}");
 }

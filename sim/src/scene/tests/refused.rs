@@ -276,3 +276,36 @@ fn surface_tension_needs_maps_short_substeps_and_angles() {
         "{nobody}"
     );
 }
+
+/// 2σ cos 30°/R of the beaker's 33 mm is 3.8 Pa, the weight of 57 mm of water at 0.0068 m/s².
+#[test]
+fn liquid_that_glass_sucks_up_is_refused() {
+    let scene = Scene::builtin_text("beaker").unwrap();
+    let at = |gravity: &str| {
+        let text = scene.replacen("gravity = 9.81", &format!("gravity = {gravity}"), 1);
+        assert_ne!(text, scene);
+        text
+    };
+    Scene::parse(&at("0.1"), "t.toml").unwrap();
+    let little = Scene::parse(&at("0.001"), "t.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        little.contains("flask[0].contact_angle") && little.contains("sucks"),
+        "{little}"
+    );
+    let dry = at("0.001").replacen("fixed = false", "fixed = false\ncontact_angle = 90", 1);
+    Scene::parse(&dry, "t.toml").unwrap();
+}
+
+#[test]
+fn a_wall_step_is_some_of_a_spacing() {
+    let scene = Scene::builtin_text("beaker").unwrap();
+    let at = |step: &str| scene.replacen("wall_step = 0.4", &format!("wall_step = {step}"), 1);
+    let found = Scene::parse(&at("0.5"), "t.toml").unwrap();
+    assert_eq!(found.solver.wall_step, Some(0.5));
+    for step in ["0", "-1", "inf", "nan", "11"] {
+        let message = Scene::parse(&at(step), "t.toml").unwrap_err().to_string();
+        assert!(message.contains("solver.wall_step"), "{step}: {message}");
+    }
+}
