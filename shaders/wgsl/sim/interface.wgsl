@@ -82,6 +82,10 @@ fn stress_of(node: vec3<u32>) -> vec4<f32> {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let slot = colour_used[group.x];
+    if (!is_near_colour(slot)) {
+        interface_stress[slot * BLOCK_NODES + local] = vec4<f32>(0.0);
+        return;
+    }
     find_around(slot, local);
     load_nodes(local);
     interface_stress[slot * BLOCK_NODES + local] = stress_of(vec3<u32>(node_of(local)));

@@ -9,8 +9,24 @@
 
 const RAW: u32 = 6u;
 
-/// Colour, S and S·cos θ of nodes −1 to 4.
-var<workgroup> raw: array<vec3<f32>, 216>;
+/// Nodes of a block along an axis.
+const OWN: u32 = 4u;
+
+/// Colour, S and S·cos θ: of nodes −1 to 4, then, where it begins, filtered along z. Filtered along y too, it lies before.
+var<workgroup> values: array<vec3<f32>, 360>;
+const BY_Z: u32 = 216u;
+
+/// Filters six values, `stride` apart from `first` on, into four from `to` on, as far apart.
+fn filter_line(first: u32, to: u32, stride: u32) {
+    var before = values[first];
+    var here = values[first + stride];
+    for (var n = 0u; n < OWN; n++) {
+        let after = values[first + (n + 2u) * stride];
+        values[to + n * stride] = 0.25 * (before + after) + 0.5 * here;
+        before = here;
+        here = after;
+    }
+}
 
 /// 1 over the share of a node that is not solid; 0 where that is too little.
 fn space_of(solid: f32) -> f32 {
@@ -21,24 +37,29 @@ fn space_of(solid: f32) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let slot = colour_used[group.x];
+    if (!is_near_colour(slot)) {
+        smooth_colour[slot * BLOCK_NODES + local] = vec4<f32>(0.0, 0.0, 0.0, 1.0);
+        return;
+    }
     find_around(slot, local);
     for (var n = local; n < RAW * RAW * RAW; n += BLOCK_NODES) {
         let place = place_around(node_at(n, RAW, -1));
         var value = vec3<f32>(0.0);
         if (place != NO_BLOCK) { value = vec3<f32>(f32(colour[place]) / COLOUR_FULL, colour_solid[place]); }
-        raw[n] = value;
+        values[n] = value;
     }
     workgroupBarrier();
-    let centre = node_of(local) + vec3<i32>(1);
-    var sum = vec3<f32>(0.0);
-    for (var z = -1; z <= 1; z++) {
-        for (var y = -1; y <= 1; y++) {
-            for (var x = -1; x <= 1; x++) {
-                let at = vec3<u32>(centre + vec3<i32>(x, y, z));
-                sum += filter_weight(vec3<i32>(x, y, z)) * raw[at.x + RAW * at.y + RAW * RAW * at.z];
-            }
-        }
+    if (local < RAW * RAW) { filter_line(local, BY_Z + local, RAW * RAW); }
+    workgroupBarrier();
+    if (local < RAW * OWN) {
+        let x = local % RAW;
+        let z = local / RAW;
+        filter_line(BY_Z + x + RAW * RAW * z, x + RAW * OWN * z, RAW);
     }
+    workgroupBarrier();
+    let at = vec3<u32>(node_of(local));
+    let first = at.x + RAW * at.y + RAW * OWN * at.z;
+    let sum = 0.25 * (values[first] + values[first + 2u]) + 0.5 * values[first + 1u];
     let space = space_of(sum.y);
     smooth_colour[slot * BLOCK_NODES + local] = vec4<f32>(sum.x * space, sum.yz, space);
 }

@@ -16,8 +16,8 @@ pub(super) struct Colour {
 }
 
 impl Colour {
-    /// A small piece of liquid takes some 60 blocks, and a particle within liquid a thirtieth of one: room for 80 pieces,
-    /// and for one more to every 130 particles.
+    /// A small piece of liquid takes some 35 blocks, and a particle within liquid a thirtieth of one: room for 140 pieces,
+    /// and for one more to every 70 particles.
     pub(super) fn new(parameters: &Parameters, count: u32) -> Self {
         let pieces = 50 * (100 + count / 100);
         let wanted = match parameters.surface {
@@ -78,7 +78,7 @@ impl Solver {
             return Ok(());
         };
         rec.fill(&self.buffers.colour_keys, 0)?;
-        rec.upload(&self.buffers.colour_args, &[0u32, 1, 1, 0])?;
+        rec.upload(&self.buffers.colour_args, &[0u32, 1, 1, 0, 0, 1, 1, 0])?;
         self.pass(rec, &tension.colour)
             .constants(step)
             .invocations(self.count * self.lanes)?;
@@ -89,7 +89,8 @@ impl Solver {
             .indirect(blocks, 0)?;
         self.pass(rec, &tension.smooth).indirect(blocks, 0)?;
         self.pass(rec, &tension.interface).indirect(blocks, 0)?;
-        self.pass(rec, &tension.curvature).indirect(blocks, 0)?;
+        // Particles have their own nodes' only.
+        self.pass(rec, &tension.curvature).indirect(blocks, 16)?;
         let step = Step {
             tension: step.time * substeps as f32,
             ..*step

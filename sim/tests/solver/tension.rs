@@ -280,7 +280,7 @@ fn a_table_that_is_full_is_counted() {
     let (speed, skipped) = fastest(10);
     assert!(speed > 1e-3 && skipped == 0, "{speed} {skipped}");
     // Two impulses a frame.
-    assert_eq!(fastest(200), (0.0, 2));
+    assert_eq!(fastest(400), (0.0, 2));
 }
 
 /// A disc of `layers` layers of particles.

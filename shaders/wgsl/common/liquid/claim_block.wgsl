@@ -4,10 +4,11 @@
 /// Blocks from which on the table is full, and tension is left out.
 override MOST_BLOCKS: u32 = 48u;
 
+/// Keys by slot, and after them whether the slot's block lies near colour.
 @group(0) @binding(40) var<storage, read_write> colour_keys: array<atomic<u32>>;
 @group(0) @binding(41) var<storage, read_write> colour_used: array<u32>;
 @group(0) @binding(42) var<storage, read_write> colour_blocks: array<vec4<i32>>;
-/// Blocks claimed: the dispatch size of the passes over them.
+/// Blocks claimed: the dispatch size of the passes over them. Then that of the passes over those with a particle's nodes.
 @group(0) @binding(43) var<storage, read_write> colour_args: array<atomic<u32>>;
 
 /// Slot of the block, which is made where there is none yet.

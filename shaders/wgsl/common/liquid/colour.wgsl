@@ -18,6 +18,10 @@ const NO_BLOCK: u32 = 0xffffffffu;
 /// Nodes of a block.
 const BLOCK_NODES: u32 = 64u;
 
+/// How far, in nodes, the colour of a node acts: a filter, and the cells about a node. What is solid is asked for one filter
+/// further.
+const NEAR: u32 = 2u;
+
 // What a particle feels reaches from 4 nodes before the one below it to 5 beyond: its own colour reaches 2, either filter 1,
 // and either difference ½. The blocks around those of its own colour have all of them.
 
