@@ -74,7 +74,7 @@ fn stress_of(node: vec3<u32>) -> vec4<f32> {
     var by_colour = space * outermost_slope(colour, thickness) * (size - FAINTEST);
     let wall = length(solid_gradient);
     if (wall > 0.0) {
-        by_colour -= mean.z / mean.y * FLAT * pull * wall;
+        by_colour -= mean.z / mean.y * FLAT * wetted(colour, mean.z, pull) * wall;
     }
     return vec4<f32>(space * pull * gradient / size, by_colour) / core;
 }

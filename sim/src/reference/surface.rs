@@ -290,7 +290,12 @@ impl Reference {
             let mut density = (1.0 - s) * outermost * (size - faint);
             if wall.length() > 0.0 {
                 let wetting = mean(&wetted) / s * flat();
-                by_colour -= wetting * outermost * wall.length();
+                let (within, wetted_share) = if wetting > 0.0 {
+                    (6.0 * full * (1.0 - full), full * full * (3.0 - 2.0 * full))
+                } else {
+                    (outermost, wetted_share)
+                };
+                by_colour -= wetting * within * wall.length();
                 density -= wetting * wetted_share * wall.length();
             }
             found.energy += strength * density * cell;

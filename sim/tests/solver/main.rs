@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod against_reference;
+mod brink;
 mod chaos;
 mod chemistry;
 mod common;
@@ -20,5 +21,6 @@ mod random_glass;
 mod repeat;
 mod rest;
 mod solids;
+mod stream;
 mod tension;
 mod walls;

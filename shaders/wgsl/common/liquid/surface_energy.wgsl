@@ -1,12 +1,14 @@
 // The energy of a liquid's surface, over σ, as an integral over space:
 //
-//   ∫ (1 − S) F(c)·|∇c| dV − cos θ ∫ G(c)·|∇S| dV,   G(0) = 0, G(1) = 1, F = G′,
+//   ∫ (1 − S) F(c)·|∇c| dV − cos θ ∫ G(c)·|∇S| dV,   G(0) = 0, G(1) = 1, ∫F = 1,
 //
 // with the share S of space that is solid and the colour c of what is not, over its core's. Each level of c counts |∇c|, its
 // area; F gives most weight to the outermost, so that what the surface pulls with falls towards the inside and a liquid that
 // can only push bears it. It is 1.5 (1 − c²) where liquid is thick, so that the surface lies where the particles end, and
 // 2 (1 − c) where it is thin: a level's pull is F over its radius, and in a drop of less than 100 particles the former grows
 // too slowly outwards, which drives the outermost away. The second term is Young's: a wetted wall costs cos θ less than a dry one.
+// Where it is wetted, G′ = 6 c (1 − c) pulls the levels in between: with G′ = F it would pull the outermost most, away from the
+// others, and below 40° a drop ends as a layer one particle thick. What is repelled is pressed together, and has G′ = F.
 //
 // The core's colour is the fullest up the gradient: 1 in what is thick, 0.7 within two layers of particles, 0.4 within one.
 // It is no part of the slope, as if it were given: then a sheet pulls with 2σ however thin it is. With c alone it pulls with
@@ -48,6 +50,12 @@ fn outermost(colour: f32, thickness: f32) -> f32 {
 /// F′.
 fn outermost_slope(colour: f32, thickness: f32) -> f32 {
     return select(0.0, mix(-2.0, -3.0 * max(colour, 0.0), thickness), colour < 1.0);
+}
+
+/// G′ of a wall, where F of the surface is `pull`.
+fn wetted(colour: f32, wetting: f32, pull: f32) -> f32 {
+    let full = clamp(colour, 0.0, 1.0);
+    return select(pull, 6.0 * full * (1.0 - full), wetting > 0.0);
 }
 
 /// Weights ¼, ½, ¼ of the binomial filter, by the distance in nodes.
