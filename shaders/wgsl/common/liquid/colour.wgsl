@@ -23,7 +23,7 @@ const BLOCK_NODES: u32 = 64u;
 const NEAR: u32 = 2u;
 
 // What a particle feels reaches from 4 nodes before the one below it to 5 beyond: its own colour reaches 2, either filter 1,
-// and either difference ½. The blocks around those of its own colour have all of them.
+// and either difference ½. `colour_rim` claims the blocks of all of them.
 
 /// Neighbours below which a particle has no surface to speak of. One alone would only claim blocks: with more asked for, what
 /// leaves a drop is let go of for good, and puddles fall apart.

@@ -57,9 +57,3 @@ fn wetted(colour: f32, wetting: f32, pull: f32) -> f32 {
     let full = clamp(colour, 0.0, 1.0);
     return select(pull, 6.0 * full * (1.0 - full), wetting > 0.0);
 }
-
-/// Weights ¼, ½, ¼ of the binomial filter, by the distance in nodes.
-fn filter_weight(offset: vec3<i32>) -> f32 {
-    let a = vec3<f32>(2.0) - vec3<f32>(abs(offset));
-    return a.x * a.y * a.z / 64.0;
-}
