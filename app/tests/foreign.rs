@@ -271,7 +271,7 @@ fn a_recording_stands_alone_and_tells_what_differs() {
     let here = folder.path();
     let small = Scene::builtin_text("two-flasks")
         .unwrap()
-        .replacen("spacing = 0.0025 ", "spacing = 0.0044 ", 1)
+        .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
         .replacen("substeps = 10", "substeps = 4", 1);
     fs::write(here.join("small.toml"), &small).unwrap();
     let session = [

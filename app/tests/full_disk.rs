@@ -49,7 +49,7 @@ fn a_disk_that_is_full_for_a_while_loses_no_step() {
     let here = folder.path();
     let small = Scene::builtin_text("two-flasks")
         .unwrap()
-        .replacen("spacing = 0.0025 ", "spacing = 0.0044 ", 1)
+        .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
         .replacen("substeps = 10", "substeps = 4", 1);
     fs::write(here.join("small.toml"), &small).unwrap();
     let Some(output) = in_own_namespace(here) else {

@@ -154,6 +154,12 @@ const LEAST_VOLUME: f64 = 0.75;
 const FLASK_MARGIN: f64 = 0.001;
 
 impl Parameters {
+    /// Whether walls hold the line at which a surface ends on them.
+    pub fn sticks(&self) -> bool {
+        let surface = self.surface.as_ref();
+        surface.is_some_and(|surface| surface.hysteresis > 0.0)
+    }
+
     /// What `scene` asks for; a preset is applied to the scene beforehand
     /// ([`Scene::with_preset`]).
     pub fn from_scene(scene: &Scene) -> Self {

@@ -86,6 +86,14 @@ pub const GLASS: f64 = 30.0 * PI / 180.0;
 /// Contact angle of water on a bench's phenolic resin (50° to 80°), radians.
 pub const BENCH: f64 = 65.0 * PI / 180.0;
 
+/// Difference between the advancing and the receding contact angle of glass and resin that are in use, radians; taken to be
+/// so: 10° to 30° are usual of what is not cleaned with care.
+pub const HYSTERESIS: f64 = 20.0 * PI / 180.0;
+
+/// How much of what cells hold comes to particles, by `lines_are_held_by_what_hysteresis_says`: next to a wall the filter has put colour
+/// where no particle is.
+pub(crate) const REACHED: f64 = 0.775;
+
 /// What holds a liquid together, and to what is solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceTension {
@@ -96,16 +104,25 @@ pub struct SurfaceTension {
     pub glass: Vec<f64>,
     /// The same of table and floor.
     pub ground: f64,
+    /// Difference between the advancing and the receding angle, radians: a line at which the surface ends on a wall moves
+    /// beyond these only.
+    pub hysteresis: f64,
 }
 
 impl SurfaceTension {
-    /// Of this tension (N/m), on laboratory glass and a bench.
+    /// Of this tension (N/m), on laboratory glass and a bench without hysteresis.
     pub fn new(tension: f64) -> Self {
         Self {
             tension,
             glass: Vec::new(),
             ground: BENCH,
+            hysteresis: 0.0,
         }
+    }
+
+    /// How much of σ·sin θ holds a line, for what of it comes to particles.
+    pub(crate) fn stickiness(&self) -> f64 {
+        (0.5 * self.hysteresis).sin() / REACHED
     }
 
     /// Contact angle of flask `index`'s glass, radians.

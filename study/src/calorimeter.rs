@@ -311,6 +311,7 @@ impl Vessel {
                 viscosity: 0.05,
                 vorticity: None,
                 surface_tension: None,
+                hysteresis: None,
                 wall_step: None,
             },
             model: vec![

@@ -22,6 +22,8 @@
 override COMMIT: bool = false;
 /// Whether multipliers are carried from one substep to the next.
 override CARRY: bool = false;
+/// What of σ·sin θ holds a surface's line (`sim/interface.wgsl`); 0 without surface tension.
+override HYSTERESIS: f32 = 0.0;
 /// Half of the list's margin, metres: a particle that went further might miss neighbours.
 override LIST_REACH: f32 = 0.000375;
 
@@ -42,6 +44,8 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
+/// By identity: what walls hold the line of a surface with (`sim/tension.wgsl`).
+@group(0) @binding(50) var<storage, read> held: array<vec4<f32>>;
 
 /// Line 19: Σ (dλ_i + dλ_j) ∇W over the neighbours, but for the kernel's scale.
 fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
@@ -110,6 +114,24 @@ fn within_speed(x: vec3<f32>, x_star: vec3<f32>) -> vec3<f32> {
     return to;
 }
 
+/// How far a wall holds back a particle that went from `x` to `to`, across the surface's line: all the way, if that
+/// takes no more than it has. The position is held, and with it the velocity: held by its velocity alone, a drop on a slope would creep
+/// by Δt²·g in each substep.
+fn held_back(identity: u32, x: vec3<f32>, to: vec3<f32>) -> vec3<f32> {
+    let hold = held[identity];
+    let strength = length(hold.xyz);
+    if (strength == 0.0) { return vec3<f32>(0.0); }
+    var carried_along = x;
+    let flask = u32(hold.w);
+    if (flask > 0u) {
+        let local = flask_from_stage(poses[step.before + flask - 1u], x);
+        carried_along = stage_from_flask(poses[step.after + flask - 1u], local);
+    }
+    let across = hold.xyz / strength;
+    let most = strength * step.time * step.time;
+    return -clamp(dot(to - carried_along, across), -most, most) * across;
+}
+
 /// Takes a particle out that turned non-finite. Its neighbours still have it on their lists.
 fn take_out(i: u32, identity: u32) {
     if (HEAT) { heat[i] = vec4<f32>(0.0); }
@@ -124,13 +146,19 @@ fn take_out(i: u32, identity: u32) {
 }
 
 /// Lines 22 to 25 of a particle whose numbers are finite.
-fn commit(i: u32, membership: u32, x_star: vec3<f32>, multiplied: f32) {
+fn commit(i: u32, tag: vec2<u32>, x_star: vec3<f32>, multiplied: f32) {
     let x = position[i].xyz;
-    let near = within_speed(x, x_star);
-    let is_cut = any(near != x_star);
+    var lines = vec3<f32>(0.0);
+    if (HYSTERESIS > 0.0) {
+        lines = held_back(tag.y, x, x_star);
+        if (LOADS) { wall_push[i] += pushed(lines); }
+    }
+    let free = x_star + lines;
+    let near = within_speed(x, free);
+    let is_cut = any(near != free);
     if (is_cut) { atomicAdd(&counters.speed_limited, 1u); }
     let to = within_list(i, near);
-    let allowed = constrain(membership, x, to, step.before, step.after); // 23
+    let allowed = constrain(tag.x, x, to, step.before, step.after); // 23
     if (allowed.generated) {
         atomicAdd(&counters.flask_constraints, 1u);
         if (LOADS) { wall_push[i] += pushed(allowed.position - to); }
@@ -175,6 +203,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     } else if (!finite) {
         take_out(i, tag.y);
     } else {
-        commit(i, tag.x, x_star, multiplied);
+        commit(i, tag, x_star, multiplied);
     }
 }

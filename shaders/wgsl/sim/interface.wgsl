@@ -1,15 +1,19 @@
 // Line 28, surface tension, 5 of 7: the derivative of the surface's energy by the colour's gradient and by the colour, on
-// cells between nodes.
+// cells between nodes. And how strongly walls hold the line at which the surface ends on them.
 //!include common/liquid/block_halo.wgsl
 //!include common/liquid/surface_energy.wgsl
 
 /// The energy of a flat surface on this grid: 1, less what is too faint to count.
 override FLAT: f32 = 1.0;
+/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle.
+override HYSTERESIS: f32 = 0.0;
 
 /// By cell: ∂/∂∇c, and ∂/∂c.
 @group(0) @binding(46) var<storage, read_write> interface_stress: array<vec4<f32>>;
 /// By node: colour of what is not solid, S, S·cos θ, and 1 over the share that is not solid.
 @group(0) @binding(47) var<storage, read> smooth_colour: array<vec4<f32>>;
+/// By cell: what a wall can hold liquid back with, across the line, over σ/(ρ0·node²).
+@group(0) @binding(49) var<storage, read_write> line_hold: array<vec4<f32>>;
 
 const NODES: u32 = 5u;
 
@@ -51,7 +55,22 @@ fn core_of(node: vec3<u32>, colour: f32, gradient: vec3<f32>) -> f32 {
     return core_for(fullest);
 }
 
-fn stress_of(node: vec3<u32>) -> vec4<f32> {
+/// What a wall holds the liquid's line with, for its gradient of S and the colour's. A line stays where it is as long as its angle is
+/// between the receding and the advancing one, so up to σ(cos θ_r − cos θ_a)/2 = σ sin θ sin(Δθ/2) a length. By 2c of each level,
+/// as what is full has the mass that is held.
+fn hold_of(solid_gradient: vec3<f32>, wall: f32, gradient: vec3<f32>, wetting: f32, mass: f32) -> vec3<f32> {
+    let normal = solid_gradient / wall;
+    let along = gradient - normal * dot(gradient, normal);
+    return 2.0 * FLAT * HYSTERESIS * sqrt(max(1.0 - wetting * wetting, 0.0)) * wall / mass * along;
+}
+
+/// Of the cell whose first node is `node`.
+struct Interface {
+    stress: vec4<f32>,
+    hold: vec3<f32>,
+}
+
+fn interface_of(node: vec3<u32>) -> Interface {
     var gradient = vec3<f32>(0.0);
     var solid_gradient = vec3<f32>(0.0);
     var mean = vec3<f32>(0.0);
@@ -63,7 +82,7 @@ fn stress_of(node: vec3<u32>) -> vec4<f32> {
         mean += 0.125 * value;
         most_solid = max(most_solid, value.y);
     }
-    if (1.0 - most_solid <= LEAST_SPACE) { return vec4<f32>(0.0); }
+    if (1.0 - most_solid <= LEAST_SPACE) { return Interface(vec4<f32>(0.0), vec3<f32>(0.0)); }
     let core = core_of(node, mean.x, gradient);
     let thickness = thickness_for(core);
     let colour = mean.x / core;
@@ -73,20 +92,27 @@ fn stress_of(node: vec3<u32>) -> vec4<f32> {
     let pull = outermost(colour, thickness);
     var by_colour = space * outermost_slope(colour, thickness) * (size - FAINTEST);
     let wall = length(solid_gradient);
+    var hold = vec3<f32>(0.0);
     if (wall > 0.0) {
-        by_colour -= mean.z / mean.y * FLAT * wetted(colour, mean.z, pull) * wall;
+        let wetting = mean.z / mean.y;
+        by_colour -= wetting * FLAT * wetted(colour, mean.z, pull) * wall;
+        if (HYSTERESIS > 0.0 && colour < 1.0) { hold = hold_of(solid_gradient, wall, gradient, wetting, core * space); }
     }
-    return vec4<f32>(space * pull * gradient / size, by_colour) / core;
+    return Interface(vec4<f32>(space * pull * gradient / size, by_colour) / core, hold);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let slot = colour_used[group.x];
+    let cell = slot * BLOCK_NODES + local;
     if (!is_near_colour(slot)) {
-        interface_stress[slot * BLOCK_NODES + local] = vec4<f32>(0.0);
+        interface_stress[cell] = vec4<f32>(0.0);
+        if (HYSTERESIS > 0.0) { line_hold[cell] = vec4<f32>(0.0); }
         return;
     }
     find_around(slot, local);
     load_nodes(local);
-    interface_stress[slot * BLOCK_NODES + local] = stress_of(vec3<u32>(node_of(local)));
+    let found = interface_of(vec3<u32>(node_of(local)));
+    interface_stress[cell] = found.stress;
+    if (HYSTERESIS > 0.0) { line_hold[cell] = vec4<f32>(found.hold, 0.0); }
 }

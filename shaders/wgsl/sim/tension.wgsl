@@ -1,9 +1,11 @@
 // Line 28, surface tension, 7 of 7: the force of the surface's energy on each particle, −V_i ∇ of what a volume there costs,
-// as the change of velocity over the time until it is found again.
+// as the change of velocity over the time until it is found again. And what walls hold it back with until then.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/surface_tension.wgsl
+//!include common/glass/boundary.wgsl
+//!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/find_block.wgsl
 //!include common/liquid/particle.wgsl
@@ -14,6 +16,10 @@
 override TENSION: f32 = 0.0;
 /// Blocks from which on the table is full, and tension is left out.
 override MOST_BLOCKS: u32 = 48u;
+/// The energy of a flat surface on this grid, in σ.
+override FLAT: f32 = 1.0;
+/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle.
+override HYSTERESIS: f32 = 0.0;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
 /// (membership, identity)
@@ -26,6 +32,11 @@ override MOST_BLOCKS: u32 = 48u;
 @group(0) @binding(7) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(43) var<storage, read> colour_args: array<u32>;
 @group(0) @binding(48) var<storage, read> curvature: array<f32>;
+@group(0) @binding(49) var<storage, read> line_hold: array<vec4<f32>>;
+/// By identity: the acceleration (m/s²) that holds a particle back along its direction, and the flask that holds it, from 1 on;
+/// 0 for table and floor.
+@group(0) @binding(50) var<storage, read_write> held: array<vec4<f32>>;
+@group(0) @binding(51) var<storage, read> boundary: array<vec4<f32>>;
 
 /// ∇ of the curvature at `x`, per node: this lane's rows of it.
 fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
@@ -54,12 +65,55 @@ fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
     return sum;
 }
 
+/// What the cells around `x` hold there: this lane's rows of it.
+fn hold_at(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
+    // Cells lie half a node beyond their first node.
+    let at_cells = x / NODE - 0.5;
+    let below = floor(at_cells);
+    let within = at_cells - below;
+    let cell = vec3<i32>(below);
+    var sum = vec3<f32>(0.0);
+    for (var row = lane; row < ROWS; row += LANES) {
+        let first = first_of_row(cell, row);
+        let away = vec3<f32>(first - cell) - within;
+        var slot = NO_BLOCK;
+        var along = vec3<f32>(0.0);
+        for (var i = 0; i < 4; i++) {
+            let at = first + vec3<i32>(i, 0, 0);
+            if (i == 0 || (at.x & 3) == 0) { slot = find_block(at >> vec3<u32>(2u), grid); }
+            if (slot == NO_BLOCK) { continue; }
+            along += line_hold[slot * BLOCK_NODES + node_in_block(at)].xyz * spread(away.x + f32(i));
+        }
+        sum += along * spread(away.y) * spread(away.z);
+    }
+    return sum;
+}
+
+/// The wall that has most of what a particle at `x` touches: a flask, from 1 on, or 0.
+fn holder_of(membership: u32, x: vec3<f32>) -> u32 {
+    if (membership != NOBODYS) { return membership; }
+    var holder = 0u;
+    var most = 0.0;
+    for (var k = 0u; k < FLASKS; k++) {
+        let pose = poses[step.after + k];
+        if (may_touch(k, membership, pose, x)) {
+            let volume = wall_of_map(k, membership, flask_from_stage(pose, x)).volume;
+            if (volume > most) {
+                most = volume;
+                holder = k + 1u;
+            }
+        }
+    }
+    return holder;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
     if (colour_args[0] >= MOST_BLOCKS) {
         if (id.x == 0u) { atomicAdd(&counters.tension_skipped, 1u); }
+        if (HYSTERESIS > 0.0 && lane == 0u && i < COUNT) { held[tags[i].y] = vec4<f32>(0.0); }
         return;
     }
     if (i >= COUNT) { return; }
@@ -68,10 +122,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var slope = vec3<f32>(0.0);
     if (takes_part) { slope = curvature_slope(membership, position[i].xyz, lane); }
     slope = lane_sum3(slope);
-    if (lane != 0u || !takes_part) { return; }
+    var hold = vec3<f32>(0.0);
+    if (HYSTERESIS > 0.0) {
+        if (takes_part && wall_volume(boundary[i]) > 0.0) { hold = hold_at(membership, position[i].xyz, lane); }
+        hold = lane_sum3(hold);
+    }
+    if (lane != 0u) { return; }
+    if (!takes_part) {
+        if (HYSTERESIS > 0.0) { held[tags[i].y] = vec4<f32>(0.0); }
+        return;
+    }
     var strength = TENSION;
     if (DENSITY) { strength *= unpack_bulk(bulk[i]).lightness; }
     if (HEAT) { strength *= relative_tension(acid_in(heat[i]), temperature_in(heat[i])); }
+    if (HYSTERESIS > 0.0) {
+        var holder = 0u;
+        if (any(hold != vec3<f32>(0.0))) { holder = holder_of(membership, position[i].xyz); }
+        held[tags[i].y] = vec4<f32>(strength * hold, f32(holder));
+    }
     let change = -strength * step.tension * slope;
     let before = new_velocity[i];
     new_velocity[i] = pack_velocity(before.xyz + change, carried_by(before));

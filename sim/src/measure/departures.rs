@@ -92,9 +92,10 @@ mod tests {
         let fields = (
             (positions, &none, tags, &none, &words, &words, &words),
             (&none, &none, &none, &plain, &none),
-            // Eddies and glass, and steam's three.
+            // Eddies and glass, steam's three, held lines.
             (&none, &none),
             (&none, &none, &words),
+            &none,
         );
         postcard::from_bytes(&postcard::to_allocvec(&fields).unwrap()).unwrap()
     }

@@ -159,6 +159,9 @@ impl Reference {
         retain(&mut self.velocities, &keep);
         retain(&mut self.carried, &keep);
         retain(&mut self.membership, &keep);
+        if !self.held.is_empty() {
+            retain(&mut self.held, &keep);
+        }
         if let Some(chemistry) = &mut self.chemistry {
             chemistry.retain(&keep);
         }

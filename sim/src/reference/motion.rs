@@ -36,11 +36,30 @@ impl Reference {
                 (self.positions[i], self.velocities[i]) = (DVec3::NAN, DVec3::NAN);
                 continue;
             }
-            let limited = position + (solved - position).clamp_length_max(max_speed * time);
+            let lines = self.held_back(i, solved);
+            let way = solved + lines - position;
+            let limited = position + way.clamp_length_max(max_speed * time);
             (self.positions[i], self.membership[i]) = self.constrained(i, limited);
             self.velocities[i] =
                 ((self.positions[i] - position) / time).clamp_length_max(max_speed);
         }
+    }
+
+    /// How far a wall holds back particle `i` on its way to `to`, across the surface's line.
+    fn held_back(&self, i: usize, to: DVec3) -> DVec3 {
+        let Some(hold) = self.held.get(i) else {
+            return DVec3::ZERO;
+        };
+        let from = match hold.flask {
+            None => self.positions[i],
+            Some(flask) => {
+                let Motion { before, after, .. } = self.motion[flask];
+                after.to_stage(before.to_flask(self.positions[i]))
+            }
+        };
+        let across = hold.acceleration.normalize_or_zero();
+        let most = hold.acceleration.length() * self.parameters.substep_time().powi(2);
+        -across * (to - from).dot(across).clamp(-most, most)
     }
 
     /// [`constrain`] of particle `i`.

@@ -3,6 +3,7 @@
 use super::chemistry::Chemistry;
 use super::measure::Masses;
 use super::placement::{Motion, Placement};
+use super::surface::Hold;
 use super::surroundings::{Contact, Surroundings};
 use crate::flask::Region;
 use crate::kernel::Kernel;
@@ -33,6 +34,8 @@ pub struct Reference {
     /// Heat, acid and boiling, where they are modelled.
     pub chemistry: Option<Chemistry>,
     pub(super) motion: Vec<Motion>,
+    /// Accelerations (m/s²) with which walls hold back the line of a surface, along their directions, and which.
+    pub(super) held: Vec<Hold>,
 }
 
 impl Reference {
@@ -64,6 +67,7 @@ impl Reference {
             removed: 0,
             chemistry: None,
             motion,
+            held: Vec::new(),
         }
     }
 

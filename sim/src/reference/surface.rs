@@ -19,8 +19,19 @@ pub struct SurfaceForces {
     pub energy: f64,
     /// N, by particle.
     pub forces: Vec<DVec3>,
+    /// What walls hold the surface's line with, N by particle.
+    pub holds: Vec<DVec3>,
     /// What the colour of each cell was divided by, grid by grid.
     pub(super) cores: Vec<f64>,
+}
+
+/// What holds a particle back across the surface's line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    /// m/s²; along it and against it.
+    pub(super) acceleration: DVec3,
+    /// The flask that holds it; else table or floor.
+    pub(super) flask: Option<usize>,
 }
 
 /// A box of nodes, x running fastest.
@@ -143,8 +154,10 @@ impl Reference {
     /// The impulse of surface tension over `time` seconds.
     pub(super) fn hold_together(&mut self, neighbours: &Neighbours, time: f64) {
         let (_, lightness) = self.bulk();
-        let forces = self.surface_forces(neighbours).forces;
-        for (i, force) in forces.into_iter().enumerate() {
+        let SurfaceForces { forces, holds, .. } = self.surface_forces(neighbours);
+        let mass = self.parameters.particle_mass();
+        self.held.clear();
+        for (i, (force, hold)) in forces.into_iter().zip(holds).enumerate() {
             let relative = match &self.chemistry {
                 None => 1.0,
                 Some(chemistry) => {
@@ -152,9 +165,30 @@ impl Reference {
                     relative(acid, temperature)
                 }
             };
-            let mass = self.parameters.particle_mass();
-            self.velocities[i] += force * (time * relative * lightness[i] / mass);
+            let per_force = relative * lightness[i] / mass;
+            self.velocities[i] += force * (time * per_force);
+            let flask = self.holder_of(i);
+            let acceleration = hold * per_force;
+            self.held.push(Hold {
+                acceleration,
+                flask,
+            });
         }
+    }
+
+    /// The flask that has most of what particle `i` touches.
+    fn holder_of(&self, i: usize) -> Option<usize> {
+        if self.membership[i].is_some() {
+            return self.membership[i];
+        }
+        let (mut holder, mut most) = (None, 0.0);
+        self.surroundings
+            .contacts(self.positions[i], None, &self.motion, |contact| {
+                if contact.flask.is_some() && contact.volume > most {
+                    (holder, most) = (contact.flask, contact.volume);
+                }
+            });
+        holder
     }
 
     /// The surface's energy, and each particle's force over its volume's share of V₀.
@@ -176,6 +210,7 @@ impl Reference {
         let mut found = SurfaceForces {
             energy: 0.0,
             forces: vec![DVec3::ZERO; self.positions.len()],
+            holds: vec![DVec3::ZERO; self.positions.len()],
             cores: Vec::new(),
         };
         if let Some(surface) = &self.parameters.surface {
@@ -259,6 +294,9 @@ impl Reference {
         }
         // ∂E/∂c by node, in σ·m².
         let mut derivative = vec![0.0; nodes.count()];
+        // By cell, what a wall holds per volume of liquid, in σ/m².
+        let mut line = vec![DVec3::ZERO; nodes.count()];
+        let width = surface.stickiness();
         let cell = nodes.spacing.powi(3);
         let strength = surface.tension / flat();
         for at in nodes.all().filter(|&at| nodes.contains(at + 1)) {
@@ -295,6 +333,14 @@ impl Reference {
                 } else {
                     (outermost, wetted_share)
                 };
+                if c < 1.0 {
+                    let normal = wall.normalize();
+                    let along = gradient - normal * gradient.dot(normal);
+                    let angle = wetting / flat();
+                    let length =
+                        2.0 * width * (1.0 - angle * angle).max(0.0).sqrt() * wall.length();
+                    line[nodes.index(at)] = along * (length / (core * (1.0 - s)));
+                }
                 by_colour -= wetting * within * wall.length();
                 density -= wetting * wetted_share * wall.length();
             }
@@ -314,6 +360,10 @@ impl Reference {
                 let spread = nodes.spread(self.positions[i]);
                 let slope: DVec3 = spread.iter().map(|&(k, _, s)| curvature[k] * s).sum();
                 found.forces[i] -= slope * (strength * volume);
+                let half = DVec3::splat(0.5 * nodes.spacing);
+                let cells = nodes.spread(self.positions[i] - half);
+                let hold: DVec3 = cells.iter().map(|&(k, w, _)| line[k] * w).sum();
+                found.holds[i] = hold * (surface.tension * volume);
             }
         }
     }

@@ -28,7 +28,7 @@ pub use settings::{
 
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
-use crate::surface_tension::SurfaceTension;
+use crate::surface_tension::{HYSTERESIS, SurfaceTension};
 use error::Problem;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -147,6 +147,7 @@ impl Scene {
                 .iter()
                 .map(|flask| flask.contact_angle)
                 .collect(),
+            hysteresis: self.solver.hysteresis.map_or(HYSTERESIS, f64::to_radians),
             ..SurfaceTension::new(tension)
         })
     }
@@ -160,7 +161,7 @@ impl Scene {
             scene.solver.vorticity = None;
         }
         if gone.contains(&Feature::Tension) {
-            scene.solver.surface_tension = None;
+            (scene.solver.surface_tension, scene.solver.hysteresis) = (None, None);
         }
         (scene, gone)
     }

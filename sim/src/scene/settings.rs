@@ -97,6 +97,9 @@ pub struct SolverSettings {
     pub vorticity: Option<f64>,
     /// Surface tension σ of water at 20 °C, N/m; with the feature `tension`.
     pub surface_tension: Option<f64>,
+    /// Difference between the advancing and the receding contact angle of all that is solid, degrees; 20 where it is left out.
+    /// With the feature `tension`.
+    pub hysteresis: Option<f64>,
     /// Most of d that a flask's wall goes in a substep: a hand that is faster has more substeps, up to three times as many.
     /// Without it none has.
     pub wall_step: Option<f64>,
@@ -213,6 +216,14 @@ impl SolverSettings {
         if let Some(step) = self.wall_step {
             let range = "between 0.1 and 10 (of the spacing)";
             within("solver.wall_step", step, 0.1..=10.0, range)?;
+        }
+        if let Some(hysteresis) = self.hysteresis {
+            let range = "from 0 to 180 (degrees)";
+            within("solver.hysteresis", hysteresis, 0.0..=180.0, range)?;
+            if self.surface_tension.is_none() {
+                let problem = "not used without `surface_tension`; leave it out";
+                return Err(Problem::new("solver.hysteresis", problem.to_owned()));
+            }
         }
         let tension = self.surface_tension.unwrap_or(0.0);
         if tension > 0.0 && self.boundary == Boundary::Particles {

@@ -17,7 +17,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 38;
+pub(super) const OF_PARTICLES: usize = 40;
 
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
@@ -85,6 +85,9 @@ pub(super) struct Buffers {
     pub(super) interface_stress: Buffer,
     pub(super) smooth_colour: Buffer,
     pub(super) curvature: Buffer,
+    /// What walls hold the surface's line with, by cell and by identity.
+    pub(super) line_hold: Buffer,
+    pub(super) held: Buffer,
     // Coupling with the rigid bodies.
     pub(super) poses: Buffer,
     pub(super) wall_push: Buffer,
@@ -127,6 +130,7 @@ impl Buffers {
         let colour = Colour::new(&spec.parameters, count);
         let slots = where_asked(spec.parameters.surface.is_some(), colour.slots.into());
         let nodes = colour::BLOCK_NODES * slots;
+        let sticks = spec.parameters.sticks();
         Ok(Self {
             position: words("position", 4 * n)?,
             velocity: words("velocity", 4 * n)?,
@@ -174,6 +178,8 @@ impl Buffers {
             interface_stress: words("interface_stress", 4 * nodes)?,
             smooth_colour: words("smooth_colour", 4 * nodes)?,
             curvature: words("curvature", nodes)?,
+            line_hold: words("line_hold", where_asked(sticks, 4 * nodes))?,
+            held: words("held", where_asked(sticks, 4 * n))?,
             poses: Buffer::storage(
                 gpu,
                 "poses",
@@ -227,6 +233,8 @@ impl Buffers {
             &self.interface_stress,
             &self.smooth_colour,
             &self.curvature,
+            &self.line_hold,
+            &self.held,
             &self.colour_args,
             &self.counters,
             &self.cell_counts,

@@ -39,7 +39,7 @@ impl Colour {
         &self,
         p: &Parameters,
         surface: &SurfaceTension,
-    ) -> [(&'static str, f64); 7] {
+    ) -> [(&'static str, f64); 8] {
         let node = Self::node(p);
         [
             ("BLOCK_SLOTS", self.slots.into()),
@@ -52,6 +52,7 @@ impl Colour {
                 surface.tension / (flat() * p.rest_density * node * node),
             ),
             ("GROUND_WETTING", surface.ground.cos()),
+            ("HYSTERESIS", surface.stickiness()),
         ]
     }
 }

@@ -187,8 +187,10 @@ impl Solver {
     pub fn bytes_per_particle(&self) -> u64 {
         let all = self.buffers.all(&self.vessels);
         let of_particles = all.iter().take(buffers::OF_PARTICLES);
-        let bytes: u64 = of_particles.map(|buffer| buffer.bytes()).sum();
-        bytes / u64::from(self.count.max(1))
+        let count = u64::from(self.count.max(1));
+        // What a scene has no use for is a few bytes all the same.
+        let used = of_particles.map(|buffer| buffer.bytes());
+        used.filter(|&bytes| bytes >= count).sum::<u64>() / count
     }
 }
 

@@ -31,6 +31,7 @@ impl Solver {
                 Some(steam) => steam.snapshot(gpu, n)?,
                 None => SteamState::default(),
             },
+            held: read(gpu, &b.held, self.sticking())?,
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
             list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
@@ -57,6 +58,7 @@ impl Solver {
             ("ledger", state.ledger.len(), matter),
             ("agitation", state.agitation.len(), matter),
             ("bulk", state.bulk.len(), matter),
+            ("held lines", state.held.len(), self.sticking()),
             ("list origins", state.list_origin.len(), n),
             ("list counts", state.list_counts.len(), n),
             ("list", state.list.len(), listed),
@@ -91,6 +93,7 @@ impl Solver {
         if let Some(steam) = &self.steam {
             steam.restore(gpu, &state.steam)?;
         }
+        write(gpu, &b.held, &state.held)?;
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
@@ -114,6 +117,15 @@ impl Solver {
         let chemistry = self.parameters.chemistry.as_ref();
         let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
         [of(chemistry.is_some()), of(physical)]
+    }
+
+    /// Particles that walls can hold.
+    fn sticking(&self) -> usize {
+        if self.parameters.sticks() {
+            self.count as usize
+        } else {
+            0
+        }
     }
 
     fn rings(&self) -> usize {

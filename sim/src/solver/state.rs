@@ -50,6 +50,8 @@ pub struct SolverState {
     /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
     pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
+    /// What walls hold the surface's line with, by identity, until surface tension acts again; empty without hysteresis.
+    pub(super) held: Vec<[f32; 4]>,
 }
 
 /// Membership of a particle that was taken out.
@@ -86,6 +88,7 @@ impl SolverState {
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
             steam: Steam::start(parameters, n),
+            held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
             list: vec![0; n * grid.list_capacity as usize],

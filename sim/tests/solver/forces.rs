@@ -12,7 +12,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::forces::vorticity;
 use vitriol_sim::reference::neighbours::find;
 use vitriol_sim::scene::{Feature, Scene};
-use vitriol_sim::solver::Particle;
+use vitriol_sim::solver::{Ground, Particle};
 use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
@@ -198,6 +198,60 @@ fn tension_through_a_mouth_is_the_references() {
         found[i].velocity.distance(truth.velocities[i])
     });
     assert!(error < PLACE / SUBSTEP, "{i} is off by {error} m/s");
+}
+
+/// What walls hold acts in the substep after it was found, on liquid in a glass that moves and on what lies on the floor.
+#[test]
+fn lines_are_held_as_the_references() {
+    let device = gpu::device();
+    let of = |hysteresis: f64| Parameters {
+        surface: Some(SurfaceTension {
+            hysteresis,
+            ..SurfaceTension::new(0.072)
+        }),
+        frame_time: 2.0 * SUBSTEP,
+        substeps: 2,
+        ..single_substeps()
+    };
+    let start = glass_pose();
+    let after = Pose::new(
+        start.position + Vec3::new(0.3, 0.1, 0.0) * (2.0 * SUBSTEP) as f32,
+        Quat::from_rotation_y(2.0 * SUBSTEP as f32) * start.orientation,
+    );
+    let floor = f64::from(start.position.y) - 0.2;
+    let mut random = Random(11);
+    let slab: Vec<_> = (0..8 * 8 * 2)
+        .map(|i| {
+            let site = DVec3::new((i % 8).into(), (i / 64).into(), (i / 8 % 8).into());
+            let at = site * D + DVec3::new(0.2, floor + 0.5 * D, 0.2);
+            drop_at(at + random.point(0.1 * D), DVec3::new(0.05, 0.0, 0.02))
+        })
+        .collect();
+    let setup = |hysteresis: f64| {
+        let setup = scene(of(hysteresis));
+        let mut particles = setup.particles.clone();
+        particles.extend(slab.clone());
+        Setup {
+            particles,
+            ground: Ground {
+                floor,
+                ..setup.ground
+            },
+            ..setup
+        }
+    };
+    let (free, _) = both(&device, &setup(0.0), after);
+    let (found, truth) = both(&device, &setup(0.5), after);
+    let glass = found.len() - 128;
+    for of in [0..glass, glass..found.len()] {
+        let (effect, _) = worst(of.clone(), |i| found[i].velocity.distance(free[i].velocity));
+        let off = |i: usize| found[i].velocity.distance(truth.velocities[i]);
+        let (error, i) = worst(of.clone(), off);
+        // Of two substeps; around a cell whose core is another by rounding, as above.
+        let others = of.filter(|&i| off(i) >= 2.0 * PLACE / SUBSTEP).count();
+        assert!(others <= 64, "{others} are off");
+        assert!(error < 0.1 * effect, "{i} is off by {error} m/s");
+    }
 }
 
 /// A scene that names its forces at no strength has the bits of one that does
