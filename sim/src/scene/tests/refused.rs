@@ -2,7 +2,7 @@
 
 use super::GOOD;
 use crate::scene::Scene;
-use crate::surface_tension::GLASS;
+use crate::surface_tension::{GLASS, HYSTERESIS};
 
 fn broken(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from} is not in the good scene");
@@ -267,6 +267,22 @@ fn surface_tension_needs_maps_short_substeps_and_angles() {
     assert!(
         flat.contains("contact_angle") && flat.contains("from 0 to 180"),
         "{flat}"
+    );
+    assert_eq!(surface.hysteresis, HYSTERESIS);
+    let sticky = |degrees: &str| tense(&format!("0.0728\nhysteresis = {degrees}"));
+    let rough = Scene::parse(&sticky("45"), "t.toml").unwrap();
+    let rough = rough.surface_tension().unwrap().hysteresis;
+    assert!((rough - 45.0f64.to_radians()).abs() < 1e-12, "{rough}");
+    let far = message(sticky("181"));
+    assert!(
+        far.contains("solver.hysteresis") && far.contains("from 0 to 180"),
+        "{far}"
+    );
+    let alone = Scene::builtin_text("single-dilution").unwrap();
+    let alone = message(alone.replacen("[solver]", "[solver]\nhysteresis = 20", 1));
+    assert!(
+        alone.contains("solver.hysteresis") && alone.contains("leave it out"),
+        "{alone}"
     );
     let negative = message(tense("-0.1"));
     assert!(negative.contains("solver.surface_tension"), "{negative}");
