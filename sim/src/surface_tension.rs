@@ -90,9 +90,9 @@ pub const BENCH: f64 = 65.0 * PI / 180.0;
 /// so: 10° to 30° are usual of what is not cleaned with care.
 pub const HYSTERESIS: f64 = 20.0 * PI / 180.0;
 
-/// How much of what cells hold comes to particles, by `lines_are_held_by_what_hysteresis_says`: next to a wall the filter has put colour
-/// where no particle is.
-pub(crate) const REACHED: f64 = 0.775;
+/// How much of what cells hold comes to particles, by `lines_are_held_by_what_hysteresis_says`: next to a wall the filter
+/// has put colour where no particle is.
+pub(crate) const REACHED: f64 = 0.745;
 
 /// What holds a liquid together, and to what is solid.
 #[derive(Clone, Debug, PartialEq)]

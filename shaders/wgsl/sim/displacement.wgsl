@@ -151,7 +151,7 @@ fn commit(i: u32, tag: vec2<u32>, x_star: vec3<f32>, multiplied: f32) {
     var lines = vec3<f32>(0.0);
     if (HYSTERESIS > 0.0) {
         lines = held_back(tag.y, x, x_star);
-        if (LOADS) { wall_push[i] += pushed(lines); }
+        if (LOADS) { wall_push[i] += vec4<f32>(lines, 0.0); }
     }
     let free = x_star + lines;
     let near = within_speed(x, free);

@@ -5,7 +5,8 @@
 
 /// The energy of a flat surface on this grid: 1, less what is too faint to count.
 override FLAT: f32 = 1.0;
-/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle.
+/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle, over the
+/// share of it that comes to particles.
 override HYSTERESIS: f32 = 0.0;
 
 /// By cell: ∂/∂∇c, and ∂/∂c.
@@ -56,8 +57,8 @@ fn core_of(node: vec3<u32>, colour: f32, gradient: vec3<f32>) -> f32 {
 }
 
 /// What a wall holds the liquid's line with, for its gradient of S and the colour's. A line stays where it is as long as its angle is
-/// between the receding and the advancing one, so up to σ(cos θ_r − cos θ_a)/2 = σ sin θ sin(Δθ/2) a length. By 2c of each level,
-/// as what is full has the mass that is held.
+/// between the receding and the advancing one, so up to σ(cos θ_r − cos θ_a)/2 = σ sin θ sin(Δθ/2) a length. By 2c of each level:
+/// the force is over the mass that is there, so c is not in it.
 fn hold_of(solid_gradient: vec3<f32>, wall: f32, gradient: vec3<f32>, wetting: f32, mass: f32) -> vec3<f32> {
     let normal = solid_gradient / wall;
     let along = gradient - normal * dot(gradient, normal);

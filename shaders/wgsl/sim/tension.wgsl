@@ -18,7 +18,8 @@ override TENSION: f32 = 0.0;
 override MOST_BLOCKS: u32 = 48u;
 /// The energy of a flat surface on this grid, in σ.
 override FLAT: f32 = 1.0;
-/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle.
+/// What of σ·sin θ holds a line: the sine of half of the difference between the advancing and the receding contact angle, over the
+/// share of it that comes to particles.
 override HYSTERESIS: f32 = 0.0;
 
 @group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
@@ -89,11 +90,12 @@ fn hold_at(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
     return sum;
 }
 
-/// The wall that has most of what a particle at `x` touches: a flask, from 1 on, or 0.
+/// The wall that has most of what a particle at `x` touches: a flask, from 1 on, or 0 for table and floor.
 fn holder_of(membership: u32, x: vec3<f32>) -> u32 {
     if (membership != NOBODYS) { return membership; }
     var holder = 0u;
-    var most = 0.0;
+    let above = heights(x);
+    var most = half_space(above.table).volume + half_space(above.floor).volume;
     for (var k = 0u; k < FLASKS; k++) {
         let pose = poses[step.after + k];
         if (may_touch(k, membership, pose, x)) {
@@ -124,6 +126,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     slope = lane_sum3(slope);
     var hold = vec3<f32>(0.0);
     if (HYSTERESIS > 0.0) {
+        // Further off there is a twentieth of it, not worth the fetches.
         if (takes_part && wall_volume(boundary[i]) > 0.0) { hold = hold_at(membership, position[i].xyz, lane); }
         hold = lane_sum3(hold);
     }

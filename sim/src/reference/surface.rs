@@ -3,6 +3,7 @@
 
 use super::neighbours::Neighbours;
 use super::state::Reference;
+use super::surroundings::Contact;
 use crate::surface_tension::{
     CORE_STEPS, CORE_STRIDE, FAINTEST, FEWEST, LEAST_SPACE, MOUTH_REACH, SurfaceTension, core_for,
     flat, relative, thickness_for,
@@ -181,14 +182,16 @@ impl Reference {
         if self.membership[i].is_some() {
             return self.membership[i];
         }
-        let (mut holder, mut most) = (None, 0.0);
+        let (mut holder, mut most, mut ground) = (None, 0.0, 0.0);
         self.surroundings
             .contacts(self.positions[i], None, &self.motion, |contact| {
-                if contact.flask.is_some() && contact.volume > most {
+                if contact.flask.is_none() {
+                    ground += contact.volume;
+                } else if contact.volume > most {
                     (holder, most) = (contact.flask, contact.volume);
                 }
             });
-        holder
+        holder.filter(|_| most > ground)
     }
 
     /// The surface's energy, and each particle's force over its volume's share of V₀.
@@ -360,6 +363,16 @@ impl Reference {
                 let spread = nodes.spread(self.positions[i]);
                 let slope: DVec3 = spread.iter().map(|&(k, _, s)| curvature[k] * s).sum();
                 found.forces[i] -= slope * (strength * volume);
+                if width == 0.0 {
+                    continue;
+                }
+                let mut touched = 0.0;
+                let touch = |contact: Contact| touched += contact.volume;
+                self.surroundings
+                    .contacts(self.positions[i], grid, &self.motion, touch);
+                if touched <= 0.0 {
+                    continue;
+                }
                 let half = DVec3::splat(0.5 * nodes.spacing);
                 let cells = nodes.spread(self.positions[i] - half);
                 let hold: DVec3 = cells.iter().map(|&(k, w, _)| line[k] * w).sum();

@@ -218,8 +218,8 @@ impl SolverSettings {
             within("solver.wall_step", step, 0.1..=10.0, range)?;
         }
         if let Some(hysteresis) = self.hysteresis {
-            let range = "from 0 to 180 (degrees)";
-            within("solver.hysteresis", hysteresis, 0.0..=180.0, range)?;
+            let range = "from 0 to 90 (degrees)";
+            within("solver.hysteresis", hysteresis, 0.0..=90.0, range)?;
             if self.surface_tension.is_none() {
                 let problem = "not used without `surface_tension`; leave it out";
                 return Err(Problem::new("solver.hysteresis", problem.to_owned()));

@@ -275,7 +275,7 @@ fn surface_tension_needs_maps_short_substeps_and_angles() {
     assert!((rough - 45.0f64.to_radians()).abs() < 1e-12, "{rough}");
     let far = message(sticky("181"));
     assert!(
-        far.contains("solver.hysteresis") && far.contains("from 0 to 180"),
+        far.contains("solver.hysteresis") && far.contains("from 0 to 90"),
         "{far}"
     );
     let alone = Scene::builtin_text("single-dilution").unwrap();
