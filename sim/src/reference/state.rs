@@ -3,7 +3,6 @@
 use super::chemistry::Chemistry;
 use super::measure::Masses;
 use super::placement::{Motion, Placement};
-use super::surface::Hold;
 use super::surroundings::{Contact, Surroundings};
 use crate::flask::Region;
 use crate::kernel::Kernel;
@@ -36,6 +35,15 @@ pub struct Reference {
     pub(super) motion: Vec<Motion>,
     /// Accelerations (m/s²) with which walls hold back the line of a surface, along their directions, and which.
     pub(super) held: Vec<Hold>,
+}
+
+/// What holds a particle back across the surface's line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    /// m/s²; along it and against it.
+    pub(super) acceleration: DVec3,
+    /// The flask that holds it; else table or floor.
+    pub(super) flask: Option<usize>,
 }
 
 impl Reference {

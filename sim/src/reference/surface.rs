@@ -2,7 +2,7 @@
 //! boxes of nodes about all liquid of each grid.
 
 use super::neighbours::Neighbours;
-use super::state::Reference;
+use super::state::{Hold, Reference};
 use super::surroundings::Contact;
 use crate::surface_tension::{
     CORE_STEPS, CORE_STRIDE, FAINTEST, FEWEST, LEAST_SPACE, MOUTH_REACH, SurfaceTension, core_for,
@@ -24,15 +24,6 @@ pub struct SurfaceForces {
     pub holds: Vec<DVec3>,
     /// What the colour of each cell was divided by, grid by grid.
     pub(super) cores: Vec<f64>,
-}
-
-/// What holds a particle back across the surface's line.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hold {
-    /// m/s²; along it and against it.
-    pub(super) acceleration: DVec3,
-    /// The flask that holds it; else table or floor.
-    pub(super) flask: Option<usize>,
 }
 
 /// A box of nodes, x running fastest.

@@ -11,7 +11,6 @@ use vitriol_sim::solver::{Counters, SolverState};
 use vitriol_sim::world::{StepInput, World};
 
 use super::case::Case;
-use super::judge::ENERGY;
 use super::motion::{BEFORE, LASTS, Motion};
 use super::recipe::{Base, Crowd};
 use super::surface::Surface;
@@ -20,6 +19,8 @@ use super::surface::Surface;
 pub(super) const REST: f64 = 1.0;
 /// Steps that a case takes at most: one of a tenth of the time step ends earlier.
 const MOST_STEPS: u64 = 400;
+/// Energy that may appear over what was turned over: lattices settle, lists are cut.
+pub(super) const ENERGY: f64 = 0.05;
 /// Time at the end over which a speed is a mean, s.
 const LAST: f64 = 0.25;
 /// Steps between two looks at all particles.

@@ -8,7 +8,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 
 use super::case::Case;
-use super::drive::{Run, drive};
+use super::drive::{ENERGY, Run, drive};
 use super::motion::Motion;
 use super::recipe::{Base, Crowd, Recipe};
 
@@ -109,8 +109,6 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
 
 /// v_max may be passed by rounding.
 const SPEED_ROUNDING: f64 = 1e-5;
-/// Energy that may appear over what was turned over: lattices settle, lists are cut.
-pub(super) const ENERGY: f64 = 0.05;
 /// Relative changes of acid, mass and enthalpy that rounding of f32 explains.
 const KEPT: [f64; 3] = [1e-5, 1e-5, 1e-4];
 
