@@ -86,8 +86,8 @@ pub const GLASS: f64 = 30.0 * PI / 180.0;
 /// Contact angle of water on a bench's phenolic resin (50° to 80°), radians.
 pub const BENCH: f64 = 65.0 * PI / 180.0;
 
-/// Difference between the advancing and the receding contact angle of glass and resin that are in use, radians; taken to be
-/// so: 10° to 30° are usual of what is not cleaned with care.
+/// Difference between the advancing and the receding contact angle of glass and resin that are in use, radians: assumed,
+/// as no source for glass in use was found.
 pub const HYSTERESIS: f64 = 20.0 * PI / 180.0;
 
 /// How much of what cells hold comes to particles, by `lines_are_held_by_what_hysteresis_says`: next to a wall the filter

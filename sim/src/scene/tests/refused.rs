@@ -273,7 +273,7 @@ fn surface_tension_needs_maps_short_substeps_and_angles() {
     let rough = Scene::parse(&sticky("45"), "t.toml").unwrap();
     let rough = rough.surface_tension().unwrap().hysteresis;
     assert!((rough - 45.0f64.to_radians()).abs() < 1e-12, "{rough}");
-    let far = message(sticky("181"));
+    let far = message(sticky("91"));
     assert!(
         far.contains("solver.hysteresis") && far.contains("from 0 to 90"),
         "{far}"
