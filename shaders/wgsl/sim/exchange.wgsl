@@ -2,6 +2,7 @@
 // to what is around, boiling and condensing, and what boiling may spend on
 // motion. `chemistry/transport.rs` and `chemistry/physical.rs` are the same in f64.
 //!include common/chemistry/boiling.wgsl
+//!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
 //!include common/chemistry/eddies.wgsl
@@ -60,6 +61,11 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 @group(0) @binding(14) var<storage, read_write> glass_taken: array<atomic<i32>>;
 /// What of its exchange a particle may keep (`sim/turnover.wgsl`).
 @group(0) @binding(15) var<storage, read> kept: array<f32>;
+/// By identity: what bubbles did to a particle.
+@group(0) @binding(16) var<storage, read_write> bubbled: array<vec4<i32>>;
+/// By identity: gas of a particle, that which it goes to (V0), the conductance of all bubbles around it (V0·ρ0/(s K)), and
+/// the time until another bubble is born at it, s.
+@group(0) @binding(17) var<storage, read_write> gas: array<vec4<f32>>;
 
 /// What a pair exchanges in a substep.
 struct Rates {
@@ -284,6 +290,36 @@ fn without_water(before: State, gone: f32, enthalpy: f32) -> State {
     return state;
 }
 
+/// Most gas of a particle over its liquid: with more, the neighbours are too far.
+const MOST_GAS: f32 = 1.5;
+
+/// Line 26: what bubbles took of this particle and gave it. Of the mass what f32 can add is taken over; the rest waits.
+fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
+    let did = bubbled[2u * identity];
+    var state = before;
+    let mass = rounded(state.content.mass + f32(did.x) * MASS_QUANTUM);
+    let change = mass - state.content.mass;
+    let enthalpy = f32(did.y) * ENTHALPY_QUANTUM;
+    if (SEGREGATION && change < 0.0) {
+        let poorest = poorest_of(state.acid.value, state.variance);
+        state.variance = without_lamellar_water(state.variance, state.acid.value, poorest, -change / state.content.mass);
+    }
+    state.acid = compensated(state.acid, -state.acid.value * change / mass);
+    state.enthalpy = compensated(state.enthalpy, (enthalpy - state.enthalpy.value * change) / mass);
+    state.content.mass = mass;
+    let comes = f32(did.z) * GAS_QUANTUM;
+    let most = MOST_GAS * liquid;
+    if (comes > most) { atomicAdd(&counters.gas_limited, 1u); }
+    let before_gas = gas[identity];
+    gas[identity] = vec4<f32>(before_gas.x, min(comes, most), f32(did.w) * CONDUCTANCE_QUANTUM, before_gas.w);
+    bubbled[2u * identity] = vec4<i32>(did.x - i32(change / MASS_QUANTUM), 0, 0, 0);
+    let others = bubbled[2u * identity + 1u];
+    // What gas has no place stirs nothing.
+    let stirring = i32(f32(others.z) * min(most / max(comes, GAS_QUANTUM), 1.0));
+    bubbled[2u * identity + 1u] = vec4<i32>(0, others.x, 0, stirring);
+    return state;
+}
+
 /// Line 26: bubbles rise to the particles above, and leave where there are none. Only there does
 /// their vapour push the liquid out of the air's way. `vapour` is what the particle holds of it; of
 /// one whose list is not `whole`, what is above is not looked for.
@@ -353,11 +389,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     state.acid = Compensated(state.content.acid, lacking.acid);
     state.enthalpy = Compensated(state.content.enthalpy, lacking.enthalpy);
     state = take_up(state, i, tag.x, extent.volume, own, received);
+    if (BUBBLES) {
+        if ((step.bubbles & BUBBLES_ACTED) > 0u) {
+            state = take_from_bubbles(state, tag.y, extent.volume - gas[tag.y].x);
+        }
+    }
     if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }
     var content = state.content;
     content.acid = clamp(state.acid.value, 0.0, 1.0);
     content.enthalpy = state.enthalpy.value;
-    if (EVAPORATION) {
+    if (EVAPORATION && !BUBBLES) {
         let after = boiled(content, state.variance);
         content.vapour = after.vapour;
         state.variance = after.variance;

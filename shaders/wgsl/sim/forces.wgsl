@@ -6,6 +6,7 @@
 // 27: XSPH viscosity (Eq. 16) as a velocity update, between particles and with walls, and anti-viscosity.
 // 28: internal forces. Then line 24 once more, since they may pass v_max.
 // 16: within a frame, the next substep's prediction, which saves a pass.
+//!include common/chemistry/boils.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
 //!include common/chemistry/ledger.wgsl
@@ -60,6 +61,11 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> counters: Counters;
 @group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
+@group(0) @binding(16) var<storage, read_write> boils: array<vec4<f32>>;
+/// By identity, see `sim/exchange.wgsl`.
+@group(0) @binding(17) var<storage, read_write> gas: array<vec4<f32>>;
+/// By place of a bubble: one more than the particle at which it is to be born.
+@group(0) @binding(19) var<storage, read_write> claims: array<atomic<u32>>;
 
 /// What the neighbours add up to.
 struct Sums {
@@ -187,8 +193,34 @@ fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
         extent.volume = content.mass * (1.0 - content.vapour) / density;
         extent.lightness = 1.0 / density;
     }
+    if (BUBBLES) { extent = swollen(i, identity, extent, content, own.variance, potential); }
     bulk[i] = pack_bulk(extent);
     return extent.volume;
+}
+
+/// ρ of steam at 100 °C, kg/m³, for the picture's vapour.
+const STEAM_DENSITY: f32 = 0.59;
+
+/// A particle with the gas of the bubbles around it: it fills more space, and the same pressure moves it further. Where bubbles act next,
+/// what they need of it, and whether one is to be born.
+fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32, potential: Potential) -> Bulk {
+    var extent = liquid;
+    var held = gas[identity];
+    held.x += (held.y - held.x) * step.approach;
+    held.w = max(held.w - step.time, 0.0);
+    extent.lightness *= (liquid.volume + held.x) / liquid.volume;
+    extent.volume += held.x;
+    extent.vapour = held.x * (STEAM_DENSITY / REST_DENSITY);
+    if ((step.bubbles & BUBBLES_ACT) > 0u) {
+        let boil = boil_of(content, variance, potential);
+        boils[i] = boil;
+        if (boil.x > NUCLEATION && is_nucleus(identity) && held.w <= 0.0) {
+            held.w = NUCLEUS_WAIT;
+            atomicMax(&claims[place_of_birth(identity, position[i].xyz)], i + 1u);
+        }
+    }
+    gas[identity] = held;
+    return extent;
 }
 
 @compute @workgroup_size(64)

@@ -10,6 +10,8 @@
 // Where density follows composition, Σ V_j W is the share of space that is
 // filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
 // density: that of a neighbour of another liquid is its equal.
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/features.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/list_args.wgsl
@@ -46,6 +48,7 @@ const MOST_MIRRORED: f32 = 0.1;
 @group(0) @binding(9) var<storage, read> position: array<vec4<f32>>;
 /// V there.
 @group(0) @binding(10) var<storage, read_write> wall_before: array<f32>;
+@group(0) @binding(11) var<storage, read> bulk: array<vec4<f32>>;
 
 /// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
 fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
@@ -83,6 +86,14 @@ fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
     return before;
 }
 
+/// Line 19: how much of its multiplier's change a particle takes that gas has swollen: the sum of its gradients grows with its
+/// volume and with its lightness, and so would what an iteration overshoots.
+fn stiffness_of(i: u32) -> f32 {
+    if (!BUBBLES) { return 1.0; }
+    let extent = unpack_bulk(bulk[i]);
+    return 1.0 / max(extent.volume * extent.lightness, 1.0);
+}
+
 /// Line 19: λ after this iteration, for C at x*, and its change.
 fn update_multiplier(i: u32, x: vec3<f32>, constraint: f32) {
     var before = 0.0;
@@ -93,7 +104,7 @@ fn update_multiplier(i: u32, x: vec3<f32>, constraint: f32) {
         before = multiplier[i];
         momentum = step.momentum * change_in(solved[i]);
     }
-    let after = min(before - step.residual * constraint + momentum, 0.0);
+    let after = min(before - step.residual * stiffness_of(i) * constraint + momentum, 0.0);
     multiplier[i] = after;
     solved[i] = pack_solved(x, after - before);
 }

@@ -1,6 +1,9 @@
 // The eddies that the next frame's liquid mixes by: Smagorinsky's, of the filtered flow's rate of strain and
 // stratification. `reference/eddies.rs` and `chemistry/eddies.rs` are the same in f64.
+//!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/bulk.wgsl
 //!include common/chemistry/eddies.wgsl
+//!include common/chemistry/features.wgsl
 //!include common/chemistry/flow.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
@@ -15,6 +18,19 @@ const LEAST_MOMENT: f32 = 0.6;
 @group(0) @binding(1) var<storage, read> list_counts: array<u32>;
 @group(0) @binding(2) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read_write> eddies: array<vec2<f32>>;
+
+@group(0) @binding(40) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(41) var<storage, read> bubbled: array<vec4<i32>>;
+
+/// Eddies of bubbles over void fraction, diameter and speed (Sato and Sekoguchi 1975).
+const BUBBLE_EDDIES: f32 = 0.6;
+
+/// K of the bubbles that rise past a particle, m²/s: its gas is a share of its volume.
+fn stirred_by_bubbles(i: u32) -> f32 {
+    if (!BUBBLES) { return 0.0; }
+    let swept = f32(bubbled[2u * tags[i].y + 1u].w) * STIRRING_QUANTUM;
+    return BUBBLE_EDDIES / SCHMIDT * swept / unpack_bulk(bulk[i]).volume;
+}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -57,5 +73,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let strain = 2.0 * dot(along, along) + dot(across, across);
     let buoyancy = dot(vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z), density) / own.w;
     let rate = sqrt(max(strain - buoyancy / SCHMIDT, 0.0));
-    eddies[i] = pack_eddies(Eddies(EDDY_AREA * rate, unpack_eddies(eddies[i]).variance));
+    eddies[i] = pack_eddies(Eddies(EDDY_AREA * rate + stirred_by_bubbles(i), unpack_eddies(eddies[i]).variance));
 }

@@ -1,14 +1,15 @@
 // What steam left the liquid becomes puffs. Each workgroup gathers the steam
-// of a share of the particles, and lets it rise from one of them: that with
+// of a share of the particles and of the bubbles, and lets it rise from one of them: that with
 // the most, by lot, so that the puffs come from all over the surface.
+//!include common/chemistry/bubble.wgsl
 //!include common/chemistry/condensation.wgsl
+//!include common/chemistry/features.wgsl
 //!include common/chemistry/ledger.wgsl
+//!include common/chemistry/particle_mass.wgsl
 //!include common/liquid/particle.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;
-/// Mass of a particle at rest density, kg.
-override MASS: f32 = 1e-5;
 /// Steam that makes a puff, kg; less waits for more.
 override LEAST_PUFF: f32 = 5e-7;
 
@@ -19,6 +20,8 @@ override LEAST_PUFF: f32 = 5e-7;
 @group(0) @binding(4) var<storage, read_write> vented: array<vec2<f32>>;
 /// Puffs made, by workgroup.
 @group(0) @binding(5) var<storage, read_write> made: array<u32>;
+
+@group(0) @binding(6) var<storage, read_write> bubbles: array<Bubble>;
 
 const THREADS: u32 = 64u;
 
@@ -51,6 +54,17 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
             drawer = i;
         }
     }
+    if (BUBBLES) {
+        for (var slot = first; slot < SLOTS; slot += VENTS * THREADS) {
+            let gone = bubbles[slot].gone - bubbles[slot].vented;
+            sum += gone;
+            let drawn = gone.x * lot(slot, number);
+            if (drawn > best) {
+                best = drawn;
+                drawer = COUNT + slot;
+            }
+        }
+    }
     sums[local.x] = sum;
     lots[local.x] = best;
     drawers[local.x] = drawer;
@@ -71,8 +85,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         let identity = tags[i].y;
         vented[identity] = unpack_account(ledger[identity]).steam;
     }
+    if (BUBBLES) {
+        for (var slot = first; slot < SLOTS; slot += VENTS * THREADS) { bubbles[slot].vented = bubbles[slot].gone; }
+    }
     if (local.x != 0u) { return; }
-    let source = position[drawers[0]].xyz;
+    var source: vec3<f32>;
+    if (drawers[0] < COUNT) { source = position[drawers[0]].xyz; } else { source = bubbles[drawers[0] - COUNT].position; }
     // The liquid's tables count from water at 25 °C, and steam has 1.9 kJ/(kg K) in them.
     let temperature = (steam.y / steam.x - 2.442e6) / 1.9e3 + 25.0;
     var puff: Puff;

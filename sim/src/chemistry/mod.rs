@@ -10,6 +10,7 @@
 //! H₂SO₄, 0 to 1. An energy per mass is per mass of mixture.
 
 pub mod adiabatic;
+pub mod bubbles;
 mod constants;
 pub mod curve;
 pub mod eddies;

@@ -1,5 +1,6 @@
 //! What of the chemistry a scene models, and with which numbers.
 
+use super::bubbles::Bubbles;
 use super::eddies::Mixing;
 use super::paper::Boiling;
 use super::transport::Losses;
@@ -58,6 +59,8 @@ pub struct Physical {
     pub viscosity: bool,
     /// Time constant of boiling and condensing, s, where water evaporates.
     pub superheat_time: Option<f64>,
+    /// Bubbles that have volume, in place of vapour that particles hold.
+    pub bubbles: Option<Bubbles>,
     /// Speed of bubbles in the liquid, m/s, where they leave it as steam.
     pub bubble_speed: Option<f64>,
     /// η, where boiling moves the liquid.
@@ -67,6 +70,18 @@ pub struct Physical {
     pub lamella: Option<f64>,
     /// Heat that leaves, where it does.
     pub losses: Option<Losses>,
+}
+
+impl Physical {
+    /// Whether water evaporates.
+    pub fn evaporates(&self) -> bool {
+        self.superheat_time.is_some() || self.bubbles.is_some()
+    }
+
+    /// Whether steam leaves the liquid.
+    pub fn steams(&self) -> bool {
+        self.bubble_speed.is_some() || self.bubbles.is_some()
+    }
 }
 
 impl Chemistry {
@@ -119,7 +134,15 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
             surface: physical.surface_loss?,
         })
     };
+    let bubbles = || {
+        Some(Bubbles {
+            nuclei_spacing: physical.nuclei_spacing?,
+            foam_time: physical.foam_time?,
+            most: physical.most_bubbles?,
+        })
+    };
     Some(Physical {
+        bubbles: bubbles().filter(|_| scene.models(Feature::Bubbles)),
         mixing: Mixing {
             turbulence: physical.mixing?,
             width: physical.eddy_width?,

@@ -56,7 +56,7 @@ pub struct Superheat {
 /// pure liquids at 25 °C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Ledger {
-    /// Mass of liquid and of vapour that is still in it, kg.
+    /// Mass of liquid and of vapour that is still in it, in bubbles or in particles, kg.
     pub mass: f64,
     /// Mass of acid, kg.
     pub acid: f64,
@@ -238,6 +238,12 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         sum.steam += steam;
         sum.steam_enthalpy += steam_enthalpy;
     }
+    let bubbles = state.vapour();
+    sum.mass += bubbles.held[0] + bubbles.pending[0];
+    sum.vapour += bubbles.held[0];
+    sum.held += bubbles.held[1] + bubbles.pending[1];
+    sum.steam += bubbles.gone[0];
+    sum.steam_enthalpy += bubbles.gone[1];
     let m = particle_mass;
     Some(Ledger {
         mass: m * sum.mass,

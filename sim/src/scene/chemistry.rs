@@ -45,10 +45,16 @@ pub struct PhysicalChemistry {
     pub mixing: Option<f64>,
     /// Δ: width over which the flow is filtered for it, m; with `dilution`.
     pub eddy_width: Option<f64>,
-    /// Time in which a superheat decays by evaporation, s; with `evaporation`.
+    /// Time in which a superheat decays by evaporation, s; with `evaporation`, without `bubbles`.
     pub superheat_time: Option<f64>,
     /// Speed at which bubbles rise through the liquid, m/s; with `steam`.
     pub bubble_speed: Option<f64>,
+    /// Edge of the cube of liquid that has one nucleus of bubbles, m; with `bubbles`.
+    pub nuclei_spacing: Option<f64>,
+    /// How long a bubble lasts at the surface, s; with `bubbles`.
+    pub foam_time: Option<f64>,
+    /// Most bubbles at a time; with `bubbles`.
+    pub most_bubbles: Option<u32>,
     /// η: the share of the work R·T/M of the water that evaporates which
     /// becomes motion; with `boiling`.
     pub agitation: Option<f64>,
@@ -74,6 +80,7 @@ const TEMPERATURE: Must = (
 const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
 const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
 const LENGTH: Must = (|value| value > 0.0, "above zero (m)");
+const AT_LEAST_ONE: Must = (|value| value >= 1.0, "1 or more");
 const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
 
 impl PaperChemistry {
@@ -91,14 +98,24 @@ impl PaperChemistry {
 }
 
 impl PhysicalChemistry {
-    pub(super) fn fields(&self) -> [Field; 9] {
-        use Feature::{Boiling, Dilution, Evaporation, Heat, Losses, Segregation, Steam};
+    pub(super) fn fields(&self, bubbles: bool) -> [Field; 12] {
+        use Feature::{Boiling, Bubbles, Dilution, Evaporation, Heat, Losses, Segregation, Steam};
         let p = self;
+        // Where there are bubbles, they are the rate at which a superheat decays.
+        let settles = if bubbles { Steam } else { Evaporation };
         [
             ("ambient", Heat, p.ambient, TEMPERATURE),
             ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
             ("eddy_width", Dilution, p.eddy_width, LENGTH),
-            ("superheat_time", Evaporation, p.superheat_time, DURATION),
+            ("superheat_time", settles, p.superheat_time, DURATION),
+            ("nuclei_spacing", Bubbles, p.nuclei_spacing, LENGTH),
+            ("foam_time", Bubbles, p.foam_time, DURATION),
+            (
+                "most_bubbles",
+                Bubbles,
+                p.most_bubbles.map(f64::from),
+                AT_LEAST_ONE,
+            ),
             ("bubble_speed", Steam, p.bubble_speed, SPEED),
             ("agitation", Boiling, p.agitation, NOT_NEGATIVE),
             ("lamella", Segregation, p.lamella, LENGTH),
@@ -142,7 +159,11 @@ pub(super) fn check_features(
     }
     let solver = solver.fields().map(|field| ("solver", field));
     let of_paper = paper.map(|paper| paper.fields().map(|field| ("paper", field)));
-    let of_physical = physical.map(|physical| physical.fields().map(|field| ("physical", field)));
+    let of_physical = physical.map(|physical| {
+        physical
+            .fields(model.contains(&Feature::Bubbles))
+            .map(|field| ("physical", field))
+    });
     let fields = solver
         .into_iter()
         .chain(of_paper.into_iter().flatten())
@@ -188,6 +209,9 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
             // Only vapour that leaves does work that can become motion.
             (Feature::Boiling, Feature::Steam),
             (Feature::Steam, Feature::Evaporation),
+            (Feature::Bubbles, Feature::Evaporation),
+            // They swell the liquid as a change of its density does.
+            (Feature::Bubbles, Feature::Density),
         ]);
     }
     needs
@@ -218,11 +242,16 @@ fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
             return Err(Problem::new("model", problem));
         }
     }
+    if model.contains(&Feature::Bubbles) && model.contains(&Feature::Steam) {
+        let problem = "\"bubbles\" and \"steam\" are two models of the same vapour; keep one";
+        return Err(Problem::new("model", problem.to_owned()));
+    }
     let beyond_paper = [
         Feature::Density,
         Feature::Viscosity,
         Feature::Evaporation,
         Feature::Steam,
+        Feature::Bubbles,
         Feature::Losses,
         Feature::Segregation,
     ];

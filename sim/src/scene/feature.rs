@@ -25,6 +25,8 @@ pub enum Feature {
     Evaporation,
     /// Vapour that leaves the liquid, rises and condenses.
     Steam,
+    /// Vapour in bubbles that have volume, in place of `Steam`.
+    Bubbles,
     /// Acid and water that are not mixed below a particle's size, of which the water boils first.
     Segregation,
     /// Heat lost through glass and at the free surface.

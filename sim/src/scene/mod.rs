@@ -213,7 +213,10 @@ impl Scene {
             fields::check_fields("paper", &paper.fields())?;
         }
         if let Some(physical) = &raw.physical {
-            fields::check_fields("physical", &physical.fields())?;
+            fields::check_fields(
+                "physical",
+                &physical.fields(raw.model.contains(&Feature::Bubbles)),
+            )?;
         }
         chemistry::check_features(
             &raw.model,

@@ -4,7 +4,7 @@
 use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::glass;
-use super::pipelines::Grid;
+use super::pipelines::{Grid, bubbles_of};
 use super::spec::SolverSpec;
 use super::transfer::upload;
 use super::vessels::Vessels;
@@ -17,7 +17,11 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 40;
+pub(super) const OF_PARTICLES: usize = 43;
+
+/// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
+pub(super) const BUBBLE_WORDS: usize = 16;
+pub(super) const BUBBLED_WORDS: usize = 8;
 
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
@@ -72,6 +76,14 @@ pub(super) struct Buffers {
     pub(super) sorted_eddies: Buffer,
     pub(super) solution: Buffer,
     pub(super) lamellae: Buffer,
+    /// Bubbles: their records before and after a step, what they do to particles and what these have of it by identity, what
+    /// particles are to them by slot, and by bubble where one is to be born and what joins it.
+    pub(super) bubbles: Buffer,
+    pub(super) bubbled: Buffer,
+    pub(super) gas: Buffer,
+    pub(super) boils: Buffer,
+    pub(super) claims: Buffer,
+    pub(super) merging: Buffer,
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
     pub(super) glass_taken: Buffer,
@@ -126,6 +138,9 @@ impl Buffers {
             _ => Vec::new(),
         };
         let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
+        let bubbles = bubbles_of(&spec.parameters);
+        let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
+        let bubbly = where_asked(bubbles.is_some(), n);
         let confined = spec.parameters.vorticity > 0.0;
         let colour = Colour::new(&spec.parameters, count);
         let slots = where_asked(spec.parameters.surface.is_some(), colour.slots.into());
@@ -167,6 +182,12 @@ impl Buffers {
             sorted_eddies: words("sorted_eddies", 2 * held)?,
             solution: upload(gpu, "solution", &table)?,
             lamellae: upload(gpu, "lamellae", &lamellae)?,
+            bubbles: words("bubbles", 2 * BUBBLE_WORDS as u64 * slots_of_bubbles)?,
+            bubbled: words("bubbled", BUBBLED_WORDS as u64 * bubbly)?,
+            gas: words("gas", 4 * bubbly)?,
+            boils: words("boils", 4 * bubbly)?,
+            claims: words("claims", slots_of_bubbles)?,
+            merging: words("merging", 4 * slots_of_bubbles)?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
             colour_keys: words("colour_keys", 2 * slots)?,
@@ -193,7 +214,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 21] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 24] {
         [
             &self.position,
             &self.velocity,
@@ -235,6 +256,9 @@ impl Buffers {
             &self.curvature,
             &self.line_hold,
             &self.held,
+            &self.bubbled,
+            &self.gas,
+            &self.boils,
             &self.colour_args,
             &self.counters,
             &self.cell_counts,
@@ -243,6 +267,9 @@ impl Buffers {
             &self.list_args,
             &self.solution,
             &self.lamellae,
+            &self.bubbles,
+            &self.claims,
+            &self.merging,
             &self.glass,
             &self.glass_taken,
             &self.poses,

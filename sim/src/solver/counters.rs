@@ -34,4 +34,8 @@ pub struct Counters {
     pub table_ends: u32,
     /// Times that surface tension was left out: liquid lay in more places than its table has room for.
     pub tension_skipped: u32,
+    /// Nuclei that found no place among the bubbles, which are bounded in number.
+    pub bubbles_refused: u32,
+    /// Particles and steps of the bubbles in which more gas came to a particle than it can hold.
+    pub gas_limited: u32,
 }

@@ -1,10 +1,12 @@
 //! The simulation loop, Algorithm 1, as passes in its order. `docs/paper-map.md` has each line's shader and function.
 
+use super::bubbles;
 use super::buffers::LOAD_GROUP;
 use super::pipelines::SolverPass;
 use super::vessels::flask_pose;
 use super::{Solver, SolverError};
 use crate::chemistry::Chemistry;
+use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
 use std::sync::atomic::Ordering;
@@ -87,6 +89,7 @@ impl Solver {
             let last = n + 1 == substeps;
             let forces = if last { &p.last_forces } else { &p.forces };
             self.over_particles(rec, forces, &step)?;
+            self.bubble(rec, &step, n)?; // end of 26, of bubbles
         }
         for pass in &p.eddies {
             self.pass(rec, pass).invocations(self.count * self.lanes)?;
@@ -205,6 +208,8 @@ impl Solver {
             before: n * flasks,
             after: (n + 1) * flasks,
             next: (n + 2) * flasks,
+            bubbles: bubbles::flags(n, self.parameters.substeps),
+            approach: Bubbles::approach(n, self.parameters.substeps) as f32,
             ..Step::default()
         }
     }

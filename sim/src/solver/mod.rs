@@ -10,6 +10,7 @@
 //! 16). The neighbour list is rebuilt when a particle has used up its
 //! margin; the GPU decides, by the sizes of six indirect dispatches.
 
+mod bubbles;
 mod buffers;
 mod colour;
 mod counters;

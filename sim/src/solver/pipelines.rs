@@ -4,6 +4,7 @@ use super::colour::Colour;
 use super::glass;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
+use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
@@ -83,6 +84,8 @@ pub(super) struct Pipelines {
     pub(super) forces: SolverPass,
     /// Of a frame's last substep: predicts none.
     pub(super) last_forces: SolverPass,
+    /// Where vapour is in bubbles.
+    pub(super) bubbles: Option<SolverPass>,
     /// The physical chemistry's eddies at a frame's end: the flow's filter, and its strain.
     pub(super) eddies: Vec<SolverPass>,
     /// Where heat is lost to flasks.
@@ -162,6 +165,10 @@ impl Pipelines {
             tension,
             forces: make(sim::FORCES, &[("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[])?,
+            bubbles: match bubbles_of(&spec.parameters) {
+                None => None,
+                Some(_) => Some(make(sim::BUBBLES, &[])?),
+            },
             eddies: eddies(gpu, library, spec, constants, buffers)?,
             glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
                 0 => None,
@@ -170,6 +177,14 @@ impl Pipelines {
             load: make(sim::LOAD, &[])?,
             density: make(sim::DENSITY, &[])?,
         })
+    }
+}
+
+/// The bubbles of a scene that has them.
+pub(super) fn bubbles_of(parameters: &Parameters) -> Option<&Bubbles> {
+    match &parameters.chemistry {
+        Some(Chemistry::Physical(physical)) => physical.bubbles.as_ref(),
+        _ => None,
     }
 }
 
@@ -253,8 +268,19 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         ("ACID_DIFFUSIVITY", ACID_DIFFUSIVITY),
         ("THERMAL_DIFFUSIVITY", THERMAL_DIFFUSIVITY),
     ];
+    own.push(("EVAPORATION", flag(physical.evaporates())));
     if let Some(time) = physical.superheat_time {
-        own.extend([("EVAPORATION", 1.0), ("SUPERHEAT_TIME", time)]);
+        own.push(("SUPERHEAT_TIME", time));
+    }
+    if let Some(bubbles) = physical.bubbles {
+        own.extend([
+            ("BUBBLES", 1.0),
+            ("SLOTS", bubbles.slots().into()),
+            ("NUCLEI", bubbles.nuclei(p.spacing)),
+            ("NUCLEUS_WAIT", bubbles.nucleus_wait()),
+            ("FOAM_TIME", bubbles.foam_time),
+            ("GRAVITY", p.gravity[1].abs()),
+        ]);
     }
     if let Some(speed) = physical.bubble_speed {
         own.push(("BUBBLE_SPEED", speed));

@@ -1,5 +1,6 @@
 //! The solver's state, taken from a device and put on one again.
 
+use super::bubbles::BubbleState;
 use super::glass;
 use super::steam::{Steam, SteamState};
 use super::transfer::{read, write};
@@ -31,6 +32,7 @@ impl Solver {
                 Some(steam) => steam.snapshot(gpu, n)?,
                 None => SteamState::default(),
             },
+            bubbles: BubbleState::read(gpu, b, &self.bubbles_at_start())?,
             held: read(gpu, &b.held, self.sticking())?,
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
@@ -49,6 +51,7 @@ impl Solver {
         let listed = n * self.grid.list_capacity as usize;
         let [heat, matter] = self.lengths();
         let (steam, start) = (&state.steam, Steam::start(&self.parameters, n));
+        let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -67,6 +70,16 @@ impl Solver {
             ("puffs", steam.puffs.len(), start.puffs.len()),
             ("vented steam", steam.vented.len(), start.vented.len()),
             ("vents", steam.made.len(), start.made.len()),
+            ("bubbles", bubbles.bubbles.len(), none.bubbles.len()),
+            (
+                "bubbled particles",
+                bubbles.bubbled.len(),
+                none.bubbled.len(),
+            ),
+            ("gas", bubbles.gas.len(), none.gas.len()),
+            ("joining bubbles", bubbles.merging.len(), none.merging.len()),
+            ("cells", bubbles.cell_starts.len(), none.cell_starts.len()),
+            ("blocks", bubbles.block_sums.len(), none.block_sums.len()),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {
@@ -93,6 +106,7 @@ impl Solver {
         if let Some(steam) = &self.steam {
             steam.restore(gpu, &state.steam)?;
         }
+        state.bubbles.write(gpu, b)?;
         write(gpu, &b.held, &state.held)?;
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
@@ -100,6 +114,10 @@ impl Solver {
         write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
+        if self.pipelines.bubbles.is_some() {
+            // At a frame's end nothing is to be born.
+            rec.fill(&b.claims, 0)?;
+        }
         rec.fill(&b.glass_taken, 0)?;
         if self.parameters.surface.is_some() {
             // Volumes are added to it, and each impulse leaves it at 0.

@@ -1,5 +1,6 @@
 //! The solver's state on the host: what it is at the start, and what it tells of a particle.
 
+use super::bubbles::{self, BubbleState, VapourAccount};
 use super::counters::Counters;
 use super::glass;
 use super::matter::Start;
@@ -10,6 +11,7 @@ use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
+use vitriol_shaders::layout::Bubble;
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
@@ -50,6 +52,7 @@ pub struct SolverState {
     /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
     pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
+    pub(super) bubbles: BubbleState,
     /// What walls hold the surface's line with, by identity, until surface tension acts again; empty without hysteresis.
     pub(super) held: Vec<[f32; 4]>,
 }
@@ -88,6 +91,7 @@ impl SolverState {
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
             steam: Steam::start(parameters, n),
+            bubbles: BubbleState::start(parameters, n, [grid.cells(), grid.blocks()]),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
@@ -136,7 +140,34 @@ impl SolverState {
             }
         }
         hash.update(bytemuck::cast_slice(&self.glass));
+        hash.update(bytemuck::cast_slice(&self.bubbles.bubbles));
         hash.digest()
+    }
+
+    /// Bubbles of steam in the liquid: those of mass 0 are none. Masses are over V0·ρ0; empty where a scene has no bubbles.
+    pub fn bubbles(&self) -> &[Bubble] {
+        self.bubbles.records()
+    }
+
+    /// Puts a bubble of steam of `temperature` (°C) into place `slot` of [`Self::bubbles`], with membership `tag`, at
+    /// `position` with `radius` (m).
+    pub fn put_bubble(
+        &mut self,
+        parameters: &Parameters,
+        slot: usize,
+        tag: u32,
+        [position, velocity]: [glam::DVec3; 2],
+        [radius, temperature]: [f64; 2],
+    ) {
+        let at = bubbles::record(parameters, tag, [position, velocity], [radius, temperature]);
+        if let Some(place) = self.bubbles.bubbles.get_mut(slot) {
+            *place = bytemuck::cast(at);
+        }
+    }
+
+    /// Where the vapour of bubbles is.
+    pub(crate) fn vapour(&self) -> VapourAccount {
+        self.bubbles.account()
     }
 
     /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.

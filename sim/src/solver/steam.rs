@@ -133,14 +133,22 @@ impl Steam {
 }
 
 /// What the two passes bind.
-fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buffer; 6] {
-    [puffs, vented, made, &b.position, &b.tags, &b.ledger]
+fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buffer; 7] {
+    [
+        puffs,
+        vented,
+        made,
+        &b.position,
+        &b.tags,
+        &b.ledger,
+        &b.bubbles,
+    ]
 }
 
 /// The chemistry, where steam leaves the liquid.
 fn physical(parameters: &Parameters) -> Option<&Physical> {
     match &parameters.chemistry {
-        Some(Chemistry::Physical(p)) if p.bubble_speed.is_some() => Some(p),
+        Some(Chemistry::Physical(p)) if p.steams() => Some(p),
         _ => None,
     }
 }

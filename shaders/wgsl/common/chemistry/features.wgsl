@@ -19,3 +19,5 @@ override EVAPORATION: bool = false;
 override SEGREGATION: bool = false;
 /// Physical: whether heat is lost to glass and air.
 override LOSSES: bool = false;
+/// Physical: whether vapour is in bubbles that have volume.
+override BUBBLES: bool = false;

@@ -21,4 +21,8 @@ struct Counters {
     table_ends: atomic<u32>,
     /// Times that surface tension was left out, its table being full.
     tension_skipped: atomic<u32>,
+    /// Nuclei that found no place among the bubbles.
+    bubbles_refused: atomic<u32>,
+    /// Particles whose gas was cut to what a neighbourhood can hold.
+    gas_limited: atomic<u32>,
 }

@@ -18,7 +18,18 @@ struct Step {
     after: u32,
     /// First pose of the next substep's end.
     next: u32,
+    /// What the bubbles do before and after this substep: `BUBBLES_ACTED`, `BUBBLES_ACT`.
+    bubbles: u32,
+    /// Share of the way to its next volume that a particle's gas goes in this substep.
+    approach: f32,
+    /// Time of a step of the bubbles, seconds, and first of their records before it.
+    bubble_time: f32,
+    before_bubbles: u32,
 }
+
+/// Bubbles acted after the substep before; they act after this one.
+const BUBBLES_ACTED: u32 = 1u;
+const BUBBLES_ACT: u32 = 2u;
 
 var<immediate> step: Step;
 

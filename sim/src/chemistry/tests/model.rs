@@ -47,6 +47,7 @@ fn the_physical_chemistrys_numbers_arrive() {
     physical.surface_loss = Some(8.0);
     physical.lamella = Some(9.0);
     let all = Physical {
+        bubbles: None,
         mixing: Mixing {
             turbulence: 2.0,
             width: 0.004,

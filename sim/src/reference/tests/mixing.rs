@@ -13,6 +13,7 @@ use crate::reference::chemistry::{Chemistry, Physical};
 /// An insulated vessel whose bubbles stay.
 pub fn closed() -> Law {
     Law {
+        bubbles: None,
         lamella: None,
         mixing: Mixing::default(),
         losses: None,

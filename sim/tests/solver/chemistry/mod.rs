@@ -1,6 +1,7 @@
 //! Lines 26 and 27 of a liquid with a chemistry, the paper's and the physical one.
 
 mod boiling;
+mod bubbles;
 mod conserved;
 mod extremes;
 mod figures;

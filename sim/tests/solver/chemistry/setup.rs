@@ -4,6 +4,7 @@ use crate::common::*;
 use crate::leaning_glass;
 use glam::DVec3;
 use vitriol_gpu::Gpu;
+use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use vitriol_sim::chemistry::transport::Losses;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperBoiling, PaperDilution, Physical};
@@ -35,6 +36,23 @@ pub fn anti_viscosity(law: Boiling) -> PaperBoiling {
 
 pub fn paper(dilution: Option<PaperDilution>, boiling: Option<PaperBoiling>) -> Chemistry {
     Chemistry::Paper(Paper { dilution, boiling })
+}
+
+/// Bubbles of steam that are born nowhere, and last at the surface for 0.1 s.
+pub fn bubbly() -> Physical {
+    Physical {
+        bubbles: Some(Bubbles {
+            nuclei_spacing: 1.0,
+            foam_time: 0.1,
+            most: 4096,
+        }),
+        superheat_time: None,
+        bubble_speed: None,
+        work_share: None,
+        losses: None,
+        lamella: None,
+        ..built_in()
+    }
 }
 
 /// The physical chemistry of the built-in scene `water-into-acid`.

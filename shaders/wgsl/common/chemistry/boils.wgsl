@@ -1,0 +1,63 @@
+// What a particle is to the bubbles around it: its superheat (K, negative where it is colder than its boiling point), the steam
+// that a kelvin of it makes (V0·ρ0/K), and the share of it that drives a bubble's growth, as that needs water.
+//!include common/chemistry/heat.wgsl
+//!include common/chemistry/matter.wgsl
+//!include common/chemistry/molecules.wgsl
+//!include common/chemistry/segregation.wgsl
+//!include common/chemistry/slots.wgsl
+//!include common/chemistry/solution.wgsl
+
+/// Share of particles at which bubbles are born.
+override NUCLEI: f32 = 0.0;
+/// Time between two bubbles of a nucleus, s.
+override NUCLEUS_WAIT: f32 = 0.04;
+
+/// Superheat from which a nucleus grows, K.
+const NUCLEATION: f32 = 1.0;
+/// Least superheat of which a secant is taken, K.
+const SUPERHEATED: f32 = 0.01;
+
+/// Bits that have lost their order (O'Neill's PCG).
+fn scattered(number: u32) -> u32 {
+    let state = number * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+fn is_nucleus(identity: u32) -> bool {
+    return f32(scattered(identity) & 0xffffu) < NUCLEI * 65536.0;
+}
+
+/// Place of a bubble that is born at a particle at x: another one each time.
+fn place_of_birth(identity: u32, x: vec3<f32>) -> u32 {
+    let bits = bitcast<vec3<u32>>(x);
+    return scattered(identity ^ scattered(bits.x ^ scattered(bits.y ^ scattered(bits.z)))) % SLOTS;
+}
+
+fn boil_of(content: Content, variance: f32, potential: Potential) -> vec4<f32> {
+    let acid = potential.acid;
+    let row = row_of_lamellae(acid, variance);
+    let point = row.value.boiling_point;
+    let superheat = potential.temperature - point;
+    let poorest = poorest_of(acid, variance);
+    let latent = steam_enthalpy(point) - enthalpy_at(row, point);
+    let capacity = capacity_at(row, point);
+    // K of a mass fraction that boils away: of the latent heat, and of the boiling point, which rises.
+    let fall = latent / capacity + row.slope.boiling_point * poorest;
+    var per_kelvin = content.mass / fall;
+    if (superheat > SUPERHEATED) {
+        var vapour = 0.0;
+        if (SEGREGATION && variance > 0.0) {
+            vapour = flash(content.acid, content.enthalpy, 0.0, variance, poorest);
+        } else {
+            vapour = equilibrium(content.acid, content.enthalpy, 0.0);
+        }
+        per_kelvin = content.mass * vapour / superheat;
+    }
+    // Water runs out around a bubble (Scriven 1959, binary): it comes by diffusion, which is slower than heat.
+    let viscosity = viscosity_of(acid, potential.temperature);
+    let warmth = (potential.temperature - ABSOLUTE_ZERO) / 298.15;
+    let diffusivity = ACID_DIFFUSIVITY * warmth * WATER_VISCOSITY / viscosity;
+    let depletion = sqrt(THERMAL_DIFFUSIVITY / diffusivity) * poorest * max(row.slope.boiling_point, 0.0);
+    return vec4<f32>(superheat, per_kelvin, latent / (latent + capacity * depletion), 0.0);
+}

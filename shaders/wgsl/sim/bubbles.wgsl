@@ -1,0 +1,382 @@
+// Bubbles of steam: a population beside the particles, which the liquid's neighbour search does not know. A bubble is born at a
+// particle that is superheated, takes steam from the particles around it, or gives it back to colder ones; it rises, joins
+// others, and bursts at the surface. What it takes and gives, and its volume, are added to the particles in whole quanta; they take
+// them over with line 26, and their volume with line 1.
+//!include common/chemistry/bubble.wgsl
+//!include common/chemistry/bubble_laws.wgsl
+//!include common/chemistry/bubbled.wgsl
+//!include common/glass/boundary.wgsl
+//!include common/liquid/cell_rows.wgsl
+//!include common/liquid/counters.wgsl
+//!include common/liquid/lane_nearest.wgsl
+//!include common/liquid/particle.wgsl
+//!include common/liquid/step.wgsl
+
+/// How long a bubble stays at the surface, s.
+override FOAM_TIME: f32 = 0.1;
+/// Direction of gravity.
+override GRAVITY_X: f32 = 0.0;
+override GRAVITY_Y: f32 = -9.81;
+override GRAVITY_Z: f32 = 0.0;
+
+@group(0) @binding(0) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> velocity: array<vec4<f32>>;
+/// (membership, identity)
+@group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
+@group(0) @binding(6) var<storage, read> boils: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> gas: array<vec4<f32>>;
+/// Those before this step, and after it.
+@group(0) @binding(8) var<storage, read_write> bubbles: array<Bubble>;
+@group(0) @binding(9) var<storage, read_write> bubbled: array<atomic<i32>>;
+/// By slot: one more than the particle at which a bubble is to be born.
+@group(0) @binding(10) var<storage, read_write> claims: array<u32>;
+/// By step and slot: quanta of steam and enthalpy of what joins the bubble.
+@group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
+@group(0) @binding(12) var<storage, read_write> counters: Counters;
+
+/// Particle spacing d, m.
+override SPACING: f32 = 0.0025;
+/// How far from its surface a bubble exchanges steam, over d: with less it would lie between particles.
+const CONTACT: f32 = 1.2;
+/// Radius of a nucleus, and that below which a bubble is gone, m.
+const NUCLEUS: f32 = 3e-4;
+const VANISHED: f32 = 1e-4;
+/// Where fewer neighbours than this are above, over a full neighbourhood's, a bubble is at the surface.
+const COVERED: f32 = 0.7;
+/// Share of solid space around a bubble from which on glass holds it back.
+const AT_GLASS: f32 = 0.2;
+/// Cells around its own that a bubble reaches at most.
+const MOST_CELLS: i32 = 3;
+
+var<workgroup> claimed: array<u32, 64>;
+var<workgroup> joined: array<vec2<i32>, 64>;
+
+/// How much a particle at a share q of the reach counts, by its square; FULL is its integral over reach³.
+const FULL: f32 = 0.957442;
+fn share_at(square: f32) -> f32 {
+    let left = max(1.0 - square, 0.0);
+    return left * left;
+}
+
+/// How much of a bubble's exchange a particle at that square of a distance has: those that touch it, or nearly.
+fn contact_at(square: f32, radius: f32) -> f32 {
+    let reach = radius + CONTACT * SPACING;
+    return share_at(square / (reach * reach));
+}
+
+/// What is around a bubble, over the sum of the weights but for the weights and `cover`.
+struct Surrounding {
+    weight: f32,
+    /// Of what exchanges steam with it, which is nearer.
+    contact: f32,
+    cover: f32,
+    velocity: vec3<f32>,
+    /// Gas over liquid.
+    gas: f32,
+    acid: f32,
+    temperature: f32,
+    superheat: f32,
+    subcooling: f32,
+    /// Share of the superheat that drives growth, and of what subcooling collapse.
+    growing: f32,
+    shrinking: f32,
+    nearest: Nearest,
+}
+
+/// Of `bubble` within `reach`, in cells `cells` around its own; all lanes must ask.
+fn gather(bubble: Bubble, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> Surrounding {
+    var s: Surrounding;
+    s.nearest = Nearest(1e9, 0u);
+    let cell = cell_of(bubble.position);
+    let side = u32(2 * cells + 1);
+    let rows = select(0u, side * side, bubble.mass > 0.0);
+    for (var row = lane; row < rows; row += LANES) {
+        let run = row_around(cell, cells, row);
+        for (var n = 0u; n < run.count + run.wrapped; n++) {
+            let j = select(run.second + n - run.count, run.first + n, n < run.count);
+            let offset = position[j].xyz - bubble.position;
+            let square = dot(offset, offset);
+            if (square >= reach * reach || tags[j].x != bubble.membership) { continue; }
+            let weight = share_at(square / (reach * reach));
+            let distance = sqrt(max(square, 1e-12 * SUPPORT * SUPPORT));
+            let boil = boils[j];
+            let contact = contact_at(square, bubble.radius);
+            let excess = contact * max(boil.x, 0.0);
+            let lack = contact * max(-boil.x, 0.0);
+            s.weight += weight;
+            s.contact += contact;
+            s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
+            s.velocity += weight * velocity[j].xyz;
+            s.gas += weight * gas[tags[j].y].x;
+            s.temperature += weight * heat[j].x;
+            s.acid += weight * heat[j].y;
+            s.superheat += excess;
+            s.subcooling += lack;
+            s.growing += excess * boil.z;
+            s.shrinking += lack * boil.z;
+            s.nearest = nearer(s.nearest, Nearest(distance, j));
+        }
+    }
+    s.weight = lane_sum(s.weight);
+    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * reach * reach * reach);
+    s.velocity = lane_sum3(s.velocity);
+    let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
+    s.contact = thermal.z;
+    let excess = lane_sum3(vec3<f32>(s.superheat, s.growing, s.gas));
+    s.gas = excess.z / max(s.weight, 1e-12);
+    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, 0.0));
+    s.nearest = lane_nearest(s.nearest);
+    let per_weight = 1.0 / max(s.weight, 1e-12);
+    s.velocity *= per_weight;
+    s.temperature = thermal.x * per_weight;
+    s.acid = thermal.y * per_weight;
+    s.superheat = excess.x / max(s.contact, 1e-12);
+    s.subcooling = lack.x / max(s.contact, 1e-12);
+    s.growing = excess.y / max(excess.x, 1e-12);
+    s.shrinking = lack.y / max(lack.x, 1e-12);
+    return s;
+}
+
+/// What a bubble would exchange in a step if no other did: steam that it takes per kelvin of superheat, and that it
+/// gives per kelvin of subcooling, V0·ρ0/(s K).
+struct Conductance {
+    taken: f32,
+    given: f32,
+    /// Whether it collapses altogether.
+    vanishes: bool,
+}
+
+fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> Conductance {
+    let density = steam_density(steam_temperature(bubble.enthalpy / max(bubble.mass, 1e-20)));
+    let relative = length(bubble.velocity - s.velocity);
+    let unit = 4.0 / 3.0 * BUBBLE_PI * density / MASS;
+    let cube = bubble.radius * bubble.radius * bubble.radius;
+    var c: Conductance;
+    if (s.superheat > 0.0) {
+        let r = grown(bubble.radius, s.superheat, s.growing, relative, density, around, time);
+        c.taken = unit * (r * r * r - cube) / (time * s.superheat);
+    }
+    if (s.subcooling > 0.0) {
+        let r = collapsed(bubble.radius, s.subcooling, s.shrinking, relative, density, around, time);
+        c.given = unit * (cube - r * r * r) / (time * s.subcooling);
+        c.vanishes = r < VANISHED && s.subcooling > s.superheat;
+        if (c.vanishes) { c.given = bubble.mass / (time * s.subcooling); }
+        // No more than there is.
+        c.given = min(c.given, bubble.mass / (time * s.subcooling));
+    }
+    return c;
+}
+
+/// Steam and enthalpy that a bubble gained, in quanta.
+struct Gained {
+    mass: i32,
+    enthalpy: i32,
+}
+
+/// Exchanges steam with the particles around and gives them its volume; all lanes must ask.
+fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i32, lane: u32, time: f32) -> Gained {
+    var mass = 0;
+    var enthalpy = 0;
+    let cell = cell_of(bubble.position);
+    let side = u32(2 * cells + 1);
+    let rows = select(0u, side * side, bubble.mass > 0.0 && s.weight > 0.0);
+    let own_specific = bubble.enthalpy / max(bubble.mass, 1e-20);
+    let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
+    let gas_share = 4.0 / 3.0 * BUBBLE_PI * bubble.radius * bubble.radius * bubble.radius / (VOLUME * max(s.weight, 1e-12));
+    for (var row = lane; row < rows; row += LANES) {
+        let run = row_around(cell, cells, row);
+        for (var n = 0u; n < run.count + run.wrapped; n++) {
+            let j = select(run.second + n - run.count, run.first + n, n < run.count);
+            let offset = position[j].xyz - bubble.position;
+            let square = dot(offset, offset);
+            let tag = tags[j];
+            if (square >= reach * reach || tag.x != bubble.membership) { continue; }
+            let weight = share_at(square / (reach * reach));
+            let boil = boils[j];
+            let share = contact_at(square, bubble.radius) / max(s.contact, 1e-12);
+            let words = tag.y * BUBBLED_WORDS;
+            let given = weight * gas_share;
+            atomicAdd(&bubbled[words + BUBBLED_GAS], quanta(given, GAS_QUANTUM));
+            atomicAdd(&bubbled[words + BUBBLED_STIRRING], quanta(given * stirring, STIRRING_QUANTUM));
+            let conductance = share * select(c.given, c.taken, boil.x > 0.0);
+            if (conductance <= 0.0) { continue; }
+            atomicAdd(&bubbled[words + BUBBLED_CONDUCTANCE], quanta(conductance, CONDUCTANCE_QUANTUM));
+            // All bubbles around a particle draw on what its superheat can make.
+            let all = max(gas[tag.y].z, conductance);
+            let rate = all / max(boil.y, 1e-12) * time;
+            var limit = 1.0;
+            if (rate > 1e-4) { limit = (1.0 - exp(-rate)) / rate; }
+            if (c.vanishes) { limit = 1.0; }
+            let taken = conductance * boil.x * time * limit;
+            // Steam comes with the boiling point that the liquid around the bubble has.
+            let specific = select(own_specific, steam_enthalpy(heat[j].x - boil.x), boil.x > 0.0);
+            let steam = quanta(taken, MASS_QUANTUM);
+            let heat_of_steam = quanta(f32(steam) * MASS_QUANTUM * specific, ENTHALPY_QUANTUM);
+            atomicSub(&bubbled[words + BUBBLED_MASS], steam);
+            atomicSub(&bubbled[words + BUBBLED_ENTHALPY], heat_of_steam);
+            mass += steam;
+            enthalpy += heat_of_steam;
+        }
+    }
+    return Gained(lane_sum_of_integers(mass), lane_sum_of_integers(enthalpy));
+}
+
+/// Takes steam of the particle with that identity, or gives it.
+fn exchange_with(identity: u32, steam: i32, enthalpy: i32) {
+    atomicSub(&bubbled[identity * BUBBLED_WORDS + BUBBLED_MASS], steam);
+    atomicSub(&bubbled[identity * BUBBLED_WORDS + BUBBLED_ENTHALPY], enthalpy);
+}
+
+/// A nucleus at particle i.
+fn born(before: Bubble, i: u32) -> Bubble {
+    var bubble = before;
+    bubble.position = position[i].xyz;
+    bubble.velocity = velocity[i].xyz;
+    bubble.membership = tags[i].x;
+    bubble.surfaced = 0.0;
+    bubble.touching = 0.0;
+    let temperature = heat[i].x;
+    let volume = 4.0 / 3.0 * BUBBLE_PI * NUCLEUS * NUCLEUS * NUCLEUS;
+    let steam = quanta(volume * steam_density(temperature) / MASS, MASS_QUANTUM);
+    bubble.mass = f32(steam) * MASS_QUANTUM;
+    let enthalpy = quanta(bubble.mass * steam_enthalpy(temperature), ENTHALPY_QUANTUM);
+    bubble.enthalpy = f32(enthalpy) * ENTHALPY_QUANTUM;
+    return bubble;
+}
+
+/// Where a larger bubble is that this one touches, plus one.
+fn touched(bubble: Bubble, slot: u32, identity: u32, first: u32, around: Around) -> u32 {
+    let owner = u32(atomicLoad(&bubbled[identity * BUBBLED_WORDS + BUBBLED_OWNER]));
+    let other_slot = owner & 0xffffu;
+    if (owner == 0u || other_slot == slot || owner <= key_of(bubble, slot)) { return 0u; }
+    let other = bubbles[first + other_slot];
+    if (other.mass <= 0.0 || other.membership != bubble.membership) { return 0u; }
+    let apart = distance(other.position, bubble.position);
+    let together = bubble.radius * bubble.radius * bubble.radius + other.radius * other.radius * other.radius;
+    let stable = stable_radius(around);
+    if (apart > bubble.radius + other.radius || together > stable * stable * stable) { return 0u; }
+    return other_slot + 1u;
+}
+
+/// The larger of two bubbles has the larger key.
+fn key_of(bubble: Bubble, slot: u32) -> u32 {
+    return (u32(min(bubble.radius * 1e6, 32767.0)) << 16u) | slot;
+}
+
+/// Velocity without what would carry it into glass.
+fn beside_glass(v: vec3<f32>, wall: vec4<f32>) -> vec3<f32> {
+    let slope = wall_gradient(wall);
+    let steepness = length(slope);
+    if (wall_volume(wall) < AT_GLASS || steepness <= 0.0) { return v; }
+    let into = slope / steepness;
+    return v - into * max(dot(v, into), 0.0);
+}
+
+/// What covers a bubble, with what glass hides beside it and what is of glass above it.
+fn cover_of(cover: f32, wall: vec4<f32>, up: vec3<f32>) -> f32 {
+    let slope = wall_gradient(wall);
+    let above = max(dot(slope, up), 0.0) / max(length(slope), 1e-9);
+    return cover / max(1.0 - wall_volume(wall), 0.3) + 2.0 * wall_volume(wall) * above;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let slot = id.x / LANES;
+    let lane = id.x % LANES;
+    let of_group = local / LANES;
+    let first = step.before_bubbles;
+    let other_first = SLOTS - first;
+    if (lane == 0u) {
+        claimed[of_group] = claims[slot];
+        let words = 2u * (first + slot);
+        joined[of_group] = vec2<i32>(atomicLoad(&merging[words]), atomicLoad(&merging[words + 1u]));
+        atomicStore(&merging[words], 0);
+        atomicStore(&merging[words + 1u], 0);
+        claims[slot] = 0u;
+    }
+    workgroupBarrier();
+    let claim = claimed[of_group];
+    let joins = joined[of_group];
+    let time = step.bubble_time;
+    let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
+    let up = -gravity / max(length(gravity), 1e-9);
+
+    var bubble = bubbles[first + slot];
+    bubble.mass += f32(joins.x) * JOINED_MASS_QUANTUM;
+    bubble.enthalpy += f32(joins.y) * JOINED_ENTHALPY_QUANTUM;
+    let is_born = bubble.mass <= 0.0 && claim > 0u;
+    if (is_born) { bubble = born(bubble, claim - 1u); }
+    bubble.radius = radius_of_volume(volume_of(bubble.mass, bubble.enthalpy));
+    let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, MOST_CELLS);
+    let reach = min(SUPPORT + bubble.radius, f32(cells) * SUPPORT);
+
+    let s = gather(bubble, reach, cells, lane, up);
+    let around = around_of(s.acid, s.temperature);
+    let c = conductance_of(bubble, s, around, time);
+    let gained = scatter(bubble, s, c, reach, cells, lane, time);
+    let wall = boundary_volume(bubble.membership, bubble.position, step.after, lane);
+    if (lane != 0u) { return; }
+    if (bubble.mass <= 0.0) {
+        bubble.radius = 0.0;
+        bubbles[other_first + slot] = bubble;
+        return;
+    }
+    let nearest = tags[s.nearest.particle].y;
+    if (is_born) {
+        exchange_with(tags[claim - 1u].y, quanta(bubble.mass, MASS_QUANTUM), quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
+    } else if (claim > 0u) {
+        atomicAdd(&counters.bubbles_refused, 1u);
+    }
+    bubble.mass = max(bubble.mass + f32(gained.mass) * MASS_QUANTUM, 0.0);
+    bubble.enthalpy += f32(gained.enthalpy) * ENTHALPY_QUANTUM;
+    let alone = s.weight <= 0.0;
+    if (c.vanishes && !alone) {
+        exchange_with(nearest, -quanta(bubble.mass, MASS_QUANTUM), -quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
+        bubble.mass = 0.0;
+        bubble.enthalpy = 0.0;
+        bubbles[other_first + slot] = bubble;
+        return;
+    }
+
+    let at_surface = cover_of(s.cover, wall, up) < COVERED;
+    // What new ones push under for a moment is no younger for it.
+    bubble.surfaced = max(bubble.surfaced + select(-time, time, at_surface), 0.0);
+    if (alone || bubble.surfaced > FOAM_TIME) {
+        bubble.gone += vec2<f32>(bubble.mass, bubble.enthalpy);
+        bubble.mass = 0.0;
+        bubble.enthalpy = 0.0;
+        bubbles[other_first + slot] = bubble;
+        return;
+    }
+
+    var relative = risen(bubble.velocity - s.velocity, up, bubble.radius, s.gas / (1.0 + s.gas), around, time);
+    if (at_surface) { relative = vec3<f32>(0.0); }
+    bubble.velocity = beside_glass(s.velocity + relative, wall);
+    bubble.position += bubble.velocity * time;
+
+    let larger = touched(bubble, slot, nearest, first, around);
+    bubble.touching = select(0.0, bubble.touching + time, larger > 0u);
+    if (larger > 0u) {
+        let other = bubbles[first + larger - 1u];
+        if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
+            let words = 2u * (other_first + larger - 1u);
+            let steam = quanta(bubble.mass, JOINED_MASS_QUANTUM);
+            let enthalpy = quanta(bubble.enthalpy, JOINED_ENTHALPY_QUANTUM);
+            atomicAdd(&merging[words], steam);
+            atomicAdd(&merging[words + 1u], enthalpy);
+            // What the coarser quanta leave is a particle's.
+            let mass_left = bubble.mass - f32(steam) * JOINED_MASS_QUANTUM;
+            let enthalpy_left = bubble.enthalpy - f32(enthalpy) * JOINED_ENTHALPY_QUANTUM;
+            exchange_with(nearest, -quanta(mass_left, MASS_QUANTUM), -quanta(enthalpy_left, ENTHALPY_QUANTUM));
+            bubble.mass = 0.0;
+            bubble.enthalpy = 0.0;
+        }
+    }
+    if (bubble.mass > 0.0) {
+        atomicMax(&bubbled[nearest * BUBBLED_WORDS + BUBBLED_NEXT], i32(key_of(bubble, slot)));
+    }
+    bubbles[other_first + slot] = bubble;
+}

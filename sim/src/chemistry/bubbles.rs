@@ -1,0 +1,102 @@
+//! Bubbles of steam as the solver's passes have them: how many, where they are born, and when they act.
+
+/// Bubbles where a scene has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bubbles {
+    /// Edge of the cube of liquid that has one nucleus, m.
+    pub nuclei_spacing: f64,
+    /// How long a bubble lasts at the surface, s.
+    pub foam_time: f64,
+    /// Most of them at a time; rounded up to whole groups.
+    pub most: u32,
+}
+
+/// Threads of a workgroup, of which each bubble has one or more.
+const GROUP: u32 = 64;
+
+/// Steps of the bubbles in a frame: one goes a millimetre or less in it. An even number, as they have two sets of records.
+const STEPS: u32 = 4;
+
+/// Frequency times diameter of bubbles that leave a nucleus in water at 100 °C, m/s.
+const FREQUENCY_DIAMETER: f64 = 0.092;
+
+/// Most places: a bubble's key has 16 bits for its own.
+const MOST_SLOTS: u32 = 65_536;
+
+/// A step of the bubbles, after a substep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BubbleStep {
+    /// Substeps since the step before.
+    pub substeps: f64,
+    /// Whether it reads the second set of records and writes the first.
+    pub second: bool,
+}
+
+impl Bubbles {
+    /// Places for bubbles, in whole groups.
+    pub fn slots(&self) -> u32 {
+        self.most.clamp(1, MOST_SLOTS).next_multiple_of(GROUP)
+    }
+
+    /// Share of particles of `spacing` (m) that are nuclei.
+    pub fn nuclei(&self, spacing: f64) -> f64 {
+        (spacing / self.nuclei_spacing).powi(3).min(1.0)
+    }
+
+    /// Time between two bubbles of a nucleus, s: frequency times diameter is 0.59 (σ g/ρ)^¼ (Zuber 1963), with the
+    /// spacing for the diameter.
+    pub fn nucleus_wait(&self) -> f64 {
+        self.nuclei_spacing / FREQUENCY_DIAMETER
+    }
+
+    /// Steps after substep `n` of `substeps` in a frame.
+    pub fn steps_after(n: u32, substeps: u32) -> Vec<BubbleStep> {
+        let steps = if substeps < STEPS { 2 } else { STEPS };
+        let [before, after] = [n, n + 1].map(|n| n * steps / substeps);
+        let start = |step: u32| (step * substeps).div_ceil(steps);
+        (before..after)
+            .map(|step| BubbleStep {
+                substeps: if substeps == 1 {
+                    0.5
+                } else {
+                    f64::from(start(step + 1) - start(step))
+                },
+                second: step % 2 == 1,
+            })
+            .collect()
+    }
+
+    /// Share of the way to its next volume that a particle's gas goes in substep `n`, so that it is there when bubbles act.
+    pub fn approach(n: u32, substeps: u32) -> f64 {
+        let left = (n..substeps).find(|&n| !Self::steps_after(n, substeps).is_empty());
+        1.0 / f64::from(left.unwrap_or(n) - n + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bubbles;
+
+    #[test]
+    fn a_frames_steps_take_a_frame() {
+        for substeps in 1..40 {
+            let all: Vec<_> = (0..substeps)
+                .flat_map(|n| Bubbles::steps_after(n, substeps))
+                .collect();
+            assert_eq!(all.len() % 2, 0, "{substeps}");
+            let time: f64 = all.iter().map(|step| step.substeps).sum();
+            assert_eq!(time, f64::from(substeps));
+            assert!(!Bubbles::steps_after(substeps - 1, substeps).is_empty());
+            let (mut way, mut sum) = (1.0, 0.0);
+            for n in 0..substeps {
+                way *= 1.0 - Bubbles::approach(n, substeps);
+                if !Bubbles::steps_after(n, substeps).is_empty() {
+                    assert!(way.abs() < 1e-12, "{substeps}: {way}");
+                    way = 1.0;
+                    sum += 1.0;
+                }
+            }
+            assert!(sum >= 1.0);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Line 26, of vapour: bubbles, and their part of the state.
+
+use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS, Buffers};
+use super::pipelines::bubbles_of;
+use super::transfer::{read, write};
+use super::{Solver, SolverError};
+use crate::chemistry::bubbles::Bubbles;
+use crate::chemistry::table::steam_enthalpy;
+use crate::chemistry::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
+use crate::parameters::Parameters;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use vitriol_gpu::{Gpu, GpuError, Recorder};
+use vitriol_shaders::layout::{Bubble, Step};
+
+/// As in `common/liquid/step.wgsl`.
+const ACTED: u32 = 1;
+const ACT: u32 = 2;
+
+/// What bubbles do before and after substep `n` of `substeps`.
+pub(super) fn flags(n: u32, substeps: u32) -> u32 {
+    let acts = |n: u32| !Bubbles::steps_after(n, substeps).is_empty();
+    let acted = n == 0 || acts(n - 1);
+    u32::from(acted) * ACTED + u32::from(acts(n)) * ACT
+}
+
+/// What the next frame depends on; empty where a scene has no bubbles.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(super) struct BubbleState {
+    pub(super) bubbles: Vec<[f32; BUBBLE_WORDS]>,
+    /// By identity.
+    pub(super) bubbled: Vec<[i32; BUBBLED_WORDS]>,
+    pub(super) gas: Vec<[f32; 4]>,
+    pub(super) merging: Vec<[i32; 2]>,
+    /// The neighbour search's table, in which bubbles look for particles.
+    pub(super) cell_starts: Vec<u32>,
+    pub(super) block_sums: Vec<u32>,
+}
+
+/// One atmosphere, Pa.
+const ATMOSPHERE: f64 = 101_325.0;
+
+/// Mass and enthalpy quanta of what bubbles did to particles and of what joins a bubble, over V0·ρ0 and J per V0·ρ0, as in
+/// `common/chemistry/bubbled.wgsl`.
+const QUANTA: [f64; 2] = [1.0 / 8_589_934_592.0, 1.0 / 2048.0];
+const JOINED: [f64; 2] = [1.0 / 268_435_456.0, 1.0 / 64.0];
+
+/// Mass and enthalpy of vapour, over V0·ρ0 and in J per V0·ρ0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct VapourAccount {
+    /// In bubbles.
+    pub(crate) held: [f64; 2],
+    /// On its way to particles; negative where it is on its way from them.
+    pub(crate) pending: [f64; 2],
+    /// What left the liquid.
+    pub(crate) gone: [f64; 2],
+}
+
+/// A bubble of steam of `temperature` (°C) with `radius` (m).
+pub(super) fn record(
+    parameters: &Parameters,
+    tag: u32,
+    [position, velocity]: [DVec3; 2],
+    [radius, temperature]: [f64; 2],
+) -> Bubble {
+    let density = ATMOSPHERE * WATER_MOLAR_MASS / (GAS_CONSTANT * (temperature - ABSOLUTE_ZERO));
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    let mass = volume * density / parameters.particle_mass();
+    Bubble {
+        position: position.as_vec3().to_array(),
+        velocity: velocity.as_vec3().to_array(),
+        mass: mass as f32,
+        enthalpy: (mass * steam_enthalpy(temperature)) as f32,
+        membership: tag,
+        radius: radius as f32,
+        ..Bubble::default()
+    }
+}
+
+impl BubbleState {
+    /// The state without bubbles, of `count` particles in as many cells and blocks of them.
+    pub(super) fn start(parameters: &Parameters, count: usize, cells: [u32; 2]) -> Self {
+        let Some(bubbles) = bubbles_of(parameters) else {
+            return Self::default();
+        };
+        let slots = bubbles.slots() as usize;
+        Self {
+            bubbles: vec![[0.0; BUBBLE_WORDS]; slots],
+            bubbled: vec![[0; BUBBLED_WORDS]; count],
+            gas: vec![[0.0; 4]; count],
+            merging: vec![[0; 2]; slots],
+            cell_starts: vec![0; cells[0] as usize],
+            block_sums: vec![0; cells[1] as usize],
+        }
+    }
+
+    pub(super) fn records(&self) -> &[Bubble] {
+        bytemuck::cast_slice(&self.bubbles)
+    }
+
+    /// Where all vapour is.
+    pub(super) fn account(&self) -> VapourAccount {
+        let mut account = VapourAccount::default();
+        for bubble in self.records() {
+            for (sum, part) in account.held.iter_mut().zip([bubble.mass, bubble.enthalpy]) {
+                *sum += f64::from(part);
+            }
+            for (sum, part) in account.gone.iter_mut().zip(bubble.gone) {
+                *sum += f64::from(part);
+            }
+        }
+        let joining = self.merging.iter().map(|joins| (joins[..].iter(), JOINED));
+        let given = self.bubbled.iter().map(|given| (given[..2].iter(), QUANTA));
+        for (quanta, units) in given {
+            for ((sum, &count), unit) in account.pending.iter_mut().zip(quanta).zip(units) {
+                *sum += f64::from(count) * unit;
+            }
+        }
+        for (quanta, units) in joining {
+            for ((sum, &count), unit) in account.held.iter_mut().zip(quanta).zip(units) {
+                *sum += f64::from(count) * unit;
+            }
+        }
+        account
+    }
+
+    pub(super) fn read(gpu: &Gpu, b: &Buffers, start: &Self) -> Result<Self, SolverError> {
+        Ok(Self {
+            bubbles: read(gpu, &b.bubbles, start.bubbles.len())?,
+            bubbled: read(gpu, &b.bubbled, start.bubbled.len())?,
+            gas: read(gpu, &b.gas, start.gas.len())?,
+            merging: read(gpu, &b.merging, start.merging.len())?,
+            cell_starts: read(gpu, &b.cell_starts, start.cell_starts.len())?,
+            block_sums: read(gpu, &b.block_sums, start.block_sums.len())?,
+        })
+    }
+
+    pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {
+        write(gpu, &b.bubbles, &self.bubbles)?;
+        write(gpu, &b.bubbled, &self.bubbled)?;
+        write(gpu, &b.gas, &self.gas)?;
+        // What joins bubbles of the second set of records is none at a frame's end.
+        let mut merging = self.merging.clone();
+        merging.resize(2 * self.merging.len(), [0; 2]);
+        write(gpu, &b.merging, &merging)?;
+        write(gpu, &b.cell_starts, &self.cell_starts)?;
+        write(gpu, &b.block_sums, &self.block_sums)
+    }
+}
+
+impl Solver {
+    /// The steps of the bubbles after substep `n`.
+    pub(super) fn bubble(
+        &self,
+        rec: &mut Recorder,
+        step: &Step,
+        n: u32,
+    ) -> Result<(), SolverError> {
+        let (Some(pass), Some(bubbles)) = (&self.pipelines.bubbles, bubbles_of(&self.parameters))
+        else {
+            return Ok(());
+        };
+        let substep = self.parameters.substep_time();
+        for part in Bubbles::steps_after(n, self.parameters.substeps) {
+            let step = Step {
+                bubble_time: (part.substeps * substep) as f32,
+                before_bubbles: u32::from(part.second) * bubbles.slots(),
+                ..*step
+            };
+            self.pass(rec, pass)
+                .constants(&step)
+                .invocations(bubbles.slots() * self.lanes)?;
+        }
+        Ok(())
+    }
+
+    /// What a state of this solver has of bubbles before the first frame.
+    pub(super) fn bubbles_at_start(&self) -> BubbleState {
+        let cells = [self.grid.cells(), self.grid.blocks()];
+        BubbleState::start(&self.parameters, self.count as usize, cells)
+    }
+}
