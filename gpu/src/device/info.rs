@@ -19,6 +19,8 @@ pub struct DeviceInfo {
     pub limits: BindingLimits,
     /// Invocations per subgroup.
     pub subgroup_size: u32,
+    /// Of the smallest subgroup that the driver may choose.
+    pub least_subgroup_size: u32,
     /// Nanoseconds per timestamp tick; zero where the device has none.
     pub timestamp_period: f32,
     /// Optional features that are on.
@@ -64,6 +66,7 @@ pub(crate) struct Properties {
     pub(crate) kind: vk::PhysicalDeviceType,
     pub(crate) limits: BindingLimits,
     pub(crate) subgroup_size: u32,
+    pub(crate) least_subgroup_size: u32,
     pub(crate) timestamp_period: f32,
     pub(crate) extensions: Vec<CString>,
     pub(crate) features: EnabledFeatures,
@@ -93,10 +96,12 @@ fn text(result: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
 pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Properties {
     let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
     let mut v12 = vk::PhysicalDeviceVulkan12Properties::default();
+    let mut v13 = vk::PhysicalDeviceVulkan13Properties::default();
     let mut push = vk::PhysicalDevicePushDescriptorPropertiesKHR::default();
     let mut properties = vk::PhysicalDeviceProperties2::default()
         .push_next(&mut v11)
         .push_next(&mut v12)
+        .push_next(&mut v13)
         .push_next(&mut push);
     // SAFETY: `physical` is a device of `instance`; structures that an older
     // device does not know are skipped by it and stay zero.
@@ -126,6 +131,7 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             texels: core.limits.max_texel_buffer_elements.into(),
         },
         subgroup_size: v11.subgroup_size,
+        least_subgroup_size: v13.min_subgroup_size,
         timestamp_period: if core.limits.timestamp_compute_and_graphics == vk::TRUE {
             core.limits.timestamp_period
         } else {

@@ -147,6 +147,7 @@ fn device_info(properties: Properties, features: EnabledFeatures, plan: &QueuePl
         kind: properties.kind,
         limits: properties.limits,
         subgroup_size: properties.subgroup_size,
+        least_subgroup_size: properties.least_subgroup_size,
         timestamp_period: if plan.timestamps() {
             properties.timestamp_period
         } else {

@@ -6,7 +6,7 @@
 //!include common/chemistry/bubble_laws.wgsl
 //!include common/chemistry/bubbled.wgsl
 //!include common/glass/boundary.wgsl
-//!include common/liquid/cell_rows.wgsl
+//!include common/liquid/cells_around.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/lane_nearest.wgsl
 //!include common/liquid/particle.wgsl
@@ -67,14 +67,27 @@ fn contact_at(square: f32, radius: f32) -> f32 {
     return share_at(square / (reach * reach));
 }
 
+/// The larger of two bubbles has the larger key.
+fn key_of(bubble: Bubble, slot: u32) -> u32 {
+    return (u32(min(bubble.radius * 1e6, 32767.0)) << 16u) | slot;
+}
+
+/// Whether a bubble touches that of another record.
+fn touches(bubble: Bubble, record: u32) -> bool {
+    let other = bubbles[record];
+    if (other.mass <= 0.0 || other.membership != bubble.membership) { return false; }
+    return distance(other.position, bubble.position) <= bubble.radius + other.radius;
+}
+
 /// What is around a bubble, over the sum of the weights but for the weights and `cover`.
 struct Surrounding {
     weight: f32,
+    squares: f32,
     /// Of what exchanges steam with it, which is nearer.
     contact: f32,
     cover: f32,
     velocity: vec3<f32>,
-    /// Gas over liquid.
+    /// Gas of the other bubbles over liquid.
     gas: f32,
     acid: f32,
     temperature: f32,
@@ -84,22 +97,32 @@ struct Surrounding {
     growing: f32,
     shrinking: f32,
     nearest: Nearest,
+    /// The same of any membership.
+    nearest_of_all: Nearest,
+    /// Key of the largest larger bubble that it touches; 0 for none.
+    larger: u32,
 }
 
-/// Of `bubble` within `reach`, in cells `cells` around its own; all lanes must ask.
-fn gather(bubble: Bubble, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> Surrounding {
+/// Of `bubble` in `slot` within `reach`, in cells `cells` around its own; others are those from `first` on. All lanes must ask.
+fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> Surrounding {
     var s: Surrounding;
     s.nearest = Nearest(1e9, 0u);
+    s.nearest_of_all = Nearest(1e9, 0u);
+    let key = key_of(bubble, slot);
     let cell = cell_of(bubble.position);
-    let side = u32(2 * cells + 1);
-    let rows = select(0u, side * side, bubble.mass > 0.0);
-    for (var row = lane; row < rows; row += LANES) {
-        let run = row_around(cell, cells, row);
-        for (var n = 0u; n < run.count + run.wrapped; n++) {
-            let j = select(run.second + n - run.count, run.first + n, n < run.count);
+    let count = select(0u, count_around(cells), bubble.mass > 0.0);
+    for (var n = lane; n < count; n += LANES) {
+        let run = cell_around(cell, cells, n);
+        for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
             let square = dot(offset, offset);
-            if (square >= reach * reach || tags[j].x != bubble.membership) { continue; }
+            if (square >= reach * reach || tags[j].x == REMOVED) { continue; }
+            s.nearest_of_all = nearer(s.nearest_of_all, Nearest(sqrt(square), j));
+            if (tags[j].x != bubble.membership) { continue; }
+            let owner = u32(atomicLoad(&bubbled[tags[j].y * BUBBLED_WORDS + BUBBLED_OWNER]));
+            if (owner > max(key, s.larger) && (owner & 0xffffu) != slot) {
+                if (touches(bubble, first + (owner & 0xffffu))) { s.larger = owner; }
+            }
             let weight = share_at(square / (reach * reach));
             let distance = sqrt(max(square, 1e-12 * SUPPORT * SUPPORT));
             let boil = boils[j];
@@ -107,6 +130,7 @@ fn gather(bubble: Bubble, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> S
             let excess = contact * max(boil.x, 0.0);
             let lack = contact * max(-boil.x, 0.0);
             s.weight += weight;
+            s.squares += weight * weight;
             s.contact += contact;
             s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
             s.velocity += weight * velocity[j].xyz;
@@ -126,10 +150,15 @@ fn gather(bubble: Bubble, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> S
     let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
     s.contact = thermal.z;
     let excess = lane_sum3(vec3<f32>(s.superheat, s.growing, s.gas));
-    s.gas = excess.z / max(s.weight, 1e-12);
-    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, 0.0));
-    s.nearest = lane_nearest(s.nearest);
+    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, s.squares));
     let per_weight = 1.0 / max(s.weight, 1e-12);
+    // Its own gas is the same share of each weight.
+    let per_square = 1.0 / max(s.weight * s.weight, 1e-12);
+    let own = bubble_volume(bubble.radius) / VOLUME * lack.z * per_square;
+    s.gas = max(excess.z * per_weight - own, 0.0);
+    s.nearest = lane_nearest(s.nearest);
+    s.nearest_of_all = lane_nearest(s.nearest_of_all);
+    s.larger = lane_max(s.larger);
     s.velocity *= per_weight;
     s.temperature = thermal.x * per_weight;
     s.acid = thermal.y * per_weight;
@@ -170,26 +199,41 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
     return c;
 }
 
-/// Steam and enthalpy that a bubble gained, in quanta.
+/// Steam and enthalpy that a bubble gained, over V0·ρ0 and J per V0·ρ0.
 struct Gained {
-    mass: i32,
-    enthalpy: i32,
+    mass: f32,
+    enthalpy: f32,
+}
+
+/// A sum of quanta, which together may be more than a word holds.
+struct QuantaSum {
+    high: i32,
+    low: i32,
+}
+
+const LOW_BITS: u32 = 12u;
+
+fn added(sum: QuantaSum, count: i32) -> QuantaSum {
+    return QuantaSum(sum.high + (count >> LOW_BITS), sum.low + (count & 4095));
+}
+
+fn lane_sum_of_quanta(sum: QuantaSum, quantum: f32) -> f32 {
+    let high = f32(lane_sum_of_integers(sum.high)) * 4096.0;
+    return (high + f32(lane_sum_of_integers(sum.low))) * quantum;
 }
 
 /// Exchanges steam with the particles around and gives them its volume; all lanes must ask.
 fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i32, lane: u32, time: f32) -> Gained {
-    var mass = 0;
-    var enthalpy = 0;
+    var mass: QuantaSum;
+    var enthalpy: QuantaSum;
     let cell = cell_of(bubble.position);
-    let side = u32(2 * cells + 1);
-    let rows = select(0u, side * side, bubble.mass > 0.0 && s.weight > 0.0);
+    let count = select(0u, count_around(cells), bubble.mass > 0.0 && s.weight > 0.0);
     let own_specific = bubble.enthalpy / max(bubble.mass, 1e-20);
     let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
-    let gas_share = 4.0 / 3.0 * BUBBLE_PI * bubble.radius * bubble.radius * bubble.radius / (VOLUME * max(s.weight, 1e-12));
-    for (var row = lane; row < rows; row += LANES) {
-        let run = row_around(cell, cells, row);
-        for (var n = 0u; n < run.count + run.wrapped; n++) {
-            let j = select(run.second + n - run.count, run.first + n, n < run.count);
+    let gas_share = bubble_volume(bubble.radius) / (VOLUME * max(s.weight, 1e-12));
+    for (var n = lane; n < count; n += LANES) {
+        let run = cell_around(cell, cells, n);
+        for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
             let square = dot(offset, offset);
             let tag = tags[j];
@@ -217,11 +261,11 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
             let heat_of_steam = quanta(f32(steam) * MASS_QUANTUM * specific, ENTHALPY_QUANTUM);
             atomicSub(&bubbled[words + BUBBLED_MASS], steam);
             atomicSub(&bubbled[words + BUBBLED_ENTHALPY], heat_of_steam);
-            mass += steam;
-            enthalpy += heat_of_steam;
+            mass = added(mass, steam);
+            enthalpy = added(enthalpy, heat_of_steam);
         }
     }
-    return Gained(lane_sum_of_integers(mass), lane_sum_of_integers(enthalpy));
+    return Gained(lane_sum_of_quanta(mass, MASS_QUANTUM), lane_sum_of_quanta(enthalpy, ENTHALPY_QUANTUM));
 }
 
 /// Takes steam of the particle with that identity, or gives it.
@@ -247,25 +291,6 @@ fn born(before: Bubble, i: u32) -> Bubble {
     return bubble;
 }
 
-/// Where a larger bubble is that this one touches, plus one.
-fn touched(bubble: Bubble, slot: u32, identity: u32, first: u32, around: Around) -> u32 {
-    let owner = u32(atomicLoad(&bubbled[identity * BUBBLED_WORDS + BUBBLED_OWNER]));
-    let other_slot = owner & 0xffffu;
-    if (owner == 0u || other_slot == slot || owner <= key_of(bubble, slot)) { return 0u; }
-    let other = bubbles[first + other_slot];
-    if (other.mass <= 0.0 || other.membership != bubble.membership) { return 0u; }
-    let apart = distance(other.position, bubble.position);
-    let together = bubble.radius * bubble.radius * bubble.radius + other.radius * other.radius * other.radius;
-    let stable = stable_radius(around);
-    if (apart > bubble.radius + other.radius || together > stable * stable * stable) { return 0u; }
-    return other_slot + 1u;
-}
-
-/// The larger of two bubbles has the larger key.
-fn key_of(bubble: Bubble, slot: u32) -> u32 {
-    return (u32(min(bubble.radius * 1e6, 32767.0)) << 16u) | slot;
-}
-
 /// Velocity without what would carry it into glass.
 fn beside_glass(v: vec3<f32>, wall: vec4<f32>) -> vec3<f32> {
     let slope = wall_gradient(wall);
@@ -277,6 +302,8 @@ fn beside_glass(v: vec3<f32>, wall: vec4<f32>) -> vec3<f32> {
 
 /// What covers a bubble, with what glass hides beside it and what is of glass above it.
 fn cover_of(cover: f32, wall: vec4<f32>, up: vec3<f32>) -> f32 {
+    // Without weight there is no surface above.
+    if (all(up == vec3<f32>(0.0))) { return 1.0; }
     let slope = wall_gradient(wall);
     let above = max(dot(slope, up), 0.0) / max(length(slope), 1e-9);
     return cover / max(1.0 - wall_volume(wall), 0.3) + 2.0 * wall_volume(wall) * above;
@@ -310,28 +337,28 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     let is_born = bubble.mass <= 0.0 && claim > 0u;
     if (is_born) { bubble = born(bubble, claim - 1u); }
     bubble.radius = radius_of_volume(volume_of(bubble.mass, bubble.enthalpy));
+    // All lanes of a place return alike.
+    if (bubble.mass <= 0.0) {
+        if (lane == 0u) { bubbles[other_first + slot] = bubble; }
+        return;
+    }
     let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, MOST_CELLS);
     let reach = min(SUPPORT + bubble.radius, f32(cells) * SUPPORT);
 
-    let s = gather(bubble, reach, cells, lane, up);
+    let s = gather(bubble, slot, first, reach, cells, lane, up);
     let around = around_of(s.acid, s.temperature);
     let c = conductance_of(bubble, s, around, time);
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
     let wall = boundary_volume(bubble.membership, bubble.position, step.after, lane);
     if (lane != 0u) { return; }
-    if (bubble.mass <= 0.0) {
-        bubble.radius = 0.0;
-        bubbles[other_first + slot] = bubble;
-        return;
-    }
     let nearest = tags[s.nearest.particle].y;
     if (is_born) {
         exchange_with(tags[claim - 1u].y, quanta(bubble.mass, MASS_QUANTUM), quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
     } else if (claim > 0u) {
         atomicAdd(&counters.bubbles_refused, 1u);
     }
-    bubble.mass = max(bubble.mass + f32(gained.mass) * MASS_QUANTUM, 0.0);
-    bubble.enthalpy += f32(gained.enthalpy) * ENTHALPY_QUANTUM;
+    bubble.mass = max(bubble.mass + gained.mass, 0.0);
+    bubble.enthalpy += gained.enthalpy;
     let alone = s.weight <= 0.0;
     if (c.vanishes && !alone) {
         exchange_with(nearest, -quanta(bubble.mass, MASS_QUANTUM), -quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
@@ -357,12 +384,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.velocity = beside_glass(s.velocity + relative, wall);
     bubble.position += bubble.velocity * time;
 
-    let larger = touched(bubble, slot, nearest, first, around);
-    bubble.touching = select(0.0, bubble.touching + time, larger > 0u);
-    if (larger > 0u) {
-        let other = bubbles[first + larger - 1u];
+    let other_slot = s.larger & 0xffffu;
+    let other = bubbles[first + other_slot];
+    let together = bubble.radius * bubble.radius * bubble.radius + other.radius * other.radius * other.radius;
+    let stable = stable_radius(around);
+    let joins_other = s.larger > 0u && together <= stable * stable * stable;
+    bubble.touching = select(0.0, bubble.touching + time, joins_other);
+    if (joins_other) {
         if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
-            let words = 2u * (other_first + larger - 1u);
+            let words = 2u * (other_first + other_slot);
             let steam = quanta(bubble.mass, JOINED_MASS_QUANTUM);
             let enthalpy = quanta(bubble.enthalpy, JOINED_ENTHALPY_QUANTUM);
             atomicAdd(&merging[words], steam);
@@ -375,6 +405,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
             bubble.enthalpy = 0.0;
         }
     }
+    // Liquid that is poured changes its flask, and what is in it with it.
+    if (s.nearest_of_all.distance < 0.5 * SPACING) { bubble.membership = tags[s.nearest_of_all.particle].x; }
     if (bubble.mass > 0.0) {
         atomicMax(&bubbled[nearest * BUBBLED_WORDS + BUBBLED_NEXT], i32(key_of(bubble, slot)));
     }

@@ -216,7 +216,8 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
         boils[i] = boil;
         if (boil.x > NUCLEATION && is_nucleus(identity) && held.w <= 0.0) {
             held.w = NUCLEUS_WAIT;
-            atomicMax(&claims[place_of_birth(identity, position[i].xyz)], i + 1u);
+            let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], i + 1u);
+            if (other != 0u) { atomicAdd(&counters.bubbles_refused, 1u); }
         }
     }
     gas[identity] = held;

@@ -86,7 +86,7 @@ fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
     return before;
 }
 
-/// Line 19: how much of its multiplier's change a particle takes that gas has swollen: the sum of its gradients grows with its
+/// Line 19: how much of its multiplier's change a particle takes that gas has swollen, or that is light: the sum of its gradients grows with its
 /// volume and with its lightness, and so would what an iteration overshoots.
 fn stiffness_of(i: u32) -> f32 {
     if (!BUBBLES) { return 1.0; }

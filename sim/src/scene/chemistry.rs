@@ -80,7 +80,10 @@ const TEMPERATURE: Must = (
 const BOILING_POINT: Must = (|value| value > 0.0, "above 0 (°C; Eq. 17 divides by it)");
 const DURATION: Must = (|value| value > 0.0, "above zero (seconds)");
 const LENGTH: Must = (|value| value > 0.0, "above zero (m)");
-const AT_LEAST_ONE: Must = (|value| value >= 1.0, "1 or more");
+const PLACES: Must = (
+    |value| (1.0..=65_536.0).contains(&value),
+    "from 1 to 65,536",
+);
 const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
 
 impl PaperChemistry {
@@ -114,7 +117,7 @@ impl PhysicalChemistry {
                 "most_bubbles",
                 Bubbles,
                 p.most_bubbles.map(f64::from),
-                AT_LEAST_ONE,
+                PLACES,
             ),
             ("bubble_speed", Steam, p.bubble_speed, SPEED),
             ("agitation", Boiling, p.agitation, NOT_NEGATIVE),

@@ -135,6 +135,10 @@ impl Scene {
     pub(super) fn check_substep(&self) -> Result<(), Problem> {
         let (scale, solver) = (&self.scale, &self.solver);
         let substep = scale.frame_time / f64::from(solver.substeps);
+        if self.models(Feature::Bubbles) && solver.substeps < 2 {
+            let problem = "bubbles act twice a frame or more, after a substep each; take 2 or more";
+            return Err(Problem::new("solver.substeps", problem.to_owned()));
+        }
         if let Some(surface) = self.surface_tension() {
             let longest = surface.longest_interval(scale.particle_mass());
             if substep > longest {

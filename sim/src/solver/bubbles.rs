@@ -17,9 +17,21 @@ use vitriol_shaders::layout::{Bubble, Step};
 const ACTED: u32 = 1;
 const ACT: u32 = 2;
 
+/// Most invocations that share a bubble, as it looks into 27 cells or more.
+const MOST_LANES: u32 = 32;
+
+/// Invocations that share a bubble where `lanes` share a particle: more, as bubbles are few.
+pub(super) fn lanes_of(gpu: &Gpu, lanes: u32) -> u32 {
+    if lanes == 1 {
+        return 1;
+    }
+    let subgroup = gpu.info().least_subgroup_size.min(MOST_LANES);
+    (1 << subgroup.max(1).ilog2()).max(lanes)
+}
+
 /// What bubbles do before and after substep `n` of `substeps`.
 pub(super) fn flags(n: u32, substeps: u32) -> u32 {
-    let acts = |n: u32| !Bubbles::steps_after(n, substeps).is_empty();
+    let acts = |n: u32| Bubbles::step_after(n, substeps).is_some();
     let acted = n == 0 || acts(n - 1);
     u32::from(acted) * ACTED + u32::from(acts(n)) * ACT
 }
@@ -149,7 +161,7 @@ impl BubbleState {
 }
 
 impl Solver {
-    /// The steps of the bubbles after substep `n`.
+    /// The step of the bubbles after substep `n`, if there is one.
     pub(super) fn bubble(
         &self,
         rec: &mut Recorder,
@@ -160,17 +172,18 @@ impl Solver {
         else {
             return Ok(());
         };
-        let substep = self.parameters.substep_time();
-        for part in Bubbles::steps_after(n, self.parameters.substeps) {
-            let step = Step {
-                bubble_time: (part.substeps * substep) as f32,
-                before_bubbles: u32::from(part.second) * bubbles.slots(),
-                ..*step
-            };
-            self.pass(rec, pass)
-                .constants(&step)
-                .invocations(bubbles.slots() * self.lanes)?;
-        }
+        let substeps = self.parameters.substeps;
+        let Some(part) = Bubbles::step_after(n, substeps) else {
+            return Ok(());
+        };
+        let step = Step {
+            bubble_time: (f64::from(part.substeps) * self.parameters.substep_time()) as f32,
+            before_bubbles: u32::from(part.second) * bubbles.slots(),
+            ..*step
+        };
+        self.pass(rec, pass)
+            .constants(&step)
+            .invocations(bubbles.slots() * lanes_of(&self.gpu, self.lanes))?;
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! The passes, specialised for what the scene asks for.
 
+use super::bubbles;
 use super::colour::Colour;
 use super::glass;
 use super::vessels::PLANE_ENTRIES;
@@ -167,7 +168,10 @@ impl Pipelines {
             last_forces: make(sim::FORCES, &[])?,
             bubbles: match bubbles_of(&spec.parameters) {
                 None => None,
-                Some(_) => Some(make(sim::BUBBLES, &[])?),
+                Some(_) => {
+                    let lanes = bubbles::lanes_of(gpu, constants.lanes());
+                    Some(make(sim::BUBBLES, &[("LANES", lanes.into())])?)
+                }
             },
             eddies: eddies(gpu, library, spec, constants, buffers)?,
             glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
@@ -279,7 +283,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
             ("NUCLEI", bubbles.nuclei(p.spacing)),
             ("NUCLEUS_WAIT", bubbles.nucleus_wait()),
             ("FOAM_TIME", bubbles.foam_time),
-            ("GRAVITY", p.gravity[1].abs()),
+            ("GRAVITY", glam::DVec3::from(p.gravity).length()),
         ]);
     }
     if let Some(speed) = physical.bubble_speed {
@@ -371,6 +375,12 @@ impl Constants {
             Some(Chemistry::Physical(physical)) => all.extend(of_physical(physical, p)),
         }
         Self(all)
+    }
+
+    /// Invocations that share a particle.
+    fn lanes(&self) -> u32 {
+        let lanes = self.0.iter().find(|(name, _)| *name == "LANES");
+        lanes.map_or(1, |&(_, lanes)| lanes as u32)
     }
 
     /// These and `more`.

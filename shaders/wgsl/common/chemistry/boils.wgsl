@@ -25,7 +25,7 @@ fn scattered(number: u32) -> u32 {
 }
 
 fn is_nucleus(identity: u32) -> bool {
-    return f32(scattered(identity) & 0xffffu) < NUCLEI * 65536.0;
+    return f32(scattered(identity) >> 8u) < NUCLEI * 16777216.0;
 }
 
 /// Place of a bubble that is born at a particle at x: another one each time.

@@ -32,6 +32,10 @@ fn volume_of(mass: f32, enthalpy: f32) -> f32 {
     return mass * MASS / steam_density(steam_temperature(enthalpy / mass));
 }
 
+fn bubble_volume(radius: f32) -> f32 {
+    return 4.0 / 3.0 * BUBBLE_PI * radius * radius * radius;
+}
+
 fn radius_of_volume(volume: f32) -> f32 {
     return pow(0.75 / BUBBLE_PI * volume, 1.0 / 3.0);
 }
@@ -120,5 +124,5 @@ fn drainage_time(a: f32, b: f32, around: Around) -> f32 {
 
 /// Radius beyond which bubbles do not join: larger ones are caps, which break up in a stirred pool (Ishii and Zuber 1979).
 fn stable_radius(around: Around) -> f32 {
-    return 2.0 * sqrt(around.tension / (GRAVITY * around.density));
+    return 2.0 * sqrt(around.tension / (max(GRAVITY, 1e-6) * around.density));
 }

@@ -11,6 +11,8 @@ fn lane_sum(value: f32) -> f32 {
     if (LANES >= 2u) { sum += subgroupShuffleXor(sum, 1u); }
     if (LANES >= 4u) { sum += subgroupShuffleXor(sum, 2u); }
     if (LANES >= 8u) { sum += subgroupShuffleXor(sum, 4u); }
+    if (LANES >= 16u) { sum += subgroupShuffleXor(sum, 8u); }
+    if (LANES >= 32u) { sum += subgroupShuffleXor(sum, 16u); }
     return sum;
 }
 
@@ -19,5 +21,7 @@ fn lane_sum3(value: vec3<f32>) -> vec3<f32> {
     if (LANES >= 2u) { sum += subgroupShuffleXor(sum, 1u); }
     if (LANES >= 4u) { sum += subgroupShuffleXor(sum, 2u); }
     if (LANES >= 8u) { sum += subgroupShuffleXor(sum, 4u); }
+    if (LANES >= 16u) { sum += subgroupShuffleXor(sum, 8u); }
+    if (LANES >= 32u) { sum += subgroupShuffleXor(sum, 16u); }
     return sum;
 }

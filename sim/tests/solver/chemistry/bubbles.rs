@@ -22,13 +22,25 @@ fn of(law: Physical, parameters: Parameters) -> Parameters {
     }
 }
 
+/// Time of a frame that has two steps of the bubbles, s.
+const STEP: f64 = 1.0 / 720.0;
+
+/// Such frames.
+fn quick() -> Parameters {
+    Parameters {
+        frame_time: STEP,
+        substeps: 2,
+        ..parameters()
+    }
+}
+
 /// A ball of water of `temperature` (°C) without weight, `across` particles in diameter.
 fn ball(temperature: f64, acid: f64, across: i32) -> Setup {
     let p = of(
         bubbly(),
         Parameters {
             gravity: [0.0; 3],
-            ..parameters()
+            ..quick()
         },
     );
     let half = across / 2;
@@ -90,22 +102,22 @@ fn scriven(jakob: f64, density_ratio: f64) -> f64 {
 
 /// Growth of R² of a bubble from 1 to 3 mm in liquid of `acid` that is `superheat` (K) above `point` (°C), m²/s.
 fn growth(device: &Gpu, acid: f64, point: f64, superheat: f64) -> f64 {
-    let setup = ball(point + superheat, acid, 16);
-    let solver = setup.solver(device);
-    frames(device, &solver, &[], 1);
+    let solver = ball(point + superheat, acid, 16).solver(device);
+    frames(device, &solver, &[], 4);
     put(&solver, 0, DVec3::ZERO, 0.5e-3, point);
     let mut seen: Vec<(f64, f64)> = Vec::new();
-    for k in 1..60 {
+    for k in 1..200 {
         frames(device, &solver, &[], 1);
         let radius = f64::from(bubble(&solver).radius);
         if radius > 1e-3 {
-            seen.push((f64::from(k) / 90.0, radius));
+            seen.push((f64::from(k) * STEP, radius));
         }
         if radius > 3e-3 {
             break;
         }
     }
     let (first, last) = (seen[0], seen[seen.len() - 1]);
+    assert!(seen.len() > 5 && last.1 > 3e-3, "{seen:?}");
     (last.1.powi(2) - first.1.powi(2)) / (last.0 - first.0)
 }
 
@@ -196,8 +208,7 @@ fn a_bubble_collapses_as_akiyama_found() {
     let device = gpu::device();
     for (diameter, subcooling) in [(3e-3, 5.0), (4e-3, 10.0)] {
         let mut setup = beaker(100.0 - subcooling, bubbly());
-        // Frames of a step of the bubbles each.
-        setup.parameters.frame_time = 1.0 / 720.0;
+        setup.parameters.frame_time = STEP;
         setup.parameters.substeps = 2;
         let solver = setup.solver(&device);
         frames(&device, &solver, &[Pose::IDENTITY], 4);
@@ -209,7 +220,7 @@ fn a_bubble_collapses_as_akiyama_found() {
         let mut time = 0.0;
         while bubble(&solver).mass > 0.0 && time < 0.2 {
             frames(&device, &solver, &[Pose::IDENTITY], 1);
-            time += 1.0 / 720.0;
+            time += STEP;
         }
         let found = time / collapse_time(diameter, subcooling, speed);
         eprintln!("{diameter} m, {subcooling} K: {time} s, {found} of Akiyama's");
@@ -220,8 +231,8 @@ fn a_bubble_collapses_as_akiyama_found() {
     }
 }
 
-/// A column 26 mm wide and 100 mm deep at 100 °C, a third of a second after 5 % of it became bubbles of 0.6 mm. 2 %: the level by the volumes of
-/// liquid and bubbles, the pressure by the weight of what is above. Pressures are followed in 0.4 s.
+/// A column 26 mm wide and 100 mm deep at 100 °C, a third of a second after 5 % of it became bubbles of 0.6 mm. The level by the volumes of
+/// liquid and bubbles, the pressure to 2 % by the weight of what is above. Pressures are followed in 0.4 s.
 #[test]
 fn bubbles_swell_the_liquid_and_make_it_lighter() {
     let device = gpu::device();
@@ -278,7 +289,8 @@ fn bubbles_swell_the_liquid_and_make_it_lighter() {
         live.len(),
         gas / liquid
     );
-    assert!((level - gas / liquid).abs() < 0.02, "{level}");
+    // A quarter of the effect is 0.9 % of the level.
+    assert!((level / (gas / liquid) - 1.0).abs() < 0.25, "{level}");
     let area = PI * 0.013f64.powi(2);
     for (state, k) in (1..=8)
         .map(|k| (&before, k))
@@ -300,6 +312,67 @@ fn bubbles_swell_the_liquid_and_make_it_lighter() {
             "{height} m: {pressure} Pa under {weight} Pa"
         );
     }
+}
+
+/// Two bubbles of 2 mm that touch are two until the film between them has drained, √(R³ρ/16σ)·9.2 (Prince and Blanch 1990), which is 9 ms, and then
+/// one that has what both had; whether particles are larger or smaller than they. Two that do not touch stay two.
+#[test]
+fn bubbles_that_touch_join_when_their_film_has_drained() {
+    let device = gpu::device();
+    for spacing in [D, 0.4 * D] {
+        for (apart, joins) in [(1.9e-3, true), (2.2e-3, false)] {
+            let mut setup = ball(100.0, 0.0, 14);
+            let scale = spacing / D;
+            setup.parameters.spacing = spacing;
+            setup.parameters.support_radius *= scale;
+            setup.parameters.margin *= scale;
+            setup.particles.iter_mut().for_each(|p| p.position *= scale);
+            let solver = setup.solver(&device);
+            frames(&device, &solver, &[], 2);
+            let mut state = solver.snapshot().unwrap();
+            for (slot, side) in [(3, -0.5), (7, 0.5)] {
+                let at = [DVec3::X * apart * side, DVec3::ZERO];
+                let radius = 1e-3 * (1.0 + 1e-3 * side);
+                state.put_bubble(&setup.parameters, slot, 0, at, [radius, 100.0]);
+            }
+            solver.restore(&state).unwrap();
+            let all = || {
+                let state = solver.snapshot().unwrap();
+                let live = state.bubbles().iter().filter(|b| b.mass > 0.0);
+                live.map(|b| b.mass).collect::<Vec<f32>>()
+            };
+            let before: f32 = all().iter().sum();
+            // 5.6 ms, and 25 ms.
+            frames(&device, &solver, &[], 4);
+            assert_eq!(all().len(), 2, "{spacing}, {apart}");
+            frames(&device, &solver, &[], 14);
+            let after = all();
+            assert_eq!(after.len() == 1, joins, "{spacing}, {apart}: {after:?}");
+            let sum: f32 = after.iter().sum();
+            assert!((sum / before - 1.0).abs() < 0.05, "{before}, {after:?}");
+        }
+    }
+}
+
+/// One under the surface stays for `foam_time`, 0.1 s, and then its steam has left.
+#[test]
+fn a_bubble_bursts_after_its_time_at_the_surface() {
+    let device = gpu::device();
+    let solver = beaker(100.0, bubbly()).solver(&device);
+    frames(&device, &solver, &[Pose::IDENTITY], 6);
+    let top = solver.snapshot().unwrap().positions;
+    let top = top.iter().map(|x| x[1]).fold(0.0, f32::max);
+    put(&solver, 1, DVec3::Y * f64::from(top - 0.001), 1e-3, 100.0);
+    let mass = bubble(&solver).mass;
+    frames(&device, &solver, &[Pose::IDENTITY], 7);
+    assert!(bubble(&solver).mass > 0.0);
+    frames(&device, &solver, &[Pose::IDENTITY], 5);
+    let after = bubble(&solver);
+    assert_eq!(after.mass, 0.0);
+    assert!(
+        (after.gone[0] / mass - 1.0).abs() < 0.05,
+        "{mass}, {after:?}"
+    );
 }
 
 /// What liquid and vapour hold: mass (kg), enthalpy (J).
