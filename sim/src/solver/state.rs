@@ -17,7 +17,7 @@ use xxhash_rust::xxh3::Xxh3;
 /// Everything that the next frame depends on. The neighbour list is part of
 /// it: rebuilt at another step, it would hold the same pairs in another order,
 /// and sums over them would differ in their last bits.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct SolverState {
     /// Positions in the stage (m) by slot; w is −1 for one taken out, else the
     /// vapour that it holds over V0·ρ0.

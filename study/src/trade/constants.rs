@@ -21,8 +21,9 @@ pub struct Constant {
     value: fn(&mut PhysicalChemistry) -> &mut Option<f64>,
 }
 
-/// All of them but the room's temperature.
-pub const CONSTANTS: [Constant; 8] = [
+/// All of them but the room's temperature and the bound on bubbles. A scene has
+/// those of its features.
+pub const CONSTANTS: [Constant; 10] = [
     Constant {
         key: "mixing",
         unit: "1",
@@ -52,6 +53,18 @@ pub const CONSTANTS: [Constant; 8] = [
         unit: "m/s",
         source: "Clift, Grace & Weber 1978: bubbles of millimetres",
         value: |p| &mut p.bubble_speed,
+    },
+    Constant {
+        key: "nuclei_spacing",
+        unit: "m",
+        source: "chosen: glass that is clean",
+        value: |p| &mut p.nuclei_spacing,
+    },
+    Constant {
+        key: "foam_time",
+        unit: "s",
+        source: "chosen: films of water that is not quite clean",
+        value: |p| &mut p.foam_time,
     },
     Constant {
         key: "agitation",
@@ -141,15 +154,23 @@ mod tests {
     fn every_number_of_a_scene_is_a_constant_but_the_rooms_temperature() {
         let scene = Scene::builtin("water-into-acid").unwrap();
         let fields = serde_json::to_value(scene.physical.unwrap()).unwrap();
-        let keys: Vec<_> = fields.as_object().unwrap().keys().cloned().collect();
-        assert_eq!(keys.len(), CONSTANTS.len() + 1, "{keys:?}");
+        let keys: Vec<_> = fields
+            .as_object()
+            .unwrap()
+            .keys()
+            .filter(|key| !["ambient", "most_bubbles"].contains(&key.as_str()))
+            .collect();
+        assert_eq!(keys.len(), CONSTANTS.len(), "{keys:?}");
         for constant in CONSTANTS {
             assert!(
-                keys.iter().any(|key| key == constant.key),
+                keys.iter().any(|key| *key == constant.key),
                 "{}",
                 constant.key
             );
-            let value = constant.of(&scene).unwrap();
+            let Some(value) = constant.of(&scene) else {
+                assert!(fields[constant.key].is_null(), "{}", constant.key);
+                continue;
+            };
             let doubled = constant.times(&scene, 2.0);
             assert_eq!(constant.of(&doubled), Some(2.0 * value));
             // And nothing else.
