@@ -55,6 +55,8 @@ fn heat(t: f64) -> HeatSample {
             steam_kg: 1e-5 * t,
             mist_kg: 0.0,
             vapour_kg: 0.0,
+            spray_kg: 0.0,
+            spray_fallen_kg: 0.0,
         }),
     }
 }

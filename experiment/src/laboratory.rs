@@ -335,6 +335,7 @@ impl Experiment for Laboratory {
             ("surface tension left out", counted.tension_skipped),
             ("bubble without a place", counted.bubbles_refused),
             ("gas cut to what a neighbourhood holds", counted.gas_limited),
+            ("drops of a bubble left out", counted.spray_refused),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),
@@ -394,6 +395,8 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             steam_kg: ledger.steam,
             mist_kg: ledger.mist,
             vapour_kg: ledger.vapour,
+            spray_kg: ledger.spray,
+            spray_fallen_kg: ledger.spray_fallen,
         }),
     }
 }

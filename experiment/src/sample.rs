@@ -115,4 +115,10 @@ pub struct LedgerSample {
     pub mist_kg: f64,
     /// Vapour that is still in the liquid, kg.
     pub vapour_kg: f64,
+    /// Drops that bubbles threw up and that fly, kg.
+    #[serde(default)]
+    pub spray_kg: f64,
+    /// Those that came to rest on glass, table and floor since the start, kg.
+    #[serde(default)]
+    pub spray_fallen_kg: f64,
 }

@@ -120,7 +120,7 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         columns.push(column);
     }
     if heat.ledger.is_some() {
-        let of_ledger: [(&str, &str, OfLedger); 9] = [
+        let of_ledger: [(&str, &str, OfLedger); 11] = [
             ("enthalpy at the start", "J", |l| l.initial_j),
             ("heat gained from around", "J", |l| l.exchanged_j),
             ("enthalpy of what is there", "J", |l| l.held_j),
@@ -130,6 +130,8 @@ pub fn columns(first: &Sample) -> Vec<Column> {
             ("steam that left", "kg", |l| l.steam_kg),
             ("mist in the air", "kg", |l| l.mist_kg),
             ("vapour in the liquid", "kg", |l| l.vapour_kg),
+            ("drops of bubbles that fly", "kg", |l| l.spray_kg),
+            ("drops of bubbles at rest", "kg", |l| l.spray_fallen_kg),
         ];
         for (what, unit, value) in of_ledger {
             columns.push(of_heat!(what, unit, heat => heat.ledger.as_ref().map(value)));

@@ -68,6 +68,11 @@ impl Report {
                     (figure("steam_kg", "Evaporated",
                         &with_unit(ledger.steam_kg, units::mass(ledger.steam_kg)),
                         "water that left as steam", false))
+                    @if ledger.spray_fallen_kg > 0.0 {
+                        (figure("spray_fallen_kg", "Spattered",
+                            &with_unit(ledger.spray_fallen_kg, units::mass(ledger.spray_fallen_kg)),
+                            "drops of bubbles that came to rest on glass, table and floor", false))
+                    }
                     (figure("ledger_closure", "Ledger",
                         &format!("{:.1e}", ledger.closure.abs()),
                         "enthalpy that does not add up at the end, relative", ledger.closure.abs() > 1e-4))

@@ -1,16 +1,18 @@
 // Bubbles of steam: a population beside the particles, which the liquid's neighbour search does not know. A bubble is born at a
 // particle that is superheated, takes steam from the particles around it, or gives it back to colder ones; it rises, joins
-// others, and bursts at the surface. What it takes and gives, and its volume, are added to the particles in whole quanta; they take
+// others, and bursts at the surface, from which it throws drops up. What it takes and gives, and its volume, are added to the particles in whole quanta; they take
 // them over with line 26, and their volume with line 1.
 //!include common/chemistry/bubble.wgsl
-//!include common/chemistry/bubble_laws.wgsl
 //!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/drops.wgsl
+//!include common/chemistry/spray_laws.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/liquid/cells_around.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/lane_nearest.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
+//!include common/maths/lot.wgsl
 
 /// How long a bubble stays at the surface, s.
 override FOAM_TIME: f32 = 0.1;
@@ -36,6 +38,11 @@ override GRAVITY_Z: f32 = 0.0;
 /// By step and slot: quanta of steam and enthalpy of what joins the bubble.
 @group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
+/// (acid fraction, enthalpy in J/kg, …)
+@group(0) @binding(13) var<storage, read> matter: array<vec4<f32>>;
+@group(0) @binding(14) var<storage, read_write> drops: array<Drops>;
+/// By identity: what drops did to a particle.
+@group(0) @binding(15) var<storage, read_write> sprayed: array<atomic<i32>>;
 
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
@@ -268,6 +275,95 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
     return Gained(lane_sum_of_quanta(mass, MASS_QUANTUM), lane_sum_of_quanta(enthalpy, ENTHALPY_QUANTUM));
 }
 
+/// Liquid that goes into drops, V0·ρ0, its acid, and its enthalpy, J per V0·ρ0.
+struct Liquid {
+    mass: f32,
+    acid: f32,
+    enthalpy: f32,
+}
+
+/// Most of the liquid that touches a bubble which goes into its drops.
+const MOST_THROWN: f32 = 0.05;
+
+/// Takes liquid of `mass` (V0·ρ0) from the particles that touch a bubble; all lanes must ask, those of others with 0.
+fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, cells: i32, lane: u32) -> Liquid {
+    var sums = array<QuantaSum, 3>();
+    let cell = cell_of(bubble.position);
+    let count = select(0u, count_around(cells), mass > 0.0);
+    for (var n = lane; n < count; n += LANES) {
+        let run = cell_around(cell, cells, n);
+        for (var j = run.first; j < run.end; j++) {
+            let offset = position[j].xyz - bubble.position;
+            let share = contact_at(dot(offset, offset), bubble.radius) / max(s.contact, 1e-12);
+            let tag = tags[j];
+            if (share <= 0.0 || tag.x != bubble.membership) { continue; }
+            let taken = quanta_of_drops(share * mass, SPRAYED_QUANTUM);
+            let liquid = f32(taken) * SPRAYED_QUANTUM * matter[j].xy;
+            let acid = quanta_of_drops(liquid.x, SPRAYED_QUANTUM);
+            let enthalpy = quanta_of_drops(liquid.y, SPRAYED_ENTHALPY_QUANTUM);
+            let words = tag.y * SPRAYED_WORDS;
+            atomicSub(&sprayed[words], taken);
+            atomicSub(&sprayed[words + 1u], acid);
+            atomicSub(&sprayed[words + 2u], enthalpy);
+            sums[0] = added(sums[0], taken);
+            sums[1] = added(sums[1], acid);
+            sums[2] = added(sums[2], enthalpy);
+        }
+    }
+    return Liquid(
+        lane_sum_of_quanta(sums[0], SPRAYED_QUANTUM), lane_sum_of_quanta(sums[1], SPRAYED_QUANTUM),
+        lane_sum_of_quanta(sums[2], SPRAYED_ENTHALPY_QUANTUM));
+}
+
+/// Mass of the drops of a burst, V0·ρ0.
+fn mass_of(burst: Burst, around: Around) -> f32 {
+    return burst.number * bubble_volume(burst.radius) * around.density / MASS;
+}
+
+/// Most that a jet leans away from upwards, and a film's drops from the level: a tangent.
+const LEANS: f32 = 0.2;
+
+/// A direction at right angles to `up`, by lot.
+fn sideways(up: vec3<f32>, slot: u32, seed: u32) -> vec3<f32> {
+    let other = select(vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0), abs(up.x) > 0.9);
+    let a = normalize(cross(up, other));
+    let turn = 2.0 * BUBBLE_PI * lot(slot, seed);
+    return cos(turn) * a + sin(turn) * cross(a, up);
+}
+
+/// Puts drops into a record of a bubble's place, which is free.
+fn throw_up(place: u32, bubble: Bubble, s: Surrounding, burst: Burst, liquid: Liquid, density: f32, direction: vec3<f32>, up: vec3<f32>) {
+    drops[place].position = bubble.position + up * (bubble.radius + SPACING);
+    drops[place].mass = liquid.mass;
+    drops[place].velocity = s.velocity + direction * burst.speed;
+    drops[place].acid = liquid.acid;
+    drops[place].enthalpy = liquid.enthalpy;
+    drops[place].radius = burst.radius;
+    drops[place].density = density;
+    drops[place].memberships = bubble.membership | (bubble.membership << 16u);
+    drops[place].number = liquid.mass * MASS / (density * bubble_volume(burst.radius));
+}
+
+/// Throws up the drops of a bubble that bursts; all lanes must ask.
+fn spray(bubble: Bubble, slot: u32, bursts: bool, s: Surrounding, around: Around, cells: i32, lane: u32, up: vec3<f32>) {
+    let place = 2u * slot;
+    var burst = array<Burst, 2>(jet_of(bubble.radius, around), film_of(bubble.radius, around));
+    for (var way = OF_JET; way <= OF_FILM; way++) {
+        let wanted = select(0.0, mass_of(burst[way], around), bursts);
+        let free = drops[place + way].mass <= 0.0;
+        let mass = select(0.0, min(wanted, MOST_THROWN * s.contact), free);
+        let liquid = take_liquid(bubble, s, mass, cells, lane);
+        if (lane > 0u || wanted <= 0.0) { continue; }
+        if (!free) { atomicAdd(&counters.spray_refused, 1u); }
+        if (liquid.mass <= 0.0) { continue; }
+        let seed = bitcast<u32>(bubble.position.x) + way;
+        let side = sideways(up, slot, seed);
+        let leans = LEANS * lot(seed, slot);
+        let direction = select(side + leans * up, up + leans * side, way == OF_JET);
+        throw_up(place + way, bubble, s, burst[way], liquid, around.density, normalize(direction), up);
+    }
+}
+
 /// Takes steam of the particle with that identity, or gives it.
 fn exchange_with(identity: u32, steam: i32, enthalpy: i32) {
     atomicSub(&bubbled[identity * BUBBLED_WORDS + BUBBLED_MASS], steam);
@@ -347,7 +443,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
 
     let s = gather(bubble, slot, first, reach, cells, lane, up);
     let around = around_of(s.acid, s.temperature);
-    let c = conductance_of(bubble, s, around, time);
+    let bursts = bubble.surfaced > FOAM_TIME;
+    if (SPRAY) { spray(bubble, slot, bursts && s.contact > 0.0, s, around, cells, lane, up); }
+    var c: Conductance;
+    if (!bursts) { c = conductance_of(bubble, s, around, time); }
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
     let wall = boundary_volume(bubble.membership, bubble.position, step.after, lane);
     if (lane != 0u) { return; }
@@ -360,7 +459,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.mass = max(bubble.mass + gained.mass, 0.0);
     bubble.enthalpy += gained.enthalpy;
     let alone = s.weight <= 0.0;
-    if (c.vanishes && !alone) {
+    if (c.vanishes && !alone && bubble.mass < MOST_AT_ONCE) {
         exchange_with(nearest, -quanta(bubble.mass, MASS_QUANTUM), -quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
         bubble.mass = 0.0;
         bubble.enthalpy = 0.0;
@@ -371,7 +470,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     let at_surface = cover_of(s.cover, wall, up) < COVERED;
     // What new ones push under for a moment is no younger for it.
     bubble.surfaced = max(bubble.surfaced + select(-time, time, at_surface), 0.0);
-    if (alone || bubble.surfaced > FOAM_TIME) {
+    if (alone || bursts) {
         bubble.gone += vec2<f32>(bubble.mass, bubble.enthalpy);
         bubble.mass = 0.0;
         bubble.enthalpy = 0.0;

@@ -5,6 +5,7 @@
 //!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
+//!include common/chemistry/drops.wgsl
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/evaporation.wgsl
 //!include common/chemistry/features.wgsl
@@ -66,6 +67,9 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 /// By identity: gas of a particle, that which it goes to (V0), the conductance of all bubbles around it (V0·ρ0/(s K)), and
 /// the time until another bubble is born at it, s.
 @group(0) @binding(17) var<storage, read_write> gas: array<vec4<f32>>;
+
+/// By identity: what drops did to a particle.
+@group(0) @binding(19) var<storage, read_write> sprayed: array<vec4<i32>>;
 
 /// What a pair exchanges in a substep.
 struct Rates {
@@ -320,6 +324,20 @@ fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
     return state;
 }
 
+/// Line 26: liquid that went into drops, and that of drops that fell back.
+fn take_from_drops(before: State, identity: u32) -> State {
+    let did = sprayed[identity];
+    var state = before;
+    let mass = rounded(state.content.mass + f32(did.x) * SPRAYED_QUANTUM);
+    let change = mass - state.content.mass;
+    state.acid = compensated(state.acid, (f32(did.y) * SPRAYED_QUANTUM - state.acid.value * change) / mass);
+    let enthalpy = f32(did.z) * SPRAYED_ENTHALPY_QUANTUM;
+    state.enthalpy = compensated(state.enthalpy, (enthalpy - state.enthalpy.value * change) / mass);
+    state.content.mass = mass;
+    sprayed[identity] = vec4<i32>(did.x - i32(change / SPRAYED_QUANTUM), 0, 0, 0);
+    return state;
+}
+
 /// Line 26: bubbles rise to the particles above, and leave where there are none. Only there does
 /// their vapour push the liquid out of the air's way. `vapour` is what the particle holds of it; of
 /// one whose list is not `whole`, what is above is not looked for.
@@ -392,6 +410,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (BUBBLES) {
         if ((step.bubbles & BUBBLES_ACTED) > 0u) {
             state = take_from_bubbles(state, tag.y, extent.volume - gas[tag.y].x);
+            if (SPRAY) { state = take_from_drops(state, tag.y); }
         }
     }
     if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }

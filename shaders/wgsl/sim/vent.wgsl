@@ -7,6 +7,7 @@
 //!include common/chemistry/ledger.wgsl
 //!include common/chemistry/particle_mass.wgsl
 //!include common/liquid/particle.wgsl
+//!include common/maths/lot.wgsl
 
 /// Workgroups: puffs that a frame may bring.
 override VENTS: u32 = 4u;
@@ -29,13 +30,6 @@ var<workgroup> sums: array<vec2<f32>, THREADS>;
 var<workgroup> lots: array<f32, THREADS>;
 /// Particles that drew them.
 var<workgroup> drawers: array<u32, THREADS>;
-
-/// A number in [0, 1) from two.
-fn lot(a: u32, b: u32) -> f32 {
-    var bits = (a ^ (b * 2654435769u)) * 747796405u + 2891336453u;
-    bits = ((bits >> ((bits >> 28u) + 4u)) ^ bits) * 277803737u;
-    return f32((bits >> 22u) ^ (bits & 1023u)) / 1024.0;
-}
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {

@@ -9,6 +9,8 @@ pub struct Bubbles {
     pub foam_time: f64,
     /// Most of them at a time; rounded up to whole groups.
     pub most: u32,
+    /// Whether the drops that they throw up when they burst are followed.
+    pub spray: bool,
 }
 
 /// Threads of a workgroup, of which each bubble has one or more.
@@ -36,6 +38,11 @@ impl Bubbles {
     /// Places for bubbles, in whole groups.
     pub fn slots(&self) -> u32 {
         self.most.clamp(1, MOST_SLOTS).next_multiple_of(GROUP)
+    }
+
+    /// Places for drops: of each bubble those of its jet and of its film.
+    pub fn places_of_drops(&self) -> u32 {
+        if self.spray { 2 * self.slots() } else { 0 }
     }
 
     /// Share of particles of `spacing` (m) that are nuclei.

@@ -139,6 +139,7 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
             nuclei_spacing: physical.nuclei_spacing?,
             foam_time: physical.foam_time?,
             most: physical.most_bubbles?,
+            spray: scene.models(Feature::Spray),
         })
     };
     Some(Physical {

@@ -23,7 +23,7 @@ pub struct Departures {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Departed {
     /// Has left at any time so far, each particle once: poured, thrown or
-    /// splashed, whether it came back or not.
+    /// splashed, whether it came back or not; and drops of bubbles that came to rest elsewhere.
     pub left: Vec<f64>,
     /// Is above the rim's plane now and in no flask, having left this one last.
     pub above_rim: Vec<f64>,
@@ -67,7 +67,8 @@ impl Departures {
             left: self
                 .masses
                 .iter()
-                .map(|mass| particle_mass * mass)
+                .enumerate()
+                .map(|(flask, mass)| particle_mass * (mass + state.spray_left(flask)))
                 .collect(),
             above_rim,
         }

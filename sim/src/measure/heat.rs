@@ -56,12 +56,16 @@ pub struct Superheat {
 /// pure liquids at 25 °C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Ledger {
-    /// Mass of liquid and of vapour that is still in it, in bubbles or in particles, kg.
+    /// Mass of liquid, of its drops that fly or cling, and of vapour that is still in it, in bubbles or in particles, kg.
     pub mass: f64,
     /// Mass of acid, kg.
     pub acid: f64,
     /// Mass of vapour that is still in the liquid, kg.
     pub vapour: f64,
+    /// Mass of drops that bubbles threw up and that fly, kg.
+    pub spray: f64,
+    /// Mass of drops that came to rest on glass, table or floor since the start, kg.
+    pub spray_fallen: f64,
     /// Enthalpy that is held, J.
     pub held: f64,
     /// Heat gained from around, J; negative where it was lost.
@@ -244,11 +248,21 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
     sum.held += bubbles.held[1] + bubbles.pending[1];
     sum.steam += bubbles.gone[0];
     sum.steam_enthalpy += bubbles.gone[1];
+    let drops = state.sprayed();
+    for part in [drops.flying, drops.fallen, drops.pending] {
+        sum.mass += part[0];
+        sum.acid += part[1];
+        sum.held += part[2];
+    }
+    sum.spray = drops.flying[0];
+    sum.spray_fallen = drops.fallen[0];
     let m = particle_mass;
     Some(Ledger {
         mass: m * sum.mass,
         acid: m * sum.acid,
         vapour: m * sum.vapour,
+        spray: m * sum.spray,
+        spray_fallen: m * sum.spray_fallen,
         held: m * sum.held,
         exchanged: m * sum.exchanged,
         steam: m * sum.steam,

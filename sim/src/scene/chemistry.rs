@@ -215,6 +215,7 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
             (Feature::Bubbles, Feature::Evaporation),
             // They swell the liquid as a change of its density does.
             (Feature::Bubbles, Feature::Density),
+            (Feature::Spray, Feature::Bubbles),
         ]);
     }
     needs
@@ -255,6 +256,7 @@ fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
         Feature::Evaporation,
         Feature::Steam,
         Feature::Bubbles,
+        Feature::Spray,
         Feature::Losses,
         Feature::Segregation,
     ];

@@ -27,6 +27,8 @@ pub enum Feature {
     Steam,
     /// Vapour in bubbles that have volume, in place of `Steam`.
     Bubbles,
+    /// Drops that bubbles throw up when they burst.
+    Spray,
     /// Acid and water that are not mixed below a particle's size, of which the water boils first.
     Segregation,
     /// Heat lost through glass and at the free surface.

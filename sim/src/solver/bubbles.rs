@@ -2,6 +2,7 @@
 
 use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS, Buffers};
 use super::pipelines::bubbles_of;
+use super::spray::SprayState;
 use super::transfer::{read, write};
 use super::{Solver, SolverError};
 use crate::chemistry::bubbles::Bubbles;
@@ -55,7 +56,7 @@ const ATMOSPHERE: f64 = 101_325.0;
 /// Mass and enthalpy quanta of what bubbles did to particles and of what joins a bubble, over V0·ρ0 and J per V0·ρ0, as in
 /// `common/chemistry/bubbled.wgsl`.
 const QUANTA: [f64; 2] = [1.0 / 8_589_934_592.0, 1.0 / 2048.0];
-const JOINED: [f64; 2] = [1.0 / 268_435_456.0, 1.0 / 64.0];
+const JOINED: [f64; 2] = [1.0 / 16_777_216.0, 1.0 / 16.0];
 
 /// Mass and enthalpy of vapour, over V0·ρ0 and in J per V0·ρ0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -184,6 +185,11 @@ impl Solver {
         self.pass(rec, pass)
             .constants(&step)
             .invocations(bubbles.slots() * lanes_of(&self.gpu, self.lanes))?;
+        if let Some(spray) = &self.pipelines.spray {
+            self.pass(rec, spray)
+                .constants(&step)
+                .invocations(bubbles.places_of_drops())?;
+        }
         Ok(())
     }
 
@@ -191,5 +197,10 @@ impl Solver {
     pub(super) fn bubbles_at_start(&self) -> BubbleState {
         let cells = [self.grid.cells(), self.grid.blocks()];
         BubbleState::start(&self.parameters, self.count as usize, cells)
+    }
+
+    /// The same of drops.
+    pub(super) fn spray_at_start(&self) -> SprayState {
+        SprayState::start(&self.parameters, self.count as usize, self.flasks)
     }
 }

@@ -17,11 +17,14 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 43;
+pub(super) const OF_PARTICLES: usize = 44;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 16;
 pub(super) const BUBBLED_WORDS: usize = 8;
+/// The same of drops.
+pub(super) const DROPS_WORDS: usize = 16;
+pub(super) const SPRAYED_WORDS: usize = 4;
 
 /// Of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
@@ -84,6 +87,10 @@ pub(super) struct Buffers {
     pub(super) boils: Buffer,
     pub(super) claims: Buffer,
     pub(super) merging: Buffer,
+    /// Drops that bubbles threw up, what they do to particles by identity, and what of them left each flask.
+    pub(super) drops: Buffer,
+    pub(super) sprayed: Buffer,
+    pub(super) spray_left: Buffer,
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
     pub(super) glass_taken: Buffer,
@@ -141,6 +148,8 @@ impl Buffers {
         let bubbles = bubbles_of(&spec.parameters);
         let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
         let bubbly = where_asked(bubbles.is_some(), n);
+        let places_of_drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
+        let sprayed = where_asked(places_of_drops > 0, n);
         let confined = spec.parameters.vorticity > 0.0;
         let colour = Colour::new(&spec.parameters, count);
         let slots = where_asked(spec.parameters.surface.is_some(), colour.slots.into());
@@ -188,6 +197,9 @@ impl Buffers {
             boils: words("boils", 4 * bubbly)?,
             claims: words("claims", slots_of_bubbles)?,
             merging: words("merging", 4 * slots_of_bubbles)?,
+            drops: words("drops", DROPS_WORDS as u64 * places_of_drops)?,
+            sprayed: words("sprayed", SPRAYED_WORDS as u64 * sprayed)?,
+            spray_left: words("spray_left", where_asked(places_of_drops > 0, flasks))?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
             colour_keys: words("colour_keys", 2 * slots)?,
@@ -214,7 +226,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 24] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 26] {
         [
             &self.position,
             &self.velocity,
@@ -259,6 +271,7 @@ impl Buffers {
             &self.bubbled,
             &self.gas,
             &self.boils,
+            &self.sprayed,
             &self.colour_args,
             &self.counters,
             &self.cell_counts,
@@ -270,6 +283,8 @@ impl Buffers {
             &self.bubbles,
             &self.claims,
             &self.merging,
+            &self.drops,
+            &self.spray_left,
             &self.glass,
             &self.glass_taken,
             &self.poses,

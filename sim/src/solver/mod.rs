@@ -24,6 +24,7 @@ mod search;
 mod snapshot;
 mod solids;
 mod spec;
+mod spray;
 mod state;
 mod steam;
 mod transfer;

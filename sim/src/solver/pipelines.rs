@@ -87,6 +87,8 @@ pub(super) struct Pipelines {
     pub(super) last_forces: SolverPass,
     /// Where vapour is in bubbles.
     pub(super) bubbles: Option<SolverPass>,
+    /// Where the drops that they throw up are followed.
+    pub(super) spray: Option<SolverPass>,
     /// The physical chemistry's eddies at a frame's end: the flow's filter, and its strain.
     pub(super) eddies: Vec<SolverPass>,
     /// Where heat is lost to flasks.
@@ -172,6 +174,10 @@ impl Pipelines {
                     let lanes = bubbles::lanes_of(gpu, constants.lanes());
                     Some(make(sim::BUBBLES, &[("LANES", lanes.into())])?)
                 }
+            },
+            spray: match bubbles_of(&spec.parameters) {
+                Some(bubbles) if bubbles.spray => Some(make(sim::SPRAY, &[])?),
+                _ => None,
             },
             eddies: eddies(gpu, library, spec, constants, buffers)?,
             glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
@@ -280,6 +286,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
         own.extend([
             ("BUBBLES", 1.0),
             ("SLOTS", bubbles.slots().into()),
+            ("SPRAY", flag(bubbles.spray)),
             ("NUCLEI", bubbles.nuclei(p.spacing)),
             ("NUCLEUS_WAIT", bubbles.nucleus_wait()),
             ("FOAM_TIME", bubbles.foam_time),

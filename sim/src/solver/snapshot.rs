@@ -2,6 +2,7 @@
 
 use super::bubbles::BubbleState;
 use super::glass;
+use super::spray::SprayState;
 use super::steam::{Steam, SteamState};
 use super::transfer::{read, write};
 use super::{Counters, Solver, SolverError, SolverState};
@@ -33,6 +34,7 @@ impl Solver {
                 None => SteamState::default(),
             },
             bubbles: BubbleState::read(gpu, b, &self.bubbles_at_start())?,
+            spray: SprayState::read(gpu, b, &self.spray_at_start())?,
             held: read(gpu, &b.held, self.sticking())?,
             list_origin: read(gpu, &b.list_origin, n)?,
             list_counts: read(gpu, &b.list_counts, n)?,
@@ -52,6 +54,7 @@ impl Solver {
         let [heat, matter] = self.lengths();
         let (steam, start) = (&state.steam, Steam::start(&self.parameters, n));
         let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());
+        let (spray, no_spray) = (&state.spray, self.spray_at_start());
         for (what, found, expected) in [
             ("positions", state.positions.len(), n),
             ("velocities", state.velocities.len(), n),
@@ -79,6 +82,17 @@ impl Solver {
             ("gas", bubbles.gas.len(), none.gas.len()),
             ("joining bubbles", bubbles.merging.len(), none.merging.len()),
             ("cells", bubbles.cell_starts.len(), none.cell_starts.len()),
+            ("drops", spray.drops.len(), no_spray.drops.len()),
+            (
+                "sprayed particles",
+                spray.sprayed.len(),
+                no_spray.sprayed.len(),
+            ),
+            (
+                "flasks that spray left",
+                spray.left.len(),
+                no_spray.left.len(),
+            ),
             ("blocks", bubbles.block_sums.len(), none.block_sums.len()),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
@@ -107,6 +121,7 @@ impl Solver {
             steam.restore(gpu, &state.steam)?;
         }
         state.bubbles.write(gpu, b)?;
+        state.spray.write(gpu, b)?;
         write(gpu, &b.held, &state.held)?;
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;

@@ -6,12 +6,13 @@ use super::glass;
 use super::matter::Start;
 use super::pipelines::Grid;
 use super::spec::Particle;
+use super::spray::{SprayAccount, SprayState};
 use super::steam::{Steam, SteamState};
 use crate::chemistry::Chemistry;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_shaders::layout::Bubble;
+use vitriol_shaders::layout::{Bubble, Drops};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
@@ -53,6 +54,7 @@ pub struct SolverState {
     pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
     pub(super) bubbles: BubbleState,
+    pub(super) spray: SprayState,
     /// What walls hold the surface's line with, by identity, until surface tension acts again; empty without hysteresis.
     pub(super) held: Vec<[f32; 4]>,
 }
@@ -92,6 +94,7 @@ impl SolverState {
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
             steam: Steam::start(parameters, n),
             bubbles: BubbleState::start(parameters, n, [grid.cells(), grid.blocks()]),
+            spray: SprayState::start(parameters, n, flasks),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
@@ -141,12 +144,18 @@ impl SolverState {
         }
         hash.update(bytemuck::cast_slice(&self.glass));
         hash.update(bytemuck::cast_slice(&self.bubbles.bubbles));
+        hash.update(bytemuck::cast_slice(&self.spray.drops));
         hash.digest()
     }
 
     /// Bubbles of steam in the liquid: those of mass 0 are none. Masses are over V0·ρ0; empty where a scene has no bubbles.
     pub fn bubbles(&self) -> &[Bubble] {
         self.bubbles.records()
+    }
+
+    /// The same, to be changed.
+    pub fn bubbles_mut(&mut self) -> &mut [Bubble] {
+        bytemuck::cast_slice_mut(&mut self.bubbles.bubbles)
     }
 
     /// Puts a bubble of steam of `temperature` (°C) into place `slot` of [`Self::bubbles`], with membership `tag`, at
@@ -160,9 +169,30 @@ impl SolverState {
         [radius, temperature]: [f64; 2],
     ) {
         let at = bubbles::record(parameters, tag, [position, velocity], [radius, temperature]);
-        if let Some(place) = self.bubbles.bubbles.get_mut(slot) {
-            *place = bytemuck::cast(at);
+        if let Some(place) = self.bubbles_mut().get_mut(slot) {
+            *place = at;
         }
+    }
+
+    /// Drops that bubbles threw up: records of mass 0 are none. Of the bubble in place n of [`Self::bubbles`], 2n is of its jet and
+    /// 2n + 1 of its film. Masses are over V0·ρ0; empty where a scene has no spray.
+    pub fn drops(&self) -> &[Drops] {
+        self.spray.records()
+    }
+
+    /// The same, to be changed.
+    pub fn drops_mut(&mut self) -> &mut [Drops] {
+        bytemuck::cast_slice_mut(&mut self.spray.drops)
+    }
+
+    /// Mass of drops that came from the liquid in a flask and came to rest elsewhere, over that of a particle at rest density.
+    pub fn spray_left(&self, flask: usize) -> f64 {
+        self.spray.left(flask)
+    }
+
+    /// Where the liquid of drops is.
+    pub(crate) fn sprayed(&self) -> SprayAccount {
+        self.spray.account()
     }
 
     /// Where the vapour of bubbles is.

@@ -18,10 +18,12 @@ const GAS_QUANTUM: f32 = 1.0 / 1048576.0;
 const CONDUCTANCE_QUANTUM: f32 = 1.0 / 1048576.0;
 const STIRRING_QUANTUM: f32 = 1.0 / 16777216.0;
 /// Of bubbles that join others: these are whole bubbles.
-const JOINED_MASS_QUANTUM: f32 = 1.0 / 268435456.0;
-const JOINED_ENTHALPY_QUANTUM: f32 = 1.0 / 64.0;
-/// Most quanta of one addition.
-const MOST_ADDED: f32 = 536870912.0;
+const JOINED_MASS_QUANTUM: f32 = 1.0 / 16777216.0;
+const JOINED_ENTHALPY_QUANTUM: f32 = 1.0 / 16.0;
+/// Most quanta of one addition, of which a word holds 16.
+const MOST_ADDED: f32 = 134217728.0;
+/// Most steam that a particle takes at once, V0·ρ0: so much of it has no more quanta of mass or of enthalpy than that.
+const MOST_AT_ONCE: f32 = 0.015;
 
 fn quanta(amount: f32, quantum: f32) -> i32 {
     return i32(clamp(round(amount / quantum), -MOST_ADDED, MOST_ADDED));

@@ -15,7 +15,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Particle, Solver, SolverState};
 use vitriol_tests::gpu;
 
-fn of(law: Physical, parameters: Parameters) -> Parameters {
+pub fn of(law: Physical, parameters: Parameters) -> Parameters {
     Parameters {
         carry_rate: 2.25,
         ..with(Chemistry::Physical(law), parameters)
@@ -26,7 +26,7 @@ fn of(law: Physical, parameters: Parameters) -> Parameters {
 const STEP: f64 = 1.0 / 720.0;
 
 /// Such frames.
-fn quick() -> Parameters {
+pub fn quick() -> Parameters {
     Parameters {
         frame_time: STEP,
         substeps: 2,
@@ -175,7 +175,7 @@ fn beaker(temperature: f64, law: Physical) -> Setup {
     Setup::new(of(law, parameters()), vec![profile], particles)
 }
 
-/// 15 % up to 5 mm. One of 10 mm is 21 % too fast: `docs/measurements/bubbles.md`.
+/// 15 % up to 5 mm. One of 10 mm is 1.4 times too fast: `docs/measurements/bubbles.md`.
 #[test]
 fn a_bubble_rises_as_clift_grace_and_weber_say() {
     let device = gpu::device();
@@ -405,7 +405,7 @@ fn a_bubble_bursts_after_its_time_at_the_surface() {
 }
 
 /// What liquid and vapour hold: mass (kg), enthalpy (J).
-fn held(solver: &Solver) -> [f64; 2] {
+pub fn held(solver: &Solver) -> [f64; 2] {
     let state = solver.snapshot().unwrap();
     let ledger = vitriol_sim::measure::measure_heat(solver.parameters(), &state)
         .and_then(|heat| heat.ledger)
@@ -414,7 +414,7 @@ fn held(solver: &Solver) -> [f64; 2] {
 }
 
 /// Hot water with nuclei everywhere, which boils up.
-fn kettle(nuclei_spacing: f64, most: u32) -> Setup {
+pub fn kettle(nuclei_spacing: f64, most: u32) -> Setup {
     let mut law = bubbly();
     if let Some(bubbles) = &mut law.bubbles {
         (bubbles.nuclei_spacing, bubbles.most) = (nuclei_spacing, most);

@@ -45,6 +45,7 @@ pub fn bubbly() -> Physical {
             nuclei_spacing: 1.0,
             foam_time: 0.1,
             most: 4096,
+            spray: false,
         }),
         superheat_time: None,
         bubble_speed: None,

@@ -1,0 +1,63 @@
+// The laws by which a bubble that bursts throws up drops, and by which these fly.
+//!include common/chemistry/bubble_laws.wgsl
+
+/// Drops that a bubble throws up in one way.
+struct Burst {
+    /// Of one drop, m.
+    radius: f32,
+    /// How many.
+    number: f32,
+    /// m/s.
+    speed: f32,
+}
+
+/// Laplace number ρσR/μ² below which viscosity leaves no jet, and that above which it plays no part
+/// (Deike et al. 2018; Gañán-Calvo 2018: an Ohnesorge number of 0.0045).
+const LEAST_LAPLACE: f32 = 500.0;
+const MOST_LAPLACE: f32 = 49383.0;
+/// Bond number ρgR²/σ from which on a bubble lies too flat for a jet that breaks up (Walls, Henaux and Bird 2015).
+const MOST_BOND: f32 = 3.0;
+
+/// Drops of the jet that shoots up where a bubble was: size r/l = 0.6 φ^(5/4) with l = μ²/(ρσ) and φ = La (500^-½ − La^-½)
+/// (Gañán-Calvo 2017), speed 19 σ/μ φ^(-3/4) (1 + 2.2 Bo)^(-3/4) (Deike et al. 2018), number 7 exp(−R/3 mm) (Lewis and Schwartz 2004).
+fn jet_of(radius: f32, around: Around) -> Burst {
+    let per_viscosity = around.density * around.tension / (around.viscosity * around.viscosity);
+    let laplace = min(per_viscosity * radius, MOST_LAPLACE);
+    let bond = around.density * GRAVITY * radius * radius / around.tension;
+    if (laplace <= LEAST_LAPLACE || bond >= MOST_BOND) { return Burst(0.0, 0.0, 0.0); }
+    let excess = laplace * (inverseSqrt(LEAST_LAPLACE) - inverseSqrt(laplace));
+    let size = radius * 0.6 / laplace * pow(excess, 1.25);
+    let capillary = sqrt(around.tension / (around.density * radius));
+    let speed = 19.0 * capillary * sqrt(laplace) * pow(excess * (1.0 + 2.2 * bond), -0.75);
+    return Burst(size, 7.0 * exp(-radius / 3e-3), speed);
+}
+
+/// Radius from which on drops of films are followed: those of smaller bubbles are micrometres wide.
+const FILM_FROM: f32 = 2e-3;
+/// A film's thickness is the radius squared over this when it bursts, m.
+const FILM_LENGTH: f32 = 20.0;
+
+/// Drops of a bubble's film (Lhuissier and Villermaux 2012): thickness h = R²/20 m, diameter R^(3/8) h^(5/8), number
+/// (R/a)² (R/h)^(7/8) with the capillary length a, and the speed √(2σ/(ρh)) at which the film opens.
+fn film_of(radius: f32, around: Around) -> Burst {
+    if (radius < FILM_FROM || GRAVITY <= 0.0) { return Burst(0.0, 0.0, 0.0); }
+    let thickness = radius * radius / FILM_LENGTH;
+    let capillary_square = around.tension / (around.density * GRAVITY);
+    let size = 0.5 * pow(radius, 0.375) * pow(thickness, 0.625);
+    let number = radius * radius / capillary_square * pow(radius / thickness, 0.875);
+    return Burst(size, number, sqrt(2.0 * around.tension / (around.density * thickness)));
+}
+
+/// Air of 20 °C: kg/m³ and Pa s.
+const AIR_DENSITY: f32 = 1.204;
+const AIR_VISCOSITY: f32 = 1.825e-5;
+
+/// Velocity of a drop after `time` in air that rests (drag of a sphere: Schiller and Naumann 1933).
+fn flown(velocity: vec3<f32>, gravity: vec3<f32>, radius: f32, density: f32, time: f32) -> vec3<f32> {
+    let speed = max(length(velocity), 1e-5);
+    let reynolds = 2.0 * radius * speed * AIR_DENSITY / AIR_VISCOSITY;
+    // From Re = 1000 on it is that of a blunt body.
+    let drag = max(24.0 / reynolds * (1.0 + 0.15 * pow(reynolds, 0.687)), 0.44);
+    let rate = 0.375 * AIR_DENSITY / density * drag * speed / radius;
+    return (velocity + gravity * time) / (1.0 + rate * time);
+}

@@ -1,0 +1,99 @@
+//! Drops that bubbles throw up when they burst: their part of the state.
+
+use super::SolverError;
+use super::buffers::{Buffers, DROPS_WORDS, SPRAYED_WORDS};
+use super::pipelines::bubbles_of;
+use super::transfer::{read, write};
+use crate::parameters::Parameters;
+use serde::{Deserialize, Serialize};
+use vitriol_gpu::{Gpu, GpuError};
+use vitriol_shaders::layout::Drops;
+
+/// What the next frame depends on; empty where a scene has no spray.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(super) struct SprayState {
+    pub(super) drops: Vec<[f32; DROPS_WORDS]>,
+    /// By identity.
+    pub(super) sprayed: Vec<[i32; SPRAYED_WORDS]>,
+    /// By flask.
+    pub(super) left: Vec<u32>,
+}
+
+/// Quanta of mass and acid, of enthalpy, and of what left a flask, over V0·ρ0 and J per V0·ρ0, as in
+/// `common/chemistry/drops.wgsl`.
+const QUANTA: [f64; 3] = [1.0 / 16_777_216.0, 1.0 / 16_777_216.0, 1.0 / 16.0];
+const LEFT_QUANTUM: f64 = 1.0 / 65_536.0;
+
+/// Mass and acid over V0·ρ0, and enthalpy, J per V0·ρ0.
+pub(crate) type Liquid = [f64; 3];
+
+/// Where the liquid of drops is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct SprayAccount {
+    /// In drops that fly.
+    pub(crate) flying: Liquid,
+    /// On glass, table and floor.
+    pub(crate) fallen: Liquid,
+    /// On its way to particles; negative where it is on its way from them.
+    pub(crate) pending: Liquid,
+}
+
+impl SprayState {
+    /// The state without drops, of `count` particles and `flasks` flasks.
+    pub(super) fn start(parameters: &Parameters, count: usize, flasks: usize) -> Self {
+        match bubbles_of(parameters).map(|bubbles| bubbles.places_of_drops() as usize) {
+            None | Some(0) => Self::default(),
+            Some(places) => Self {
+                drops: vec![[0.0; DROPS_WORDS]; places],
+                sprayed: vec![[0; SPRAYED_WORDS]; count],
+                left: vec![0; flasks],
+            },
+        }
+    }
+
+    pub(super) fn records(&self) -> &[Drops] {
+        bytemuck::cast_slice(&self.drops)
+    }
+
+    /// Where all of it is.
+    pub(super) fn account(&self) -> SprayAccount {
+        let mut account = SprayAccount::default();
+        let add = |sum: &mut Liquid, parts: [f64; 3]| {
+            for (sum, part) in sum.iter_mut().zip(parts) {
+                *sum += part;
+            }
+        };
+        for drops in self.records() {
+            if drops.mass > 0.0 {
+                let held = [drops.mass, drops.acid, drops.enthalpy];
+                add(&mut account.flying, held.map(f64::from));
+            }
+            add(&mut account.fallen, drops.fallen.map(f64::from));
+        }
+        for given in &self.sprayed {
+            let parts = [0, 1, 2].map(|k| f64::from(given[k]) * QUANTA[k]);
+            add(&mut account.pending, parts);
+        }
+        account
+    }
+
+    /// Mass that came to rest elsewhere than in the flask that it came from, over V0·ρ0.
+    pub(super) fn left(&self, flask: usize) -> f64 {
+        let quanta = self.left.get(flask).copied().unwrap_or_default();
+        f64::from(quanta) * LEFT_QUANTUM
+    }
+
+    pub(super) fn read(gpu: &Gpu, b: &Buffers, start: &Self) -> Result<Self, SolverError> {
+        Ok(Self {
+            drops: read(gpu, &b.drops, start.drops.len())?,
+            sprayed: read(gpu, &b.sprayed, start.sprayed.len())?,
+            left: read(gpu, &b.spray_left, start.left.len())?,
+        })
+    }
+
+    pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {
+        write(gpu, &b.drops, &self.drops)?;
+        write(gpu, &b.sprayed, &self.sprayed)?;
+        write(gpu, &b.spray_left, &self.left)
+    }
+}

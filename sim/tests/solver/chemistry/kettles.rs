@@ -1,0 +1,158 @@
+//! Liquids that boil as no one lets them: nothing is lost, no number is none, and speeds stay bounded.
+
+use super::bubbles::{held, of};
+use super::setup::*;
+use super::spray::spraying;
+use crate::common::*;
+use glam::{DQuat, DVec3};
+use vitriol_sim::chemistry::bubbles::Bubbles;
+use vitriol_sim::flask::Profile;
+use vitriol_sim::pose::Pose;
+use vitriol_sim::solver::{Counters, Solver};
+use vitriol_tests::gpu;
+
+/// Nuclei `nuclei_spacing` (m) apart and at most `most` bubbles, with spray.
+fn boils(
+    particles: Vec<vitriol_sim::solver::Particle>,
+    profile: Profile,
+    nuclei_spacing: f64,
+    most: u32,
+) -> Setup {
+    let mut law = spraying(bubbly());
+    law.bubbles = law.bubbles.map(|bubbles| Bubbles {
+        nuclei_spacing,
+        most,
+        ..bubbles
+    });
+    Setup::new(of(law, parameters()), vec![profile], particles)
+}
+
+/// A third of a second; what was counted.
+fn run(setup: &Setup, pose: Pose) -> (Solver, Counters) {
+    let solver = setup.solver(&gpu::device());
+    let start = held(&solver);
+    frames(&gpu::device(), &solver, &[pose], 30);
+    let state = solver.snapshot().unwrap();
+    let counters = solver.counters().unwrap();
+    assert_eq!(counters.nan_particles, 0);
+    for found in particles(&state) {
+        assert!(found.present && found.position.is_finite(), "{found:?}");
+        // Its limit acts before lines 27 and 28.
+        assert!(
+            found.velocity.length() < 2.0 * setup.parameters.max_speed,
+            "{found:?}"
+        );
+    }
+    for bubble in state.bubbles().iter().filter(|bubble| bubble.mass > 0.0) {
+        let numbers = [bubble.position, bubble.velocity].concat();
+        assert!(
+            numbers.iter().all(|x| x.is_finite()) && bubble.radius < 0.1,
+            "{bubble:?}"
+        );
+    }
+    for drops in state.drops().iter().filter(|drops| drops.mass > 0.0) {
+        let numbers = [drops.position, drops.velocity].concat();
+        assert!(numbers.iter().all(|x| x.is_finite()), "{drops:?}");
+    }
+    let end = held(&solver);
+    assert!((end[0] / start[0] - 1.0).abs() < 1e-5, "{start:?}, {end:?}");
+    let scale = start[0] * 4216.0 * 100.0 + start[1].abs();
+    assert!(
+        (end[1] - start[1]).abs() < 1e-4 * scale,
+        "{start:?}, {end:?}"
+    );
+    (solver, counters)
+}
+
+fn cup(count: usize, temperature: f64, acid: f64) -> (Vec<vitriol_sim::solver::Particle>, Profile) {
+    let profile = Profile::new(&[[0.0, 0.015], [0.06, 0.015]], 0.002).unwrap();
+    let mut particles = water(&profile, 0, Pose::IDENTITY, count);
+    fill(&mut particles, |_| (temperature, acid));
+    (particles, profile)
+}
+
+/// 60 K above the boiling point everywhere, which a tenth of it takes as steam; of water and of half acid.
+#[test]
+fn all_at_once_above_the_boiling_point() {
+    for (temperature, acid) in [(160.0, 0.0), (185.0, 0.5)] {
+        let (particles, profile) = cup(1200, temperature, acid);
+        let (solver, counters) = run(&boils(particles, profile, 0.003, 4096), Pose::IDENTITY);
+        let steam: f64 = solver
+            .snapshot()
+            .unwrap()
+            .bubbles()
+            .iter()
+            .map(|b| f64::from(b.gone[0]))
+            .sum();
+        eprintln!("{acid}: {steam} particles' worth of steam, {counters:?}");
+        assert!(steam > 10.0, "{steam}");
+    }
+}
+
+/// Hotter than any liquid: of one particle.
+#[test]
+fn two_thousand_degrees_in_one_particle() {
+    let (mut particles, profile) = cup(600, 99.0, 0.2);
+    particles[300].temperature = 2000.0;
+    let setup = boils(particles, profile, 0.003, 256);
+    run(&setup, Pose::IDENTITY);
+}
+
+/// A bottle whose neck, 10 mm long, is as wide as a particle.
+#[test]
+fn a_sealed_neck() {
+    let profile = Profile::new(
+        &[
+            [0.0, 0.015],
+            [0.03, 0.015],
+            [0.035, 0.00125],
+            [0.045, 0.00125],
+        ],
+        0.002,
+    )
+    .unwrap();
+    let mut particles = water(&profile, 0, Pose::IDENTITY, 1100);
+    fill(&mut particles, |_| (110.0, 0.0));
+    let (solver, _) = run(&boils(particles, profile, 0.003, 1024), Pose::IDENTITY);
+    let state = solver.snapshot().unwrap();
+    assert!(
+        state
+            .bubbles()
+            .iter()
+            .any(|bubble| bubble.mass > 0.0 || bubble.gone[0] > 0.0)
+    );
+}
+
+/// It falls out and boils as it falls.
+#[test]
+fn a_cup_that_boils_upside_down() {
+    let (particles, profile) = cup(1200, 115.0, 0.0);
+    let turned = DQuat::from_rotation_x(std::f64::consts::PI);
+    let pose = Pose {
+        position: (DVec3::Y * 0.3).as_vec3(),
+        orientation: turned.as_quat(),
+    };
+    let mut setup = boils(particles, profile, 0.003, 1024);
+    setup
+        .particles
+        .iter_mut()
+        .for_each(|p| p.position = turned * p.position + DVec3::Y * 0.3);
+    setup.ground.floor = 0.0;
+    let (solver, _) = run(&setup, pose);
+    let state = solver.snapshot().unwrap();
+    assert!(
+        (0..state.tags.len())
+            .filter(|&slot| state.flask_of(slot).is_none())
+            .count()
+            > 100
+    );
+}
+
+/// 0.1 mm apart: 19 million nuclei. The bound holds, and those without a place are counted.
+#[test]
+fn more_bubbles_than_there_are_places() {
+    let (particles, profile) = cup(1200, 108.0, 0.0);
+    let (solver, counters) = run(&boils(particles, profile, 1e-4, 1_000_000), Pose::IDENTITY);
+    assert_eq!(solver.snapshot().unwrap().bubbles().len(), 65_536);
+    eprintln!("{counters:?}");
+}
