@@ -13,12 +13,17 @@ use vitriol_xr::Pose;
 
 /// A pour with 1,760 particles, in the places of `two-flasks`.
 pub fn scene(folder: &Path) -> PathBuf {
+    scene_of(folder, "0.0044")
+}
+
+/// The same with particles `spacing` (m) apart.
+pub fn scene_of(folder: &Path, spacing: &str) -> PathBuf {
     let text = include_str!("../../../sim/scenes/two-flasks.toml");
     let small = text
-        .replace("spacing = 0.0025 ", "spacing = 0.0044 ")
+        .replace("spacing = 0.0025 ", &format!("spacing = {spacing} "))
         .replace("substeps = 10", "substeps = 4")
         .replace("iterations = 3", "iterations = 2");
-    assert_eq!(small.matches("0.0044").count(), 1);
+    assert_eq!(small.matches(spacing).count(), 1);
     let file = folder.join("small.toml");
     std::fs::write(&file, small).unwrap();
     file

@@ -404,13 +404,20 @@ fn a_bubble_bursts_after_its_time_at_the_surface() {
     );
 }
 
-/// What liquid and vapour hold: mass (kg), enthalpy (J).
+/// What liquid and vapour hold: mass (kg); enthalpy, of which the work of expansion is part, with the liquid's kinetic and potential energy (J).
 pub fn held(solver: &Solver) -> [f64; 2] {
     let state = solver.snapshot().unwrap();
+    let gravity = DVec3::from(solver.parameters().gravity);
+    let mechanical: f64 = particles(&state)
+        .iter()
+        .zip(by_identity(&state, &state.matter))
+        .map(|(p, row)| row[3] * (0.5 * p.velocity.length_squared() - gravity.dot(p.position)))
+        .sum();
     let ledger = vitriol_sim::measure::measure_heat(solver.parameters(), &state)
         .and_then(|heat| heat.ledger)
         .unwrap();
-    [ledger.mass + ledger.steam, ledger.balance()]
+    let mechanical = mechanical * solver.parameters().particle_mass();
+    [ledger.mass + ledger.steam, ledger.balance() + mechanical]
 }
 
 /// Hot water with nuclei everywhere, which boils up.

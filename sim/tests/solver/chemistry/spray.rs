@@ -5,9 +5,10 @@ use super::setup::*;
 use crate::common::*;
 use glam::DVec3;
 use vitriol_shaders::layout::Drops;
-use vitriol_sim::chemistry::Physical;
 use vitriol_sim::chemistry::bubbles::Bubbles;
+use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
+use vitriol_sim::measure::{Ledger, measure_heat};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Solver};
 use vitriol_tests::gpu;
@@ -59,6 +60,12 @@ fn launch(solver: &Solver, all: &[Drops]) {
         *place = *drops;
     }
     solver.restore(&state).unwrap();
+}
+
+fn ledger(solver: &Solver) -> Ledger {
+    let state = solver.snapshot().unwrap();
+    let heat = measure_heat(solver.parameters(), &state);
+    heat.and_then(|heat| heat.ledger).unwrap()
 }
 
 fn drops(solver: &Solver, place: usize) -> Drops {
@@ -205,6 +212,9 @@ fn drops_cling_leave_or_fall_back() {
         "{high:?}"
     );
     assert_eq!(solver.snapshot().unwrap().spray_left(0), 0.015_625);
+    // Of acid, of which there was none, also what fell back is counted.
+    let acid = ledger(&solver).acid;
+    assert!((acid / (0.25 * put) - 1.0).abs() < 1e-5, "{acid}");
     let end = held(&solver);
     assert!(
         ((end[0] - start[0]) / put - 1.0).abs() < 1e-3,
@@ -218,24 +228,19 @@ fn nothing_is_lost_of_what_is_thrown_up() {
     let device = gpu::device();
     let mut setup = kettle(0.004, 4096);
     let law = match setup.parameters.chemistry {
-        Some(vitriol_sim::chemistry::Chemistry::Physical(law)) => spraying(law),
+        Some(Chemistry::Physical(law)) => spraying(law),
         _ => panic!("has no physical chemistry"),
     };
     setup.parameters = of(law, setup.parameters);
     // 30 % of acid boils at 107.5 °C.
     fill(&mut setup.particles, |_| (114.0, 0.3));
     let solver = setup.solver(&device);
-    let acid = |solver: &Solver| {
-        let state = solver.snapshot().unwrap();
-        let heat = vitriol_sim::measure::measure_heat(solver.parameters(), &state);
-        heat.and_then(|heat| heat.ledger).unwrap()
-    };
-    let (start, first) = (held(&solver), acid(&solver));
+    let (start, first) = (held(&solver), ledger(&solver));
     frames(&device, &solver, &[Pose::IDENTITY], 30);
     let middle = solver.snapshot().unwrap();
     let thrown = middle.drops().iter().filter(|d| d.number > 0.0).count();
     frames(&device, &solver, &[Pose::IDENTITY], 6);
-    let (end, last) = (held(&solver), acid(&solver));
+    let (end, last) = (held(&solver), ledger(&solver));
     eprintln!("{thrown} thrown, {last:?}");
     assert!(thrown > 20 && last.spray + last.spray_fallen > 0.0);
     assert!((end[0] / start[0] - 1.0).abs() < 1e-5, "{start:?}, {end:?}");
