@@ -335,7 +335,7 @@ impl Experiment for Laboratory {
             ("surface tension left out", counted.tension_skipped),
             ("bubble without a place", counted.bubbles_refused),
             ("gas cut to what a neighbourhood holds", counted.gas_limited),
-            ("drops of a bubble left out", counted.spray_refused),
+            ("drops of a jet or film left out", counted.spray_refused),
         ];
         Ok(Outcome {
             scene: self.switched.clone(),

@@ -21,7 +21,7 @@ pub struct Sample {
     pub mass_kg: MassByPlace,
     /// Rebuilds of the neighbour list since the start.
     pub neighbour_rebuilds: u64,
-    /// By flask: mass that has left it so far, each particle once, kg.
+    /// By flask: mass that has left it so far, each particle once, and drops of bubbles that came to rest elsewhere, kg.
     #[serde(default)]
     pub left_kg: BTreeMap<String, f64>,
     /// By flask: mass above its rim's plane, in no flask, that left it last, kg.

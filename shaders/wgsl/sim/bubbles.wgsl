@@ -38,7 +38,7 @@ override GRAVITY_Z: f32 = 0.0;
 /// By step and slot: quanta of steam and enthalpy of what joins the bubble.
 @group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
-/// (acid fraction, enthalpy in J/kg, …)
+/// (acid fraction, enthalpy in J/kg, …, mass over V0·ρ0)
 @group(0) @binding(13) var<storage, read> matter: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> drops: array<Drops>;
 /// By identity: what drops did to a particle.
@@ -282,11 +282,11 @@ struct Liquid {
     enthalpy: f32,
 }
 
-/// Most of the liquid that touches a bubble which goes into its drops.
+/// Most of a particle that touches a bubble which goes into its drops.
 const MOST_THROWN: f32 = 0.05;
 
 /// Takes liquid of `mass` (V0·ρ0) from the particles that touch a bubble; all lanes must ask, those of others with 0.
-fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, cells: i32, lane: u32) -> Liquid {
+fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, reach: f32, cells: i32, lane: u32) -> Liquid {
     var sums = array<QuantaSum, 3>();
     let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), mass > 0.0);
@@ -294,11 +294,13 @@ fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, cells: i32, lane: u32)
         let run = cell_around(cell, cells, n);
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - bubble.position;
-            let share = contact_at(dot(offset, offset), bubble.radius) / max(s.contact, 1e-12);
+            let square = dot(offset, offset);
+            let share = contact_at(square, bubble.radius) / max(s.contact, 1e-12);
             let tag = tags[j];
-            if (share <= 0.0 || tag.x != bubble.membership) { continue; }
-            let taken = quanta_of_drops(share * mass, SPRAYED_QUANTUM);
-            let liquid = f32(taken) * SPRAYED_QUANTUM * matter[j].xy;
+            if (square >= reach * reach || share <= 0.0 || tag.x != bubble.membership) { continue; }
+            let content = matter[j];
+            let taken = quanta_of_drops(min(share * mass, MOST_THROWN * content.w), SPRAYED_QUANTUM);
+            let liquid = f32(taken) * SPRAYED_QUANTUM * content.xy;
             let acid = quanta_of_drops(liquid.x, SPRAYED_QUANTUM);
             let enthalpy = quanta_of_drops(liquid.y, SPRAYED_ENTHALPY_QUANTUM);
             let words = tag.y * SPRAYED_WORDS;
@@ -344,23 +346,21 @@ fn throw_up(place: u32, bubble: Bubble, s: Surrounding, burst: Burst, liquid: Li
     drops[place].number = liquid.mass * MASS / (density * bubble_volume(burst.radius));
 }
 
-/// Throws up the drops of a bubble that bursts; all lanes must ask.
-fn spray(bubble: Bubble, slot: u32, bursts: bool, s: Surrounding, around: Around, cells: i32, lane: u32, up: vec3<f32>) {
-    let place = 2u * slot;
-    var burst = array<Burst, 2>(jet_of(bubble.radius, around), film_of(bubble.radius, around));
-    for (var way = OF_JET; way <= OF_FILM; way++) {
-        let wanted = select(0.0, mass_of(burst[way], around), bursts);
-        let free = drops[place + way].mass <= 0.0;
-        let mass = select(0.0, min(wanted, MOST_THROWN * s.contact), free);
-        let liquid = take_liquid(bubble, s, mass, cells, lane);
-        if (lane > 0u || wanted <= 0.0) { continue; }
-        if (!free) { atomicAdd(&counters.spray_refused, 1u); }
-        if (liquid.mass <= 0.0) { continue; }
-        let seed = bitcast<u32>(bubble.position.x) + way;
-        let side = sideways(up, slot, seed);
-        let leans = LEANS * lot(seed, slot);
-        let direction = select(side + leans * up, up + leans * side, way == OF_JET);
-        throw_up(place + way, bubble, s, burst[way], liquid, around.density, normalize(direction), up);
+/// Throws up the drops of a bubble that bursts in one of both ways; all lanes must ask.
+fn spray(bubble: Bubble, slot: u32, way: u32, burst: Burst, s: Surrounding, around: Around, reach: f32, cells: i32, lane: u32, up: vec3<f32>) {
+    let place = 2u * slot + way;
+    let free = drops[place].mass <= 0.0;
+    let wanted = mass_of(burst, around);
+    let liquid = take_liquid(bubble, s, select(0.0, wanted, free), reach, cells, lane);
+    if (lane == 0u) {
+        if (wanted > 0.0 && !free) { atomicAdd(&counters.spray_refused, 1u); }
+        if (liquid.mass > 0.0) {
+            let seed = bitcast<u32>(bubble.position.x) + way;
+            let side = sideways(up, slot, seed);
+            let leans = LEANS * lot(seed, slot);
+            let direction = select(side + leans * up, up + leans * side, way == OF_JET);
+            throw_up(place, bubble, s, burst, liquid, around.density, normalize(direction), up);
+        }
     }
 }
 
@@ -444,7 +444,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     let s = gather(bubble, slot, first, reach, cells, lane, up);
     let around = around_of(s.acid, s.temperature);
     let bursts = bubble.surfaced > FOAM_TIME;
-    if (SPRAY) { spray(bubble, slot, bursts && s.contact > 0.0, s, around, cells, lane, up); }
+    if (SPRAY) {
+        var jet: Burst;
+        var film: Burst;
+        if (bursts && s.contact > 0.0) {
+            jet = jet_of(bubble.radius, around);
+            film = film_of(bubble.radius, around);
+        }
+        spray(bubble, slot, OF_JET, jet, s, around, reach, cells, lane, up);
+        spray(bubble, slot, OF_FILM, film, s, around, reach, cells, lane, up);
+    }
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
     let gained = scatter(bubble, s, c, reach, cells, lane, time);

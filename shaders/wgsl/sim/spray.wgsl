@@ -26,11 +26,16 @@ override SPACING: f32 = 0.0025;
 /// By flask: quanta of drops that came to rest outside of it, having come from its liquid.
 @group(0) @binding(16) var<storage, read_write> spray_left: array<atomic<u32>>;
 
-/// Longest way of drops between two looks at what is solid, m, and most looks.
-const STRIDE: f32 = 1e-3;
-const MOST_LOOKS: f32 = 64.0;
-/// How near to a particle drops are in its liquid, over d.
+/// How near to a particle drops are in its liquid, over d, and how far they spread in it.
 const JOINS: f32 = 0.75;
+const SPREADS: f32 = 1.5;
+/// Longest way of drops between two looks at what is solid and liquid, m: less than glass is thick. And most looks.
+const STRIDE: f32 = 1.5e-3;
+const MOST_LOOKS: f32 = 32.0;
+
+fn stride() -> f32 {
+    return min(STRIDE, JOINS * SPACING);
+}
 
 /// The flask whose inside is at `x`, as membership; nobody's in none.
 fn flask_around(x: vec3<f32>) -> u32 {
@@ -58,6 +63,13 @@ struct Place {
     solid: bool,
 }
 
+/// How deep under flask k's rim drops may be that have just come in at `x`, m: a stride, and what the flask rises in a step.
+fn entrance(k: u32, x: vec3<f32>) -> f32 {
+    let before = flask_from_stage(poses[step.before + k], x).y;
+    let after = flask_from_stage(poses[step.after + k], x).y;
+    return 2.0 * stride() + max(before - after, 0.0) * (step.bubble_time / step.time);
+}
+
 /// Into a flask and out of it there is only one way, over its rim; else glass that moves would pass through them.
 fn place_after(within: u32, x: vec3<f32>) -> Place {
     if (within != NOBODYS) {
@@ -66,7 +78,7 @@ fn place_after(within: u32, x: vec3<f32>) -> Place {
     let now = flask_around(x);
     if (now == within) { return Place(now, is_solid(x)); }
     let k = select(now, within, within != NOBODYS) - 1u;
-    let over_rim = flask_from_stage(poses[step.after + k], x).y >= flasks[k].rim - 2.0 * STRIDE;
+    let over_rim = flask_from_stage(poses[step.after + k], x).y >= flasks[k].rim - entrance(k, x);
     return Place(now, !over_rim || is_solid(x));
 }
 
@@ -90,6 +102,57 @@ fn nearest_to(x: vec3<f32>, reach: f32) -> u32 {
     return found;
 }
 
+/// Gives drops to the liquid around them, to particles of the membership of particle `near`, the rest of the quanta to that.
+fn join(flight: Drops, near: u32) {
+    let reach = SPREADS * SPACING;
+    var weight = 0.0;
+    let cell = cell_of(flight.position);
+    for (var n = 0u; n < count_around(1); n++) {
+        let run = cell_around(cell, 1, n);
+        for (var j = run.first; j < run.end; j++) {
+            if (tags[j].x == tags[near].x) { weight += weight_at(position[j].xyz - flight.position, reach); }
+        }
+    }
+    var left = vec3<i32>(
+        quanta_of_drops(flight.mass, SPRAYED_QUANTUM), quanta_of_drops(flight.acid, SPRAYED_QUANTUM),
+        quanta_of_drops(flight.enthalpy, SPRAYED_ENTHALPY_QUANTUM));
+    let all = vec3<f32>(left);
+    for (var n = 0u; n < count_around(1); n++) {
+        let run = cell_around(cell, 1, n);
+        for (var j = run.first; j < run.end; j++) {
+            if (tags[j].x != tags[near].x || j == near) { continue; }
+            let share = weight_at(position[j].xyz - flight.position, reach) / weight;
+            if (share > 0.0) {
+                let given = vec3<i32>(all * share);
+                give(j, given);
+                left -= given;
+            }
+        }
+    }
+    give(near, left);
+}
+
+fn weight_at(offset: vec3<f32>, reach: f32) -> f32 {
+    let near = max(1.0 - dot(offset, offset) / (reach * reach), 0.0);
+    return near * near;
+}
+
+fn give(j: u32, quanta: vec3<i32>) {
+    let words = tags[j].y * SPRAYED_WORDS;
+    atomicAdd(&sprayed[words], quanta.x);
+    atomicAdd(&sprayed[words + 1u], quanta.y);
+    atomicAdd(&sprayed[words + 2u], quanta.z);
+}
+
+/// The particle that drops are in and have not just left; COUNT for none.
+fn met(flight: Drops) -> u32 {
+    let j = nearest_to(flight.position, JOINS * SPACING);
+    if (j < COUNT) {
+        if (dot(flight.velocity - velocity[j].xyz, position[j].xyz - flight.position) <= 0.0) { return COUNT; }
+    }
+    return j;
+}
+
 /// Counts drops that came to rest in `where_now` and not in the flask they came from.
 fn count_left(mass: f32, memberships: u32, where_now: u32) {
     let source = memberships & 0xffffu;
@@ -104,12 +167,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var flight = drops[place];
     if (flight.mass <= 0.0) { return; }
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
-    let way = length(flight.velocity) * step.bubble_time;
-    let looks = clamp(ceil(way / STRIDE), 1.0, MOST_LOOKS);
+    let looks = clamp(ceil(length(flight.velocity) * step.bubble_time / stride()), 1.0, MOST_LOOKS);
     let time = step.bubble_time / looks;
     var within = flight.memberships >> 16u;
     var rests = false;
-    for (var n = 0.0; n < looks && !rests; n += 1.0) {
+    var near = COUNT;
+    for (var n = 0.0; n < looks && !rests && near == COUNT; n += 1.0) {
         flight.velocity = flown(flight.velocity, gravity, flight.radius, flight.density, time);
         let next = flight.position + flight.velocity * time;
         let after = place_after(within, next);
@@ -117,6 +180,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (!rests) {
             flight.position = next;
             within = after.within;
+            near = met(flight);
         }
     }
     flight.memberships = (flight.memberships & 0xffffu) | (within << 16u);
@@ -124,19 +188,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         flight.fallen += vec3<f32>(flight.mass, flight.acid, flight.enthalpy);
         count_left(flight.mass, flight.memberships, within);
         flight.mass = 0.0;
-    } else {
-        let j = nearest_to(flight.position, JOINS * SPACING);
-        if (j < COUNT) {
-            let towards = dot(flight.velocity - velocity[j].xyz, position[j].xyz - flight.position);
-            if (towards > 0.0) {
-                let words = tags[j].y * SPRAYED_WORDS;
-                atomicAdd(&sprayed[words], quanta_of_drops(flight.mass, SPRAYED_QUANTUM));
-                atomicAdd(&sprayed[words + 1u], quanta_of_drops(flight.acid, SPRAYED_QUANTUM));
-                atomicAdd(&sprayed[words + 2u], quanta_of_drops(flight.enthalpy, SPRAYED_ENTHALPY_QUANTUM));
-                count_left(flight.mass, flight.memberships, tags[j].x);
-                flight.mass = 0.0;
-            }
-        }
+    } else if (near < COUNT) {
+        join(flight, near);
+        count_left(flight.mass, flight.memberships, tags[near].x);
+        flight.mass = 0.0;
     }
     drops[place] = flight;
 }

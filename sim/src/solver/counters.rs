@@ -38,6 +38,6 @@ pub struct Counters {
     pub bubbles_refused: u32,
     /// Particles and steps of the bubbles in which more gas came to a particle than it can hold.
     pub gas_limited: u32,
-    /// Bubbles whose drops were not thrown up, as those of the bubble before in their place still fly.
+    /// Jets and films whose drops were not thrown up, as those of the one before in their place still fly.
     pub spray_refused: u32,
 }

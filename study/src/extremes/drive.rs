@@ -176,8 +176,14 @@ struct Watch {
     declared: f64,
     /// Of motion paid for, of the physical chemistry, J.
     paid: f64,
+    /// Whether vapour is in bubbles, and how much there is and was, kg.
+    bubbles: bool,
+    steam: f64,
     run: Run,
 }
+
+/// Work of steam that expands into the room at 100 °C, J/kg.
+const STEAM_WORK: f64 = 461.5 * 373.15;
 
 /// What is kept.
 #[derive(Clone, Copy, Default)]
@@ -198,6 +204,7 @@ impl Watch {
             base: world.scene().floor.height,
             frame_time: recipe.frame_time,
             surface: Surface::of(world.scene(), parameters),
+            bubbles: recipe.base == Base::Bubbles,
             boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
             literal_limit: 0.5 * recipe.v_max * recipe.v_max,
             run: Run {
@@ -321,6 +328,12 @@ impl Watch {
             }
             self.declared += ledger.kinetic - self.paid;
             self.paid = ledger.kinetic;
+            if self.bubbles {
+                // The work of expansion, R T/M.
+                let steam = ledger.steam + ledger.vapour;
+                self.declared += STEAM_WORK * (steam - self.steam).max(0.0);
+                self.steam = steam;
+            }
         }
         let settles = self.frame_time * step as f64 <= BEFORE;
         let energy = self.all_of(&now, &state, world, settles);

@@ -16,10 +16,12 @@ pub enum Base {
     Paper,
     /// Likewise at real size, by the physical chemistry with all of its parts.
     Physical,
+    /// The same, where vapour is in bubbles and what they throw up is followed.
+    Bubbles,
 }
 
 impl Base {
-    /// All of them.
+    /// Those that cases are drawn from. [`Self::Bubbles`] takes the place of [`Self::Physical`] in every other case.
     pub const ALL: [Self; 3] = [Self::Water, Self::Paper, Self::Physical];
 
     /// The name in reports.
@@ -28,6 +30,7 @@ impl Base {
             Self::Water => "water",
             Self::Paper => "paper",
             Self::Physical => "physical",
+            Self::Bubbles => "bubbles",
         }
     }
 }
@@ -118,7 +121,7 @@ impl Recipe {
             motion: Motion::Still,
         };
         match base {
-            Base::Water | Base::Physical => real,
+            Base::Water | Base::Physical | Base::Bubbles => real,
             Base::Paper => Self {
                 spacing: 0.05,
                 frame_time: 1.0 / 60.0,
@@ -183,6 +186,17 @@ impl Recipe {
                 "losses",
                 "segregation",
             ],
+            Base::Bubbles => vec![
+                "heat",
+                "dilution",
+                "density",
+                "viscosity",
+                "evaporation",
+                "bubbles",
+                "spray",
+                "losses",
+                "segregation",
+            ],
         };
         model.extend(self.surface().map(|_| "tension"));
         model
@@ -239,6 +253,14 @@ impl Recipe {
                  bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
                 0.041 * self.diffusion,
                 0.005 * self.k_v
+            ),
+            // What boils stronger has more nuclei.
+            Base::Bubbles => write!(
+                t,
+                "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\nlamella = 0.0003\n\
+                 nuclei_spacing = {:?}\nfoam_time = 0.1\nmost_bubbles = 4096\nglass_loss = 12.0\nsurface_loss = 12.0\n",
+                0.041 * self.diffusion,
+                0.004 / self.k_v.max(1e-3).cbrt()
             ),
         };
         let [x, y, z] = self.place;

@@ -20,7 +20,7 @@ struct Drops {
     memberships: u32,
     /// What stayed on glass, table and floor since the start: mass, acid and enthalpy.
     fallen: vec3<f32>,
-    /// How many they are.
+    /// How many they are, or were.
     number: f32,
 }
 

@@ -25,7 +25,8 @@ fn jet_of(radius: f32, around: Around) -> Burst {
     let laplace = min(per_viscosity * radius, MOST_LAPLACE);
     let bond = around.density * GRAVITY * radius * radius / around.tension;
     if (laplace <= LEAST_LAPLACE || bond >= MOST_BOND) { return Burst(0.0, 0.0, 0.0); }
-    let excess = laplace * (inverseSqrt(LEAST_LAPLACE) - inverseSqrt(laplace));
+    // Towards the least Laplace number the law's speed grows without end.
+    let excess = max(laplace * (inverseSqrt(LEAST_LAPLACE) - inverseSqrt(laplace)), 1.0);
     let size = radius * 0.6 / laplace * pow(excess, 1.25);
     let capillary = sqrt(around.tension / (around.density * radius));
     let speed = 19.0 * capillary * sqrt(laplace) * pow(excess * (1.0 + 2.2 * bond), -0.75);
@@ -38,14 +39,16 @@ const FILM_FROM: f32 = 2e-3;
 const FILM_LENGTH: f32 = 20.0;
 
 /// Drops of a bubble's film (Lhuissier and Villermaux 2012): thickness h = R²/20 m, diameter R^(3/8) h^(5/8), number
-/// (R/a)² (R/h)^(7/8) with the capillary length a, and the speed √(2σ/(ρh)) at which the film opens.
+/// 0.04 (R/a)² (R/h)^(7/8) with the capillary length a, and the speed √(2σ/(ρh)) at which the film opens. They have no more
+/// liquid than half a sphere's film.
 fn film_of(radius: f32, around: Around) -> Burst {
     if (radius < FILM_FROM || GRAVITY <= 0.0) { return Burst(0.0, 0.0, 0.0); }
     let thickness = radius * radius / FILM_LENGTH;
     let capillary_square = around.tension / (around.density * GRAVITY);
     let size = 0.5 * pow(radius, 0.375) * pow(thickness, 0.625);
-    let number = radius * radius / capillary_square * pow(radius / thickness, 0.875);
-    return Burst(size, number, sqrt(2.0 * around.tension / (around.density * thickness)));
+    let number = 0.04 * radius * radius / capillary_square * pow(radius / thickness, 0.875);
+    let most = 2.0 * BUBBLE_PI * radius * radius * thickness / bubble_volume(size);
+    return Burst(size, min(number, most), sqrt(2.0 * around.tension / (around.density * thickness)));
 }
 
 /// Air of 20 °C: kg/m³ and Pa s.

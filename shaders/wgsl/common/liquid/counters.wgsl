@@ -25,6 +25,6 @@ struct Counters {
     bubbles_refused: atomic<u32>,
     /// Particles whose gas was cut to what a neighbourhood can hold.
     gas_limited: atomic<u32>,
-    /// Bubbles whose drops were not thrown: those of the one before still fly.
+    /// Jets and films whose drops were not thrown: those of the one before still fly.
     spray_refused: atomic<u32>,
 }

@@ -105,13 +105,13 @@ fn drops_of_jets_are_as_large_as_spiel_measured() {
         );
         let over = f64::from(jet.radius) / spiel(radius);
         assert!((1.0 / 1.5..1.5).contains(&over), "{radius}: {over}");
-        // A few each (Blanchard 1963).
-        assert!(jet.number > 2.0 && jet.number < 8.0, "{jet:?}");
+        // Its own law, a few each (Blanchard 1963): no share of them is lost among particles.
+        let number = 7.0 * (-radius / 3e-3).exp();
+        assert!(
+            (f64::from(jet.number) / number - 1.0).abs() < 1e-3,
+            "{jet:?}"
+        );
         assert!(film.mass == 0.0 && jet.velocity[1] > 0.5);
-        let volume = 4.0 / 3.0 * std::f64::consts::PI * f64::from(jet.radius).powi(3);
-        let mass = f64::from(jet.mass) * setup.parameters.particle_mass();
-        let all = f64::from(jet.number) * volume * f64::from(jet.density);
-        assert!((mass / all - 1.0).abs() < 1e-3, "{mass}, {all}");
         let after = held(&solver);
         assert!((after[0] / before[0] - 1.0).abs() < 1e-7);
     }
@@ -125,7 +125,8 @@ fn drops_of_jets_are_as_large_as_spiel_measured() {
     let (jet, film) = (drops(&solver, 10), drops(&solver, 11));
     assert_eq!(jet.mass, 0.0);
     assert!(
-        (f64::from(film.radius) / 14e-6 - 1.0).abs() < 0.05 && film.number > 1000.0,
+        (f64::from(film.radius) / 14e-6 - 1.0).abs() < 0.05
+            && (100.0..500.0).contains(&film.number),
         "{film:?}"
     );
 }
@@ -169,8 +170,8 @@ fn drops_fall_as_fast_as_gunn_and_kinzer_measured() {
     }
 }
 
-/// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. The first two are fine
-/// and slow, the glass moves, and none passes through it.
+/// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the air,
+/// and a glass that is moved over them takes them with it.
 #[test]
 fn drops_cling_leave_or_fall_back() {
     let device = gpu::device();
@@ -242,7 +243,9 @@ fn nothing_is_lost_of_what_is_thrown_up() {
     frames(&device, &solver, &[Pose::IDENTITY], 6);
     let (end, last) = (held(&solver), ledger(&solver));
     eprintln!("{thrown} thrown, {last:?}");
-    assert!(thrown > 20 && last.spray + last.spray_fallen > 0.0);
+    let back = |d: &&Drops| d.number > 0.0 && d.mass == 0.0 && d.fallen[0] == 0.0;
+    assert!(thrown > 20 && middle.drops().iter().filter(back).count() > 5);
+    assert!(last.spray > 0.0 && last.spray_fallen > 0.0, "{last:?}");
     assert!((end[0] / start[0] - 1.0).abs() < 1e-5, "{start:?}, {end:?}");
     assert!(
         (last.acid / first.acid - 1.0).abs() < 1e-5,
