@@ -1,18 +1,17 @@
 // Bubbles of steam: a population beside the particles, which the liquid's neighbour search does not know. A bubble is born at a
 // particle that is superheated, takes steam from the particles around it, or gives it back to colder ones; it rises, joins
-// others, and bursts at the surface, from which it throws drops up. What it takes and gives, and its volume, are added to the particles in whole quanta; they take
-// them over with line 26, and their volume with line 1.
+// others, and bursts at the surface, from which it throws up drops. What it takes and gives, and its volume, are added to the
+// particles in whole quanta; they take them over with line 26, and their volume with line 1.
 //!include common/chemistry/bubble.wgsl
+//!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
-//!include common/chemistry/drops.wgsl
-//!include common/chemistry/spray_laws.wgsl
+//!include common/chemistry/quanta_sum.wgsl
+//!include common/chemistry/throwing.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/liquid/cells_around.wgsl
 //!include common/liquid/counters.wgsl
-//!include common/liquid/lane_nearest.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
-//!include common/maths/lot.wgsl
 
 /// How long a bubble stays at the surface, s.
 override FOAM_TIME: f32 = 0.1;
@@ -38,16 +37,10 @@ override GRAVITY_Z: f32 = 0.0;
 /// By step and slot: quanta of steam and enthalpy of what joins the bubble.
 @group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
-/// (acid fraction, enthalpy in J/kg, …, mass over V0·ρ0)
-@group(0) @binding(13) var<storage, read> matter: array<vec4<f32>>;
-@group(0) @binding(14) var<storage, read_write> drops: array<Drops>;
-/// By identity: what drops did to a particle.
-@group(0) @binding(15) var<storage, read_write> sprayed: array<atomic<i32>>;
 
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
-/// How far from its surface a bubble exchanges steam, over d: with less it would lie between particles.
-const CONTACT: f32 = 1.2;
+
 /// Radius of a nucleus, and that below which a bubble is gone, m.
 const NUCLEUS: f32 = 3e-4;
 const VANISHED: f32 = 1e-4;
@@ -60,121 +53,6 @@ const MOST_CELLS: i32 = 3;
 
 var<workgroup> claimed: array<u32, 64>;
 var<workgroup> joined: array<vec2<i32>, 64>;
-
-/// How much a particle at a share q of the reach counts, by its square; FULL is its integral over reach³.
-const FULL: f32 = 0.957442;
-fn share_at(square: f32) -> f32 {
-    let left = max(1.0 - square, 0.0);
-    return left * left;
-}
-
-/// How much of a bubble's exchange a particle at that square of a distance has: those that touch it, or nearly.
-fn contact_at(square: f32, radius: f32) -> f32 {
-    let reach = radius + CONTACT * SPACING;
-    return share_at(square / (reach * reach));
-}
-
-/// The larger of two bubbles has the larger key.
-fn key_of(bubble: Bubble, slot: u32) -> u32 {
-    return (u32(min(bubble.radius * 1e6, 32767.0)) << 16u) | slot;
-}
-
-/// Whether a bubble touches that of another record.
-fn touches(bubble: Bubble, record: u32) -> bool {
-    let other = bubbles[record];
-    if (other.mass <= 0.0 || other.membership != bubble.membership) { return false; }
-    return distance(other.position, bubble.position) <= bubble.radius + other.radius;
-}
-
-/// What is around a bubble, over the sum of the weights but for the weights and `cover`.
-struct Surrounding {
-    weight: f32,
-    squares: f32,
-    /// Of what exchanges steam with it, which is nearer.
-    contact: f32,
-    cover: f32,
-    velocity: vec3<f32>,
-    /// Gas of the other bubbles over liquid.
-    gas: f32,
-    acid: f32,
-    temperature: f32,
-    superheat: f32,
-    subcooling: f32,
-    /// Share of the superheat that drives growth, and of what subcooling collapse.
-    growing: f32,
-    shrinking: f32,
-    nearest: Nearest,
-    /// The same of any membership.
-    nearest_of_all: Nearest,
-    /// Key of the largest larger bubble that it touches; 0 for none.
-    larger: u32,
-}
-
-/// Of `bubble` in `slot` within `reach`, in cells `cells` around its own; others are those from `first` on. All lanes must ask.
-fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> Surrounding {
-    var s: Surrounding;
-    s.nearest = Nearest(1e9, 0u);
-    s.nearest_of_all = Nearest(1e9, 0u);
-    let key = key_of(bubble, slot);
-    let cell = cell_of(bubble.position);
-    let count = select(0u, count_around(cells), bubble.mass > 0.0);
-    for (var n = lane; n < count; n += LANES) {
-        let run = cell_around(cell, cells, n);
-        for (var j = run.first; j < run.end; j++) {
-            let offset = position[j].xyz - bubble.position;
-            let square = dot(offset, offset);
-            if (square >= reach * reach || tags[j].x == REMOVED) { continue; }
-            s.nearest_of_all = nearer(s.nearest_of_all, Nearest(sqrt(square), j));
-            if (tags[j].x != bubble.membership) { continue; }
-            let owner = u32(atomicLoad(&bubbled[tags[j].y * BUBBLED_WORDS + BUBBLED_OWNER]));
-            if (owner > max(key, s.larger) && (owner & 0xffffu) != slot) {
-                if (touches(bubble, first + (owner & 0xffffu))) { s.larger = owner; }
-            }
-            let weight = share_at(square / (reach * reach));
-            let distance = sqrt(max(square, 1e-12 * SUPPORT * SUPPORT));
-            let boil = boils[j];
-            let contact = contact_at(square, bubble.radius);
-            let excess = contact * max(boil.x, 0.0);
-            let lack = contact * max(-boil.x, 0.0);
-            s.weight += weight;
-            s.squares += weight * weight;
-            s.contact += contact;
-            s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
-            s.velocity += weight * velocity[j].xyz;
-            s.gas += weight * gas[tags[j].y].x;
-            s.temperature += weight * heat[j].x;
-            s.acid += weight * heat[j].y;
-            s.superheat += excess;
-            s.subcooling += lack;
-            s.growing += excess * boil.z;
-            s.shrinking += lack * boil.z;
-            s.nearest = nearer(s.nearest, Nearest(distance, j));
-        }
-    }
-    s.weight = lane_sum(s.weight);
-    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * reach * reach * reach);
-    s.velocity = lane_sum3(s.velocity);
-    let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
-    s.contact = thermal.z;
-    let excess = lane_sum3(vec3<f32>(s.superheat, s.growing, s.gas));
-    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, s.squares));
-    let per_weight = 1.0 / max(s.weight, 1e-12);
-    // Its own gas is the same share of each weight.
-    let per_square = 1.0 / max(s.weight * s.weight, 1e-12);
-    let own = bubble_volume(bubble.radius) / VOLUME * lack.z * per_square;
-    s.gas = max(excess.z * per_weight - own, 0.0);
-    s.nearest = lane_nearest(s.nearest);
-    s.nearest_of_all = lane_nearest(s.nearest_of_all);
-    s.larger = lane_max(s.larger);
-    s.velocity *= per_weight;
-    s.temperature = thermal.x * per_weight;
-    s.acid = thermal.y * per_weight;
-    s.superheat = excess.x / max(s.contact, 1e-12);
-    s.subcooling = lack.x / max(s.contact, 1e-12);
-    s.growing = excess.y / max(excess.x, 1e-12);
-    s.shrinking = lack.y / max(lack.x, 1e-12);
-    return s;
-}
 
 /// What a bubble would exchange in a step if no other did: steam that it takes per kelvin of superheat, and that it
 /// gives per kelvin of subcooling, V0·ρ0/(s K).
@@ -210,23 +88,6 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
 struct Gained {
     mass: f32,
     enthalpy: f32,
-}
-
-/// A sum of quanta, which together may be more than a word holds.
-struct QuantaSum {
-    high: i32,
-    low: i32,
-}
-
-const LOW_BITS: u32 = 12u;
-
-fn added(sum: QuantaSum, count: i32) -> QuantaSum {
-    return QuantaSum(sum.high + (count >> LOW_BITS), sum.low + (count & 4095));
-}
-
-fn lane_sum_of_quanta(sum: QuantaSum, quantum: f32) -> f32 {
-    let high = f32(lane_sum_of_integers(sum.high)) * 4096.0;
-    return (high + f32(lane_sum_of_integers(sum.low))) * quantum;
 }
 
 /// Exchanges steam with the particles around and gives them its volume; all lanes must ask.
@@ -273,95 +134,6 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
         }
     }
     return Gained(lane_sum_of_quanta(mass, MASS_QUANTUM), lane_sum_of_quanta(enthalpy, ENTHALPY_QUANTUM));
-}
-
-/// Liquid that goes into drops, V0·ρ0, its acid, and its enthalpy, J per V0·ρ0.
-struct Liquid {
-    mass: f32,
-    acid: f32,
-    enthalpy: f32,
-}
-
-/// Most of a particle that touches a bubble which goes into its drops.
-const MOST_THROWN: f32 = 0.05;
-
-/// Takes liquid of `mass` (V0·ρ0) from the particles that touch a bubble; all lanes must ask, those of others with 0.
-fn take_liquid(bubble: Bubble, s: Surrounding, mass: f32, reach: f32, cells: i32, lane: u32) -> Liquid {
-    var sums = array<QuantaSum, 3>();
-    let cell = cell_of(bubble.position);
-    let count = select(0u, count_around(cells), mass > 0.0);
-    for (var n = lane; n < count; n += LANES) {
-        let run = cell_around(cell, cells, n);
-        for (var j = run.first; j < run.end; j++) {
-            let offset = position[j].xyz - bubble.position;
-            let square = dot(offset, offset);
-            let share = contact_at(square, bubble.radius) / max(s.contact, 1e-12);
-            let tag = tags[j];
-            if (square >= reach * reach || share <= 0.0 || tag.x != bubble.membership) { continue; }
-            let content = matter[j];
-            let taken = quanta_of_drops(min(share * mass, MOST_THROWN * content.w), SPRAYED_QUANTUM);
-            let liquid = f32(taken) * SPRAYED_QUANTUM * content.xy;
-            let acid = quanta_of_drops(liquid.x, SPRAYED_QUANTUM);
-            let enthalpy = quanta_of_drops(liquid.y, SPRAYED_ENTHALPY_QUANTUM);
-            let words = tag.y * SPRAYED_WORDS;
-            atomicSub(&sprayed[words], taken);
-            atomicSub(&sprayed[words + 1u], acid);
-            atomicSub(&sprayed[words + 2u], enthalpy);
-            sums[0] = added(sums[0], taken);
-            sums[1] = added(sums[1], acid);
-            sums[2] = added(sums[2], enthalpy);
-        }
-    }
-    return Liquid(
-        lane_sum_of_quanta(sums[0], SPRAYED_QUANTUM), lane_sum_of_quanta(sums[1], SPRAYED_QUANTUM),
-        lane_sum_of_quanta(sums[2], SPRAYED_ENTHALPY_QUANTUM));
-}
-
-/// Mass of the drops of a burst, V0·ρ0.
-fn mass_of(burst: Burst, around: Around) -> f32 {
-    return burst.number * bubble_volume(burst.radius) * around.density / MASS;
-}
-
-/// Most that a jet leans away from upwards, and a film's drops from the level: a tangent.
-const LEANS: f32 = 0.2;
-
-/// A direction at right angles to `up`, by lot.
-fn sideways(up: vec3<f32>, slot: u32, seed: u32) -> vec3<f32> {
-    let other = select(vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 1.0), abs(up.x) > 0.9);
-    let a = normalize(cross(up, other));
-    let turn = 2.0 * BUBBLE_PI * lot(slot, seed);
-    return cos(turn) * a + sin(turn) * cross(a, up);
-}
-
-/// Puts drops into a record of a bubble's place, which is free.
-fn throw_up(place: u32, bubble: Bubble, s: Surrounding, burst: Burst, liquid: Liquid, density: f32, direction: vec3<f32>, up: vec3<f32>) {
-    drops[place].position = bubble.position + up * (bubble.radius + SPACING);
-    drops[place].mass = liquid.mass;
-    drops[place].velocity = s.velocity + direction * burst.speed;
-    drops[place].acid = liquid.acid;
-    drops[place].enthalpy = liquid.enthalpy;
-    drops[place].radius = burst.radius;
-    drops[place].density = density;
-    drops[place].memberships = bubble.membership | (bubble.membership << 16u);
-    drops[place].number = liquid.mass * MASS / (density * bubble_volume(burst.radius));
-}
-
-/// Throws up the drops of a bubble that bursts in one of both ways; all lanes must ask.
-fn spray(bubble: Bubble, slot: u32, way: u32, burst: Burst, s: Surrounding, around: Around, reach: f32, cells: i32, lane: u32, up: vec3<f32>) {
-    let place = 2u * slot + way;
-    let free = drops[place].mass <= 0.0;
-    let wanted = mass_of(burst, around);
-    let liquid = take_liquid(bubble, s, select(0.0, wanted, free), reach, cells, lane);
-    if (lane == 0u) {
-        if (wanted > 0.0 && !free) { atomicAdd(&counters.spray_refused, 1u); }
-        if (liquid.mass > 0.0) {
-            let seed = bitcast<u32>(bubble.position.x) + way;
-            let side = sideways(up, slot, seed);
-            let leans = LEANS * lot(seed, slot);
-            let direction = select(side + leans * up, up + leans * side, way == OF_JET);
-            throw_up(place, bubble, s, burst, liquid, around.density, normalize(direction), up);
-        }
-    }
 }
 
 /// Takes steam of the particle with that identity, or gives it.

@@ -1,0 +1,124 @@
+// What is around a bubble: particles, by the cells of the last rebuild, and other bubbles, by the particles that they are nearest to.
+// For passes that bind particles, `boils`, `gas`, `bubbles` and `bubbled` as `sim/bubbles.wgsl` does.
+//!include common/chemistry/bubble_laws.wgsl
+//!include common/chemistry/bubbled.wgsl
+//!include common/liquid/cells_around.wgsl
+//!include common/liquid/lane_nearest.wgsl
+
+/// How far from its surface a bubble exchanges steam, over d: with less it would lie between particles.
+const CONTACT: f32 = 1.2;
+
+/// How much a particle at a share q of the reach counts, by its square; FULL is its integral over reach³.
+const FULL: f32 = 0.957442;
+fn share_at(square: f32) -> f32 {
+    let left = max(1.0 - square, 0.0);
+    return left * left;
+}
+
+/// How much of a bubble's exchange a particle at that square of a distance has: those that touch it, or nearly.
+fn contact_at(square: f32, radius: f32) -> f32 {
+    let reach = radius + CONTACT * SPACING;
+    return share_at(square / (reach * reach));
+}
+
+/// The larger of two bubbles has the larger key.
+fn key_of(bubble: Bubble, slot: u32) -> u32 {
+    return (u32(min(bubble.radius * 1e6, 32767.0)) << 16u) | slot;
+}
+
+/// Whether a bubble touches that of another record.
+fn touches(bubble: Bubble, record: u32) -> bool {
+    let other = bubbles[record];
+    if (other.mass <= 0.0 || other.membership != bubble.membership) { return false; }
+    return distance(other.position, bubble.position) <= bubble.radius + other.radius;
+}
+
+/// What is around a bubble, over the sum of the weights but for the weights and `cover`.
+struct Surrounding {
+    weight: f32,
+    squares: f32,
+    /// Of what exchanges steam with it, which is nearer.
+    contact: f32,
+    cover: f32,
+    velocity: vec3<f32>,
+    /// Gas of the other bubbles over liquid.
+    gas: f32,
+    acid: f32,
+    temperature: f32,
+    superheat: f32,
+    subcooling: f32,
+    /// Share of the superheat that drives growth, and of what subcooling collapse.
+    growing: f32,
+    shrinking: f32,
+    nearest: Nearest,
+    /// The same of any membership.
+    nearest_of_all: Nearest,
+    /// Key of the largest larger bubble that it touches; 0 for none.
+    larger: u32,
+}
+
+/// Of `bubble` in `slot` within `reach`, in cells `cells` around its own; others are those from `first` on. All lanes must ask.
+fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u32, up: vec3<f32>) -> Surrounding {
+    var s: Surrounding;
+    s.nearest = Nearest(1e9, 0u);
+    s.nearest_of_all = Nearest(1e9, 0u);
+    let key = key_of(bubble, slot);
+    let cell = cell_of(bubble.position);
+    let count = select(0u, count_around(cells), bubble.mass > 0.0);
+    for (var n = lane; n < count; n += LANES) {
+        let run = cell_around(cell, cells, n);
+        for (var j = run.first; j < run.end; j++) {
+            let offset = position[j].xyz - bubble.position;
+            let square = dot(offset, offset);
+            if (square >= reach * reach || tags[j].x == REMOVED) { continue; }
+            s.nearest_of_all = nearer(s.nearest_of_all, Nearest(sqrt(square), j));
+            if (tags[j].x != bubble.membership) { continue; }
+            let owner = u32(atomicLoad(&bubbled[tags[j].y * BUBBLED_WORDS + BUBBLED_OWNER]));
+            if (owner > max(key, s.larger) && (owner & 0xffffu) != slot) {
+                if (touches(bubble, first + (owner & 0xffffu))) { s.larger = owner; }
+            }
+            let weight = share_at(square / (reach * reach));
+            let distance = sqrt(max(square, 1e-12 * SUPPORT * SUPPORT));
+            let boil = boils[j];
+            let contact = contact_at(square, bubble.radius);
+            let excess = contact * max(boil.x, 0.0);
+            let lack = contact * max(-boil.x, 0.0);
+            s.weight += weight;
+            s.squares += weight * weight;
+            s.contact += contact;
+            s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
+            s.velocity += weight * velocity[j].xyz;
+            s.gas += weight * gas[tags[j].y].x;
+            s.temperature += weight * heat[j].x;
+            s.acid += weight * heat[j].y;
+            s.superheat += excess;
+            s.subcooling += lack;
+            s.growing += excess * boil.z;
+            s.shrinking += lack * boil.z;
+            s.nearest = nearer(s.nearest, Nearest(distance, j));
+        }
+    }
+    s.weight = lane_sum(s.weight);
+    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * reach * reach * reach);
+    s.velocity = lane_sum3(s.velocity);
+    let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
+    s.contact = thermal.z;
+    let excess = lane_sum3(vec3<f32>(s.superheat, s.growing, s.gas));
+    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, s.squares));
+    let per_weight = 1.0 / max(s.weight, 1e-12);
+    // Its own gas is the same share of each weight.
+    let per_square = 1.0 / max(s.weight * s.weight, 1e-12);
+    let own = bubble_volume(bubble.radius) / VOLUME * lack.z * per_square;
+    s.gas = max(excess.z * per_weight - own, 0.0);
+    s.nearest = lane_nearest(s.nearest);
+    s.nearest_of_all = lane_nearest(s.nearest_of_all);
+    s.larger = lane_max(s.larger);
+    s.velocity *= per_weight;
+    s.temperature = thermal.x * per_weight;
+    s.acid = thermal.y * per_weight;
+    s.superheat = excess.x / max(s.contact, 1e-12);
+    s.subcooling = lack.x / max(s.contact, 1e-12);
+    s.growing = excess.y / max(excess.x, 1e-12);
+    s.shrinking = lack.y / max(lack.x, 1e-12);
+    return s;
+}
