@@ -20,8 +20,6 @@ struct Drops {
     memberships: u32,
     /// What stayed on glass, table and floor since the start: mass, acid and enthalpy.
     fallen: vec3<f32>,
-    /// How many they are, or were.
-    number: f32,
 }
 
 /// Which of a bubble's two records: drops of its jet, and of its film.

@@ -80,7 +80,6 @@ fn throw_up(place: u32, bubble: Bubble, s: Surrounding, burst: Burst, liquid: Li
     drops[place].radius = burst.radius;
     drops[place].density = density;
     drops[place].memberships = bubble.membership | (bubble.membership << 16u);
-    drops[place].number = liquid.mass * MASS / (density * bubble_volume(burst.radius));
 }
 
 /// Throws up the drops of a bubble that bursts in one of both ways; all lanes must ask.

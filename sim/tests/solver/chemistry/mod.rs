@@ -2,6 +2,7 @@
 
 mod boiling;
 mod bubbles;
+mod bubbly_liquid;
 mod conserved;
 mod extremes;
 mod figures;

@@ -1,9 +1,11 @@
 //! Drops that bubbles throw up: their sizes, their flight, where they end, and that nothing is lost.
 
-use super::bubbles::{held, kettle, of, quick};
+use super::bubbles::{of, quick};
+use super::bubbly_liquid::{held, kettle};
 use super::setup::*;
 use crate::common::*;
 use glam::DVec3;
+use std::f64::consts::PI;
 use vitriol_shaders::layout::Drops;
 use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::{Chemistry, Physical};
@@ -49,7 +51,6 @@ fn launched(position: DVec3, velocity: DVec3, radius: f32) -> Drops {
         radius,
         density: 998.0,
         memberships: 1 | (1 << 16),
-        number: 1.0,
         ..Drops::default()
     }
 }
@@ -86,19 +87,29 @@ fn drops_of_jets_are_as_large_as_spiel_measured() {
     frames(&device, &solver, &[Pose::IDENTITY], 40);
     let calm = solver.snapshot().unwrap();
     let top = calm.positions.iter().map(|x| x[1]).fold(0.0, f32::max);
-    for radius in [0.35e-3, 0.5e-3, 1e-3, 1.5e-3] {
+    // Drops of jet and film of one that bursts at once.
+    let burst = |radius: f64, depth: f64| {
         let mut state = calm.clone();
-        let at = DVec3::Y * (f64::from(top) - radius);
-        let place = [at, DVec3::ZERO];
+        let place = [DVec3::Y * (f64::from(top) - depth), DVec3::ZERO];
         state.put_bubble(&setup.parameters, 5, 1, place, [radius, 100.0]);
         state.bubbles_mut()[5].surfaced = 1.0;
         solver.restore(&state).unwrap();
         let before = held(&solver);
         frames(&device, &solver, &[Pose::IDENTITY], 1);
-        let (jet, film) = (drops(&solver, 10), drops(&solver, 11));
+        let after = held(&solver);
+        assert!((after[0] / before[0] - 1.0).abs() < 1e-7);
+        (drops(&solver, 10), drops(&solver, 11))
+    };
+    // A record has the mass of all of its drops.
+    let number = |drops: &Drops| {
+        let one = 4.0 / 3.0 * PI * f64::from(drops.radius).powi(3) * f64::from(drops.density);
+        f64::from(drops.mass) * setup.parameters.particle_mass() / one
+    };
+    for radius in [0.35e-3, 0.5e-3, 1e-3, 1.5e-3] {
+        let (jet, film) = burst(radius, radius);
         eprintln!(
             "{radius} m: {} drops of {} m at {} m/s, {} of Spiel's",
-            jet.number,
+            number(&jet),
             jet.radius,
             jet.velocity[1],
             f64::from(jet.radius) / spiel(radius)
@@ -106,27 +117,16 @@ fn drops_of_jets_are_as_large_as_spiel_measured() {
         let over = f64::from(jet.radius) / spiel(radius);
         assert!((1.0 / 1.5..1.5).contains(&over), "{radius}: {over}");
         // Its own law, a few each (Blanchard 1963): no share of them is lost among particles.
-        let number = 7.0 * (-radius / 3e-3).exp();
-        assert!(
-            (f64::from(jet.number) / number - 1.0).abs() < 1e-3,
-            "{jet:?}"
-        );
+        let expected = 7.0 * (-radius / 3e-3).exp();
+        assert!((number(&jet) / expected - 1.0).abs() < 1e-3, "{jet:?}");
         assert!(film.mass == 0.0 && jet.velocity[1] > 0.5);
-        let after = held(&solver);
-        assert!((after[0] / before[0] - 1.0).abs() < 1e-7);
     }
     // A large one has a film of drops of 28 µm, and no jet: its Bond number is 3.4.
-    let mut state = calm.clone();
-    let place = [DVec3::Y * (f64::from(top) - 0.004), DVec3::ZERO];
-    state.put_bubble(&setup.parameters, 5, 1, place, [5e-3, 100.0]);
-    state.bubbles_mut()[5].surfaced = 1.0;
-    solver.restore(&state).unwrap();
-    frames(&device, &solver, &[Pose::IDENTITY], 1);
-    let (jet, film) = (drops(&solver, 10), drops(&solver, 11));
+    let (jet, film) = burst(5e-3, 4e-3);
     assert_eq!(jet.mass, 0.0);
     assert!(
         (f64::from(film.radius) / 14e-6 - 1.0).abs() < 0.05
-            && (100.0..500.0).contains(&film.number),
+            && (100.0..500.0).contains(&number(&film)),
         "{film:?}"
     );
 }
@@ -168,6 +168,36 @@ fn drops_fall_as_fast_as_gunn_and_kinzer_measured() {
         eprintln!("{diameter} m: {found} of {speed} m/s");
         assert!((found - 1.0).abs() < 0.1, "{diameter}: {found}");
     }
+}
+
+/// A glass that is raised by 12 mm in a frame takes in what hangs over its mouth, and one that goes back leaves it in the air.
+#[test]
+fn a_glass_that_rises_takes_drops_in() {
+    let device = gpu::device();
+    let solver = glass(20.0).solver(&device);
+    frames(&device, &solver, &[Pose::IDENTITY], 4);
+    let over = DVec3::Y * 0.064;
+    let hangs = Drops {
+        memberships: 1,
+        ..launched(over, DVec3::ZERO, 5e-6)
+    };
+    launch(&solver, &[hangs]);
+    let raised = Pose {
+        position: glam::Vec3::Y * 0.012,
+        ..Pose::IDENTITY
+    };
+    frame(&device, &solver, &[Pose::IDENTITY], &[raised]);
+    let inside = drops(&solver, 0);
+    assert!(
+        inside.mass > 0.0 && inside.memberships >> 16 == 1,
+        "{inside:?}"
+    );
+    frame(&device, &solver, &[raised], &[Pose::IDENTITY]);
+    let outside = drops(&solver, 0);
+    assert!(
+        outside.mass > 0.0 && outside.memberships >> 16 == 0,
+        "{outside:?}"
+    );
 }
 
 /// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the air,
@@ -239,11 +269,11 @@ fn nothing_is_lost_of_what_is_thrown_up() {
     let (start, first) = (held(&solver), ledger(&solver));
     frames(&device, &solver, &[Pose::IDENTITY], 30);
     let middle = solver.snapshot().unwrap();
-    let thrown = middle.drops().iter().filter(|d| d.number > 0.0).count();
+    let thrown = middle.drops().iter().filter(|d| d.radius > 0.0).count();
     frames(&device, &solver, &[Pose::IDENTITY], 6);
     let (end, last) = (held(&solver), ledger(&solver));
     eprintln!("{thrown} thrown, {last:?}");
-    let back = |d: &&Drops| d.number > 0.0 && d.mass == 0.0 && d.fallen[0] == 0.0;
+    let back = |d: &&Drops| d.radius > 0.0 && d.mass == 0.0 && d.fallen[0] == 0.0;
     assert!(thrown > 20 && middle.drops().iter().filter(back).count() > 5);
     assert!(last.spray > 0.0 && last.spray_fallen > 0.0, "{last:?}");
     assert!((end[0] / start[0] - 1.0).abs() < 1e-5, "{start:?}, {end:?}");
