@@ -57,6 +57,8 @@ fn heat(t: f64) -> HeatSample {
             vapour_kg: 0.0,
             spray_kg: 0.0,
             spray_fallen_kg: 0.0,
+            air_kg: 0.0,
+            air_held_kg: 0.0,
         }),
     }
 }

@@ -397,6 +397,8 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             vapour_kg: ledger.vapour,
             spray_kg: ledger.spray,
             spray_fallen_kg: ledger.spray_fallen,
+            air_kg: ledger.air,
+            air_held_kg: ledger.air_held,
         }),
     }
 }

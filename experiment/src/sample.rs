@@ -121,4 +121,10 @@ pub struct LedgerSample {
     /// Those that came to rest on glass, table and floor since the start, kg.
     #[serde(default)]
     pub spray_fallen_kg: f64,
+    /// Air that streams took down since the start, kg.
+    #[serde(default)]
+    pub air_kg: f64,
+    /// What of it is in bubbles, kg.
+    #[serde(default)]
+    pub air_held_kg: f64,
 }

@@ -14,6 +14,11 @@ pub fn mass(largest_kg: f64) -> Scaled {
     pick(largest_kg, &[(1.0, "kg"), (1e3, "g"), (1e6, "mg")])
 }
 
+/// Volume: L, mL or µL.
+pub fn volume(largest_m3: f64) -> Scaled {
+    pick(largest_m3, &[(1e3, "L"), (1e6, "mL"), (1e9, "µL")])
+}
+
 /// Energy: J, mJ or µJ.
 pub fn energy(largest_j: f64) -> Scaled {
     pick(largest_j, &[(1.0, "J"), (1e3, "mJ"), (1e6, "µJ")])

@@ -120,7 +120,7 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         columns.push(column);
     }
     if heat.ledger.is_some() {
-        let of_ledger: [(&str, &str, OfLedger); 11] = [
+        let of_ledger: [(&str, &str, OfLedger); 13] = [
             ("enthalpy at the start", "J", |l| l.initial_j),
             ("heat gained from around", "J", |l| l.exchanged_j),
             ("enthalpy of what is there", "J", |l| l.held_j),
@@ -132,6 +132,8 @@ pub fn columns(first: &Sample) -> Vec<Column> {
             ("vapour in the liquid", "kg", |l| l.vapour_kg),
             ("drops of bubbles that fly", "kg", |l| l.spray_kg),
             ("drops of bubbles at rest", "kg", |l| l.spray_fallen_kg),
+            ("air that streams took down", "kg", |l| l.air_kg),
+            ("air in bubbles", "kg", |l| l.air_held_kg),
         ];
         for (what, unit, value) in of_ledger {
             columns.push(of_heat!(what, unit, heat => heat.ledger.as_ref().map(value)));

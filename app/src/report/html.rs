@@ -9,6 +9,9 @@ use vitriol_experiment::{LedgerSample, Sample};
 use super::model::Report;
 use super::plot::{Curve, Plot, over_time};
 
+/// Of air at 20 °C and one atmosphere, kg/m³.
+const AIR_DENSITY: f64 = 1.204;
+
 const SCRIPT: &str = include_str!("report.js");
 
 impl Report {
@@ -72,6 +75,12 @@ impl Report {
                         (figure("spray_fallen_kg", "Spattered",
                             &with_unit(ledger.spray_fallen_kg, units::mass(ledger.spray_fallen_kg)),
                             "drops of bubbles that came to rest on glass, table and floor", false))
+                    }
+                    @let air = ledger.air_kg / AIR_DENSITY;
+                    @if air > 0.0 {
+                        (figure("air_kg", "Air taken down",
+                            &with_unit(air, units::volume(air)),
+                            "by streams, which comes up again in bubbles", false))
                     }
                     (figure("ledger_closure", "Ledger",
                         &format!("{:.1e}", ledger.closure.abs()),

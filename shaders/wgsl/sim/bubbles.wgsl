@@ -1,10 +1,12 @@
-// Bubbles of steam: a population beside the particles, which the liquid's neighbour search does not know. A bubble is born at a
-// particle that is superheated, takes steam from the particles around it, or gives it back to colder ones; it rises, joins
+// Bubbles: a population beside the particles, which the liquid's neighbour search does not know. A bubble of steam is born at a
+// particle that is superheated, one of air at one with which a stream plunges into liquid. It takes steam from the particles around it, or gives it back to colder ones; it rises, joins
 // others, and bursts at the surface, from which it throws up drops. What it takes and gives, and its volume, are added to the
 // particles in whole quanta; they take them over with line 26, and their volume with line 1.
 //!include common/chemistry/bubble.wgsl
 //!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/features.wgsl
+//!include common/chemistry/plunging.wgsl
 //!include common/chemistry/quanta_sum.wgsl
 //!include common/chemistry/throwing.wgsl
 //!include common/glass/boundary.wgsl
@@ -12,6 +14,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
+//!include common/maths/lot.wgsl
 
 /// How long a bubble stays at the surface, s.
 override FOAM_TIME: f32 = 0.1;
@@ -32,11 +35,13 @@ override GRAVITY_Z: f32 = 0.0;
 /// Those before this step, and after it.
 @group(0) @binding(8) var<storage, read_write> bubbles: array<Bubble>;
 @group(0) @binding(9) var<storage, read_write> bubbled: array<atomic<i32>>;
-/// By slot: one more than the particle at which a bubble is to be born.
+/// By slot: one more than the particle at which a bubble is to be born, and whether it is of air.
 @group(0) @binding(10) var<storage, read_write> claims: array<u32>;
-/// By step and slot: quanta of steam and enthalpy of what joins the bubble.
+/// By step and slot: quanta of steam, enthalpy and air of what joins the bubble.
 @group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
+/// By identity, see `sim/forces.wgsl`.
+@group(0) @binding(17) var<storage, read> falls: array<vec2<f32>>;
 
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
@@ -48,11 +53,13 @@ const VANISHED: f32 = 1e-4;
 const COVERED: f32 = 0.7;
 /// Share of solid space around a bubble from which on glass holds it back.
 const AT_GLASS: f32 = 0.2;
+/// Share of solid space, a support radius below a particle that plunges, from which on it takes no air down.
+const BESIDE_GLASS: f32 = 0.01;
 /// Cells around its own that a bubble reaches at most.
 const MOST_CELLS: i32 = 3;
 
 var<workgroup> claimed: array<u32, 64>;
-var<workgroup> joined: array<vec2<i32>, 64>;
+var<workgroup> joined: array<vec3<i32>, 64>;
 
 /// What a bubble would exchange in a step if no other did: steam that it takes per kelvin of superheat, and that it
 /// gives per kelvin of subcooling, V0·ρ0/(s K).
@@ -64,7 +71,7 @@ struct Conductance {
 }
 
 fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> Conductance {
-    let density = steam_density(steam_temperature(bubble.enthalpy / max(bubble.mass, 1e-20)));
+    let density = steam_density(temperature_of(bubble));
     let relative = length(bubble.velocity - s.velocity);
     let unit = 4.0 / 3.0 * BUBBLE_PI * density / MASS;
     let cube = bubble.radius * bubble.radius * bubble.radius;
@@ -77,6 +84,8 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
         let r = collapsed(bubble.radius, s.subcooling, s.shrinking, relative, density, around, time);
         c.given = unit * (cube - r * r * r) / (time * s.subcooling);
         c.vanishes = r < VANISHED && s.subcooling > s.superheat;
+        // Of a bubble of air the last steam condenses whole: its few quanta would have no temperature.
+        if (bubble.air > 0.0) { c.vanishes = bubble.mass > 0.0 && c.given * time * s.subcooling >= bubble.mass; }
         if (c.vanishes) { c.given = bubble.mass / (time * s.subcooling); }
         // No more than there is.
         c.given = min(c.given, bubble.mass / (time * s.subcooling));
@@ -95,7 +104,7 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
     var mass: QuantaSum;
     var enthalpy: QuantaSum;
     let cell = cell_of(bubble.position);
-    let count = select(0u, count_around(cells), bubble.mass > 0.0 && s.weight > 0.0);
+    let count = select(0u, count_around(cells), is_there(bubble) && s.weight > 0.0);
     let own_specific = bubble.enthalpy / max(bubble.mass, 1e-20);
     let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
     let gas_share = bubble_volume(bubble.radius) / (VOLUME * max(s.weight, 1e-12));
@@ -142,20 +151,51 @@ fn exchange_with(identity: u32, steam: i32, enthalpy: i32) {
     atomicSub(&bubbled[identity * BUBBLED_WORDS + BUBBLED_ENTHALPY], enthalpy);
 }
 
+/// T of a bubble's steam, of its air where it has none, °C.
+fn temperature_of(bubble: Bubble) -> f32 {
+    if (bubble.mass <= 0.0) { return bubble.air_temperature; }
+    return steam_temperature(bubble.enthalpy / bubble.mass);
+}
+
+fn volume_of(bubble: Bubble) -> f32 {
+    let steam = steam_volume(bubble.mass, bubble.enthalpy);
+    return steam + bubble.air * MASS / steam_density(bubble.air_temperature);
+}
+
+/// Air that particle i took down, in one bubble.
+fn taken_along(before: Bubble, i: u32) -> Bubble {
+    var bubble = before;
+    let fall = falls[tags[i].y];
+    let volume = max(taken_down(-fall.x, fall.y) * VOLUME, bubble_volume(radius_of_air(tags[i].y, fall.x)));
+    bubble.air_temperature = heat[i].x;
+    bubble.air = volume * steam_density(heat[i].x) / MASS;
+    return bubble;
+}
+
 /// A nucleus at particle i.
-fn born(before: Bubble, i: u32) -> Bubble {
+fn born(before: Bubble, i: u32, of_air: bool) -> Bubble {
     var bubble = before;
     bubble.position = position[i].xyz;
     bubble.velocity = velocity[i].xyz;
     bubble.membership = tags[i].x;
     bubble.surfaced = 0.0;
     bubble.touching = 0.0;
+    if (of_air) { return taken_along(bubble, i); }
     let temperature = heat[i].x;
     let volume = 4.0 / 3.0 * BUBBLE_PI * NUCLEUS * NUCLEUS * NUCLEUS;
     let steam = quanta(volume * steam_density(temperature) / MASS, MASS_QUANTUM);
     bubble.mass = f32(steam) * MASS_QUANTUM;
     let enthalpy = quanta(bubble.mass * steam_enthalpy(temperature), ENTHALPY_QUANTUM);
     bubble.enthalpy = f32(enthalpy) * ENTHALPY_QUANTUM;
+    return bubble;
+}
+
+/// A place whose bubble is gone.
+fn emptied(before: Bubble) -> Bubble {
+    var bubble = before;
+    bubble.mass = 0.0;
+    bubble.enthalpy = 0.0;
+    bubble.air = 0.0;
     return bubble;
 }
 
@@ -186,14 +226,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     let other_first = SLOTS - first;
     if (lane == 0u) {
         claimed[of_group] = claims[slot];
-        let words = 2u * (first + slot);
-        joined[of_group] = vec2<i32>(atomicLoad(&merging[words]), atomicLoad(&merging[words + 1u]));
-        atomicStore(&merging[words], 0);
-        atomicStore(&merging[words + 1u], 0);
+        let words = 3u * (first + slot);
+        for (var k = 0u; k < 3u; k++) {
+            joined[of_group][k] = atomicLoad(&merging[words + k]);
+            atomicStore(&merging[words + k], 0);
+        }
         claims[slot] = 0u;
     }
     workgroupBarrier();
-    let claim = claimed[of_group];
+    let claim = claimed[of_group] & ~CLAIM_OF_AIR;
+    let of_air = (claimed[of_group] & CLAIM_OF_AIR) != 0u;
     let joins = joined[of_group];
     let time = step.bubble_time;
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
@@ -202,18 +244,28 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     var bubble = bubbles[first + slot];
     bubble.mass += f32(joins.x) * JOINED_MASS_QUANTUM;
     bubble.enthalpy += f32(joins.y) * JOINED_ENTHALPY_QUANTUM;
-    let is_born = bubble.mass <= 0.0 && claim > 0u;
-    if (is_born) { bubble = born(bubble, claim - 1u); }
-    bubble.radius = radius_of_volume(volume_of(bubble.mass, bubble.enthalpy));
+    bubble.air += f32(joins.z) * JOINED_MASS_QUANTUM;
+    let is_born = !is_there(bubble) && claim > 0u;
+    if (is_born) { bubble = born(bubble, claim - 1u, of_air); }
+    bubble.radius = radius_of_volume(volume_of(bubble));
     // All lanes of a place return alike.
-    if (bubble.mass <= 0.0) {
+    if (!is_there(bubble)) {
         if (lane == 0u) { bubbles[other_first + slot] = bubble; }
+        return;
+    }
+    // A stream that is stopped by glass, under a film or none, closes no air in: it needs depth.
+    let takes_air = is_born && of_air;
+    let ahead = select(vec3<f32>(0.0), -SUPPORT * up, takes_air);
+    let wall = boundary_volume(bubble.membership, bubble.position + ahead, step.after, lane);
+    if (takes_air && wall_volume(wall) > BESIDE_GLASS) {
+        if (lane == 0u) { bubbles[other_first + slot] = emptied(bubble); }
         return;
     }
     let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, MOST_CELLS);
     let reach = min(SUPPORT + bubble.radius, f32(cells) * SUPPORT);
 
     let s = gather(bubble, slot, first, reach, cells, lane, up);
+    if (s.weight > 0.0) { bubble.air_temperature = s.temperature; }
     let around = around_of(s.acid, s.temperature);
     let bursts = bubble.surfaced > FOAM_TIME;
     if (SPRAY) {
@@ -229,12 +281,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
-    let wall = boundary_volume(bubble.membership, bubble.position, step.after, lane);
     if (lane != 0u) { return; }
     let nearest = tags[s.nearest.particle].y;
-    if (is_born) {
+    if (is_born && !of_air) {
         exchange_with(tags[claim - 1u].y, quanta(bubble.mass, MASS_QUANTUM), quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
-    } else if (claim > 0u) {
+    } else if (claim > 0u && !is_born) {
         atomicAdd(&counters.bubbles_refused, 1u);
     }
     bubble.mass = max(bubble.mass + gained.mass, 0.0);
@@ -244,8 +295,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         exchange_with(nearest, -quanta(bubble.mass, MASS_QUANTUM), -quanta(bubble.enthalpy, ENTHALPY_QUANTUM));
         bubble.mass = 0.0;
         bubble.enthalpy = 0.0;
-        bubbles[other_first + slot] = bubble;
-        return;
+        if (bubble.air <= 0.0) {
+            bubbles[other_first + slot] = bubble;
+            return;
+        }
     }
 
     let at_surface = cover_of(s.cover, wall, up) < COVERED;
@@ -253,8 +306,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.surfaced = max(bubble.surfaced + select(-time, time, at_surface), 0.0);
     if (alone || bursts) {
         bubble.gone += vec2<f32>(bubble.mass, bubble.enthalpy);
-        bubble.mass = 0.0;
-        bubble.enthalpy = 0.0;
+        bubble.air_gone += bubble.air;
+        bubble = emptied(bubble);
         bubbles[other_first + slot] = bubble;
         return;
     }
@@ -272,22 +325,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.touching = select(0.0, bubble.touching + time, joins_other);
     if (joins_other) {
         if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
-            let words = 2u * (other_first + other_slot);
+            let words = 3u * (other_first + other_slot);
             let steam = quanta(bubble.mass, JOINED_MASS_QUANTUM);
             let enthalpy = quanta(bubble.enthalpy, JOINED_ENTHALPY_QUANTUM);
             atomicAdd(&merging[words], steam);
             atomicAdd(&merging[words + 1u], enthalpy);
+            let air = quanta(bubble.air, JOINED_MASS_QUANTUM);
+            atomicAdd(&merging[words + 2u], air);
+            bubble.air_gone += bubble.air - f32(air) * JOINED_MASS_QUANTUM;
             // What the coarser quanta leave is a particle's.
             let mass_left = bubble.mass - f32(steam) * JOINED_MASS_QUANTUM;
             let enthalpy_left = bubble.enthalpy - f32(enthalpy) * JOINED_ENTHALPY_QUANTUM;
             exchange_with(nearest, -quanta(mass_left, MASS_QUANTUM), -quanta(enthalpy_left, ENTHALPY_QUANTUM));
-            bubble.mass = 0.0;
-            bubble.enthalpy = 0.0;
+            bubble = emptied(bubble);
         }
     }
     // Liquid that is poured changes its flask, and what is in it with it.
     if (s.nearest_of_all.distance < 0.5 * SPACING) { bubble.membership = tags[s.nearest_of_all.particle].x; }
-    if (bubble.mass > 0.0) {
+    if (is_there(bubble)) {
         atomicMax(&bubbled[nearest * BUBBLED_WORDS + BUBBLED_NEXT], i32(key_of(bubble, slot)));
     }
     bubbles[other_first + slot] = bubble;

@@ -12,6 +12,7 @@
 //!include common/chemistry/ledger.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/pair_share.wgsl
+//!include common/chemistry/plunging.wgsl
 //!include common/chemistry/potential.wgsl
 //!include common/chemistry/rests.wgsl
 //!include common/glass/contact.wgsl
@@ -64,8 +65,12 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(16) var<storage, read_write> boils: array<vec4<f32>>;
 /// By identity, see `sim/exchange.wgsl`.
 @group(0) @binding(17) var<storage, read_write> gas: array<vec4<f32>>;
-/// By place of a bubble: one more than the particle at which it is to be born.
+/// By place of a bubble: one more than the particle at which it is to be born, and whether it is of air.
 @group(0) @binding(19) var<storage, read_write> claims: array<atomic<u32>>;
+
+/// By identity: the fastest that a particle fell since it was at rest, less than zero once it has plunged into liquid (m/s), and the
+/// width of the stream that it fell in, m.
+@group(0) @binding(40) var<storage, read_write> falls: array<vec2<f32>>;
 
 /// What the neighbours add up to.
 struct Sums {
@@ -78,6 +83,8 @@ struct Sums {
     agitation: f32,
     /// Line 28: ∇|ω|.
     eta: vec3<f32>,
+    /// Line 26, where streams take air down: Σ W.
+    filled: f32,
 }
 
 /// Line 26, Eqs 8 and 11: the heat that i gets of a pair, J/kg.
@@ -144,6 +151,8 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
                 if (BOILING) { sums.agitation += weight * dot(relative, relative); }
                 if (BOILING && PHYSICAL) { sums.push -= relative * anti_viscosity(own, other, weight, whole); }
             }
+            // A list is filled up with the particle itself.
+            if (AIR) { sums.filled += select(spline(q), 0.0, j == i); }
             if (DILUTION) { sums.warmed += whole * heat_of_solution(own, other, q); }
             if (CONFINEMENT > 0.0) {
                 sums.eta += offset * ((magnitude_in(vorticity[j]) - magnitude_in(omega)) / distance * spline_slope(q));
@@ -154,6 +163,7 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
     if (PHYSICAL && BOILING) { sums.push = lane_sum3(sums.push) * weight_scale(); }
     if (BOILING) { sums.agitation = lane_sum(sums.agitation) * weight_scale(); }
     if (DILUTION) { sums.warmed = lane_sum(sums.warmed); }
+    if (AIR) { sums.filled = (lane_sum(sums.filled) + spline(0.0)) * weight_scale(); }
     if (CONFINEMENT > 0.0) { sums.eta = lane_sum3(sums.eta) * (weight_scale() / SUPPORT); }
     return sums;
 }
@@ -194,12 +204,20 @@ fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
         extent.lightness = 1.0 / density;
     }
     if (BUBBLES) { extent = swollen(i, identity, extent, content, own.variance, potential); }
+    // Where there is gas, the same liquid fills less of a neighbourhood.
+    if (AIR) { plunge(i, identity, v, sums.filled * (1.0 + gas[identity].x)); }
     bulk[i] = pack_bulk(extent);
     return extent.volume;
 }
 
 /// ρ of steam at 100 °C, kg/m³, for the picture's vapour.
 const STEAM_DENSITY: f32 = 0.59;
+
+/// Asks for a bubble at particle i, of steam or of air.
+fn claim(identity: u32, i: u32, what: u32) {
+    let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], what | (i + 1u));
+    if (other != 0u) { atomicAdd(&counters.bubbles_refused, 1u); }
+}
 
 /// A particle with the gas of the bubbles around it: it fills more space, and the same pressure moves it further. Where bubbles act next,
 /// what they need of it, and whether one is to be born.
@@ -216,12 +234,34 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
         boils[i] = boil;
         if (boil.x > NUCLEATION && is_nucleus(identity) && held.w <= 0.0) {
             held.w = NUCLEUS_WAIT;
-            let other = atomicMax(&claims[place_of_birth(identity, position[i].xyz)], i + 1u);
-            if (other != 0u) { atomicAdd(&counters.bubbles_refused, 1u); }
+            claim(identity, i, 0u);
         }
     }
     gas[identity] = held;
     return extent;
+}
+
+/// A particle that fell in a stream and plunges into liquid takes air down, in a bubble or, by lot, in none. Once it did it does not again
+/// until it has come to rest.
+fn plunge(i: u32, identity: u32, v: vec3<f32>, filled: f32) {
+    if ((step.bubbles & BUBBLES_ACT) == 0u) { return; }
+    let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
+    let falling = max(dot(v, gravity) / max(length(gravity), 1e-9), 0.0);
+    let fall = falls[identity];
+    var next = fall;
+    if (fall.x >= 0.0 && falling >= fall.x) {
+        next = vec2<f32>(falling, width_of_fall(fall, filled));
+    } else if (fall.x >= 0.0 && falling < SLOWED * fall.x && filled > IMMERSED) {
+        next.x = -fall.x;
+        let air = taken_down(fall.x, fall.y) * VOLUME;
+        let radius = radius_of_air(identity, next.x);
+        if (lot(identity, bitcast<u32>(fall.y)) * radius * radius * radius * (4.0 / 3.0 * 3.14159265) < air) {
+            claim(identity, i, CLAIM_OF_AIR);
+        }
+    } else if (falling < RESTS) {
+        next.x = 0.0;
+    }
+    falls[identity] = next;
 }
 
 @compute @workgroup_size(64)

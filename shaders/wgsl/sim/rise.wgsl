@@ -1,11 +1,11 @@
 // Puffs of steam rise through a frame, take in air and condense
 // (`Puff::advance` of `chemistry/puff.rs`).
 //!include common/chemistry/condensation.wgsl
+//!include common/liquid/gravity.wgsl
 
 /// Δt of a step (s) and how many a frame has.
 override STEP_TIME: f32 = 0.0028;
 override STEPS: u32 = 4u;
-override GRAVITY: f32 = 9.81;
 
 /// Radius beyond which a puff is room air, m.
 const DISPERSED: f32 = 0.5;

@@ -11,6 +11,8 @@ pub struct Bubbles {
     pub most: u32,
     /// Whether the drops that they throw up when they burst are followed.
     pub spray: bool,
+    /// Whether streams take air down.
+    pub air: bool,
 }
 
 /// Threads of a workgroup, of which each bubble has one or more.

@@ -140,6 +140,7 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
             foam_time: physical.foam_time?,
             most: physical.most_bubbles?,
             spray: scene.models(Feature::Spray),
+            air: scene.models(Feature::Air),
         })
     };
     Some(Physical {

@@ -66,6 +66,10 @@ pub struct Ledger {
     pub spray: f64,
     /// Mass of drops that came to rest on glass, table or floor since the start, kg.
     pub spray_fallen: f64,
+    /// Mass of air that streams took down since the start, kg.
+    pub air: f64,
+    /// What of it is still in bubbles, kg.
+    pub air_held: f64,
     /// Enthalpy that is held, J.
     pub held: f64,
     /// Heat gained from around, J; negative where it was lost.
@@ -102,6 +106,9 @@ fn range(rings: &[[f32; 2]]) -> [f64; 2] {
         [low.min(t), high.max(t)]
     })
 }
+
+/// Mass of air over that of as much steam: 28.96 and 18.015 g/mol.
+const AIR_OVER_STEAM: f64 = 28.96 / 18.015;
 
 /// Heat that warms water by 1 K at 20 °C, J/kg.
 const WATER_KELVIN: f64 = 4184.0;
@@ -248,6 +255,8 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
     sum.held += bubbles.held[1] + bubbles.pending[1];
     sum.steam += bubbles.gone[0];
     sum.steam_enthalpy += bubbles.gone[1];
+    sum.air = AIR_OVER_STEAM * (bubbles.air[0] + bubbles.air[1]);
+    sum.air_held = AIR_OVER_STEAM * bubbles.air[0];
     let drops = state.sprayed();
     for part in [drops.flying, drops.fallen, drops.pending] {
         sum.mass += part[0];
@@ -263,6 +272,8 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         vapour: m * sum.vapour,
         spray: m * sum.spray,
         spray_fallen: m * sum.spray_fallen,
+        air: m * sum.air,
+        air_held: m * sum.air_held,
         held: m * sum.held,
         exchanged: m * sum.exchanged,
         steam: m * sum.steam,

@@ -216,6 +216,7 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
             // They swell the liquid as a change of its density does.
             (Feature::Bubbles, Feature::Density),
             (Feature::Spray, Feature::Bubbles),
+            (Feature::Air, Feature::Bubbles),
         ]);
     }
     needs
@@ -257,6 +258,7 @@ fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
         Feature::Steam,
         Feature::Bubbles,
         Feature::Spray,
+        Feature::Air,
         Feature::Losses,
         Feature::Segregation,
     ];

@@ -29,6 +29,8 @@ pub enum Feature {
     Bubbles,
     /// Drops that bubbles throw up when they burst.
     Spray,
+    /// Air that streams take down, in bubbles.
+    Air,
     /// Acid and water that are not mixed below a particle's size, of which the water boils first.
     Segregation,
     /// Heat lost through glass and at the free surface.

@@ -44,7 +44,9 @@ pub(super) struct BubbleState {
     /// By identity.
     pub(super) bubbled: Vec<[i32; BUBBLED_WORDS]>,
     pub(super) gas: Vec<[f32; 4]>,
-    pub(super) merging: Vec<[i32; 2]>,
+    pub(super) merging: Vec<[i32; 3]>,
+    /// By identity, where streams take air down.
+    pub(super) falls: Vec<[f32; 2]>,
     /// The neighbour search's table, in which bubbles look for particles.
     pub(super) cell_starts: Vec<u32>,
     pub(super) block_sums: Vec<u32>,
@@ -67,6 +69,8 @@ pub(crate) struct VapourAccount {
     pub(crate) pending: [f64; 2],
     /// What left the liquid.
     pub(crate) gone: [f64; 2],
+    /// Air in bubbles and what of it left, as the steam that has as many molecules.
+    pub(crate) air: [f64; 2],
 }
 
 /// A bubble of steam of `temperature` (°C) with `radius` (m).
@@ -101,7 +105,8 @@ impl BubbleState {
             bubbles: vec![[0.0; BUBBLE_WORDS]; slots],
             bubbled: vec![[0; BUBBLED_WORDS]; count],
             gas: vec![[0.0; 4]; count],
-            merging: vec![[0; 2]; slots],
+            merging: vec![[0; 3]; slots],
+            falls: vec![[0.0; 2]; if bubbles.air { count } else { 0 }],
             cell_starts: vec![0; cells[0] as usize],
             block_sums: vec![0; cells[1] as usize],
         }
@@ -118,11 +123,16 @@ impl BubbleState {
             for (sum, part) in account.held.iter_mut().zip([bubble.mass, bubble.enthalpy]) {
                 *sum += f64::from(part);
             }
+            for (sum, part) in account.air.iter_mut().zip([bubble.air, bubble.air_gone]) {
+                *sum += f64::from(part);
+            }
             for (sum, part) in account.gone.iter_mut().zip(bubble.gone) {
                 *sum += f64::from(part);
             }
         }
-        let joining = self.merging.iter().map(|joins| (joins[..].iter(), JOINED));
+        let air = self.merging.iter().map(|joins| f64::from(joins[2]));
+        account.air[0] += JOINED[0] * air.sum::<f64>();
+        let joining = self.merging.iter().map(|joins| (joins[..2].iter(), JOINED));
         let given = self.bubbled.iter().map(|given| (given[..2].iter(), QUANTA));
         for (quanta, units) in given {
             for ((sum, &count), unit) in account.pending.iter_mut().zip(quanta).zip(units) {
@@ -143,6 +153,7 @@ impl BubbleState {
             bubbled: read(gpu, &b.bubbled, start.bubbled.len())?,
             gas: read(gpu, &b.gas, start.gas.len())?,
             merging: read(gpu, &b.merging, start.merging.len())?,
+            falls: read(gpu, &b.falls, start.falls.len())?,
             cell_starts: read(gpu, &b.cell_starts, start.cell_starts.len())?,
             block_sums: read(gpu, &b.block_sums, start.block_sums.len())?,
         })
@@ -154,8 +165,9 @@ impl BubbleState {
         write(gpu, &b.gas, &self.gas)?;
         // What joins bubbles of the second set of records is none at a frame's end.
         let mut merging = self.merging.clone();
-        merging.resize(2 * self.merging.len(), [0; 2]);
+        merging.resize(2 * self.merging.len(), [0; 3]);
         write(gpu, &b.merging, &merging)?;
+        write(gpu, &b.falls, &self.falls)?;
         write(gpu, &b.cell_starts, &self.cell_starts)?;
         write(gpu, &b.block_sums, &self.block_sums)
     }

@@ -17,10 +17,10 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 44;
+pub(super) const OF_PARTICLES: usize = 45;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
-pub(super) const BUBBLE_WORDS: usize = 16;
+pub(super) const BUBBLE_WORDS: usize = 20;
 pub(super) const BUBBLED_WORDS: usize = 8;
 /// The same of drops.
 pub(super) const DROPS_WORDS: usize = 16;
@@ -87,6 +87,8 @@ pub(super) struct Buffers {
     pub(super) boils: Buffer,
     pub(super) claims: Buffer,
     pub(super) merging: Buffer,
+    /// How particles fell, by identity.
+    pub(super) falls: Buffer,
     /// Drops that bubbles threw up, what they do to particles by identity, and what of them left each flask.
     pub(super) drops: Buffer,
     pub(super) sprayed: Buffer,
@@ -148,6 +150,7 @@ impl Buffers {
         let bubbles = bubbles_of(&spec.parameters);
         let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
         let bubbly = where_asked(bubbles.is_some(), n);
+        let falling = where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n);
         let places_of_drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
         let sprayed = where_asked(places_of_drops > 0, n);
         let confined = spec.parameters.vorticity > 0.0;
@@ -196,7 +199,8 @@ impl Buffers {
             gas: words("gas", 4 * bubbly)?,
             boils: words("boils", 4 * bubbly)?,
             claims: words("claims", slots_of_bubbles)?,
-            merging: words("merging", 4 * slots_of_bubbles)?,
+            merging: words("merging", 6 * slots_of_bubbles)?,
+            falls: words("falls", 2 * falling)?,
             drops: words("drops", DROPS_WORDS as u64 * places_of_drops)?,
             sprayed: words("sprayed", SPRAYED_WORDS as u64 * sprayed)?,
             spray_left: words("spray_left", where_asked(places_of_drops > 0, flasks))?,
@@ -272,6 +276,7 @@ impl Buffers {
             &self.gas,
             &self.boils,
             &self.sprayed,
+            &self.falls,
             &self.colour_args,
             &self.counters,
             &self.cell_counts,

@@ -287,6 +287,7 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
             ("BUBBLES", 1.0),
             ("SLOTS", bubbles.slots().into()),
             ("SPRAY", flag(bubbles.spray)),
+            ("AIR", flag(bubbles.air)),
             ("NUCLEI", bubbles.nuclei(p.spacing)),
             ("NUCLEUS_WAIT", bubbles.nucleus_wait()),
             ("FOAM_TIME", bubbles.foam_time),

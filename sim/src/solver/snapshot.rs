@@ -81,6 +81,7 @@ impl Solver {
             ),
             ("gas", bubbles.gas.len(), none.gas.len()),
             ("joining bubbles", bubbles.merging.len(), none.merging.len()),
+            ("falls", bubbles.falls.len(), none.falls.len()),
             ("cells", bubbles.cell_starts.len(), none.cell_starts.len()),
             ("drops", spray.drops.len(), no_spray.drops.len()),
             (

@@ -148,7 +148,7 @@ impl SolverState {
         hash.digest()
     }
 
-    /// Bubbles of steam in the liquid: those of mass 0 are none. Masses are over V0·ρ0; empty where a scene has no bubbles.
+    /// Bubbles in the liquid: those without steam and air are none. Masses are over V0·ρ0; empty where a scene has no bubbles.
     pub fn bubbles(&self) -> &[Bubble] {
         self.bubbles.records()
     }

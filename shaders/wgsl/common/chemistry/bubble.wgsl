@@ -1,10 +1,10 @@
-// The record `bubbles`: a bubble of steam in the liquid.
+// The record `bubbles`: a bubble of steam, of air or of both in the liquid.
 //!include common/chemistry/slots.wgsl
 
 struct Bubble {
     /// Stage frame, m.
     position: vec3<f32>,
-    /// Steam, over V0·ρ0; 0 where there is no bubble.
+    /// Steam, over V0·ρ0.
     mass: f32,
     /// m/s.
     velocity: vec3<f32>,
@@ -20,4 +20,12 @@ struct Bubble {
     /// Steam that left the liquid from this place since the start, and its enthalpy, per V0·ρ0; and what puffs were made of.
     gone: vec2<f32>,
     vented: vec2<f32>,
+    /// Air, as the steam that has as many molecules, over V0·ρ0, and its temperature, °C; and air that left from this place.
+    air: f32,
+    air_temperature: f32,
+    air_gone: f32,
+}
+
+fn is_there(bubble: Bubble) -> bool {
+    return bubble.mass > 0.0 || bubble.air > 0.0;
 }

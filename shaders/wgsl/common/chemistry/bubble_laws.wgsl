@@ -2,9 +2,7 @@
 //!include common/chemistry/particle_mass.wgsl
 //!include common/chemistry/solution.wgsl
 //!include common/chemistry/surface_tension.wgsl
-
-/// Gravity's magnitude, m/s².
-override GRAVITY: f32 = 9.81;
+//!include common/liquid/gravity.wgsl
 
 /// One atmosphere, Pa, and the gas constant of water vapour, J/(kg K).
 const ATMOSPHERE: f32 = 101325.0;
@@ -26,8 +24,8 @@ fn steam_temperature(enthalpy: f32) -> f32 {
     return max(ENTHALPY_ZERO + (enthalpy - STEAM_ENTHALPY) / STEAM_CAPACITY, 0.0);
 }
 
-/// Volume of a bubble, m³, and radius of a volume.
-fn volume_of(mass: f32, enthalpy: f32) -> f32 {
+/// Volume of steam, m³; of a bubble, and radius of a volume.
+fn steam_volume(mass: f32, enthalpy: f32) -> f32 {
     if (mass <= 0.0) { return 0.0; }
     return mass * MASS / steam_density(steam_temperature(enthalpy / mass));
 }

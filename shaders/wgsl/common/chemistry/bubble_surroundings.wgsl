@@ -29,7 +29,7 @@ fn key_of(bubble: Bubble, slot: u32) -> u32 {
 /// Whether a bubble touches that of another record.
 fn touches(bubble: Bubble, record: u32) -> bool {
     let other = bubbles[record];
-    if (other.mass <= 0.0 || other.membership != bubble.membership) { return false; }
+    if (!is_there(other) || other.membership != bubble.membership) { return false; }
     return distance(other.position, bubble.position) <= bubble.radius + other.radius;
 }
 
@@ -64,7 +64,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.nearest_of_all = Nearest(1e9, 0u);
     let key = key_of(bubble, slot);
     let cell = cell_of(bubble.position);
-    let count = select(0u, count_around(cells), bubble.mass > 0.0);
+    let count = select(0u, count_around(cells), is_there(bubble));
     for (var n = lane; n < count; n += LANES) {
         let run = cell_around(cell, cells, n);
         for (var j = run.first; j < run.end; j++) {

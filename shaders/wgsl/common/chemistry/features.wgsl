@@ -21,3 +21,5 @@ override SEGREGATION: bool = false;
 override LOSSES: bool = false;
 /// Physical: whether vapour is in bubbles that have volume.
 override BUBBLES: bool = false;
+/// Physical: whether streams take air down.
+override AIR: bool = false;

@@ -1,5 +1,6 @@
 //! Lines 26 and 27 of a liquid with a chemistry, the paper's and the physical one.
 
+mod air;
 mod boiling;
 mod bubbles;
 mod bubbly_liquid;

@@ -46,6 +46,7 @@ pub fn bubbly() -> Physical {
             foam_time: 0.1,
             most: 4096,
             spray: false,
+            air: false,
         }),
         superheat_time: None,
         bubble_speed: None,

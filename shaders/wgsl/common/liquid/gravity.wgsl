@@ -1,0 +1,2 @@
+/// Gravity's magnitude, m/s².
+override GRAVITY: f32 = 9.81;
