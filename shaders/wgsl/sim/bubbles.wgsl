@@ -1,7 +1,8 @@
 // Bubbles: a population beside the particles, which the liquid's neighbour search does not know. A bubble of steam is born at a
-// particle that is superheated, one of air at one with which a stream plunges into liquid. It takes steam from the particles around it, or gives it back to colder ones; it rises, joins
-// others, and bursts at the surface, from which it throws up drops. What it takes and gives, and its volume, are added to the
-// particles in whole quanta; they take them over with line 26, and their volume with line 1.
+// particle that is superheated, one of air at one with which a stream plunges into liquid. It takes steam from the particles around
+// it, or gives it back to colder ones; it rises, joins others, and bursts at the surface, from which it throws up drops. What it
+// takes and gives, and its volume, are added to the particles in whole quanta; they take them over with line 26, and their volume
+// with line 1.
 //!include common/chemistry/bubble.wgsl
 //!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
@@ -151,10 +152,11 @@ fn exchange_with(identity: u32, steam: i32, enthalpy: i32) {
     atomicSub(&bubbled[identity * BUBBLED_WORDS + BUBBLED_ENTHALPY], enthalpy);
 }
 
-/// T of a bubble's steam, of its air where it has none, °C.
+/// T of what a bubble holds, °C: the few quanta of steam that a bubble of air may have would have none by themselves.
 fn temperature_of(bubble: Bubble) -> f32 {
     if (bubble.mass <= 0.0) { return bubble.air_temperature; }
-    return steam_temperature(bubble.enthalpy / bubble.mass);
+    let steam = steam_temperature(bubble.enthalpy / bubble.mass);
+    return (bubble.mass * steam + bubble.air * bubble.air_temperature) / (bubble.mass + bubble.air);
 }
 
 fn volume_of(bubble: Bubble) -> f32 {
@@ -257,7 +259,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     let takes_air = is_born && of_air;
     let ahead = select(vec3<f32>(0.0), -SUPPORT * up, takes_air);
     let wall = boundary_volume(bubble.membership, bubble.position + ahead, step.after, lane);
-    if (takes_air && wall_volume(wall) > BESIDE_GLASS) {
+    // Of a map's wall only lane 0 has the volume, and all lanes must decide alike.
+    let stopped = lane_max(u32(takes_air && wall_volume(wall) > BESIDE_GLASS)) > 0u;
+    if (stopped) {
         if (lane == 0u) { bubbles[other_first + slot] = emptied(bubble); }
         return;
     }

@@ -5,8 +5,8 @@ use super::setup::*;
 use crate::common::*;
 use glam::DVec3;
 use std::f64::consts::PI;
-use vitriol_sim::chemistry::Physical;
 use vitriol_sim::chemistry::bubbles::Bubbles;
+use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::measure::{Ledger, measure_heat};
 use vitriol_sim::parameters::Parameters;
@@ -238,4 +238,77 @@ fn a_pour_with_air_repeats() {
     other.restore(&middle).unwrap();
     frames(&device, &other, &[Pose::IDENTITY], 3);
     assert_eq!(solver.snapshot().unwrap(), other.snapshot().unwrap());
+}
+
+/// A stream of superheated water onto a film of it on glass takes no air down, and whoever shares the work of a bubble that is not
+/// made takes no steam for it.
+#[test]
+fn air_that_glass_stops_keeps_the_ledger() {
+    let device = gpu::device();
+    for lanes in lanes(&device) {
+        let mut pour = pour(D, 0.04, 1.5, 0.005);
+        fill(&mut pour.setup.particles, |_| (112.0, 0.0));
+        pour.setup.lanes = Some(lanes);
+        if let Some(Chemistry::Physical(Physical {
+            bubbles: Some(bubbles),
+            ..
+        })) = &mut pour.setup.parameters.chemistry
+        {
+            bubbles.nuclei_spacing = 0.004;
+        }
+        let solver = pour.setup.solver(&device);
+        let start = ledger(&solver);
+        frames(&device, &solver, &[Pose::IDENTITY], 12);
+        let end = ledger(&solver);
+        eprintln!("{lanes}: {:e} {end:?}", end.closure(&start));
+        assert!(end.vapour > 0.0);
+        assert!(end.closure(&start).abs() < 1e-7, "{lanes}: {end:?}");
+    }
+}
+
+/// Bubbles of air burst in and between water and acid that heat one another, take steam up and throw liquid up: mass, acid and
+/// enthalpy are kept.
+#[test]
+fn air_that_bursts_in_acid_keeps_the_ledger() {
+    let device = gpu::device();
+    let profile = Profile::new(&[[0.0, 0.025], [0.12, 0.025]], 0.002).unwrap();
+    let mut particles = water(&profile, 0, Pose::IDENTITY, 3000);
+    let top = particles.iter().fold(0.0, |a: f64, p| a.max(p.position.y));
+    fill(&mut particles, |at| {
+        (20.0, if at.y > 0.5 * top { 0.98 } else { 0.0 })
+    });
+    let mut setup = Setup::new(of(with_bubbles(), parameters()), vec![profile], particles);
+    setup.ground = Ground {
+        floor: 0.0,
+        ..NOWHERE
+    };
+    let solver = setup.solver(&device);
+    let start = ledger(&solver);
+    frames(&device, &solver, &[Pose::IDENTITY], 2);
+    for n in 0..16 {
+        let p = solver.parameters().clone();
+        let mut state = solver.snapshot().unwrap();
+        let mut random = Random(7 + n);
+        for k in 0..200 {
+            let at = random.point(0.9);
+            let at = DVec3::new(0.024 * at.x, top * (0.5 + 0.5 * at.y), 0.024 * at.z);
+            let before = state.bubbles()[k];
+            if before.mass > 0.0 || before.air > 0.0 {
+                continue;
+            }
+            state.put_bubble(&p, k, 1, [at, DVec3::ZERO], [0.0, 100.0]);
+            let bubble = &mut state.bubbles_mut()[k];
+            bubble.air = 1e-4 * (k as f32 / 100.0);
+            // What left from this place before.
+            (bubble.gone, bubble.vented) = (before.gone, before.vented);
+        }
+        solver.restore(&state).unwrap();
+        frames(&device, &solver, &[Pose::IDENTITY], 4);
+    }
+    let end = ledger(&solver);
+    eprintln!("{:e} {end:?}", end.closure(&start));
+    assert!(end.spray_fallen > 1e-5 && end.steam > 1e-5, "{end:?}");
+    assert!(((end.mass + end.steam) / start.mass - 1.0).abs() < 1e-8);
+    assert!((end.acid / start.acid - 1.0).abs() < 1e-7, "{end:?}");
+    assert!(end.closure(&start).abs() < 1e-7, "{end:?}");
 }

@@ -57,8 +57,19 @@ pub fn bubbly() -> Physical {
     }
 }
 
-/// The physical chemistry of the built-in scene `water-into-acid`.
+/// The physical chemistry of the built-in scene `water-into-acid`, but with vapour in its particles in place of bubbles.
 pub fn built_in() -> Physical {
+    Physical {
+        bubbles: None,
+        superheat_time: Some(0.03),
+        bubble_speed: Some(0.25),
+        work_share: Some(0.005),
+        ..with_bubbles()
+    }
+}
+
+/// The physical chemistry of the built-in scene `water-into-acid`.
+pub fn with_bubbles() -> Physical {
     let scene = Scene::builtin("water-into-acid").unwrap();
     match Chemistry::from_scene(&scene) {
         Some(Chemistry::Physical(physical)) => physical,
