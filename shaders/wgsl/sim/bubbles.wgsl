@@ -7,6 +7,7 @@
 //!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/features.wgsl
+//!include common/chemistry/live_places.wgsl
 //!include common/chemistry/plunging.wgsl
 //!include common/chemistry/quanta_sum.wgsl
 //!include common/chemistry/throwing.wgsl
@@ -43,6 +44,7 @@ override GRAVITY_Z: f32 = 0.0;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
 /// By identity, see `sim/forces.wgsl`.
 @group(0) @binding(17) var<storage, read> falls: array<vec2<f32>>;
+@group(0) @binding(19) var<storage, read> live: array<u32>;
 
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
@@ -221,12 +223,13 @@ fn cover_of(cover: f32, wall: vec4<f32>, up: vec3<f32>) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let slot = id.x / LANES;
+    let is_idle = id.x / LANES >= live[count_of_live()];
+    let slot = live[select(id.x / LANES, 0u, is_idle)];
     let lane = id.x % LANES;
     let of_group = local / LANES;
     let first = step.before_bubbles;
     let other_first = SLOTS - first;
-    if (lane == 0u) {
+    if (lane == 0u && !is_idle) {
         claimed[of_group] = claims[slot];
         let words = 3u * (first + slot);
         for (var k = 0u; k < 3u; k++) {
@@ -236,6 +239,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         claims[slot] = 0u;
     }
     workgroupBarrier();
+    if (is_idle) { return; }
     let claim = claimed[of_group] & ~CLAIM_OF_AIR;
     let of_air = (claimed[of_group] & CLAIM_OF_AIR) != 0u;
     let joins = joined[of_group];

@@ -1,5 +1,6 @@
 // Drops that bubbles threw up fly, fall back into liquid, or come to rest on glass, table or floor.
 //!include common/chemistry/drops.wgsl
+//!include common/chemistry/live_places.wgsl
 //!include common/chemistry/spray_laws.wgsl
 //!include common/glass/glass_distance.wgsl
 //!include common/glass/ground.wgsl
@@ -25,6 +26,7 @@ override SPACING: f32 = 0.0025;
 @group(0) @binding(15) var<storage, read_write> sprayed: array<atomic<i32>>;
 /// By flask: quanta of drops that came to rest outside of it, having come from its liquid.
 @group(0) @binding(16) var<storage, read_write> spray_left: array<atomic<u32>>;
+@group(0) @binding(17) var<storage, read> live: array<u32>;
 
 /// How near to a particle drops are in its liquid, over d, and how far they spread in it.
 const JOINS: f32 = 0.75;
@@ -86,9 +88,12 @@ fn place_after(within: u32, x: vec3<f32>) -> Place {
 fn nearest_to(x: vec3<f32>, reach: f32) -> u32 {
     var best = reach * reach;
     var found = COUNT;
-    let cell = cell_of(x);
-    for (var n = 0u; n < count_around(1); n++) {
-        let run = cell_around(cell, 1, n);
+    // Particles may have moved by the list's margin since they were put into cells.
+    let around = vec3<f32>(reach + CELL - SUPPORT);
+    let low = cell_of(x - around);
+    let side = vec3<u32>(cell_of(x + around) - low + 1);
+    for (var n = 0u; n < side.x * side.y * side.z; n++) {
+        let run = run_of(low + vec3<i32>(vec3<u32>(n % side.x, n / side.x % side.y, n / (side.x * side.y))));
         for (var j = run.first; j < run.end; j++) {
             let offset = position[j].xyz - x;
             let square = dot(offset, offset);
@@ -163,7 +168,9 @@ fn count_left(mass: f32, memberships: u32, where_now: u32) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let place = id.x;
+    let n = id.x / 2u;
+    if (n >= live[count_of_live()]) { return; }
+    let place = 2u * live[n] + id.x % 2u;
     var flight = drops[place];
     if (flight.mass <= 0.0) { return; }
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
@@ -172,7 +179,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var within = flight.memberships >> 16u;
     var rests = false;
     var near = COUNT;
-    for (var n = 0.0; n < looks && !rests && near == COUNT; n += 1.0) {
+    for (var look = 0.0; look < looks && !rests && near == COUNT; look += 1.0) {
         flight.velocity = flown(flight.velocity, gravity, flight.radius, flight.density, time);
         let next = flight.position + flight.velocity * time;
         let after = place_after(within, next);

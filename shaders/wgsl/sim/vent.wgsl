@@ -24,14 +24,14 @@ override LEAST_PUFF: f32 = 5e-7;
 
 @group(0) @binding(6) var<storage, read_write> bubbles: array<Bubble>;
 
-const THREADS: u32 = 64u;
+const THREADS: u32 = 256u;
 
 var<workgroup> sums: array<vec2<f32>, THREADS>;
 var<workgroup> lots: array<f32, THREADS>;
 /// Particles that drew them.
 var<workgroup> drawers: array<u32, THREADS>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(256)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
     let first = group.x + VENTS * local.x;
     let number = made[group.x];
@@ -80,7 +80,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         vented[identity] = unpack_account(ledger[identity]).steam;
     }
     if (BUBBLES) {
-        for (var slot = first; slot < SLOTS; slot += VENTS * THREADS) { bubbles[slot].vented = bubbles[slot].gone; }
+        for (var slot = first; slot < SLOTS; slot += VENTS * THREADS) {
+            // In both sets of records: a place that is empty is not copied from one to the other.
+            bubbles[slot].vented = bubbles[slot].gone;
+            bubbles[SLOTS + slot].vented = bubbles[slot].gone;
+        }
     }
     if (local.x != 0u) { return; }
     var source: vec3<f32>;

@@ -18,6 +18,11 @@ use vitriol_shaders::layout::{Bubble, Step};
 const ACTED: u32 = 1;
 const ACT: u32 = 2;
 
+/// Bytes of a set of records in `live_args`, and where in it the size of the dispatch over drops is, as in
+/// `common/chemistry/live_places.wgsl`.
+const SET_ARGS: u64 = 32;
+const DROPS_ARGS: u64 = 12;
+
 /// Most invocations that share a bubble, as it looks into 27 cells or more.
 const MOST_LANES: u32 = 32;
 
@@ -160,7 +165,12 @@ impl BubbleState {
     }
 
     pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {
-        write(gpu, &b.bubbles, &self.bubbles)?;
+        // A place that is empty is not copied from one set of records to the other.
+        write(
+            gpu,
+            &b.bubbles,
+            &[&self.bubbles[..], &self.bubbles].concat(),
+        )?;
         write(gpu, &b.bubbled, &self.bubbled)?;
         write(gpu, &b.gas, &self.gas)?;
         // What joins bubbles of the second set of records is none at a frame's end.
@@ -194,13 +204,20 @@ impl Solver {
             before_bubbles: u32::from(part.second) * bubbles.slots(),
             ..*step
         };
+        let args = &self.buffers.live_args;
+        let first = u64::from(part.second) * SET_ARGS;
+        if let Some(live) = &self.pipelines.live {
+            self.pass(rec, live)
+                .constants(&step)
+                .invocations(bubbles.slots())?;
+        }
         self.pass(rec, pass)
             .constants(&step)
-            .invocations(bubbles.slots() * lanes_of(&self.gpu, self.lanes))?;
+            .indirect(args, first)?;
         if let Some(spray) = &self.pipelines.spray {
             self.pass(rec, spray)
                 .constants(&step)
-                .invocations(bubbles.places_of_drops())?;
+                .indirect(args, first + DROPS_ARGS)?;
         }
         Ok(())
     }

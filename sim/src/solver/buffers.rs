@@ -87,6 +87,9 @@ pub(super) struct Buffers {
     pub(super) boils: Buffer,
     pub(super) claims: Buffer,
     pub(super) merging: Buffer,
+    /// Places that have a bubble or drops, and the sizes of the dispatches over them, by set of records.
+    pub(super) live: Buffer,
+    pub(super) live_args: Buffer,
     /// How particles fell, by identity.
     pub(super) falls: Buffer,
     /// Drops that bubbles threw up, what they do to particles by identity, and what of them left each flask.
@@ -116,6 +119,9 @@ pub(super) struct Buffers {
     // Reports.
     pub(super) density: Buffer,
 }
+
+/// `live_args` where no place of a bubble has anything: of each set of records two dispatches of no workgroups, and padding.
+const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 impl Buffers {
     pub(super) fn new(
@@ -200,6 +206,8 @@ impl Buffers {
             boils: words("boils", 4 * bubbly)?,
             claims: words("claims", slots_of_bubbles)?,
             merging: words("merging", 6 * slots_of_bubbles)?,
+            live: words("live", where_asked(bubbles.is_some(), slots_of_bubbles + 2))?,
+            live_args: upload(gpu, "live_args", &NO_PLACES)?,
             falls: words("falls", 2 * falling)?,
             drops: words("drops", DROPS_WORDS as u64 * places_of_drops)?,
             sprayed: words("sprayed", SPRAYED_WORDS as u64 * sprayed)?,
@@ -230,7 +238,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 26] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 28] {
         [
             &self.position,
             &self.velocity,
@@ -288,6 +296,8 @@ impl Buffers {
             &self.bubbles,
             &self.claims,
             &self.merging,
+            &self.live,
+            &self.live_args,
             &self.drops,
             &self.spray_left,
             &self.glass,

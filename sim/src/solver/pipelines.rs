@@ -86,6 +86,7 @@ pub(super) struct Pipelines {
     /// Of a frame's last substep: predicts none.
     pub(super) last_forces: SolverPass,
     /// Where vapour is in bubbles.
+    pub(super) live: Option<SolverPass>,
     pub(super) bubbles: Option<SolverPass>,
     /// Where the drops that they throw up are followed.
     pub(super) spray: Option<SolverPass>,
@@ -150,6 +151,11 @@ impl Pipelines {
                 vec![make(sim::TURNOVER, &[])?, make(sim::EXCHANGE, &[])?]
             }
         };
+        let lanes = bubbles::lanes_of(gpu, constants.lanes());
+        let of_bubbles = |shader| match bubbles_of(&spec.parameters) {
+            None => Ok(None),
+            Some(_) => make(shader, &[("LANES", lanes.into())]).map(Some),
+        };
         Ok(Self {
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
@@ -168,13 +174,8 @@ impl Pipelines {
             tension,
             forces: make(sim::FORCES, &[("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[])?,
-            bubbles: match bubbles_of(&spec.parameters) {
-                None => None,
-                Some(_) => {
-                    let lanes = bubbles::lanes_of(gpu, constants.lanes());
-                    Some(make(sim::BUBBLES, &[("LANES", lanes.into())])?)
-                }
-            },
+            live: of_bubbles(sim::LIVE)?,
+            bubbles: of_bubbles(sim::BUBBLES)?,
             spray: match bubbles_of(&spec.parameters) {
                 Some(bubbles) if bubbles.spray => Some(make(sim::SPRAY, &[])?),
                 _ => None,

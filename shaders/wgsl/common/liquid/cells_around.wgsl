@@ -17,6 +17,10 @@ fn count_around(reach: i32) -> u32 {
 fn cell_around(cell: vec3<i32>, reach: i32, n: u32) -> Run {
     let side = u32(2 * reach + 1);
     let offset = vec3<i32>(vec3<u32>(n % side, n / side % side, n / (side * side))) - reach;
-    let index = cell_index(cell + offset);
+    return run_of(cell + offset);
+}
+
+fn run_of(cell: vec3<i32>) -> Run {
+    let index = cell_index(cell);
     return Run(start_of(index), start_of(index + 1u));
 }

@@ -5,6 +5,7 @@ use super::setup::*;
 use crate::common::*;
 use crate::passes::{PASSES, bindings, passes};
 use vitriol_sim::chemistry::Chemistry;
+use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::chemistry::paper::Boiling;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;
@@ -35,6 +36,10 @@ fn setup(scene: &Scene) -> Setup {
 /// Labels of a frame's passes, in their order; `line_26` is the chemistry's.
 fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String> {
     let mut all = vec!["predict"];
+    let bubbles = match &p.chemistry {
+        Some(Chemistry::Physical(physical)) => physical.bubbles,
+        _ => None,
+    };
     let of_surface =
         |s: &SurfaceTension| s.impulses(p.particle_mass(), p.substeps, p.substep_time());
     let impulses = p.surface.as_ref().map(of_surface).unwrap_or_default();
@@ -52,18 +57,19 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         all.extend(line_26);
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
         all.push("forces");
+        if let Some(bubbles) = bubbles
+            && Bubbles::step_after(n, p.substeps).is_some()
+        {
+            all.extend(["live", "bubbles"]);
+            all.extend(bubbles.spray.then_some("spray"));
+        }
     }
     if let Some(Chemistry::Physical(physical)) = &p.chemistry {
         let (smoothing, _) = physical.mixing.smoothing(p.support_radius);
         all.extend(["smooth"].repeat(smoothing as usize));
         all.push("strain");
         all.extend(physical.losses.map(|_| "glass"));
-        all.extend(
-            physical
-                .bubble_speed
-                .into_iter()
-                .flat_map(|_| ["rise", "vent"]),
-        );
+        all.extend(bubbles.iter().flat_map(|_| ["rise", "vent"]));
     }
     all.extend(loads.then_some("load"));
     let passes = all.iter().map(|&name| match name {

@@ -1,0 +1,44 @@
+// Lists the places in which there is a bubble, drops, or what comes to one, so that the passes over bubbles and drops are as large as
+// what there is: of 16,384 places few have anything. The list's order is that in which threads come; no place depends on another's.
+//!include common/chemistry/bubble.wgsl
+//!include common/chemistry/drops.wgsl
+//!include common/chemistry/live_places.wgsl
+//!include common/liquid/lane_sums.wgsl
+
+/// Those before the step, and after it.
+@group(0) @binding(0) var<storage, read> bubbles: array<Bubble>;
+@group(0) @binding(1) var<storage, read> claims: array<u32>;
+@group(0) @binding(2) var<storage, read> merging: array<i32>;
+@group(0) @binding(3) var<storage, read> drops: array<Drops>;
+@group(0) @binding(4) var<storage, read_write> live: array<atomic<u32>>;
+@group(0) @binding(5) var<storage, read_write> live_args: array<atomic<u32>>;
+
+/// Whether a place has something. What is only in the record that the step writes is older; it is there so that it is written over.
+fn has_something(slot: u32) -> bool {
+    if (is_there(bubbles[slot]) || is_there(bubbles[SLOTS + slot]) || claims[slot] > 0u) { return true; }
+    if (SPRAY) {
+        if (drops[2u * slot].mass > 0.0 || drops[2u * slot + 1u].mass > 0.0) { return true; }
+    }
+    let joins = 3u * (step.before_bubbles + slot);
+    return merging[joins] != 0 || merging[joins + 1u] != 0 || merging[joins + 2u] != 0;
+}
+
+/// The other set's list begins anew: its step is over.
+fn clear_other() {
+    let other = 1u - set_of_step();
+    atomicStore(&live[SLOTS + other], 0u);
+    atomicStore(&live_args[SET_ARGS * other + BUBBLE_ARGS], 0u);
+    atomicStore(&live_args[SET_ARGS * other + DROPS_ARGS], 0u);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let slot = id.x;
+    if (slot == 0u) { clear_other(); }
+    if (slot >= SLOTS || !has_something(slot)) { return; }
+    let n = atomicAdd(&live[count_of_live()], 1u);
+    atomicStore(&live[n], slot);
+    let first = SET_ARGS * set_of_step();
+    atomicMax(&live_args[first + BUBBLE_ARGS], n * LANES / 64u + 1u);
+    atomicMax(&live_args[first + DROPS_ARGS], 2u * n / 64u + 1u);
+}
