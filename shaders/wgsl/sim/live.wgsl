@@ -13,9 +13,13 @@
 @group(0) @binding(4) var<storage, read_write> live: array<atomic<u32>>;
 @group(0) @binding(5) var<storage, read_write> live_args: array<atomic<u32>>;
 
-/// Whether a place has something. What is only in the record that the step writes is older; it is there so that it is written over.
+/// Whether a place has something. A place is written over once more after its bubble is gone, so that both records say the same of
+/// what left from it; a bubble may also come to a place by joining and burst in one step, which leaves both records empty.
 fn has_something(slot: u32) -> bool {
     if (is_there(bubbles[slot]) || is_there(bubbles[SLOTS + slot]) || claims[slot] > 0u) { return true; }
+    if (any(bubbles[slot].gone != bubbles[SLOTS + slot].gone) || bubbles[slot].air_gone != bubbles[SLOTS + slot].air_gone) {
+        return true;
+    }
     if (SPRAY) {
         if (drops[2u * slot].mass > 0.0 || drops[2u * slot + 1u].mass > 0.0) { return true; }
     }

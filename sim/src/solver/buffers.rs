@@ -121,7 +121,7 @@ pub(super) struct Buffers {
 }
 
 /// `live_args` where no place of a bubble has anything: of each set of records two dispatches of no workgroups, and padding.
-const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
+pub(super) const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 impl Buffers {
     pub(super) fn new(
@@ -207,7 +207,7 @@ impl Buffers {
             claims: words("claims", slots_of_bubbles)?,
             merging: words("merging", 6 * slots_of_bubbles)?,
             live: words("live", where_asked(bubbles.is_some(), slots_of_bubbles + 2))?,
-            live_args: upload(gpu, "live_args", &NO_PLACES)?,
+            live_args: words("live_args", 16)?,
             falls: words("falls", 2 * falling)?,
             drops: words("drops", DROPS_WORDS as u64 * places_of_drops)?,
             sprayed: words("sprayed", SPRAYED_WORDS as u64 * sprayed)?,

@@ -1,6 +1,7 @@
 //! The solver's state, taken from a device and put on one again.
 
 use super::bubbles::BubbleState;
+use super::buffers::NO_PLACES;
 use super::glass;
 use super::spray::SprayState;
 use super::steam::{Steam, SteamState};
@@ -133,6 +134,8 @@ impl Solver {
         if self.pipelines.bubbles.is_some() {
             // At a frame's end nothing is to be born.
             rec.fill(&b.claims, 0)?;
+            rec.fill(&b.live, 0)?;
+            rec.upload(&b.live_args, &NO_PLACES)?;
         }
         rec.fill(&b.glass_taken, 0)?;
         if self.parameters.surface.is_some() {

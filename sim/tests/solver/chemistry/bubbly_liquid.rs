@@ -5,7 +5,7 @@ use super::setup::*;
 use crate::common::*;
 use glam::DVec3;
 use std::f64::consts::PI;
-use vitriol_gpu::Gpu;
+use vitriol_gpu::{Buffer, Gpu, QueueKind};
 use vitriol_sim::chemistry::Physical;
 use vitriol_sim::chemistry::bubbles::Bubbles;
 use vitriol_sim::flask::Profile;
@@ -176,12 +176,36 @@ fn nothing_is_lost_when_a_kettle_boils_up() {
         let scale = start[0] * 4216.0 * 100.0;
         let changed = [end[0] / start[0] - 1.0, (end[1] - start[1]) / scale];
         eprintln!("mass and energy changed by {changed:?}");
-        assert!((end[0] / start[0] - 1.0).abs() < 1e-5, "{start:?}, {end:?}");
+        // Rounding leaves 6e-11, one bubble of 2 mm 1e-7. Speeds and heights make up for what boiling spends to 2e-6.
+        assert!((end[0] / start[0] - 1.0).abs() < 1e-8, "{start:?}, {end:?}");
         assert!(
-            (end[1] - start[1]).abs() < 1e-4 * scale,
+            (end[1] - start[1]).abs() < 1e-5 * scale,
             "{start:?}, {end:?}"
         );
     }
+}
+
+/// Memory that another had before does not change what a solver does.
+#[test]
+fn a_solver_does_not_see_what_its_memory_held() {
+    let device = gpu::device();
+    let hash = || {
+        let solver = kettle(0.004, 1024).solver(&device);
+        frames(&device, &solver, &[Pose::IDENTITY], 3);
+        solver.snapshot().unwrap().hash()
+    };
+    let clean = hash();
+    let buffer = |size: u64| Buffer::storage(&device, "soiled", size).unwrap();
+    // While one is held, its block of memory is given out again.
+    let _held = buffer(256);
+    let soiled: Vec<_> = (0..48).map(|_| buffer(1 << 20)).collect();
+    let mut rec = device.recorder(QueueKind::Main).unwrap();
+    for buffer in &soiled {
+        rec.fill(buffer, 1000).unwrap();
+    }
+    device.submit(rec).unwrap().wait().unwrap();
+    drop(soiled);
+    assert_eq!(hash(), clean);
 }
 
 #[test]
