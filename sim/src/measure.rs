@@ -43,6 +43,8 @@ pub struct Measurement {
     pub on_floor: f64,
     /// Mass elsewhere: in the stream, or flying, kg.
     pub in_air: f64,
+    /// Mass of drops of bubbles that came to rest elsewhere than in the flask that they came from, kg.
+    pub spray_left: f64,
     /// Particles that went through a wall.
     pub lost_particles: u64,
     /// Particles taken out because they turned non-finite.
@@ -81,15 +83,17 @@ impl World {
         }
         let count = errors.len().max(1);
         let mass = solver.parameters().particle_mass();
+        let flasks = self.scene().flasks.len();
         let mut measured = Measurement {
             density_error_mean: errors.iter().map(|&e| f64::from(e)).sum::<f64>() / count as f64,
             density_error_p99: percentile(&errors, 0.99),
             kinetic_energy: kinetic_energy(state, mass),
             heat: measure_heat(solver.parameters(), state),
-            in_flasks: vec![0.0; self.scene().flasks.len()],
+            in_flasks: vec![0.0; flasks],
             on_table: 0.0,
             on_floor: 0.0,
             in_air: 0.0,
+            spray_left: mass * (0..flasks).map(|k| state.spray_left(k)).sum::<f64>(),
             lost_particles: 0,
             nan_particles: u64::from(counters.nan_particles),
             list_rebuilds: counters.list_rebuilds,

@@ -16,7 +16,7 @@ pub enum Base {
     Paper,
     /// Likewise at real size, by the physical chemistry with all of its parts.
     Physical,
-    /// The same, where vapour is in bubbles and what they throw up is followed.
+    /// The same, where vapour is in bubbles, what they throw up is followed, and streams take air down.
     Bubbles,
 }
 
@@ -194,6 +194,7 @@ impl Recipe {
                 "evaporation",
                 "bubbles",
                 "spray",
+                "air",
                 "losses",
                 "segregation",
             ],

@@ -26,7 +26,7 @@ pub struct Boiled {
     /// When a thousandth of the liquid was above its boiling point, s; none where
     /// it never was.
     pub onset: Option<f64>,
-    /// Mass outside of the flasks at the end, g.
+    /// Mass outside of the flasks at the end, g: particles, and drops that came to rest outside of the flask that they came from.
     pub thrown: f64,
     /// Mass that left as steam, g.
     pub steam: f64,
@@ -136,7 +136,8 @@ pub fn boil(
             continue;
         }
         let measured = world.measure().other()?;
-        boiled.thrown = 1e3 * (measured.on_table + measured.on_floor + measured.in_air);
+        let liquid = measured.on_table + measured.on_floor + measured.in_air;
+        boiled.thrown = 1e3 * (liquid + measured.spray_left);
         let Some(heat) = measured.heat else { continue };
         boiled.temperature = heat.temperature_mean;
         if let Some(superheat) = &heat.superheat {

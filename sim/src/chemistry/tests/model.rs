@@ -1,5 +1,6 @@
 //! Each number of a scene arrives where it belongs.
 
+use super::super::bubbles::Bubbles;
 use super::super::eddies::Mixing;
 use super::super::paper::Boiling;
 use super::super::transport::Losses;
@@ -46,8 +47,19 @@ fn the_physical_chemistrys_numbers_arrive() {
     physical.glass_loss = Some(7.0);
     physical.surface_loss = Some(8.0);
     physical.lamella = Some(9.0);
+    physical.nuclei_spacing = Some(10.0);
+    physical.foam_time = Some(11.0);
+    physical.most_bubbles = Some(12);
+    scene.model.extend([Feature::Steam, Feature::Boiling]);
+    let bubbles = Bubbles {
+        nuclei_spacing: 10.0,
+        foam_time: 11.0,
+        most: 12,
+        spray: true,
+        air: true,
+    };
     let all = Physical {
-        bubbles: None,
+        bubbles: Some(bubbles),
         mixing: Mixing {
             turbulence: 2.0,
             width: 0.004,
@@ -71,7 +83,7 @@ fn the_physical_chemistrys_numbers_arrive() {
     assert_eq!(of(&scene), all);
     // What a scene does not model is off, and nothing else.
     type Off = fn(&mut Physical);
-    let features: [(Feature, Off); 7] = [
+    let features: [(Feature, Off); 10] = [
         (Feature::Segregation, |law| law.lamella = None),
         (Feature::Density, |law| law.density = false),
         (Feature::Viscosity, |law| law.viscosity = false),
@@ -79,6 +91,13 @@ fn the_physical_chemistrys_numbers_arrive() {
         (Feature::Steam, |law| law.bubble_speed = None),
         (Feature::Boiling, |law| law.work_share = None),
         (Feature::Losses, |law| law.losses = None),
+        (Feature::Bubbles, |law| law.bubbles = None),
+        (Feature::Spray, |law| {
+            law.bubbles.as_mut().unwrap().spray = false;
+        }),
+        (Feature::Air, |law| {
+            law.bubbles.as_mut().unwrap().air = false;
+        }),
     ];
     for (feature, off) in features {
         let mut without = scene.clone();

@@ -115,7 +115,12 @@ fn what_is_built_upon_a_feature_goes_with_it() {
     let (less, gone) = scene.without(Feature::Evaporation);
     assert_eq!(
         gone,
-        [Feature::Evaporation, Feature::Steam, Feature::Boiling]
+        [
+            Feature::Evaporation,
+            Feature::Bubbles,
+            Feature::Spray,
+            Feature::Air
+        ]
     );
     assert!(gone.iter().all(|&feature| !less.models(feature)));
     assert!(less.models(Feature::Density));
