@@ -177,7 +177,8 @@ fn warm(i: u32, own: Mixing, sums: Sums) {
 
 /// Line 26's end, of the physical chemistry: kinetic energy is paid for, and the state follows from what the
 /// particle now holds. Its volume over V0.
-fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
+fn renew(i: u32, tag: vec2<u32>, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
+    let identity = tag.y;
     var content = unpack_content(matter[i]);
     var rests = own.rests;
     if (BOILING) {
@@ -205,7 +206,7 @@ fn renew(i: u32, identity: u32, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
     }
     if (BUBBLES) { extent = swollen(i, identity, extent, content, own.variance, potential); }
     // Where there is gas, the same liquid fills less of a neighbourhood.
-    if (AIR) { plunge(i, identity, v, sums.filled * (1.0 + gas[identity].x)); }
+    if (AIR) { plunge(i, tag, v, sums.filled * (1.0 + gas[identity].x)); }
     bulk[i] = pack_bulk(extent);
     return extent.volume;
 }
@@ -241,15 +242,23 @@ fn swollen(i: u32, identity: u32, liquid: Bulk, content: Content, variance: f32,
     return extent;
 }
 
-/// A particle that fell in a stream and plunges into liquid takes air down, in a bubble or, by lot, in none. Once it did it does not again
-/// until it has come to rest.
-fn plunge(i: u32, identity: u32, v: vec3<f32>, filled: f32) {
-    if ((step.bubbles & BUBBLES_ACT) == 0u) { return; }
+/// How fast a particle falls, m/s: past the glass that it is in, since what is lowered with its glass is no stream.
+fn speed_of_fall(membership: u32, x: vec3<f32>, v: vec3<f32>) -> f32 {
+    var relative = v;
+    if (FLASKS > 0u && membership != NOBODYS) { relative -= wall_velocity(membership - 1u, x); }
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
-    let falling = max(dot(v, gravity) / max(length(gravity), 1e-9), 0.0);
+    return max(dot(relative, gravity) / max(length(gravity), 1e-9), 0.0);
+}
+
+/// A particle that fell in a stream and plunges into liquid takes air down, in a bubble or, by lot, in none. Once it did it does not again
+/// until it has come to rest. What falls in the midst of liquid is no stream, as when its glass is stopped at once.
+fn plunge(i: u32, tag: vec2<u32>, v: vec3<f32>, filled: f32) {
+    if ((step.bubbles & BUBBLES_ACT) == 0u) { return; }
+    let identity = tag.y;
+    let falling = speed_of_fall(tag.x, position[i].xyz, v);
     let fall = falls[identity];
     var next = fall;
-    if (fall.x >= 0.0 && falling >= fall.x) {
+    if (fall.x >= 0.0 && falling >= fall.x && (fall.x >= RESTS || filled < IMMERSED)) {
         next = vec2<f32>(falling, width_of_fall(fall, filled));
     } else if (fall.x >= 0.0 && falling < SLOWED * fall.x && filled > IMMERSED) {
         next.x = -fall.x;
@@ -298,7 +307,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     velocity[i] = pack_velocity(v, carried_by(before));
     var volume = 1.0;
     if (PHYSICAL) {
-        if (tag != REMOVED) { volume = renew(i, tags[i].y, before.xyz, own, sums); } // 26
+        if (tag != REMOVED) { volume = renew(i, tags[i], before.xyz, own, sums); } // 26
     } else if (HEAT) {
         warm(i, own, sums); // 26
     }
