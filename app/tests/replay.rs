@@ -50,7 +50,6 @@ fn heat(t: f64) -> HeatSample {
             exchanged_j: -50.0 * t,
             held_j: -9000.0 - 100.0 * t,
             steam_j: 49.9 * t,
-            kinetic_j: 0.1 * t,
             closure: 2e-7,
             steam_kg: 1e-5 * t,
             mist_kg: 0.0,

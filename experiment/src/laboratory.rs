@@ -390,7 +390,6 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             exchanged_j: ledger.exchanged,
             held_j: ledger.held,
             steam_j: ledger.steam_enthalpy,
-            kinetic_j: ledger.kinetic,
             closure: ledger.closure(start),
             steam_kg: ledger.steam,
             mist_kg: ledger.mist,

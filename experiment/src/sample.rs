@@ -94,7 +94,7 @@ pub struct HeatSample {
 }
 
 /// Where the enthalpy is that there was at the start: initial + exchanged =
-/// held + steam + kinetic. Relative to the pure liquids at 25 °C.
+/// held + steam. Relative to the pure liquids at 25 °C.
 #[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct LedgerSample {
     /// Enthalpy at the start, J.
@@ -105,8 +105,6 @@ pub struct LedgerSample {
     pub held_j: f64,
     /// Enthalpy that steam took along, J.
     pub steam_j: f64,
-    /// Enthalpy that was paid for motion, J.
-    pub kinetic_j: f64,
     /// By how much the two sides differ, over the sum of |h| at the start.
     pub closure: f64,
     /// Water that left as steam, kg.

@@ -120,12 +120,11 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         columns.push(column);
     }
     if heat.ledger.is_some() {
-        let of_ledger: [(&str, &str, OfLedger); 13] = [
+        let of_ledger: [(&str, &str, OfLedger); 12] = [
             ("enthalpy at the start", "J", |l| l.initial_j),
             ("heat gained from around", "J", |l| l.exchanged_j),
             ("enthalpy of what is there", "J", |l| l.held_j),
             ("enthalpy that steam took along", "J", |l| l.steam_j),
-            ("enthalpy paid for motion", "J", |l| l.kinetic_j),
             ("error of the balance of enthalpy", "1", |l| l.closure),
             ("steam that left", "kg", |l| l.steam_kg),
             ("mist in the air", "kg", |l| l.mist_kg),

@@ -66,6 +66,8 @@ pub struct Parameters {
     pub surface: Option<SurfaceTension>,
     /// Heat, dilution and boiling; `None` where the scene models no heat.
     pub chemistry: Option<Chemistry>,
+    /// Heat that plates give the flasks' bases, W, flask by flask; empty without a plate.
+    pub heaters: Vec<f64>,
     /// Margin of a neighbour list that outlives its substep, fraction of h.
     pub list_margin: f64,
     /// Distance d_margin that the flask constraint keeps from the glass,
@@ -187,6 +189,7 @@ impl Parameters {
             vorticity: solver.vorticity.unwrap_or(0.0),
             surface: scene.surface_tension(),
             chemistry: Chemistry::from_scene(scene),
+            heaters: scene.flasks.iter().map(|flask| flask.heater).collect(),
             list_margin: LIST_MARGIN,
             margin: FLASK_MARGIN * scale.support(),
         }

@@ -336,6 +336,7 @@ impl Vessel {
                 stage_from_flask: self.pose(0.0),
                 fixed: true,
                 contact_angle: GLASS,
+                heater: 0.0,
             }],
             liquids: feeds
                 .iter()

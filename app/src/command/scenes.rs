@@ -74,28 +74,13 @@ struct Costs {
     scenes: Vec<SceneCost>,
 }
 
-/// All that a scene may model.
-const FEATURES: [Feature; 11] = [
-    Feature::Heat,
-    Feature::Dilution,
-    Feature::Boiling,
-    Feature::Density,
-    Feature::Viscosity,
-    Feature::Evaporation,
-    Feature::Steam,
-    Feature::Losses,
-    Feature::Segregation,
-    Feature::Tension,
-    Feature::Vorticity,
-];
-
 fn cost(args: &ScenesArgs, format: Format) -> Result<(), Failure> {
     let gpu = device::timed(args.device.as_deref(), Timestamps::Passes)?;
     let scenes = Scene::builtin_names().into_iter().map(|name| {
         let scene = Scene::builtin(name).other()?.with_preset(args.preset);
         let (passes, bytes_per_particle) = anatomy(&gpu, &scene)?;
         let [mut models, mut left_out] = [Vec::new(), Vec::new()];
-        for feature in FEATURES {
+        for feature in Feature::ALL {
             let list = if scene.models(feature) {
                 &mut models
             } else {

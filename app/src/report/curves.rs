@@ -106,7 +106,6 @@ impl Report {
             ("given to the surroundings", |l| -l.exchanged_j),
             ("steam", |l| l.steam_j),
         ];
-        let kinetic: Term = ("paid for motion", |l| l.kinetic_j);
         let of = |(label, value): Term, factor: f64| {
             self.curve(label, &|s| {
                 ledger(s).map_or(f64::NAN, |l| factor * value(l))
@@ -117,7 +116,6 @@ impl Report {
             values.fold(0.0, |most: f64, value| most.max(value.abs()))
         };
         let energy = units::energy(terms.into_iter().map(most).fold(0.0, f64::max));
-        let motion = units::energy(most(kinetic));
         vec![
             Plotted {
                 title: "Enthalpy",
@@ -126,11 +124,6 @@ impl Report {
                     .into_iter()
                     .map(|term| of(term, energy.factor))
                     .collect(),
-            },
-            Plotted {
-                title: "Enthalpy that boiling paid for motion",
-                unit: motion.symbol,
-                curves: vec![of(kinetic, motion.factor)],
             },
             Plotted {
                 title: "Ledger: what does not add up",

@@ -1,7 +1,6 @@
-// Line 26 of the physical chemistry: acid and enthalpy between particles, heat
-// to what is around, boiling and condensing, and what boiling may spend on
-// motion. `chemistry/transport.rs` and `chemistry/physical.rs` are the same in f64.
-//!include common/chemistry/boiling.wgsl
+// Line 26 of the physical chemistry: acid and enthalpy between particles, heat to what is around, what bubbles and
+// drops took and gave, and without bubbles boiling and condensing. `chemistry/transport.rs` and `chemistry/physical.rs`
+// are the same in f64, but for bubbles.
 //!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
@@ -24,18 +23,14 @@
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/particle.wgsl
-//!include common/liquid/position.wgsl
 //!include common/liquid/step.wgsl
+//!include common/liquid/viscosity.wgsl
 //!include common/maths/decay.wgsl
 
 /// Time constant of boiling and condensing, s.
 override SUPERHEAT_TIME: f32 = 1.0;
-/// Speed of bubbles in the liquid, m/s; 0 where they stay with their particle.
-override BUBBLE_SPEED: f32 = 0.0;
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
-/// η: share of the vapour's work that becomes motion, times R/M (J/(kg K)).
-override AGITATION: f32 = 0.0;
 /// Heat transfer of drops through what they lie on, and at the surface, over ρ0, W m/(kg K).
 override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
@@ -53,8 +48,6 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 @group(0) @binding(7) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> mixing: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> ledger: array<vec4<f32>>;
-/// By identity: e_i of the substep before, J/kg.
-@group(0) @binding(10) var<storage, read> agitation: array<f32>;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
 @group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
 /// By flask and ring: T (°C), and quanta of heat that the liquid took in this frame.
@@ -90,23 +83,6 @@ fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, k
         (eddies + ACID_DIFFUSIVITY) * swapped.x, eddies * swapped.x, THERMAL_DIFFUSIVITY * swapped.y - brought);
 }
 
-/// Share of a particle's vapour that rises out of it in a substep, where there is liquid all
-/// around.
-fn rising() -> f32 {
-    return decayed(step.time * BUBBLE_SPEED / SPACING);
-}
-
-/// What of it goes to a neighbour `up` (share of the distance that is upwards): by the kernel, over
-/// the same for a full neighbourhood, of whose weight W(0) is the particle's own and a quarter of
-/// the rest counts as above.
-fn towards(up: f32, weight: f32) -> f32 {
-    let full = 0.25 * (1.0 - weight_scale() * spline(0.0));
-    return max(up, 0.0) * weight * weight_scale() / full;
-}
-
-/// Where fewer neighbours than this are above, over a full neighbourhood's, vapour leaves.
-const COVERED: f32 = 0.7;
-
 /// What a particle receives from its neighbours, and where they are.
 struct Received {
     /// V0·ρ0.
@@ -115,11 +91,6 @@ struct Received {
     enthalpy: f32,
     /// Σ (c − c_i)² of what came less that of what went, V0·ρ0.
     variance: f32,
-    /// Vapour that came from below, V0·ρ0, and its enthalpy.
-    vapour: f32,
-    vapour_enthalpy: f32,
-    /// What covers this particle, over a full neighbourhood's upper half.
-    cover: f32,
     /// Σ V∇W: where there is liquid, and by its lack the surface.
     open: vec3<f32>,
 }
@@ -131,17 +102,15 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
     let stirred = unpack_eddies(eddies[i]);
     var variance = 0.0;
     let keeps = kept[i];
-    // Acid, enthalpy; vapour, its enthalpy, cover.
+    // Acid, enthalpy.
     var flux = vec2<f32>(0.0);
-    var bubbles = vec3<f32>(0.0);
     var open = vec3<f32>(0.0);
     let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
         let four = list[g * COUNT + i];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
-            let near = position[j];
-            let offset = x - near.xyz;
+            let offset = x - position[j].xyz;
             let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
             let per_distance = inverseSqrt(square);
             let q = square * per_distance * INVERSE_SUPPORT;
@@ -162,20 +131,12 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
                 if (DENSITY) { volume = unpack_bulk(bulk[j]).volume; }
                 open += offset * (volume * per_distance * spline_slope(q));
             }
-            if (BUBBLE_SPEED > 0.0) {
-                let up = offset.y * per_distance;
-                let kernel = spline(q);
-                let come = vapour_in(near) * towards(up, kernel) * whole;
-                bubbles += vec3<f32>(
-                    come, come * steam_enthalpy(other.temperature), towards(-up, kernel) * whole);
-            }
         }
     }
     flux = vec2<f32>(lane_sum(flux.x), lane_sum(flux.y));
     if (SEGREGATION) { variance = lane_sum(variance); }
-    if (BUBBLE_SPEED > 0.0) { bubbles = lane_sum3(bubbles) * vec3<f32>(rising(), rising(), 1.0); }
     if (LOSSES) { open = lane_sum3(open) * (weight_scale() / SUPPORT); }
-    return Received(flux.x, flux.y, variance, bubbles.x, bubbles.y, bubbles.z, open);
+    return Received(flux.x, flux.y, variance, open);
 }
 
 /// Area over d² that disorder makes of a particle inside, and what one at a surface has at least.
@@ -240,8 +201,6 @@ struct State {
     enthalpy: Compensated,
     /// s².
     variance: f32,
-    /// What may become motion, J/kg.
-    budget: f32,
 }
 
 /// Line 26: adds what neighbours and surroundings bring, and takes what evaporates.
@@ -338,29 +297,6 @@ fn take_from_drops(before: State, identity: u32) -> State {
     return state;
 }
 
-/// Line 26: bubbles rise to the particles above, and leave where there are none. Only there does
-/// their vapour push the liquid out of the air's way. `vapour` is what the particle holds of it; of
-/// one whose list is not `whole`, what is above is not looked for.
-fn pass_vapour_on(before: State, own: Potential, vapour: f32, received: Received, whole: bool) -> State {
-    var state = before;
-    let specific = steam_enthalpy(own.temperature);
-    let passed = vapour * rising() * received.cover;
-    var gone = vapour * rising() * max(1.0 - received.cover / COVERED, 0.0);
-    if (!whole) { gone = 0.0; }
-    let gained = received.vapour - passed - gone;
-    let mass = rounded(state.content.mass + gained);
-    // What the rounded mass became, and increments: where none rises, c and h keep their bits.
-    let change = mass - state.content.mass;
-    state.acid = compensated(state.acid, -state.acid.value * change / mass);
-    let carried = received.vapour_enthalpy - (passed + gone) * specific;
-    state.enthalpy = compensated(state.enthalpy, (carried - state.enthalpy.value * change) / mass);
-    state.account.steam += vec2<f32>(gone, gone * specific);
-    if (BOILING) { state.budget = AGITATION * (gone / state.content.mass) * (own.temperature - ABSOLUTE_ZERO); }
-    state.content.vapour = max((state.content.vapour * state.content.mass + gained) / mass, 0.0);
-    state.content.mass = mass;
-    return state;
-}
-
 /// Line 26: a particle's vapour and variance after a substep of boiling or condensing.
 fn boiled(content: Content, variance: f32) -> Boiled {
     let share = 1.0 - exp(-step.time / SUPERHEAT_TIME);
@@ -413,7 +349,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if (SPRAY) { state = take_from_drops(state, tag.y); }
         }
     }
-    if (BUBBLE_SPEED > 0.0) { state = pass_vapour_on(state, own, extent.vapour, received, listed < full); }
     var content = state.content;
     content.acid = clamp(state.acid.value, 0.0, 1.0);
     content.enthalpy = state.enthalpy.value;
@@ -431,11 +366,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     var mixed: Mixing;
-    if (BOILING) {
-        if (state.budget > 0.0) { mixed.growth = bounded_growth(state.budget, agitation[tag.y]); }
-        if (mixed.growth >= GROWTH_LIMIT) { atomicAdd(&counters.growth_limited, 1u); }
-    }
-    mixed.coefficient = select(coefficient_of(own, unpack_eddies(eddies[i])), 0.0, mixed.growth > 0.0);
+    mixed.coefficient = coefficient_of(own, unpack_eddies(eddies[i]));
     mixed.variance = state.variance;
     mixed.mass = content.mass;
     mixed.rests = pack_rests(Rests(

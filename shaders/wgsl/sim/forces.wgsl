@@ -2,19 +2,16 @@
 // lines 22 to 25 left, so that one pass over the neighbours serves them:
 //
 // 26: heat of solution (Eqs 6 to 8 and 11 to 13), which needs what the neighbours became in line 26's own
-//     pass; of the physical chemistry, what boiling costs.
-// 27: XSPH viscosity (Eq. 16) as a velocity update, between particles and with walls, and anti-viscosity.
+//     pass.
+// 27: XSPH viscosity (Eq. 16) as a velocity update, between particles and with walls, and the paper's anti-viscosity.
 // 28: internal forces. Then line 24 once more, since they may pass v_max.
 // 16: within a frame, the next substep's prediction, which saves a pass.
 //!include common/chemistry/boils.wgsl
 //!include common/chemistry/bulk.wgsl
-//!include common/chemistry/compensated.wgsl
-//!include common/chemistry/ledger.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/pair_share.wgsl
 //!include common/chemistry/plunging.wgsl
 //!include common/chemistry/potential.wgsl
-//!include common/chemistry/rests.wgsl
 //!include common/glass/contact.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
@@ -55,10 +52,7 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 @group(0) @binding(7) var<storage, read> diffused: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read> mixing: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> heat: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> matter: array<vec4<f32>>;
-@group(0) @binding(11) var<storage, read_write> ledger: array<vec4<f32>>;
-/// By identity: ½ Σ w|v_ij|², J/kg.
-@group(0) @binding(12) var<storage, read_write> agitation: array<f32>;
+@group(0) @binding(10) var<storage, read> matter: array<vec4<f32>>;
 @group(0) @binding(13) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> counters: Counters;
 @group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
@@ -76,9 +70,8 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 struct Sums {
     /// Line 26: heat of solution, J/kg.
     warmed: f32,
-    /// Line 27: Σ w (v_j − v_i), m/s, and the same with boiling's share.
+    /// Line 27: Σ w (v_j − v_i), m/s.
     drag: vec3<f32>,
-    push: vec3<f32>,
     /// Line 27 of the next substep: Σ w |v_j − v_i|², J/kg.
     agitation: f32,
     /// Line 28: ∇|ω|.
@@ -108,13 +101,8 @@ fn xsph_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
     var share = weight;
     if (BOILING || PHYSICAL) { share *= 0.5 * (own.coefficient + other.coefficient); }
     // Of a pair that is not whole, drag only ever slows down, whoever else knows of it.
-    if (BOILING && !PHYSICAL) { share = select(max(share, 0.0), share, whole > 0.0); }
+    if (BOILING) { share = select(max(share, 0.0), share, whole > 0.0); }
     return share;
-}
-
-/// Line 27, of the physical chemistry: the share of its relative velocity that boiling adds to a pair.
-fn anti_viscosity(own: Mixing, other: Mixing, weight: f32, whole: f32) -> f32 {
-    return whole * weight * (0.5 * (own.growth + other.growth));
 }
 
 /// Line 27: what walls drag, which slow down only.
@@ -149,7 +137,6 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
                 let weight = pair_weight(own, other, q);
                 sums.drag += relative * xsph_viscosity(own, other, weight, whole);
                 if (BOILING) { sums.agitation += weight * dot(relative, relative); }
-                if (BOILING && PHYSICAL) { sums.push -= relative * anti_viscosity(own, other, weight, whole); }
             }
             // A list is filled up with the particle itself.
             if (AIR) { sums.filled += select(spline(q), 0.0, j == i); }
@@ -160,7 +147,6 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
         }
     }
     if (DRAGS) { sums.drag = lane_sum3(sums.drag) * weight_scale(); }
-    if (PHYSICAL && BOILING) { sums.push = lane_sum3(sums.push) * weight_scale(); }
     if (BOILING) { sums.agitation = lane_sum(sums.agitation) * weight_scale(); }
     if (DILUTION) { sums.warmed = lane_sum(sums.warmed); }
     if (AIR) { sums.filled = (lane_sum(sums.filled) + spline(0.0)) * weight_scale(); }
@@ -175,30 +161,16 @@ fn warm(i: u32, own: Mixing, sums: Sums) {
     heat[i] = pack_paper_heat(PaperHeat(temperature, acid, 0.5 * sums.agitation, own.acid_lacking));
 }
 
-/// Line 26's end, of the physical chemistry: kinetic energy is paid for, and the state follows from what the
-/// particle now holds. Its volume over V0.
+/// Line 26's end, of the physical chemistry: the state follows from what the particle now holds. Its volume over V0.
 fn renew(i: u32, tag: vec2<u32>, v: vec3<f32>, own: Mixing, sums: Sums) -> f32 {
     let identity = tag.y;
-    var content = unpack_content(matter[i]);
-    var rests = own.rests;
-    if (BOILING) {
-        // What the impulses gave in kinetic energy is taken from the enthalpy: over a
-        // pair, and so over the liquid, it is what they added.
-        let paid = dot(sums.push, v) + 0.5 * dot(sums.push, sums.push);
-        let lacking = unpack_rests(rests);
-        let enthalpy = compensated(Compensated(content.enthalpy, lacking.enthalpy), -paid);
-        content.enthalpy = enthalpy.value;
-        rests = pack_rests(Rests(lacking.acid, enthalpy.lacking));
-        matter[i] = pack_content(content);
-        ledger[identity][KINETIC] += content.mass * paid;
-        agitation[identity] = 0.5 * sums.agitation;
-    }
+    let content = unpack_content(matter[i]);
     let potential = potential_of(content, own.variance);
     if (SEGREGATION) {
         eddies[i] = pack_eddies(Eddies(unpack_eddies(eddies[i]).diffusivity, own.variance));
     }
     heat[i] = pack_potential(potential);
-    var extent = Bulk(1.0, 1.0, content.mass * content.vapour, rests);
+    var extent = Bulk(1.0, 1.0, content.mass * content.vapour, own.rests);
     if (DENSITY) {
         let density = density_of(potential.acid, potential.temperature) / REST_DENSITY;
         extent.volume = content.mass * (1.0 - content.vapour) / density;
@@ -301,7 +273,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
     var v = before.xyz;
     if (DRAGS) { v += step.viscosity * drag; } // 27
-    if (PHYSICAL && BOILING) { v += sums.push; } // 27
     if (CONFINEMENT > 0.0) { v += step.time * confinement(sums.eta, omega); } // 28
     v = clamp_speed(v); // 24
     velocity[i] = pack_velocity(v, carried_by(before));

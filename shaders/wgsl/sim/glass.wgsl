@@ -21,7 +21,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     temperatures[k] = own.x;
     workgroupBarrier();
     let ring = glass_rings[id.x];
-    var power = ring.to_air * (AMBIENT - own.x);
+    var power = ring.to_air * (AMBIENT - own.x) + ring.heated;
     if (k + 1u < GLASS_RINGS) { power += ring.upwards * (temperatures[k + 1u] - own.x); }
     if (k > 0u) { power += glass_rings[id.x - 1u].upwards * (temperatures[k - 1u] - own.x); }
     let given = -f32(atomicExchange(&glass_taken[id.x], 0)) * ring.quantum;

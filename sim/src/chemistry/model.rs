@@ -57,14 +57,10 @@ pub struct Physical {
     pub density: bool,
     /// Whether viscosity follows them.
     pub viscosity: bool,
-    /// Time constant of boiling and condensing, s, where water evaporates.
+    /// Time constant of boiling and condensing, s, where water evaporates and particles hold their vapour.
     pub superheat_time: Option<f64>,
     /// Bubbles that have volume, in place of vapour that particles hold.
     pub bubbles: Option<Bubbles>,
-    /// Speed of bubbles in the liquid, m/s, where they leave it as steam.
-    pub bubble_speed: Option<f64>,
-    /// η, where boiling moves the liquid.
-    pub work_share: Option<f64>,
     /// δ: thickness of lamellae that no eddy engulfs any more, m, where
     /// liquid stays unmixed below a particle's size.
     pub lamella: Option<f64>,
@@ -76,11 +72,6 @@ impl Physical {
     /// Whether water evaporates.
     pub fn evaporates(&self) -> bool {
         self.superheat_time.is_some() || self.bubbles.is_some()
-    }
-
-    /// Whether steam leaves the liquid.
-    pub fn steams(&self) -> bool {
-        self.bubble_speed.is_some() || self.bubbles.is_some()
     }
 }
 
@@ -152,8 +143,6 @@ fn of_physical(scene: &Scene, physical: &PhysicalChemistry) -> Option<Physical> 
         density: scene.models(Feature::Density),
         viscosity: scene.models(Feature::Viscosity),
         superheat_time: where_modelled(Feature::Evaporation, physical.superheat_time),
-        bubble_speed: where_modelled(Feature::Steam, physical.bubble_speed),
-        work_share: where_modelled(Feature::Boiling, physical.agitation),
         lamella: where_modelled(Feature::Segregation, physical.lamella),
         losses: losses().filter(|_| scene.models(Feature::Losses)),
     })

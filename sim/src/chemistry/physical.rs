@@ -1,6 +1,5 @@
-//! The physical chemistry's state, its boiling and what boiling pays for.
+//! The physical chemistry's state, and the equilibrium towards which it boils.
 
-use super::constants::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
 use super::error::{OutOfRange, check_content};
 use super::properties::AZEOTROPE;
 use super::segregation::{Lamellae, without_water};
@@ -22,7 +21,7 @@ const SECANT_FROM: f64 = 1e-5;
 const FLATTEST: f64 = 300.0;
 const STEEPEST: f64 = 2e4;
 
-/// What a particle holds: liquid, and vapour in bubbles that have not left.
+/// What a particle holds: liquid, and without bubbles its vapour too.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Content {
     /// Mass of both, kg.
@@ -196,26 +195,8 @@ impl Content {
         self.vapour *= self.mass / mass;
         self.mass = mass;
     }
-
-    /// Vapour that comes; what leaves is negative. No more can leave than is
-    /// there; beyond that it is water that goes.
-    pub fn take_up(&mut self, steam: &Steam) {
-        let mass = self.mass + steam.mass;
-        let vapour = self.mass * self.vapour + steam.mass;
-        self.acid *= self.mass / mass;
-        self.enthalpy = (self.mass * self.enthalpy + steam.enthalpy) / mass;
-        self.vapour = (vapour / mass).max(0.0);
-        self.mass = mass;
-    }
 }
 
 fn liquid_acid(acid: f64, vapour: f64) -> f64 {
     (acid / (1.0 - vapour)).min(1.0)
-}
-
-/// What evaporation of the mass fraction `evaporated` at `temperature` (°C)
-/// may spend on motion, J/kg: η·x·R·T/M.
-pub fn motion_budget(share: f64, evaporated: f64, temperature: f64) -> f64 {
-    let kelvin = temperature - ABSOLUTE_ZERO;
-    share * evaporated.max(0.0) * GAS_CONSTANT * kelvin / WATER_MOLAR_MASS
 }

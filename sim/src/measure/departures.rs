@@ -100,6 +100,7 @@ mod tests {
             stage_from_flask: Pose::IDENTITY,
             fixed: true,
             contact_angle: GLASS,
+            heater: 0.0,
         };
         let poses = [flask.stage_from_flask];
         let mut departures = Departures::default();

@@ -80,16 +80,14 @@ pub struct Ledger {
     pub mist: f64,
     /// Enthalpy that it took along, J.
     pub steam_enthalpy: f64,
-    /// Enthalpy that was paid for motion, J.
-    pub kinetic: f64,
     /// Σ m|h|, J: what an error is compared with.
     pub turnover: f64,
 }
 
 impl Ledger {
-    /// held + steam + kinetic − exchanged, J: what does not change.
+    /// held + steam − exchanged, J: what does not change.
     pub fn balance(&self) -> f64 {
-        self.held + self.steam_enthalpy + self.kinetic - self.exchanged
+        self.held + self.steam_enthalpy - self.exchanged
     }
 
     /// What the balance is off from that of `start`, over the enthalpy that
@@ -243,8 +241,7 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
     }
     // Also of particles that were taken out: what they spent is spent.
     for &entry in &state.ledger {
-        let [kinetic, exchanged, steam, steam_enthalpy] = entry.map(f64::from);
-        sum.kinetic += kinetic;
+        let [exchanged, steam, steam_enthalpy, _] = entry.map(f64::from);
         sum.exchanged += exchanged;
         sum.steam += steam;
         sum.steam_enthalpy += steam_enthalpy;
@@ -279,7 +276,6 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         steam: m * sum.steam,
         mist: state.mist(),
         steam_enthalpy: m * sum.steam_enthalpy,
-        kinetic: m * sum.kinetic,
         turnover: m * sum.turnover,
     })
 }

@@ -11,10 +11,6 @@ use glam::DVec3;
 pub struct Stirred {
     /// The velocities after it, m/s.
     pub velocities: Vec<DVec3>,
-    /// Specific kinetic energy that the particle's own share of the
-    /// anti-viscous impulses gave it, J/kg. Times the masses these sum to
-    /// what the impulses add to the kinetic energy, exactly.
-    pub injected: Vec<f64>,
     /// e_i = ½Σ_j w_ij·|v_i − v_j|² of the old velocities, J/kg: the next
     /// substep's.
     pub agitation: Vec<f64>,
@@ -33,7 +29,6 @@ impl Reference {
         let (positions, velocities) = (&self.positions, &self.velocities);
         let mut stirred = Stirred {
             velocities: Vec::with_capacity(velocities.len()),
-            injected: Vec::with_capacity(velocities.len()),
             agitation: Vec::with_capacity(velocities.len()),
         };
         for (i, &velocity) in velocities.iter().enumerate() {
@@ -53,8 +48,6 @@ impl Reference {
                 damping += (wall - velocity) * (contact.volume * of.viscosity[i]);
             });
             stirred.velocities.push(velocity + damping + driving);
-            let injected = driving.dot(velocity) + 0.5 * driving.length_squared();
-            stirred.injected.push(injected);
             stirred.agitation.push(agitation);
         }
         stirred

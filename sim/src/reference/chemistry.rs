@@ -1,19 +1,18 @@
 //! What a scene's chemistry keeps per particle, and its part of a substep.
 
-use super::bubbles::{self, Rise};
 use super::dilution::{self, Pairs, Weight};
 use super::glass::{Glass, Touch};
 use super::surroundings::WallSum;
 use crate::chemistry::eddies::SCHMIDT;
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
-use crate::chemistry::physical::{Content, Steam, motion_budget};
+use crate::chemistry::physical::{Content, Steam};
 use crate::chemistry::segregation::{MIXED, decay_rate};
 use crate::chemistry::table::SolutionTable;
 use crate::chemistry::transport::{
     Diffusivities, Flux, Potential, flux, heat_from, kept, turnover,
 };
-use crate::chemistry::{OutOfRange, Physical as Law, check_content, paper};
+use crate::chemistry::{OutOfRange, Physical as Law, check_content};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 
 /// What line 27 needs to know of each particle.
@@ -58,8 +57,6 @@ impl Chemistry {
             }
             Self::Physical(physical) => {
                 retain(&mut physical.contents, keep);
-                retain(&mut physical.agitation, keep);
-                retain(&mut physical.budgets, keep);
                 retain(&mut physical.viscosities, keep);
                 retain(&mut physical.eddies, keep);
             }
@@ -174,8 +171,6 @@ pub struct Ledger {
     pub exchanged: f64,
     /// Steam that has left, and its enthalpy.
     pub steam: Steam,
-    /// Enthalpy that became motion.
-    pub kinetic: f64,
 }
 
 /// The physical chemistry.
@@ -187,10 +182,6 @@ pub struct Physical {
     pub table: SolutionTable,
     /// What each particle holds.
     pub contents: Vec<Content>,
-    /// e_i of the substep before, J/kg.
-    pub agitation: Vec<f64>,
-    /// What may become motion in this substep, J/kg.
-    pub budgets: Vec<f64>,
     /// ν at the substep's start, m²/s; 0 where it does not follow composition.
     pub viscosities: Vec<f64>,
     /// K of the eddies that the flow of the frame before leaves unresolved, m²/s.
@@ -219,8 +210,6 @@ impl Physical {
             .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             law,
-            agitation: vec![0.0; contents.len()],
-            budgets: vec![0.0; contents.len()],
             viscosities: vec![0.0; contents.len()],
             eddies: vec![0.0; contents.len()],
             contents,
@@ -230,8 +219,7 @@ impl Physical {
         })
     }
 
-    /// Line 26: acid and enthalpy between particles, heat to what is around,
-    /// bubbles that rise, boiling.
+    /// Line 26: acid and enthalpy between particles, heat to what is around, boiling.
     pub fn dilute(&mut self, pairs: &Pairs, parameters: &Parameters, touches: &[Touch]) {
         let time = parameters.substep_time();
         let potentials: Vec<_> = self
@@ -252,10 +240,6 @@ impl Physical {
             let kept = kept(turnovers[i], turnovers[j]);
             flux(pairs.exchange, &between(i, j), distance, own, other, kept)
         });
-        let rises = match self.law.bubble_speed {
-            None => vec![Rise::default(); self.contents.len()],
-            Some(speed) => bubbles::rise(parameters, speed, pairs, &self.contents, &potentials),
-        };
         let evaporates = self
             .law
             .losses
@@ -275,20 +259,12 @@ impl Physical {
                 self.ledger.steam.mass += gone.mass;
                 self.ledger.steam.enthalpy += gone.enthalpy;
             }
-            let Rise { gained, gone } = rises[i];
-            // Only where bubbles leave does their vapour push the liquid out of
-            // the air's way.
-            let share = self.law.work_share.unwrap_or(0.0);
-            let temperature = potentials[i].temperature;
-            self.budgets[i] = motion_budget(share, gone.mass / content.mass, temperature);
-            content.take_up(&gained);
-            self.ledger.steam.mass += gone.mass;
-            self.ledger.steam.enthalpy += gone.enthalpy;
             if let Some(settling) = self.law.superheat_time {
                 content.boil(&self.table, time, settling);
             }
             if self.law.viscosity {
                 let row = self.table.at(potentials[i].acid);
+                let temperature = potentials[i].temperature;
                 self.viscosities[i] = row.viscosity_at(temperature) / row.density_at(temperature);
             }
         }
@@ -342,39 +318,20 @@ impl Physical {
         self.contents.iter().map(of).unzip()
     }
 
-    /// μ_i and α_i of line 27: the budget over the agitation, bounded; the
-    /// scene's viscosity and the liquid's one after the other.
+    /// μ_i of line 27: the scene's viscosity and the liquid's one after the other. Nothing grows.
     pub fn coefficients(&self, parameters: &Parameters) -> Coefficients {
         let usual = parameters.substep_viscosity();
         let per_area =
             parameters.substep_time() / (XSPH_MOMENT * parameters.support_radius.powi(2));
-        let growth: Vec<_> = self
-            .budgets
-            .iter()
-            .zip(&self.agitation)
-            .map(|(&budget, &agitation)| paper::bounded_growth(budget, agitation))
-            .collect();
-        let liquid = self.viscosities.iter().zip(&self.eddies);
-        let viscosity = growth.iter().zip(liquid).map(|(&growth, (nu, eddies))| {
-            if growth > 0.0 {
-                0.0
-            } else {
-                let nu = nu + SCHMIDT * eddies;
-                1.0 - (1.0 - usual) * (-nu * per_area).exp()
-            }
+        let viscosity = self.viscosities.iter().zip(&self.eddies);
+        let viscosity = viscosity.map(|(nu, eddies)| {
+            let nu = nu + SCHMIDT * eddies;
+            1.0 - (1.0 - usual) * (-nu * per_area).exp()
         });
         Coefficients {
             viscosity: viscosity.collect(),
-            growth,
+            growth: vec![0.0; self.contents.len()],
             masses: self.contents.iter().map(|content| content.mass).collect(),
-        }
-    }
-
-    /// Takes what became motion (J/kg per particle) from the enthalpy.
-    pub fn pay(&mut self, injected: &[f64]) {
-        for (content, injected) in self.contents.iter_mut().zip(injected) {
-            content.enthalpy -= injected;
-            self.ledger.kinetic += content.mass * injected;
         }
     }
 

@@ -3,6 +3,7 @@
 use super::surroundings::Vessel;
 use crate::chemistry::glass::{Ring, advance, rings};
 use crate::chemistry::transport::Losses;
+use crate::parameters::Parameters;
 
 /// Where a particle touches glass or air.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,11 +27,17 @@ pub struct Glass {
 }
 
 impl Glass {
-    /// Glass of the temperature of the air.
-    pub(super) fn new(vessels: &[Vessel], losses: &Losses, frame_time: f64) -> Self {
+    /// Glass of the temperature of the air, over the plates of `parameters`.
+    pub(super) fn new(vessels: &[Vessel], losses: &Losses, parameters: &Parameters) -> Self {
+        let heaters = parameters
+            .heaters
+            .iter()
+            .copied()
+            .chain(std::iter::repeat(0.0));
         let rings: Vec<_> = vessels
             .iter()
-            .map(|vessel| rings(&vessel.profile, losses, frame_time))
+            .zip(heaters)
+            .map(|(vessel, heater)| rings(&vessel.profile, losses, heater, parameters.frame_time))
             .collect();
         let each = |value: f64| rings.iter().map(|rings| vec![value; rings.len()]).collect();
         Self {

@@ -9,7 +9,6 @@
 
 mod algorithm;
 pub mod boiling;
-pub mod bubbles;
 pub mod chemistry;
 pub mod density;
 pub mod dilution;
@@ -17,7 +16,6 @@ mod eddies;
 pub mod forces;
 pub mod glass;
 pub mod measure;
-
 mod motion;
 pub mod neighbours;
 pub mod placement;

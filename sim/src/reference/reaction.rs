@@ -53,7 +53,7 @@ impl Reference {
                 let touches: Vec<_> = walls.iter().zip(&slopes).enumerate().map(touch).collect();
                 if let (Some(losses), None) = (&physical.law.losses, &physical.glass) {
                     let vessels = &self.surroundings.vessels;
-                    let glass = Glass::new(vessels, losses, self.parameters.frame_time);
+                    let glass = Glass::new(vessels, losses, &self.parameters);
                     physical.glass = Some(glass);
                 }
                 physical.dilute(&pairs, &self.parameters, &touches);
@@ -89,12 +89,8 @@ impl Reference {
         };
         let stirred = self.stirred(neighbours, &coefficients);
         self.velocities = stirred.velocities;
-        match chemistry {
-            Chemistry::Paper(paper) => paper.agitation = stirred.agitation,
-            Chemistry::Physical(physical) => {
-                physical.pay(&stirred.injected);
-                physical.agitation = stirred.agitation;
-            }
+        if let Chemistry::Paper(paper) = chemistry {
+            paper.agitation = stirred.agitation;
         }
     }
 }

@@ -45,19 +45,14 @@ pub struct PhysicalChemistry {
     pub mixing: Option<f64>,
     /// Δ: width over which the flow is filtered for it, m; with `dilution`.
     pub eddy_width: Option<f64>,
-    /// Time in which a superheat decays by evaporation, s; with `evaporation`, without `bubbles`.
+    /// Time in which a superheat decays into vapour that particles hold, s; with `evaporation`, without `bubbles`.
     pub superheat_time: Option<f64>,
-    /// Speed at which bubbles rise through the liquid, m/s; with `steam`.
-    pub bubble_speed: Option<f64>,
     /// Edge of the cube of liquid that has one nucleus of bubbles, m; with `bubbles`.
     pub nuclei_spacing: Option<f64>,
     /// How long a bubble lasts at the surface, s; with `bubbles`.
     pub foam_time: Option<f64>,
     /// Most bubbles at a time; with `bubbles`.
     pub most_bubbles: Option<u32>,
-    /// η: the share of the work R·T/M of the water that evaporates which
-    /// becomes motion; with `boiling`.
-    pub agitation: Option<f64>,
     /// δ: thickness of the lamellae that eddies leave to molecules, m; with `segregation`.
     pub lamella: Option<f64>,
     /// Heat transfer from glass to air, W/(m²·K); with `losses`.
@@ -84,7 +79,6 @@ const PLACES: Must = (
     |value| (1.0..=65_536.0).contains(&value),
     "from 1 to 65,536",
 );
-const SPEED: Must = (|value| value > 0.0, "above zero (m/s)");
 
 impl PaperChemistry {
     pub(super) fn fields(&self) -> [Field; 6] {
@@ -101,16 +95,13 @@ impl PaperChemistry {
 }
 
 impl PhysicalChemistry {
-    pub(super) fn fields(&self, bubbles: bool) -> [Field; 12] {
-        use Feature::{Boiling, Bubbles, Dilution, Evaporation, Heat, Losses, Segregation, Steam};
+    pub(super) fn fields(&self, bubbles: bool) -> Vec<Field> {
+        use Feature::{Bubbles, Dilution, Evaporation, Heat, Losses, Segregation};
         let p = self;
-        // Where there are bubbles, they are the rate at which a superheat decays.
-        let settles = if bubbles { Steam } else { Evaporation };
-        [
+        let mut fields = vec![
             ("ambient", Heat, p.ambient, TEMPERATURE),
             ("mixing", Dilution, p.mixing, NOT_NEGATIVE),
             ("eddy_width", Dilution, p.eddy_width, LENGTH),
-            ("superheat_time", settles, p.superheat_time, DURATION),
             ("nuclei_spacing", Bubbles, p.nuclei_spacing, LENGTH),
             ("foam_time", Bubbles, p.foam_time, DURATION),
             (
@@ -119,12 +110,15 @@ impl PhysicalChemistry {
                 p.most_bubbles.map(f64::from),
                 PLACES,
             ),
-            ("bubble_speed", Steam, p.bubble_speed, SPEED),
-            ("agitation", Boiling, p.agitation, NOT_NEGATIVE),
             ("lamella", Segregation, p.lamella, LENGTH),
             ("glass_loss", Losses, p.glass_loss, NOT_NEGATIVE),
             ("surface_loss", Losses, p.surface_loss, NOT_NEGATIVE),
-        ]
+        ];
+        // Bubbles themselves are how a superheat decays.
+        if !bubbles {
+            fields.push(("superheat_time", Evaporation, p.superheat_time, DURATION));
+        }
+        fields
     }
 }
 
@@ -162,10 +156,10 @@ pub(super) fn check_features(
     }
     let solver = solver.fields().map(|field| ("solver", field));
     let of_paper = paper.map(|paper| paper.fields().map(|field| ("paper", field)));
+    let bubbles = model.contains(&Feature::Bubbles);
     let of_physical = physical.map(|physical| {
-        physical
-            .fields(model.contains(&Feature::Bubbles))
-            .map(|field| ("physical", field))
+        let fields = physical.fields(bubbles).into_iter();
+        fields.map(|field| ("physical", field))
     });
     let fields = solver
         .into_iter()
@@ -192,6 +186,10 @@ pub(super) fn check_features(
         let problem = "not used; name \"boiling\" in `model` or leave it out".to_owned();
         return Err(Problem::new("paper.literal_boiling", problem));
     }
+    if bubbles && physical.is_some_and(|physical| physical.superheat_time.is_some()) {
+        let problem = "not used; bubbles are how a superheat decays, leave it out".to_owned();
+        return Err(Problem::new("physical.superheat_time", problem));
+    }
     check_needs(model, physical.is_some())
 }
 
@@ -209,9 +207,6 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
     if physical {
         needs.extend([
             (Feature::Heat, Feature::Dilution),
-            // Only vapour that leaves does work that can become motion.
-            (Feature::Boiling, Feature::Steam),
-            (Feature::Steam, Feature::Evaporation),
             (Feature::Bubbles, Feature::Evaporation),
             // They swell the liquid as a change of its density does.
             (Feature::Bubbles, Feature::Density),
@@ -247,15 +242,14 @@ fn check_needs(model: &[Feature], physical: bool) -> Result<(), Problem> {
             return Err(Problem::new("model", problem));
         }
     }
-    if model.contains(&Feature::Bubbles) && model.contains(&Feature::Steam) {
-        let problem = "\"bubbles\" and \"steam\" are two models of the same vapour; keep one";
+    if physical && model.contains(&Feature::Boiling) {
+        let problem = "\"boiling\" is the paper's; [physical] boils by \"bubbles\"";
         return Err(Problem::new("model", problem.to_owned()));
     }
     let beyond_paper = [
         Feature::Density,
         Feature::Viscosity,
         Feature::Evaporation,
-        Feature::Steam,
         Feature::Bubbles,
         Feature::Spray,
         Feature::Air,

@@ -33,6 +33,8 @@ pub struct Flask {
     pub fixed: bool,
     /// Angle between the liquid's surface and its glass, measured in the liquid, radians.
     pub contact_angle: f64,
+    /// Heat that a plate under it gives its base, W; 0 without one.
+    pub heater: f64,
 }
 
 /// A liquid in a flask at the start.

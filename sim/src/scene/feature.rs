@@ -11,7 +11,7 @@ pub enum Feature {
     Heat,
     /// Acid fraction, its diffusion and the heat of solution.
     Dilution,
-    /// Anti-viscosity above the boiling point.
+    /// The paper's anti-viscosity above the boiling point.
     Boiling,
     /// Surface tension, and what glass and table are wetted by.
     Tension,
@@ -21,11 +21,9 @@ pub enum Feature {
     Density,
     /// Viscosity by composition and temperature.
     Viscosity,
-    /// Water that evaporates above the boiling point of the composition.
+    /// Water that boils above the boiling point of the composition, and evaporates at the surface below it.
     Evaporation,
-    /// Vapour that leaves the liquid, rises and condenses.
-    Steam,
-    /// Vapour in bubbles that have volume, in place of `Steam`.
+    /// Vapour in bubbles that have volume, rise and leave; without them particles hold it.
     Bubbles,
     /// Drops that bubbles throw up when they burst.
     Spray,
@@ -38,6 +36,23 @@ pub enum Feature {
 }
 
 impl Feature {
+    /// All of them.
+    pub const ALL: [Self; 13] = [
+        Self::Heat,
+        Self::Dilution,
+        Self::Boiling,
+        Self::Tension,
+        Self::Vorticity,
+        Self::Density,
+        Self::Viscosity,
+        Self::Evaporation,
+        Self::Bubbles,
+        Self::Spray,
+        Self::Air,
+        Self::Segregation,
+        Self::Losses,
+    ];
+
     /// The name as scenes have it.
     pub fn name(self) -> String {
         format!("{self:?}").to_lowercase()

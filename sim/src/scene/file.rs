@@ -17,6 +17,9 @@ use glam::{DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
+/// Most heat of a plate, W: more than a laboratory's.
+const MOST_HEAT: f64 = 5000.0;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneFile {
@@ -62,6 +65,8 @@ pub(super) struct FlaskEntry {
     fixed: bool,
     /// Contact angle of its glass, degrees.
     contact_angle: Option<f64>,
+    /// Heat that a plate under it gives its base, W; with `losses`, which model the glass.
+    heater: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -78,7 +83,8 @@ pub(super) struct LiquidEntry {
 }
 
 impl FlaskEntry {
-    pub fn build(self, index: usize, scale: &Scale) -> Result<Flask, Problem> {
+    /// `models_losses` says whether the scene models the heat of its glass.
+    pub fn build(self, index: usize, scale: &Scale, models_losses: bool) -> Result<Flask, Problem> {
         let field = |name: &str| format!("flask[{index}].{name}");
         if self.name.is_empty() {
             return Err(Problem::new(field("name"), "empty; give the flask a name"));
@@ -115,6 +121,13 @@ impl FlaskEntry {
             .unwrap_or(surface_tension::GLASS.to_degrees());
         let must = "from 0 to 180 (degrees)";
         within(&field("contact_angle"), angle, 0.0..=180.0, must)?;
+        let heater = self.heater.unwrap_or(0.0);
+        let must = "from 0 to 5000 (W)";
+        within(&field("heater"), heater, 0.0..=MOST_HEAT, must)?;
+        if heater > 0.0 && !models_losses {
+            let problem = "heats glass that is not modelled; name \"losses\" in `model`";
+            return Err(Problem::new(field("heater"), problem));
+        }
         let [yaw, pitch, roll] = self.rotation.map(f64::to_radians);
         let orientation = DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll);
         let flask = Flask {
@@ -127,6 +140,7 @@ impl FlaskEntry {
             ),
             fixed: self.fixed,
             contact_angle: angle.to_radians(),
+            heater,
         };
         Flask::check_sizes(std::slice::from_ref(&flask), scale)?;
         Ok(flask)

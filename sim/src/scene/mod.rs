@@ -213,10 +213,8 @@ impl Scene {
             fields::check_fields("paper", &paper.fields())?;
         }
         if let Some(physical) = &raw.physical {
-            fields::check_fields(
-                "physical",
-                &physical.fields(raw.model.contains(&Feature::Bubbles)),
-            )?;
+            let bubbles = raw.model.contains(&Feature::Bubbles);
+            fields::check_fields("physical", &physical.fields(bubbles))?;
         }
         chemistry::check_features(
             &raw.model,
@@ -242,9 +240,10 @@ impl Scene {
         }
         let origin = DVec3::from_array(raw.origin);
         let scale = raw.scale;
+        let models_losses = raw.model.contains(&Feature::Losses);
         let flasks = (0..)
             .zip(raw.flask)
-            .map(|(index, entry)| entry.build(index, &scale))
+            .map(|(index, entry)| entry.build(index, &scale, models_losses))
             .collect::<Result<Vec<_>, _>>()?;
         check_flasks(&flasks)?;
         let hottest = if raw.physical.is_some() {

@@ -17,7 +17,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 45;
+pub(super) const OF_PARTICLES: usize = 44;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
@@ -66,11 +66,10 @@ pub(super) struct Buffers {
     pub(super) mixing: Buffer,
     pub(super) sorted_heat: Buffer,
     /// The physical chemistry's: what particles hold, and by identity what
-    /// they took and gave, and the agitation around them.
+    /// they took and gave.
     pub(super) matter: Buffer,
     pub(super) sorted_matter: Buffer,
     pub(super) ledger: Buffer,
-    pub(super) agitation: Buffer,
     /// Volume, density and vapour.
     pub(super) bulk: Buffer,
     pub(super) sorted_bulk: Buffer,
@@ -193,7 +192,6 @@ impl Buffers {
             matter: words("matter", 4 * held)?,
             sorted_matter: words("sorted_matter", 4 * held)?,
             ledger: words("ledger", 4 * held)?,
-            agitation: words("agitation", held)?,
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
             eddies: words("eddies", 2 * held)?,
@@ -263,7 +261,6 @@ impl Buffers {
             &self.matter,
             &self.sorted_matter,
             &self.ledger,
-            &self.agitation,
             &self.bulk,
             &self.sorted_bulk,
             &self.eddies,

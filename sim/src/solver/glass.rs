@@ -25,12 +25,14 @@ pub(super) fn constants(spec: &SolverSpec<'_>) -> Vec<GlassRing> {
     let Some(losses) = losses(p.chemistry.as_ref()) else {
         return Vec::new();
     };
-    let all = spec.flasks.iter();
-    all.flat_map(|profile| rings(profile, losses, p.frame_time))
+    let heaters = p.heaters.iter().copied().chain(std::iter::repeat(0.0));
+    let all = spec.flasks.iter().zip(heaters);
+    all.flat_map(|(profile, heater)| rings(profile, losses, heater, p.frame_time))
         .map(|ring| GlassRing {
             capacity: ring.capacity as f32,
             to_air: ring.to_air as f32,
             upwards: ring.upwards as f32,
+            heated: ring.heated as f32,
             to_liquid: (ring.to_liquid / p.rest_density) as f32,
             quantum: ring.quantum as f32,
             quantum_per_mass: (ring.quantum / p.particle_mass()) as f32,

@@ -10,10 +10,7 @@ use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
 use crate::chemistry::thomsen::JOULES_PER_CALORIE;
-use crate::chemistry::{
-    ACID_DIFFUSIVITY, Chemistry, GAS_CONSTANT, Paper, Physical, THERMAL_DIFFUSIVITY,
-    WATER_MOLAR_MASS,
-};
+use crate::chemistry::{ACID_DIFFUSIVITY, Chemistry, Paper, Physical, THERMAL_DIFFUSIVITY};
 use crate::parameters::Parameters;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
@@ -294,13 +291,6 @@ fn of_physical(physical: &Physical, p: &Parameters) -> Vec<(&'static str, f64)> 
             ("FOAM_TIME", bubbles.foam_time),
             ("GRAVITY", glam::DVec3::from(p.gravity).length()),
         ]);
-    }
-    if let Some(speed) = physical.bubble_speed {
-        own.push(("BUBBLE_SPEED", speed));
-    }
-    if let Some(share) = physical.work_share {
-        let per_kelvin = share * GAS_CONSTANT / WATER_MOLAR_MASS;
-        own.extend([("BOILING", 1.0), ("AGITATION", per_kelvin)]);
     }
     if let Some(lamella) = physical.lamella {
         own.extend([("SEGREGATION", 1.0), ("LAMELLA", lamella)]);

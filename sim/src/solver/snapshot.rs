@@ -26,7 +26,6 @@ impl Solver {
             heat: read(gpu, &b.heat, heat)?,
             matter: read(gpu, &b.matter, matter)?,
             ledger: read(gpu, &b.ledger, matter)?,
-            agitation: read(gpu, &b.agitation, matter)?,
             bulk: read(gpu, &b.bulk, matter)?,
             eddies: read(gpu, &b.eddies, matter)?,
             glass: read(gpu, &b.glass, self.rings())?,
@@ -63,7 +62,6 @@ impl Solver {
             ("heat", state.heat.len(), heat),
             ("contents", state.matter.len(), matter),
             ("ledger", state.ledger.len(), matter),
-            ("agitation", state.agitation.len(), matter),
             ("bulk", state.bulk.len(), matter),
             ("held lines", state.held.len(), self.sticking()),
             ("list origins", state.list_origin.len(), n),
@@ -115,7 +113,6 @@ impl Solver {
         write(gpu, &b.heat, &state.heat)?;
         write(gpu, &b.matter, &state.matter)?;
         write(gpu, &b.ledger, &state.ledger)?;
-        write(gpu, &b.agitation, &state.agitation)?;
         write(gpu, &b.bulk, &state.bulk)?;
         write(gpu, &b.eddies, &state.eddies)?;
         write(gpu, &b.glass, &state.glass)?;

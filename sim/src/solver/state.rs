@@ -40,12 +40,9 @@ pub struct SolverState {
     /// fraction, mass over that of a particle at rest density) of what a
     /// particle holds, by slot.
     pub matter: Vec<[f32; 4]>,
-    /// Likewise, by identity: (kinetic energy that was paid for, J; heat
-    /// gained from around, J; steam that left, kg, and its enthalpy, J), each
+    /// Likewise, by identity: (heat gained from around, J; steam that left, kg, and its enthalpy, J; unused), each
     /// per kg of a particle at rest density.
     pub ledger: Vec<[f32; 4]>,
-    /// ½ Σ w|v_ij|² of the last substep, J/kg, by identity.
-    pub(super) agitation: Vec<f32>,
     /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
     pub(super) bulk: Vec<[f32; 4]>,
     /// (K in m²/s of the eddies, variance of the acid fraction within the liquid) of each particle, by slot.
@@ -88,7 +85,6 @@ impl SolverState {
             heat: Vec::new(),
             matter: Vec::new(),
             ledger: Vec::new(),
-            agitation: Vec::new(),
             bulk: Vec::new(),
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
@@ -119,7 +115,6 @@ impl SolverState {
                 }
                 state.ledger = vec![[0.0; 4]; n];
                 state.eddies = vec![[0.0; 2]; n];
-                state.agitation = vec![0.0; n];
             }
         }
         state

@@ -148,7 +148,7 @@ fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buf
 /// The chemistry, where steam leaves the liquid.
 fn physical(parameters: &Parameters) -> Option<&Physical> {
     match &parameters.chemistry {
-        Some(Chemistry::Physical(p)) if p.steams() => Some(p),
+        Some(Chemistry::Physical(p)) if p.bubbles.is_some() => Some(p),
         _ => None,
     }
 }

@@ -40,6 +40,7 @@ pub fn parameters() -> Parameters {
         vorticity: 0.0,
         surface: None,
         chemistry: None,
+        heaters: Vec::new(),
         list_margin: 0.15,
         margin: 0.001 * H,
     }

@@ -28,6 +28,17 @@ const SCENE: &str = "beaker";
 const BOILING: (&str, &str) = ("water-into-acid", "two-flasks");
 /// The same with acid poured into water.
 const REVERSED: &str = "acid-into-water";
+/// What of the model is left out, one at a time, with what is built upon it.
+const ABLATED: [Feature; 8] = [
+    Feature::Air,
+    Feature::Spray,
+    Feature::Bubbles,
+    Feature::Density,
+    Feature::Viscosity,
+    Feature::Evaporation,
+    Feature::Losses,
+    Feature::Segregation,
+];
 /// Seeds of chaotic runs; of those that leave a feature out.
 const SEEDS: [u64; 2] = [10, 4];
 
@@ -167,15 +178,7 @@ impl Work<'_> {
             self.seeds(preset.name(), &scene.with_preset(preset), &track, all)?;
         }
         let balanced = scene.with_preset(Preset::Balanced);
-        for feature in [
-            Feature::Boiling,
-            Feature::Density,
-            Feature::Viscosity,
-            Feature::Evaporation,
-            Feature::Steam,
-            Feature::Losses,
-            Feature::Segregation,
-        ] {
+        for feature in ABLATED {
             let (less, gone) = balanced.without(feature);
             let names: Vec<String> = gone.iter().map(|feature| feature.name()).collect();
             let name = format!("balanced without {}", names.join(", "));

@@ -174,10 +174,7 @@ struct Watch {
     start: Amounts,
     /// Work by glass, and all else that may become motion, J.
     declared: f64,
-    /// Of motion paid for, of the physical chemistry, J.
-    paid: f64,
-    /// Whether vapour is in bubbles, and how much there is and was, kg.
-    bubbles: bool,
+    /// Vapour that there is and was, kg.
     steam: f64,
     run: Run,
 }
@@ -204,7 +201,6 @@ impl Watch {
             base: world.scene().floor.height,
             frame_time: recipe.frame_time,
             surface: Surface::of(world.scene(), parameters),
-            bubbles: recipe.base == Base::Bubbles,
             boiling: (recipe.base == Base::Paper).then_some((recipe.boiling_point, recipe.k_v)),
             literal_limit: 0.5 * recipe.v_max * recipe.v_max,
             run: Run {
@@ -322,18 +318,14 @@ impl Watch {
         }
         self.declared += self.boiled(&state, time);
         if let Some(ledger) = self.amounts(world, &state).ledger {
+            // The work of expansion, R T/M.
+            let steam = ledger.steam + ledger.vapour;
             // What boils within milliseconds is above its boiling point at no look.
-            if self.late && ledger.kinetic > self.paid {
+            if self.late && steam > self.steam {
                 self.run.boiling = self.run.boiling.max(1);
             }
-            self.declared += ledger.kinetic - self.paid;
-            self.paid = ledger.kinetic;
-            if self.bubbles {
-                // The work of expansion, R T/M.
-                let steam = ledger.steam + ledger.vapour;
-                self.declared += STEAM_WORK * (steam - self.steam).max(0.0);
-                self.steam = steam;
-            }
+            self.declared += STEAM_WORK * (steam - self.steam).max(0.0);
+            self.steam = steam;
         }
         let settles = self.frame_time * step as f64 <= BEFORE;
         let energy = self.all_of(&now, &state, world, settles);

@@ -16,12 +16,10 @@ pub enum Base {
     Paper,
     /// Likewise at real size, by the physical chemistry with all of its parts.
     Physical,
-    /// The same, where vapour is in bubbles, what they throw up is followed, and streams take air down.
-    Bubbles,
 }
 
 impl Base {
-    /// Those that cases are drawn from. [`Self::Bubbles`] takes the place of [`Self::Physical`] in every other case.
+    /// Those that cases are drawn from.
     pub const ALL: [Self; 3] = [Self::Water, Self::Paper, Self::Physical];
 
     /// The name in reports.
@@ -30,7 +28,6 @@ impl Base {
             Self::Water => "water",
             Self::Paper => "paper",
             Self::Physical => "physical",
-            Self::Bubbles => "bubbles",
         }
     }
 }
@@ -121,7 +118,7 @@ impl Recipe {
             motion: Motion::Still,
         };
         match base {
-            Base::Water | Base::Physical | Base::Bubbles => real,
+            Base::Water | Base::Physical => real,
             Base::Paper => Self {
                 spacing: 0.05,
                 frame_time: 1.0 / 60.0,
@@ -176,17 +173,6 @@ impl Recipe {
             Base::Water => Vec::new(),
             Base::Paper => vec!["heat", "dilution", "boiling"],
             Base::Physical => vec![
-                "heat",
-                "dilution",
-                "boiling",
-                "density",
-                "viscosity",
-                "evaporation",
-                "steam",
-                "losses",
-                "segregation",
-            ],
-            Base::Bubbles => vec![
                 "heat",
                 "dilution",
                 "density",
@@ -247,16 +233,8 @@ impl Recipe {
                  D_c = {d_c:?}\n",
                 self.boiling_point, self.k_v
             ),
-            Base::Physical => write!(
-                t,
-                "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\n\
-                 superheat_time = 0.03\nlamella = 0.0003\n\
-                 bubble_speed = 0.25\nagitation = {:?}\nglass_loss = 12.0\nsurface_loss = 12.0\n",
-                0.041 * self.diffusion,
-                0.005 * self.k_v
-            ),
             // What boils stronger has more nuclei.
-            Base::Bubbles => write!(
+            Base::Physical => write!(
                 t,
                 "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\nlamella = 0.0003\n\
                  nuclei_spacing = {:?}\nfoam_time = 0.1\nmost_bubbles = 4096\nglass_loss = 12.0\nsurface_loss = 12.0\n",

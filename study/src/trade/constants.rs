@@ -23,7 +23,7 @@ pub struct Constant {
 
 /// All of them but the room's temperature and the bound on bubbles. A scene has
 /// those of its features.
-pub const CONSTANTS: [Constant; 10] = [
+pub const CONSTANTS: [Constant; 7] = [
     Constant {
         key: "mixing",
         unit: "1",
@@ -43,18 +43,6 @@ pub const CONSTANTS: [Constant; 10] = [
         value: |p| &mut p.lamella,
     },
     Constant {
-        key: "superheat_time",
-        unit: "s",
-        source: "Plesset & Zwick 1954: bubbles at 10 K, chosen 8 mm apart",
-        value: |p| &mut p.superheat_time,
-    },
-    Constant {
-        key: "bubble_speed",
-        unit: "m/s",
-        source: "Clift, Grace & Weber 1978: bubbles of millimetres",
-        value: |p| &mut p.bubble_speed,
-    },
-    Constant {
         key: "nuclei_spacing",
         unit: "m",
         source: "chosen: glass that is clean",
@@ -65,12 +53,6 @@ pub const CONSTANTS: [Constant; 10] = [
         unit: "s",
         source: "chosen: films of water that is not quite clean",
         value: |p| &mut p.foam_time,
-    },
-    Constant {
-        key: "agitation",
-        unit: "1",
-        source: "fitted: acid is thrown out of the beaker and not to the ceiling",
-        value: |p| &mut p.agitation,
     },
     Constant {
         key: "glass_loss",

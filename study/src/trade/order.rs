@@ -84,6 +84,7 @@ fn bare() -> Parameters {
         vorticity: 0.0,
         surface: None,
         chemistry: None,
+        heaters: Vec::new(),
         list_margin: 0.15,
         margin: 5e-6,
     }

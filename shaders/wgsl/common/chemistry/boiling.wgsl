@@ -5,6 +5,7 @@
 // XSPH coefficient: 1 is ordinary viscosity, negative is anti-viscosity. A
 // pair takes the mean of its two, or momentum would drift.
 //!include common/liquid/step.wgsl
+//!include common/liquid/viscosity.wgsl
 
 /// T_B, °C.
 override BOILING_POINT: f32 = 100.0;
@@ -14,8 +15,6 @@ override BOILING_INTENSITY: f32 = 0.0;
 override LITERAL_BOILING: bool = false;
 /// P₀: power at twice T_B and k_v = 1, W/kg.
 override BOILING_POWER: f32 = 200.0;
-/// Coefficient of what does not boil: 1, or 0 where the liquid has no viscosity.
-override CALM: f32 = 1.0;
 /// Most that is added to a relative velocity in a substep, as a share: with
 /// nothing moving yet, the stated power would ask for any velocity.
 const GROWTH_LIMIT: f32 = 0.3;
@@ -37,6 +36,3 @@ fn stirring(temperature: f32, agitation: f32) -> f32 {
     if (LITERAL_BOILING) { return -excess * CALM; }
     return -bounded_growth(BOILING_POWER * excess * excess * step.time, agitation) / step.viscosity;
 }
-
-/// ν·Δt/h² that an XSPH coefficient of 1 amounts to: half of the cubic spline's second moment.
-const XSPH_MOMENT: f32 = 0.0375;

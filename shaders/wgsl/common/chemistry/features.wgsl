@@ -7,13 +7,13 @@ override HEAT: bool = false;
 override PHYSICAL: bool = false;
 /// Paper: whether heat and acid diffuse, and heat of solution arises (line 26).
 override DILUTION: bool = false;
-/// Either: whether what boils stirs the liquid (line 27).
+/// Paper: whether what boils stirs the liquid (line 27).
 override BOILING: bool = false;
 /// Physical: whether volume and density follow composition and temperature.
 override DENSITY: bool = false;
 /// Physical: whether viscosity does.
 override VISCOSITY: bool = false;
-/// Physical: whether water boils out of the liquid and condenses in it.
+/// Physical: whether water boils out of the liquid and condenses in it, and evaporates at its surface.
 override EVAPORATION: bool = false;
 /// Physical: whether liquid stays unmixed below a particle's size.
 override SEGREGATION: bool = false;

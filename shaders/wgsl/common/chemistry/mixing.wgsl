@@ -11,8 +11,6 @@ struct Mixing {
     heat_slope: f32,
     /// Paper: what c lacks by rounding.
     acid_lacking: f32,
-    /// Physical: α, the share of a relative velocity that boiling adds to it.
-    growth: f32,
     /// Physical: s², the variance of the acid fraction within the liquid.
     variance: f32,
     /// Physical: mass over V0·ρ0.
@@ -22,15 +20,11 @@ struct Mixing {
 }
 
 fn pack_mixing(mixing: Mixing) -> vec4<f32> {
-    // What boils has no viscosity: one word for both.
-    let stirred = select(mixing.coefficient, -mixing.growth, mixing.growth > 0.0);
-    if (PHYSICAL) { return vec4<f32>(stirred, mixing.variance, mixing.mass, mixing.rests); }
+    if (PHYSICAL) { return vec4<f32>(mixing.coefficient, mixing.variance, mixing.mass, mixing.rests); }
     return vec4<f32>(mixing.acid_before, mixing.heat_slope, mixing.coefficient, mixing.acid_lacking);
 }
 
 fn unpack_mixing(words: vec4<f32>) -> Mixing {
-    if (PHYSICAL) {
-        return Mixing(max(words.x, 0.0), 0.0, 0.0, 0.0, max(-words.x, 0.0), words.y, words.z, words.w);
-    }
-    return Mixing(words.z, words.x, words.y, words.w, 0.0, 0.0, 0.0, 0.0);
+    if (PHYSICAL) { return Mixing(words.x, 0.0, 0.0, 0.0, words.y, words.z, words.w); }
+    return Mixing(words.z, words.x, words.y, words.w, 0.0, 0.0, 0.0);
 }

@@ -11,6 +11,8 @@ struct GlassRing {
     to_air: f32,
     /// Heat that is conducted to the next ring above, W/K.
     upwards: f32,
+    /// Heat that a plate gives it, W.
+    heated: f32,
     /// Heat that the liquid takes per area of contact over ρ0, W m/(kg K).
     to_liquid: f32,
     /// Least heat that is counted, J, and over V0·ρ0, J/kg.

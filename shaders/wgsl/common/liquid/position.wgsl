@@ -9,10 +9,6 @@ fn pack_taken_out(x: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(x, -1.0);
 }
 
-fn vapour_in(position: vec4<f32>) -> f32 {
-    return position.w;
-}
-
 fn is_taken_out(position: vec4<f32>) -> bool {
     return position.w < 0.0;
 }

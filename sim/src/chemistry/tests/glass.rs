@@ -17,7 +17,7 @@ fn insulated() -> Losses {
 fn rings_hold_what_the_glass_holds() {
     for glass in &GLASSWARE {
         let profile = glass.profile(1.0).unwrap();
-        let rings = rings(&profile, &insulated(), 1.0 / 90.0);
+        let rings = rings(&profile, &insulated(), 0.0, 1.0 / 90.0);
         let held: f64 = rings.iter().map(|ring| ring.capacity).sum();
         let known = profile.glass_volume() * BOROSILICATE * CAPACITY;
         assert!(
@@ -33,7 +33,7 @@ fn rings_hold_what_the_glass_holds() {
     }
     // A 400 mL beaker weighs 135 g (a supplier's table) with its wall of 1.7 mm and its spout; ours has 2 mm.
     let beaker = find("beaker-400").unwrap().profile(1.0).unwrap();
-    let held: f64 = rings(&beaker, &insulated(), 0.01)
+    let held: f64 = rings(&beaker, &insulated(), 0.0, 0.01)
         .iter()
         .map(|ring| ring.capacity)
         .sum();
@@ -46,7 +46,7 @@ fn a_wave_of_heat_along_a_tube_decays_as_fourier_says() {
     let length = 0.32;
     let profile = Profile::new(&[[0.0, 0.004], [length, 0.004]], 0.001).unwrap();
     let time = 1.0;
-    let rings = rings(&profile, &insulated(), time);
+    let rings = rings(&profile, &insulated(), 0.0, time);
     let wave = |k: usize| (PI * (k as f64 + 0.5) / RINGS as f64).cos();
     let mut temperatures: Vec<_> = (0..RINGS).map(|k| 50.0 + 10.0 * wave(k)).collect();
     let heat = |temperatures: &[f64]| -> f64 {
@@ -79,7 +79,7 @@ fn hot_glass_cools_to_the_air() {
     // Newton: C dT/dt = h A (T_a − T) for the whole, as it is of one temperature where wall and base are.
     let profile = find("beaker-400").unwrap().profile(1.0).unwrap();
     let losses = Losses::to_air(20.0);
-    let rings = rings(&profile, &losses, 0.1);
+    let rings = rings(&profile, &losses, 0.0, 0.1);
     let mut temperatures = vec![100.0; RINGS];
     for _ in 0..6000 {
         advance(&rings, &mut temperatures, &[0.0; RINGS], 20.0, 0.1);
@@ -95,7 +95,7 @@ fn hot_glass_cools_to_the_air() {
 fn walls_of_any_thickness_stay_between_the_temperatures() {
     for wall in [1e-4, 0.002, 0.02] {
         let profile = Profile::new(&[[0.0, 0.03], [0.1, 0.03]], wall).unwrap();
-        let rings = rings(&profile, &Losses::to_air(20.0), 1.0 / 60.0);
+        let rings = rings(&profile, &Losses::to_air(20.0), 0.0, 1.0 / 60.0);
         let mut temperatures = vec![20.0; RINGS];
         for _ in 0..200 {
             // Liquid of 100 °C all over its inside.
@@ -126,4 +126,27 @@ fn heights_belong_to_their_ring() {
     ] {
         assert_eq!(ring_at(&profile, y), ring, "{y}");
     }
+}
+
+/// A plate of 200 W under a beaker with water at 100 °C: once the base is warm the plate's heat goes through half of the
+/// wall and the film of water that boils, which by a textbook's boiling curve (Incropera, Fig. 10.4) has 5 to 15 K at
+/// 20 to 300 kW/m².
+#[test]
+fn a_plates_heat_goes_through_glass_and_film() {
+    let profile = find("beaker-250").unwrap().profile(1.0).unwrap();
+    let time = 1.0 / 90.0;
+    let rings = rings(&profile, &insulated(), 200.0, time);
+    assert_eq!(rings.iter().map(|ring| ring.heated).sum::<f64>(), 200.0);
+    let area = PI * profile.inner_radius(profile.floor_height()).powi(2);
+    let flux = 200.0 / area;
+    let through_wall = flux * 0.5 * profile.wall() / CONDUCTIVITY;
+    // The base alone, without what the wall conducts.
+    let mut base = 20.0;
+    for _ in 0..20_000 {
+        let taken = rings[0].to_liquid * area * (100.0 - base) * time;
+        base += (taken + 200.0 * time) / rings[0].capacity;
+    }
+    // A step's exchange is cut by some percent of what it would be at once.
+    let film = base - 100.0 - through_wall;
+    assert!((3.0..17.0).contains(&film), "{flux} W/m²: {film} K");
 }

@@ -42,15 +42,12 @@ fn the_physical_chemistrys_numbers_arrive() {
     physical.mixing = Some(2.0);
     physical.eddy_width = Some(0.004);
     physical.superheat_time = Some(4.0);
-    physical.bubble_speed = Some(5.0);
-    physical.agitation = Some(6.0);
     physical.glass_loss = Some(7.0);
     physical.surface_loss = Some(8.0);
     physical.lamella = Some(9.0);
     physical.nuclei_spacing = Some(10.0);
     physical.foam_time = Some(11.0);
     physical.most_bubbles = Some(12);
-    scene.model.extend([Feature::Steam, Feature::Boiling]);
     let bubbles = Bubbles {
         nuclei_spacing: 10.0,
         foam_time: 11.0,
@@ -67,8 +64,6 @@ fn the_physical_chemistrys_numbers_arrive() {
         density: true,
         viscosity: true,
         superheat_time: Some(4.0),
-        bubble_speed: Some(5.0),
-        work_share: Some(6.0),
         lamella: Some(9.0),
         losses: Some(Losses {
             ambient: 1.0,
@@ -83,13 +78,11 @@ fn the_physical_chemistrys_numbers_arrive() {
     assert_eq!(of(&scene), all);
     // What a scene does not model is off, and nothing else.
     type Off = fn(&mut Physical);
-    let features: [(Feature, Off); 10] = [
+    let features: [(Feature, Off); 8] = [
         (Feature::Segregation, |law| law.lamella = None),
         (Feature::Density, |law| law.density = false),
         (Feature::Viscosity, |law| law.viscosity = false),
         (Feature::Evaporation, |law| law.superheat_time = None),
-        (Feature::Steam, |law| law.bubble_speed = None),
-        (Feature::Boiling, |law| law.work_share = None),
         (Feature::Losses, |law| law.losses = None),
         (Feature::Bubbles, |law| law.bubbles = None),
         (Feature::Spray, |law| {

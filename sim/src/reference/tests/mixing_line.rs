@@ -23,7 +23,6 @@ fn cube(
 ) -> Reference {
     let law = Law {
         superheat_time: None,
-        work_share: None,
         ..closed()
     };
     let parameters = parameters();

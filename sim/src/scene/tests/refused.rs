@@ -2,6 +2,7 @@
 
 use super::GOOD;
 use crate::chemistry::Chemistry;
+use crate::parameters::Parameters;
 use crate::scene::Scene;
 use crate::surface_tension::{GLASS, HYSTERESIS};
 
@@ -243,6 +244,37 @@ fn little_is_carried_on_in_a_substep() {
 }
 
 #[test]
+fn a_plate_heats_glass_that_is_modelled() {
+    let scene = Scene::builtin_text("water-into-acid").unwrap();
+    let on = |heater: &str| {
+        scene.replacen(
+            "fixed = false",
+            &format!("fixed = false\nheater = {heater}"),
+            1,
+        )
+    };
+    let heated = Scene::parse(&on("150"), "p.toml").unwrap();
+    assert_eq!(heated.flasks[0].heater, 150.0);
+    assert_eq!(
+        Parameters::from_scene(&heated).heaters,
+        [150.0, 0.0],
+        "by flask"
+    );
+    for heater in ["-1", "6000", "nan"] {
+        let message = Scene::parse(&on(heater), "p.toml").unwrap_err().to_string();
+        assert!(message.contains("flask[0].heater"), "{message}");
+    }
+    let lines = on("150").replacen("\"air\", \"losses\"", "\"air\"", 1);
+    let lines = lines.lines().filter(|line| !line.contains("_loss "));
+    let unmodelled = lines.collect::<Vec<_>>().join("\n");
+    let message = Scene::parse(&unmodelled, "p.toml").unwrap_err().to_string();
+    assert!(
+        message.contains("flask[0].heater") && message.contains("losses"),
+        "{message}"
+    );
+}
+
+#[test]
 fn surface_tension_needs_maps_short_substeps_and_angles() {
     let scene = Scene::builtin_text("beaker").unwrap();
     let key = |tension: &str| format!("surface_tension = {tension}");
@@ -294,25 +326,19 @@ fn surface_tension_needs_maps_short_substeps_and_angles() {
     );
 }
 
-/// Two models of the same vapour, and numbers of the other one.
+/// What boils by another law, and numbers that only it has.
 #[test]
-fn bubbles_take_the_place_of_steam() {
+fn tables_boil_by_bubbles_alone() {
     let good = Scene::builtin_text("water-into-acid").unwrap();
     let parsed = Scene::parse(good, "b.toml").unwrap();
     let Some(Chemistry::Physical(law)) = Chemistry::from_scene(&parsed) else {
         panic!("has no physical chemistry");
     };
     assert_eq!(law.bubbles.unwrap().slots(), 16_384);
-    assert!(law.evaporates() && law.steams() && law.bubble_speed.is_none());
+    assert!(law.evaporates() && law.superheat_time.is_none());
     let message = |text: String| Scene::parse(&text, "b.toml").unwrap_err().to_string();
-    let both = good.replacen("\"bubbles\"", "\"bubbles\", \"steam\"", 1);
-    let both = both.replacen(
-        "lamella",
-        "superheat_time = 0.03\nbubble_speed = 0.25\nlamella",
-        1,
-    );
-    let both = message(both);
-    assert!(both.contains("keep one"), "{both}");
+    let both = message(good.replacen("\"bubbles\"", "\"bubbles\", \"boiling\"", 1));
+    assert!(both.contains("the paper's"), "{both}");
     let idle = message(good.replacen("lamella", "superheat_time = 0.03\nlamella", 1));
     assert!(idle.contains("physical.superheat_time"), "{idle}");
     let lines = good.lines().filter(|line| !line.starts_with("foam_time"));

@@ -66,8 +66,8 @@ fn acid_does_not_drift_where_the_liquid_is_stirred() {
             assert!(drift.abs() < 1e-6, "{lanes}: {drift}");
             assert!(in_range(&end));
             // It boiled on the way.
-            let steam = sum(&end.ledger, |[_, _, steam, _]| steam);
-            assert!(steam > 0.01 || end.matter.is_empty(), "{lanes}: {steam}");
+            let vapour = sum(&end.matter, |[_, _, vapour, mass]| vapour * mass);
+            assert!(vapour > 0.01 || end.matter.is_empty(), "{lanes}: {vapour}");
         }
     }
 }

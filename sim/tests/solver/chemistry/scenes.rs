@@ -139,15 +139,7 @@ fn water_and_water_have_no_heat() {
 fn passes_bind_the_chemistry_of_their_scene() {
     let of_any = ["heat", "sorted_heat", "mixing"];
     let of_paper = ["diffused"];
-    let of_physical = [
-        "matter",
-        "sorted_matter",
-        "bulk",
-        "sorted_bulk",
-        "ledger",
-        "agitation",
-        "solution",
-    ];
+    let of_physical = ["matter", "sorted_matter", "bulk", "sorted_bulk", "solution"];
     let all = [&of_any[..], &of_paper, &of_physical].concat();
     let mut seen: Vec<String> = Vec::new();
     for shader in PASSES {
@@ -163,8 +155,7 @@ fn passes_bind_the_chemistry_of_their_scene() {
         let heat = bound(&[("HEAT", 1.0), ("DILUTION", 1.0), ("BOILING", 1.0)]);
         let others = heat.iter().find(|name| of_physical.contains(&&***name));
         assert_eq!(others, None, "{shader}");
-        let physical = [("HEAT", 1.0), ("PHYSICAL", 1.0), ("BOILING", 1.0)];
-        let physical = bound(&[&physical[..], &[("DENSITY", 1.0)]].concat());
+        let physical = bound(&[("HEAT", 1.0), ("PHYSICAL", 1.0), ("DENSITY", 1.0)]);
         let others = physical.iter().find(|name| of_paper.contains(&&***name));
         assert_eq!(others, None, "{shader}");
     }
@@ -190,9 +181,9 @@ fn chemistry_costs_memory_where_it_is_asked_for() {
     // after diffusion.
     let own = bytes(Some(paper(Some(dilution()), Some(boils))));
     assert_eq!(own - none, 3 * 16 + 8);
-    // In their place matter, bulk and eddies with copies, ledger and agitation.
+    // In their place matter, bulk and eddies with copies, and ledger.
     let own = bytes(Some(Chemistry::Physical(mixing_alone())));
-    assert_eq!(own - none, 3 * 16 + 5 * 16 + 4 + 2 * 8);
+    assert_eq!(own - none, 3 * 16 + 5 * 16 + 2 * 8);
     // Room for 24 more neighbours where the liquid contracts.
     let dense = bytes(Some(Chemistry::Physical(boiling())));
     assert_eq!(dense - own, 24 * 4);

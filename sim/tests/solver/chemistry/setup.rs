@@ -49,21 +49,17 @@ pub fn bubbly() -> Physical {
             air: false,
         }),
         superheat_time: None,
-        bubble_speed: None,
-        work_share: None,
         losses: None,
         lamella: None,
         ..built_in()
     }
 }
 
-/// The physical chemistry of the built-in scene `water-into-acid`, but with vapour in its particles in place of bubbles.
+/// The physical chemistry of the built-in scene `water-into-acid`, but its particles hold their vapour.
 pub fn built_in() -> Physical {
     Physical {
         bubbles: None,
         superheat_time: Some(0.03),
-        bubble_speed: Some(0.25),
-        work_share: Some(0.005),
         ..with_bubbles()
     }
 }
@@ -83,8 +79,6 @@ pub fn mixing_alone() -> Physical {
         density: false,
         viscosity: false,
         superheat_time: None,
-        bubble_speed: None,
-        work_share: None,
         losses: None,
         lamella: None,
         ..built_in()
