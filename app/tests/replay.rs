@@ -58,6 +58,8 @@ fn heat(t: f64) -> HeatSample {
             spray_fallen_kg: 0.0,
             air_kg: 0.0,
             air_held_kg: 0.0,
+            bubbles_m3: 2e-6 * t,
+            foam_m3: 1e-6 * t,
         }),
     }
 }

@@ -398,6 +398,8 @@ fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample 
             spray_fallen_kg: ledger.spray_fallen,
             air_kg: ledger.air,
             air_held_kg: ledger.air_held,
+            bubbles_m3: ledger.gas,
+            foam_m3: ledger.foam,
         }),
     }
 }

@@ -125,4 +125,10 @@ pub struct LedgerSample {
     /// What of it is in bubbles, kg.
     #[serde(default)]
     pub air_held_kg: f64,
+    /// Volume of all bubbles, m³.
+    #[serde(default)]
+    pub bubbles_m3: f64,
+    /// Volume of those that lie at the surface, m³.
+    #[serde(default)]
+    pub foam_m3: f64,
 }

@@ -120,7 +120,7 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         columns.push(column);
     }
     if heat.ledger.is_some() {
-        let of_ledger: [(&str, &str, OfLedger); 12] = [
+        let of_ledger: [(&str, &str, OfLedger); 14] = [
             ("enthalpy at the start", "J", |l| l.initial_j),
             ("heat gained from around", "J", |l| l.exchanged_j),
             ("enthalpy of what is there", "J", |l| l.held_j),
@@ -133,6 +133,8 @@ pub fn columns(first: &Sample) -> Vec<Column> {
             ("drops of bubbles at rest", "kg", |l| l.spray_fallen_kg),
             ("air that streams took down", "kg", |l| l.air_kg),
             ("air in bubbles", "kg", |l| l.air_held_kg),
+            ("volume of bubbles", "m3", |l| l.bubbles_m3),
+            ("volume of foam", "m3", |l| l.foam_m3),
         ];
         for (what, unit, value) in of_ledger {
             columns.push(of_heat!(what, unit, heat => heat.ledger.as_ref().map(value)));

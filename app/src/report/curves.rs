@@ -126,6 +126,14 @@ impl Report {
                     .collect(),
             },
             Plotted {
+                title: "Bubbles",
+                unit: "mL",
+                curves: vec![
+                    of(("all", |l| l.bubbles_m3), 1e6),
+                    of(("foam at the surface", |l| l.foam_m3), 1e6),
+                ],
+            },
+            Plotted {
                 title: "Ledger: what does not add up",
                 unit: "millionths of the enthalpy at the start",
                 curves: vec![of(("closure", |l| 1e6 * l.closure), 1.0)],

@@ -320,7 +320,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         return;
     }
 
-    var relative = risen(bubble.velocity - s.velocity, up, bubble.radius, s.gas / (1.0 + s.gas), around, time);
+    var relative = risen(bubble.velocity - s.velocity, up, bubble.radius, around, time);
     if (at_surface) { relative = vec3<f32>(0.0); }
     bubble.velocity = beside_glass(s.velocity + relative, wall);
     bubble.position += bubble.velocity * time;

@@ -8,6 +8,7 @@ use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use crate::solver::SolverState;
 use serde::Serialize;
+use std::f64::consts::PI;
 
 /// Temperature, composition and, of the physical chemistry, enthalpy of the
 /// liquid at one moment. Means are by mass.
@@ -70,6 +71,10 @@ pub struct Ledger {
     pub air: f64,
     /// What of it is still in bubbles, kg.
     pub air_held: f64,
+    /// Volume of all bubbles, m³.
+    pub gas: f64,
+    /// Volume of those that lie at the surface, m³.
+    pub foam: f64,
     /// Enthalpy that is held, J.
     pub held: f64,
     /// Heat gained from around, J; negative where it was lost.
@@ -254,6 +259,17 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
     sum.steam_enthalpy += bubbles.gone[1];
     sum.air = AIR_OVER_STEAM * (bubbles.air[0] + bubbles.air[1]);
     sum.air_held = AIR_OVER_STEAM * bubbles.air[0];
+    for bubble in state
+        .bubbles()
+        .iter()
+        .filter(|b| b.mass > 0.0 || b.air > 0.0)
+    {
+        let volume = 4.0 / 3.0 * PI * f64::from(bubble.radius).powi(3);
+        sum.gas += volume;
+        if bubble.surfaced > 0.0 {
+            sum.foam += volume;
+        }
+    }
     let drops = state.sprayed();
     for part in [drops.flying, drops.fallen, drops.pending] {
         sum.mass += part[0];
@@ -271,6 +287,8 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         spray_fallen: m * sum.spray_fallen,
         air: m * sum.air,
         air_held: m * sum.air_held,
+        gas: sum.gas,
+        foam: sum.foam,
         held: m * sum.held,
         exchanged: m * sum.exchanged,
         steam: m * sum.steam,

@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 10] = [
+pub(super) const BUILTIN: [(&str, &str); 11] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -28,6 +28,10 @@ pub(super) const BUILTIN: [(&str, &str); 10] = [
     (
         "acid-into-water",
         include_str!("../../scenes/acid-into-water.toml"),
+    ),
+    (
+        "boiling-water",
+        include_str!("../../scenes/boiling-water.toml"),
     ),
     ("vr-dilution", include_str!("../../scenes/vr-dilution.toml")),
 ];

@@ -69,21 +69,21 @@ fn around_of(acid: f32, temperature: f32) -> Around {
         LATENT - LATENT_SLOPE * (temperature - ENTHALPY_ZERO));
 }
 
-/// Drag coefficient times speed of a bubble of `radius` in contaminated liquid, m/s (Tomiyama et al. 1998).
+/// Drag coefficient times speed of a bubble of `radius` in contaminated liquid, m/s: a sphere (Schiller and Naumann 1933), a
+/// distorted bubble, or a cap (Ishii and Zuber 1979).
 fn drag_speed(radius: f32, speed: f32, around: Around) -> f32 {
     let moving = max(speed, 1e-5);
     let reynolds = 2.0 * radius * moving * around.density / around.viscosity;
     let eotvos = 4.0 * radius * radius * GRAVITY * around.density / around.tension;
     let sphere = 24.0 / reynolds * (1.0 + 0.15 * pow(reynolds, 0.687));
-    return moving * max(sphere, 8.0 / 3.0 * eotvos / (eotvos + 4.0));
+    return moving * max(sphere, min(2.0 / 3.0 * sqrt(eotvos), 8.0 / 3.0));
 }
 
 /// Velocity relative to the liquid after `time`, m/s: buoyancy and drag on a bubble that takes half of its volume of liquid along.
-/// Among others, which are the share `void_fraction` of space, it rises by (1 − α)^¾ slower (Ishii and Zuber 1979).
-fn risen(relative: vec3<f32>, up: vec3<f32>, radius: f32, void_fraction: f32, around: Around, time: f32) -> vec3<f32> {
+/// Others around it do not slow it down: in a pool that is churned they rise in one another's wakes (Ishii and Zuber 1979).
+fn risen(relative: vec3<f32>, up: vec3<f32>, radius: f32, around: Around, time: f32) -> vec3<f32> {
     let drag = 0.75 / radius * drag_speed(radius, length(relative), around);
-    let lift = 2.0 * GRAVITY * pow(1.0 - void_fraction, 1.5);
-    return (relative + lift * time * up) / (1.0 + drag * time);
+    return (relative + 2.0 * GRAVITY * time * up) / (1.0 + drag * time);
 }
 
 /// Nusselt number of a bubble with that speed, as Chen and Mayinger measured it (1992); of a sphere at rest 2.

@@ -36,13 +36,10 @@ fn touches(bubble: Bubble, record: u32) -> bool {
 /// What is around a bubble, over the sum of the weights but for the weights and `cover`.
 struct Surrounding {
     weight: f32,
-    squares: f32,
     /// Of what exchanges steam with it, which is nearer.
     contact: f32,
     cover: f32,
     velocity: vec3<f32>,
-    /// Gas of the other bubbles over liquid.
-    gas: f32,
     acid: f32,
     temperature: f32,
     superheat: f32,
@@ -84,11 +81,9 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             let excess = contact * max(boil.x, 0.0);
             let lack = contact * max(-boil.x, 0.0);
             s.weight += weight;
-            s.squares += weight * weight;
             s.contact += contact;
             s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
             s.velocity += weight * velocity[j].xyz;
-            s.gas += weight * gas[tags[j].y].x;
             s.temperature += weight * heat[j].x;
             s.acid += weight * heat[j].y;
             s.superheat += excess;
@@ -103,13 +98,9 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.velocity = lane_sum3(s.velocity);
     let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
     s.contact = thermal.z;
-    let excess = lane_sum3(vec3<f32>(s.superheat, s.growing, s.gas));
-    let lack = lane_sum3(vec3<f32>(s.subcooling, s.shrinking, s.squares));
+    let excess = vec2<f32>(lane_sum(s.superheat), lane_sum(s.growing));
+    let lack = vec2<f32>(lane_sum(s.subcooling), lane_sum(s.shrinking));
     let per_weight = 1.0 / max(s.weight, 1e-12);
-    // Its own gas is the same share of each weight.
-    let per_square = 1.0 / max(s.weight * s.weight, 1e-12);
-    let own = bubble_volume(bubble.radius) / VOLUME * lack.z * per_square;
-    s.gas = max(excess.z * per_weight - own, 0.0);
     s.nearest = lane_nearest(s.nearest);
     s.nearest_of_all = lane_nearest(s.nearest_of_all);
     s.larger = lane_max(s.larger);

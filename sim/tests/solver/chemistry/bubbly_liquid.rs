@@ -6,20 +6,16 @@ use crate::common::*;
 use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_gpu::{Buffer, Gpu, QueueKind};
-use vitriol_sim::chemistry::Physical;
 use vitriol_sim::chemistry::bubbles::Bubbles;
+use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Particle, Solver, SolverState};
 use vitriol_tests::gpu;
 
-/// A column 26 mm wide and 100 mm deep at 100 °C, a third of a second after 5 % of it became bubbles of 0.6 mm, which have risen by a quarter of it.
-/// The level, and the liquid within slices, by the volumes of liquid and bubbles; the pressure to 2 % by the weight of what is above. Pressures are
-/// followed in 0.4 s.
-#[test]
-fn bubbles_swell_the_liquid_and_make_it_lighter() {
-    let device = gpu::device();
+/// A column 26 mm wide and 100 mm deep of water at 100 °C at rest, whose bubbles last as long as the test.
+fn column(device: &Gpu) -> Solver {
     let profile = Profile::new(&[[0.0, 0.013], [0.16, 0.013]], 0.002).unwrap();
     let mut particles = water(&profile, 0, Pose::IDENTITY, 3300);
     fill(&mut particles, |_| (100.0, 0.0));
@@ -31,18 +27,49 @@ fn bubbles_swell_the_liquid_and_make_it_lighter() {
         }),
         ..bubbly()
     };
-    let p = of(law, parameters());
-    let setup = Setup::new(p.clone(), vec![profile], particles);
-    let solver = setup.solver(&device);
-    frames(&device, &solver, &[Pose::IDENTITY], 150);
+    let solver = Setup::new(of(law, parameters()), vec![profile], particles).solver(device);
+    frames(device, &solver, &[Pose::IDENTITY], 150);
+    solver
+}
+
+/// The height of its surface, m.
+fn top(state: &SolverState) -> f64 {
+    let mut heights: Vec<f32> = state.positions.iter().map(|x| x[1]).collect();
+    heights.sort_by(|a, b| b.total_cmp(a));
+    f64::from(heights[30])
+}
+
+/// Puts bubbles of `radius` (m) into that share of the column's liquid, on a lattice, so that none touches another.
+fn put_bubbles(solver: &Solver, share: f64, radius: f64) {
     let mut state = solver.snapshot().unwrap();
-    let top = |state: &SolverState| {
-        let mut heights: Vec<f32> = state.positions.iter().map(|x| x[1]).collect();
-        heights.sort_by(|a, b| b.total_cmp(a));
-        f64::from(heights[30])
-    };
-    let before = state.clone();
-    let flat = top(&state);
+    let one = 4.0 / 3.0 * PI * radius.powi(3);
+    let apart = (one / share).cbrt();
+    let across = (0.0125 / apart) as i32;
+    let mut put = 0;
+    for k in 1..(top(&state) / apart) as i32 {
+        for (i, j) in (-across..=across).flat_map(|i| (-across..=across).map(move |j| (i, j))) {
+            let at = apart * DVec3::new(i.into(), k.into(), j.into());
+            if at.x.hypot(at.z) < 0.0125 {
+                let motion = [at, DVec3::ZERO];
+                state.put_bubble(solver.parameters(), put, 1, motion, [radius, 100.0]);
+                put += 1;
+            }
+        }
+    }
+    solver.restore(&state).unwrap();
+}
+
+/// The column a third of a second after 5 % of it became bubbles of 0.6 mm, which have risen by a quarter of it.
+/// The level, and the liquid within slices, by the volumes of liquid and bubbles; the pressure to 2 % by the weight of what is above. Pressures are
+/// followed in 0.4 s.
+#[test]
+fn bubbles_swell_the_liquid_and_make_it_lighter() {
+    let device = gpu::device();
+    let solver = column(&device);
+    let p = solver.parameters().clone();
+    let before = solver.snapshot().unwrap();
+    let state = &before;
+    let flat = top(state);
     let slots = 0..state.tags.len();
     let volume: f64 = slots.clone().map(|slot| state.volume_of(slot)).sum();
     let mass: f64 = slots.clone().map(|slot| state.mass_of(slot)).sum();
@@ -56,22 +83,7 @@ fn bubbles_swell_the_liquid_and_make_it_lighter() {
             .sum();
         mass_below / mass * liquid
     };
-    let radius = 0.3e-3f64;
-    let one = 4.0 / 3.0 * PI * radius.powi(3);
-    // On a lattice none touches another, so they stay as small and rise slowly.
-    let apart = (one / 0.05).cbrt();
-    let across = (0.0125 / apart) as i32;
-    let mut put = 0;
-    for k in 1..(flat / apart) as i32 {
-        for (i, j) in (-across..=across).flat_map(|i| (-across..=across).map(move |j| (i, j))) {
-            let at = apart * DVec3::new(i.into(), k.into(), j.into());
-            if at.x.hypot(at.z) < 0.0125 {
-                state.put_bubble(&p, put, 1, [at, DVec3::ZERO], [radius, 100.0]);
-                put += 1;
-            }
-        }
-    }
-    solver.restore(&state).unwrap();
+    put_bubbles(&solver, 0.05, 0.3e-3);
     frames(&device, &solver, &[Pose::IDENTITY], 30);
     let state = solver.snapshot().unwrap();
     let live: Vec<_> = state.bubbles().iter().filter(|b| b.mass > 0.0).collect();
@@ -103,30 +115,45 @@ fn bubbles_swell_the_liquid_and_make_it_lighter() {
     // A tenth of the effect is 0.5 % of the level, of which d is 2.5 %. Slices are blurred by layers, of 84 particles each where 140 are pushed up.
     assert!((level / gas - 1.0).abs() < 0.1, "{level}");
     assert!((slope - 1.0).abs() < 0.15, "{slope}");
-    let area = PI * 0.013f64.powi(2);
+    // Means of a ninth of a second, as layers come and go at a height.
+    let heights: Vec<f64> = (1..=8).map(|k| 0.01 * f64::from(k)).collect();
+    let mut sums = vec![[0.0; 2]; heights.len()];
+    for _ in 0..10 {
+        frames(&device, &solver, &[Pose::IDENTITY], 1);
+        let state = solver.snapshot().unwrap();
+        for (sum, &height) in sums.iter_mut().zip(&heights) {
+            let found = pressure_and_weight(&state, &p, height);
+            *sum = [0, 1].map(|k| sum[k] + 0.1 * found[k]);
+        }
+    }
+    let at_rest = heights
+        .iter()
+        .map(|&height| pressure_and_weight(&before, &p, height));
     let mut worst = 0.0f64;
-    for (state, k) in (1..=8)
-        .map(|k| (&before, k))
-        .chain((1..=8).map(|k| (&state, k)))
-    {
-        let height = 0.01 * f64::from(k);
-        let above: f64 = (0..state.tags.len())
-            .filter(|&slot| f64::from(state.positions[slot][1]) > height)
-            .map(|slot| state.mass_of(slot))
-            .sum();
-        let weight = above * p.particle_mass() * 9.81 / area;
-        let layer: Vec<f64> = (0..state.tags.len())
-            .filter(|&slot| (f64::from(state.positions[slot][1]) - height).abs() < 0.002)
-            .map(|slot| -f64::from(state.velocities[slot][3]) * 1000.0)
-            .collect();
-        let pressure = layer.iter().sum::<f64>() / layer.len() as f64;
+    for [pressure, weight] in at_rest.chain(sums) {
         worst = worst.max((pressure / weight - 1.0).abs());
         assert!(
             (pressure / weight - 1.0).abs() < 0.02,
-            "{height} m: {pressure} Pa under {weight} Pa"
+            "{pressure} Pa under {weight} Pa"
         );
     }
     eprintln!("pressure off by {worst} at most");
+}
+
+/// Mean pressure in a layer of the column, and the weight of what is above it, Pa.
+fn pressure_and_weight(state: &SolverState, p: &Parameters, height: f64) -> [f64; 2] {
+    let slots = 0..state.tags.len();
+    let above: f64 = slots
+        .clone()
+        .filter(|&slot| f64::from(state.positions[slot][1]) > height)
+        .map(|slot| state.mass_of(slot))
+        .sum();
+    let layer: Vec<f64> = slots
+        .filter(|&slot| (f64::from(state.positions[slot][1]) - height).abs() < 0.002)
+        .map(|slot| -f64::from(state.velocities[slot][3]) * 1000.0)
+        .collect();
+    let weight = above * p.particle_mass() * 9.81 / (PI * 0.013f64.powi(2));
+    [layer.iter().sum::<f64>() / layer.len() as f64, weight]
 }
 
 /// What liquid and vapour hold: mass (kg); enthalpy, of which the work of expansion is part, with the liquid's kinetic and potential energy (J).
@@ -190,7 +217,13 @@ fn nothing_is_lost_when_a_kettle_boils_up() {
 fn a_solver_does_not_see_what_its_memory_held() {
     let device = gpu::device();
     let hash = || {
-        let solver = kettle(0.004, 1024).solver(&device);
+        let mut setup = kettle(0.004, 1024);
+        if let Some(Chemistry::Physical(law)) = &mut setup.parameters.chemistry
+            && let Some(bubbles) = &mut law.bubbles
+        {
+            (bubbles.spray, bubbles.air) = (true, true);
+        }
+        let solver = setup.solver(&device);
         frames(&device, &solver, &[Pose::IDENTITY], 3);
         solver.snapshot().unwrap().hash()
     };
@@ -324,15 +357,18 @@ fn a_pool_that_boils_has_the_void_of_drift_flux() {
 #[ignore = "minutes without a graphics card"]
 fn pools_have_the_void_of_drift_flux() {
     let device = gpu::device();
+    let mut off = Vec::new();
     for spacing in [D, 0.5 * D] {
-        let found = [0.03, 0.05, 0.1, 0.15, 0.2].map(|heated| {
+        for heated in [0.03, 0.05, 0.1, 0.15, 0.2] {
             let [flux, void] = pool(&device, spacing, heated, 3.0);
-            let of_drift_flux = void / (flux / (1.2 * flux + 0.24));
+            let found = void / (flux / (1.2 * flux + 0.24));
             eprintln!(
-                "{spacing}, heated as {heated} m/s: j = {flux} m/s, α = {void}, {of_drift_flux} of drift flux"
+                "d = {spacing}, {heated} m/s heated: j = {flux} m/s, α = {void}, {found} of drift flux"
             );
-            of_drift_flux
-        });
-        assert!(found.iter().all(|of| (of - 1.0).abs() < 0.2), "{found:?}");
+            if (found - 1.0).abs() >= 0.2 {
+                off.push((spacing, flux, found));
+            }
+        }
     }
+    assert!(off.is_empty(), "{off:?}");
 }
