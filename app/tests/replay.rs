@@ -262,7 +262,7 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
         "Coloured by temperature",
         "120.0 °C",
         "Above the boiling point",
-        "Enthalpy that boiling paid for motion",
+        "foam at the surface",
         "evaporated",
     ] {
         assert!(page.contains(part), "{part} is missing");

@@ -58,6 +58,12 @@ const COVERED: f32 = 0.7;
 const AT_GLASS: f32 = 0.2;
 /// Share of solid space, a support radius below a particle that plunges, from which on it takes no air down.
 const BESIDE_GLASS: f32 = 0.01;
+/// Most steam that all bubbles around a particle exchange with it in a step, V0·ρ0, and over what its superheat makes. How many bubbles
+/// there are is known of the step before; since then they may be more by what a radius grows, and a word of quanta holds 8 times that.
+const MOST_EXCHANGED: f32 = 0.03;
+const MOST_OF_SUPERHEAT: f32 = 0.5;
+/// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
+const MOST_GIVEN: f32 = 8.0;
 /// Cells around its own that a bubble reaches at most.
 const MOST_CELLS: i32 = 3;
 
@@ -80,7 +86,8 @@ fn conductance_of(bubble: Bubble, s: Surrounding, around: Around, time: f32) -> 
     let cube = bubble.radius * bubble.radius * bubble.radius;
     var c: Conductance;
     if (s.superheat > 0.0) {
-        let r = grown(bubble.radius, s.superheat, s.growing, relative, density, around, time);
+        // More than 20 K of superheat would bring it further: in a step it reaches the next particles.
+        let r = min(grown(bubble.radius, s.superheat, s.growing, relative, density, around, time), bubble.radius + SPACING);
         c.taken = unit * (r * r * r - cube) / (time * s.superheat);
     }
     if (s.subcooling > 0.0) {
@@ -122,7 +129,7 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
             let boil = boils[j];
             let share = contact_at(square, bubble.radius) / max(s.contact, 1e-12);
             let words = tag.y * BUBBLED_WORDS;
-            let given = weight * gas_share;
+            let given = min(weight * gas_share, MOST_GIVEN);
             atomicAdd(&bubbled[words + BUBBLED_GAS], quanta(given, GAS_QUANTUM));
             atomicAdd(&bubbled[words + BUBBLED_STIRRING], quanta(given * stirring, STIRRING_QUANTUM));
             let conductance = share * select(c.given, c.taken, boil.x > 0.0);
@@ -133,6 +140,8 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
             let rate = all / max(boil.y, 1e-12) * time;
             var limit = 1.0;
             if (rate > 1e-4) { limit = (1.0 - exp(-rate)) / rate; }
+            let most = min(MOST_EXCHANGED, MOST_OF_SUPERHEAT * boil.y * abs(boil.x));
+            limit = min(limit, most / max(all * abs(boil.x) * time, 1e-12));
             if (c.vanishes) { limit = 1.0; }
             let taken = conductance * boil.x * time * limit;
             // Steam comes with the boiling point that the liquid around the bubble has.

@@ -253,16 +253,33 @@ fn without_water(before: State, gone: f32, enthalpy: f32) -> State {
     return state;
 }
 
+/// Acid fraction that boiling leaves at most: a little more than the azeotrope's.
+const STRONGEST: f32 = 0.99;
+
 /// Most gas of a particle over its liquid: with more, the neighbours are too far.
 const MOST_GAS: f32 = 1.5;
+
+/// What of a mass that is `asked` for a particle can give if it has `most` to give; what it is given it takes whole. The rest waits.
+fn share_of(asked: f32, most: f32) -> f32 {
+    return select(1.0, most / max(-asked, 1e-12), -asked > most);
+}
+
+fn part_of(quanta: i32, share: f32) -> i32 {
+    return select(i32(f32(quanta) * share), quanta, share >= 1.0);
+}
 
 /// Line 26: what bubbles took of this particle and gave it. Of the mass what f32 can add is taken over; the rest waits.
 fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
     let did = bubbled[2u * identity];
     var state = before;
-    let mass = rounded(state.content.mass + f32(did.x) * MASS_QUANTUM);
+    // No water but what there is, whatever bubbles took.
+    let water = state.content.mass * (1.0 - clamp(state.acid.value, 0.0, 1.0) / STRONGEST);
+    let asked = f32(did.x) * MASS_QUANTUM;
+    let share = share_of(asked, max(water, 0.0));
+    let mass = rounded(state.content.mass + share * asked);
     let change = mass - state.content.mass;
-    let enthalpy = f32(did.y) * ENTHALPY_QUANTUM;
+    let enthalpy_quanta = part_of(did.y, share);
+    let enthalpy = f32(enthalpy_quanta) * ENTHALPY_QUANTUM;
     if (SEGREGATION && change < 0.0) {
         let poorest = poorest_of(state.acid.value, state.variance);
         state.variance = without_lamellar_water(state.variance, state.acid.value, poorest, -change / state.content.mass);
@@ -275,7 +292,7 @@ fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
     if (comes > most) { atomicAdd(&counters.gas_limited, 1u); }
     let before_gas = gas[identity];
     gas[identity] = vec4<f32>(before_gas.x, min(comes, most), f32(did.w) * CONDUCTANCE_QUANTUM, before_gas.w);
-    bubbled[2u * identity] = vec4<i32>(did.x - i32(change / MASS_QUANTUM), 0, 0, 0);
+    bubbled[2u * identity] = vec4<i32>(did.x - i32(change / MASS_QUANTUM), did.y - enthalpy_quanta, 0, 0);
     let others = bubbled[2u * identity + 1u];
     // What gas has no place stirs nothing.
     let stirring = i32(f32(others.z) * min(most / max(comes, GAS_QUANTUM), 1.0));
@@ -287,13 +304,17 @@ fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
 fn take_from_drops(before: State, identity: u32) -> State {
     let did = sprayed[identity];
     var state = before;
-    let mass = rounded(state.content.mass + f32(did.x) * SPRAYED_QUANTUM);
+    let asked = f32(did.x) * SPRAYED_QUANTUM;
+    let share = share_of(asked, 0.5 * state.content.mass);
+    let mass = rounded(state.content.mass + share * asked);
     let change = mass - state.content.mass;
-    state.acid = compensated(state.acid, (f32(did.y) * SPRAYED_QUANTUM - state.acid.value * change) / mass);
-    let enthalpy = f32(did.z) * SPRAYED_ENTHALPY_QUANTUM;
+    let acid = part_of(did.y, share);
+    state.acid = compensated(state.acid, (f32(acid) * SPRAYED_QUANTUM - state.acid.value * change) / mass);
+    let enthalpy_quanta = part_of(did.z, share);
+    let enthalpy = f32(enthalpy_quanta) * SPRAYED_ENTHALPY_QUANTUM;
     state.enthalpy = compensated(state.enthalpy, (enthalpy - state.enthalpy.value * change) / mass);
     state.content.mass = mass;
-    sprayed[identity] = vec4<i32>(did.x - i32(change / SPRAYED_QUANTUM), 0, 0, 0);
+    sprayed[identity] = vec4<i32>(did.x - i32(change / SPRAYED_QUANTUM), did.y - acid, did.z - enthalpy_quanta, 0);
     return state;
 }
 

@@ -183,3 +183,29 @@ fn more_bubbles_than_there_are_places() {
         assert!(used > places.min(1000) / 2, "{used}");
     }
 }
+
+/// Acid of 300 °C under water of 300 °C, with all that the built-in scenes have: water boils away but for a few per cent, and so many bubbles
+/// draw on a particle at once that they would take more than it has.
+#[test]
+fn acid_and_water_200_kelvin_too_hot() {
+    let (mut particles, profile) = cup(400, 300.0, 0.0);
+    fill(&mut particles, |at| {
+        (300.0, if at.y < 0.0045 { 0.98 } else { 0.0 })
+    });
+    let setup = Setup::new(of(with_bubbles(), parameters()), vec![profile], particles);
+    let solver = setup.solver(&gpu::device());
+    let ledger = || {
+        let state = solver.snapshot().unwrap();
+        let heat = vitriol_sim::measure::measure_heat(solver.parameters(), &state);
+        heat.and_then(|heat| heat.ledger).unwrap()
+    };
+    let start = ledger();
+    frames(&gpu::device(), &solver, &[Pose::IDENTITY], 45);
+    let end = ledger();
+    let mass = (end.mass + end.steam) / start.mass - 1.0;
+    let acid = end.acid / start.acid - 1.0;
+    eprintln!("mass {mass}, acid {acid}, enthalpy {}", end.closure(&start));
+    assert!(end.steam > 0.1 * start.mass, "{end:?}");
+    assert!(mass.abs() < 1e-5 && acid.abs() < 1e-5, "{mass}, {acid}");
+    assert!(end.closure(&start).abs() < 1e-4, "{end:?}");
+}
