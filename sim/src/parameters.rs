@@ -1,6 +1,7 @@
 //! What both solvers need to know about the liquid and about the time step.
 
 use crate::chemistry::Chemistry;
+use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::exchange::Exchange;
 use crate::kernel::Kernel;
 use crate::scene::{RelaxationKind, Scene};
@@ -160,6 +161,14 @@ impl Parameters {
     pub fn sticks(&self) -> bool {
         let surface = self.surface.as_ref();
         surface.is_some_and(|surface| surface.hysteresis > 0.0)
+    }
+
+    /// Bubbles of steam, where the scene has them.
+    pub fn bubbles(&self) -> Option<&Bubbles> {
+        match &self.chemistry {
+            Some(Chemistry::Physical(physical)) => physical.bubbles.as_ref(),
+            _ => None,
+        }
     }
 
     /// What `scene` asks for; a preset is applied to the scene beforehand

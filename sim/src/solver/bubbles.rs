@@ -1,7 +1,6 @@
 //! Line 26, of vapour: bubbles, and their part of the state.
 
 use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS, Buffers};
-use super::pipelines::bubbles_of;
 use super::spray::SprayState;
 use super::transfer::{read, write};
 use super::{Solver, SolverError};
@@ -22,18 +21,6 @@ const ACT: u32 = 2;
 /// `common/chemistry/live_places.wgsl`.
 const SET_ARGS: u64 = 32;
 const DROPS_ARGS: u64 = 12;
-
-/// Most invocations that share a bubble, as it looks into 27 cells or more.
-const MOST_LANES: u32 = 32;
-
-/// Invocations that share a bubble where `lanes` share a particle: more, as bubbles are few.
-pub(super) fn lanes_of(gpu: &Gpu, lanes: u32) -> u32 {
-    if lanes == 1 {
-        return 1;
-    }
-    let subgroup = gpu.info().least_subgroup_size.min(MOST_LANES);
-    (1 << subgroup.max(1).ilog2()).max(lanes)
-}
 
 /// What bubbles do before and after substep `n` of `substeps`.
 pub(super) fn flags(n: u32, substeps: u32) -> u32 {
@@ -102,7 +89,7 @@ pub(super) fn record(
 impl BubbleState {
     /// The state without bubbles, of `count` particles in as many cells and blocks of them.
     pub(super) fn start(parameters: &Parameters, count: usize, cells: [u32; 2]) -> Self {
-        let Some(bubbles) = bubbles_of(parameters) else {
+        let Some(bubbles) = parameters.bubbles() else {
             return Self::default();
         };
         let slots = bubbles.slots() as usize;
@@ -191,7 +178,7 @@ impl Solver {
         step: &Step,
         n: u32,
     ) -> Result<(), SolverError> {
-        let (Some(pass), Some(bubbles)) = (&self.pipelines.bubbles, bubbles_of(&self.parameters))
+        let (Some(pass), Some(bubbles)) = (&self.pipelines.bubbles, self.parameters.bubbles())
         else {
             return Ok(());
         };

@@ -4,7 +4,7 @@
 use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::glass;
-use super::pipelines::{Grid, bubbles_of};
+use super::pipelines::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
 use super::vessels::Vessels;
@@ -152,7 +152,7 @@ impl Buffers {
             _ => Vec::new(),
         };
         let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
-        let bubbles = bubbles_of(&spec.parameters);
+        let bubbles = spec.parameters.bubbles();
         let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
         let bubbly = where_asked(bubbles.is_some(), n);
         let falling = where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n);

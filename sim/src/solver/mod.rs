@@ -17,6 +17,7 @@ mod counters;
 mod error;
 mod frame;
 mod glass;
+mod lanes;
 mod matter;
 mod pipelines;
 mod reading;
@@ -45,7 +46,7 @@ use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
 use vessels::Vessels;
-use vitriol_gpu::{Buffer, Gpu, vk};
+use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::Library;
 
 /// The particles of a scene on a device, and what moves them.
@@ -76,7 +77,9 @@ impl Solver {
         let count = u32::try_from(spec.particles.len())
             .map_err(|_| SolverError::TooManyParticles(spec.particles.len()))?;
         let grid = Grid::new(&spec.parameters, count);
-        let lanes = spec.lanes.unwrap_or_else(|| lanes_for(gpu, count));
+        let lanes = spec
+            .lanes
+            .unwrap_or_else(|| lanes::of_particles(gpu, count));
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
         let constants = Constants::new(spec, count, &grid, lanes);
@@ -193,21 +196,5 @@ impl Solver {
         // What a scene has no use for is a few bytes all the same.
         let used = of_particles.map(|buffer| buffer.bytes());
         used.filter(|&bytes| bytes >= count).sum::<u64>() / count
-    }
-}
-
-/// On a GPU with more units than a small scene has particles, several
-/// invocations share a particle's neighbours and the latency of fetching
-/// them; a software driver has no idle units.
-fn lanes_for(gpu: &Gpu, count: u32) -> u32 {
-    let info = gpu.info();
-    if info.kind == vk::PhysicalDeviceType::CPU || !info.features.subgroups {
-        1
-    } else if count <= 32_768 {
-        8
-    } else if count <= 131_072 {
-        4
-    } else {
-        1
     }
 }

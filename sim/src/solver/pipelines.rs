@@ -1,11 +1,10 @@
 //! The passes, specialised for what the scene asks for.
 
-use super::bubbles;
 use super::colour::Colour;
 use super::glass;
+use super::lanes;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
-use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
 use crate::chemistry::table::{INTERVALS, SolutionTable};
@@ -148,8 +147,8 @@ impl Pipelines {
                 vec![make(sim::TURNOVER, &[])?, make(sim::EXCHANGE, &[])?]
             }
         };
-        let lanes = bubbles::lanes_of(gpu, constants.lanes());
-        let of_bubbles = |shader| match bubbles_of(&spec.parameters) {
+        let lanes = lanes::of_bubbles(gpu, constants.lanes());
+        let of_bubbles = |shader| match spec.parameters.bubbles() {
             None => Ok(None),
             Some(_) => make(shader, &[("LANES", lanes.into())]).map(Some),
         };
@@ -173,7 +172,7 @@ impl Pipelines {
             last_forces: make(sim::FORCES, &[])?,
             live: of_bubbles(sim::LIVE)?,
             bubbles: of_bubbles(sim::BUBBLES)?,
-            spray: match bubbles_of(&spec.parameters) {
+            spray: match spec.parameters.bubbles() {
                 Some(bubbles) if bubbles.spray => Some(make(sim::SPRAY, &[])?),
                 _ => None,
             },
@@ -185,14 +184,6 @@ impl Pipelines {
             load: make(sim::LOAD, &[])?,
             density: make(sim::DENSITY, &[])?,
         })
-    }
-}
-
-/// The bubbles of a scene that has them.
-pub(super) fn bubbles_of(parameters: &Parameters) -> Option<&Bubbles> {
-    match &parameters.chemistry {
-        Some(Chemistry::Physical(physical)) => physical.bubbles.as_ref(),
-        _ => None,
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::SolverError;
 use super::buffers::{Buffers, DROPS_WORDS, SPRAYED_WORDS};
-use super::pipelines::bubbles_of;
 use super::transfer::{read, write};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
@@ -41,7 +40,10 @@ pub(crate) struct SprayAccount {
 impl SprayState {
     /// The state without drops, of `count` particles and `flasks` flasks.
     pub(super) fn start(parameters: &Parameters, count: usize, flasks: usize) -> Self {
-        match bubbles_of(parameters).map(|bubbles| bubbles.places_of_drops() as usize) {
+        match parameters
+            .bubbles()
+            .map(|bubbles| bubbles.places_of_drops() as usize)
+        {
             None | Some(0) => Self::default(),
             Some(places) => Self {
                 drops: vec![[0.0; DROPS_WORDS]; places],
