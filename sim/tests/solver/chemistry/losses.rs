@@ -71,15 +71,7 @@ fn what_the_liquid_gives_the_glass_has() {
 /// The glass that hot water at that spacing (m) warms, over what it wets.
 fn wetted(device: &Gpu, spacing: f64) -> f64 {
     let radius = 0.013;
-    let law = Physical {
-        losses: Some(Losses {
-            ambient: 20.0,
-            glass: 0.0,
-            surface: 0.0,
-        }),
-        ..mixing_alone()
-    };
-    let solver = hot_glass(device, law, 80.0, spacing);
+    let solver = hot_glass(device, warms_glass(), 80.0, spacing);
     frames(device, &solver, &[Pose::IDENTITY], 40);
     let p = solver.parameters();
     let unit = p.particle_mass();
@@ -124,15 +116,7 @@ fn wetted(device: &Gpu, spacing: f64) -> f64 {
 #[test]
 fn what_a_plate_gives_glass_and_liquid_have() {
     let device = gpu::device();
-    let law = Physical {
-        losses: Some(Losses {
-            ambient: 20.0,
-            glass: 0.0,
-            surface: 0.0,
-        }),
-        ..mixing_alone()
-    };
-    let mut setup = hot_setup(law, 20.0, D);
+    let mut setup = hot_setup(warms_glass(), 20.0, D);
     setup.parameters.heaters = vec![40.0];
     let solver = setup.solver(&device);
     let held = || {
@@ -152,6 +136,18 @@ fn what_a_plate_gives_glass_and_liquid_have() {
     );
     // Of the base's 5.5 J/K the liquid takes its share: what film and half of the glass let through.
     assert!(gained.iter().all(|&part| part > 2.0), "{gained:?} J");
+}
+
+/// Liquid that warms its glass; nothing is lost to the air.
+fn warms_glass() -> Physical {
+    Physical {
+        losses: Some(Losses {
+            ambient: 20.0,
+            glass: 0.0,
+            surface: 0.0,
+        }),
+        ..mixing_alone()
+    }
 }
 
 /// 12.5 mL of water of that temperature (°C) in the narrow glass, at that spacing (m).
