@@ -20,7 +20,7 @@ use crate::hands::beads;
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 use crate::scenes::Scenes;
 use crate::stage::hands;
-use crate::switches::{self, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
+use crate::switches::{self, SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
 
 /// What an experiment is made of.
 #[derive(Debug)]
@@ -211,6 +211,7 @@ impl Laboratory {
                     anew = true;
                 }
                 SWITCH_SOLVER => self.change_solver(&switch.value)?,
+                SWITCH_PLACEMENT => self.world.hands_leap(),
                 _ => {}
             }
         }

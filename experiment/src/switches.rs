@@ -8,6 +8,11 @@ pub const SWITCH_START: &str = "start";
 /// Key of the switch to other substeps and iterations, its value such as `8x4`.
 pub const SWITCH_SOLVER: &str = "solver";
 
+/// Key of the switch that keeps where the bench stands in the room: `stage_from_scene` as position (m)
+/// and angle about Y (rad). Where it comes, the hands leap in the scene, because she was recentred or not seen for a while:
+/// what they hold goes with them.
+pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
+
 /// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
 pub fn pair(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);

@@ -174,10 +174,14 @@ impl World {
             self.scene = self.scene.with_effort([substeps, iterations]);
         }
         let loads = self.due_loads()?;
-        let before = self.bodies.poses().to_vec();
+        let mut before = self.bodies.poses().to_vec();
         self.bodies.step(&input.hands, &loads);
-        self.follow_walls(&before)?;
         let mut rec = self.gpu.recorder(queue)?;
+        for leap in self.bodies.leaps() {
+            self.solver.carry(&mut rec, leap)?;
+            before[leap.flask] = leap.after_from_before.compose(before[leap.flask]);
+        }
+        self.follow_walls(&before)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;
         self.loads
@@ -185,6 +189,12 @@ impl World {
         self.last = Some(ticket);
         self.step += 1;
         Ok(())
+    }
+
+    /// The hands of the next step did not come to where they are by moving: the user was recentred, or found again. What
+    /// they hold goes there with all that is in it, as one rigid body, which the liquid does not feel.
+    pub fn hands_leap(&mut self) {
+        self.bodies.hands_leap();
     }
 
     /// As many substeps as the fastest wall asks for ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that

@@ -7,12 +7,11 @@
 //! consumed, and a replay needs no placement. The track keeps it as a switch all the same, so that one can tell
 //! where in the room the bench was.
 
-use glam::{EulerRot, Quat, Vec3};
-use vitriol_xr::{Pose, PoseFrame, Switch};
+use std::f32::consts::TAU;
 
-/// Key of the switch that keeps where the bench stands in the room: `stage_from_scene` as position (m)
-/// and angle about Y (rad).
-pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
+use glam::{EulerRot, Quat, Vec3};
+use vitriol_experiment::switches::SWITCH_PLACEMENT;
+use vitriol_xr::{Pose, PoseFrame, Switch};
 
 /// Height of the eyes above a table at which one sits, m: a seated grown person's eyes are some
 /// 1.20 m above the floor (0.79 m above a seat of 0.42 m: NASA-STD-3000, eye height, sitting), a
@@ -26,6 +25,10 @@ const STANDING: f32 = 0.68;
 const STANDS: f32 = 1.38;
 /// Height of the table's top in a scene, real metres.
 const SCENE_TABLE: f32 = 0.75;
+/// How far a head may have gone while no frame was shown, m and rad, for the bench to stay: as far as one leans and looks
+/// round. Farther off, someone else wears the headset, or the runtime has moved the stage.
+const LEANT: f32 = 0.7;
+const TURNED: f32 = 1.05;
 
 /// Whether the user sits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -48,6 +51,8 @@ pub struct Placement {
     /// The last frame in the headset's stage, where this one's steps begin; `None` where that would be
     /// somewhere else: before the first frame, after a recentring and on another device.
     pub last: Option<PoseFrame>,
+    /// Where the head was in the last frame that was shown, if some were not.
+    interrupted: Option<Pose>,
 }
 
 impl Placement {
@@ -57,6 +62,7 @@ impl Placement {
             posture,
             stage_from_scene: None,
             last: None,
+            interrupted: None,
         }
     }
 
@@ -70,16 +76,29 @@ impl Placement {
         self.stage_from_scene.unwrap_or(Pose::IDENTITY)
     }
 
-    /// Lays the bench before the user. The switch is for the recording. The last frame is forgotten: between
-    /// it and the next one lies the leap from one place to the other.
-    pub fn recentre(&mut self, now: &PoseFrame) -> Switch {
-        let placed = before(&now.stage_from_view, self.posture);
-        self.stage_from_scene = Some(placed);
-        self.last = None;
-        Switch {
-            key: SWITCH_PLACEMENT.into(),
-            value: as_text(&placed),
+    /// No frame is shown for a while, and the user goes on moving.
+    pub fn interrupt(&mut self) {
+        if let Some(last) = &self.last {
+            self.interrupted.get_or_insert(last.stage_from_view);
         }
+    }
+
+    /// Lays the bench before the user where that is `asked`, where she has not been seen yet, and where she is elsewhere
+    /// after an interruption. `Some` where, seen from the bench, the hands leap in the next step, with the switch that says
+    /// so in a recording; then the last frame is forgotten, since between it and the next one lies the leap.
+    pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Switch> {
+        let interrupted = self.interrupted.take();
+        let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
+        if asked || elsewhere || !self.is_known() {
+            self.stage_from_scene = Some(before(&now.stage_from_view, self.posture));
+        } else if interrupted.is_none() {
+            return None;
+        }
+        self.last = None;
+        Some(Switch {
+            key: SWITCH_PLACEMENT.into(),
+            value: as_text(&self.stage_from_scene()),
+        })
     }
 
     /// The last frame, in the scene's stage.
@@ -87,6 +106,25 @@ impl Placement {
         let placed = self.stage_from_scene();
         self.last.as_ref().map(|last| in_scene(last, &placed))
     }
+}
+
+/// Whether a head has gone so far that the bench is to follow.
+fn is_elsewhere(then: &Pose, now: &Pose) -> bool {
+    let away = now.position.distance(then.position);
+    let turned = (yaw_of(now) - yaw_of(then)).rem_euclid(TAU);
+    away > LEANT || turned.min(TAU - turned) > TURNED
+}
+
+/// The angle about Y of where a head looks, or of where its top points if it looks straight down.
+fn yaw_of(stage_from_view: &Pose) -> f32 {
+    let ahead = stage_from_view.orientation * Vec3::NEG_Z;
+    let up = stage_from_view.orientation * Vec3::Y;
+    let level = if ahead.y.abs() < 0.99 {
+        ahead
+    } else {
+        up * -ahead.y.signum()
+    };
+    (-level.x).atan2(-level.z)
 }
 
 /// `stage_from_scene` for a user whose head is there.
@@ -98,18 +136,9 @@ fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
         Posture::Standing => true,
     };
     let drop = if stands { STANDING } else { SEATED };
-    // Where she looks, or where the top of her head points if she looks straight down.
-    let ahead = stage_from_view.orientation * Vec3::NEG_Z;
-    let up = stage_from_view.orientation * Vec3::Y;
-    let level = if ahead.y.abs() < 0.99 {
-        ahead
-    } else {
-        up * -ahead.y.signum()
-    };
-    let yaw = (-level.x).atan2(-level.z);
     Pose::new(
         Vec3::new(head.x, head.y - drop - SCENE_TABLE, head.z),
-        Quat::from_rotation_y(yaw),
+        Quat::from_rotation_y(yaw_of(stage_from_view)),
     )
 }
 
@@ -175,6 +204,51 @@ mod tests {
                 // Straight down, the direction is what rounding leaves of it.
                 assert!((table - expected).length() < 2e-3, "{table} {expected}");
             }
+        }
+    }
+
+    fn seen(stage_from_view: Pose) -> PoseFrame {
+        PoseFrame {
+            step: 0,
+            time_ns: 0,
+            stage_from_view,
+            hands: [Hand::default(), Hand::default()],
+            scenario: Vec::new(),
+            info: FrameInfo::default(),
+        }
+    }
+
+    #[test]
+    fn the_bench_stays_unless_its_user_is_elsewhere_after_an_interruption() {
+        let there = |x: f32, yaw: f32| {
+            seen(Pose::new(
+                Vec3::new(x, 1.2, 0.0),
+                Quat::from_rotation_y(yaw),
+            ))
+        };
+        // Across π too.
+        for yaw in [0.0, 3.1] {
+            let mut placement = Placement::new(Posture::Auto);
+            let mut go = |x: f32, turned: f32, interrupt: bool, asked: bool| {
+                if interrupt {
+                    placement.interrupt();
+                    placement.interrupt();
+                }
+                let now = there(x, yaw + turned);
+                let leaps = placement.place(&now, asked).is_some();
+                assert!(!leaps || placement.last.is_none());
+                placement.last = Some(now);
+                (leaps, placement.stage_from_scene().position.x)
+            };
+            assert_eq!(go(0.0, 0.0, true, false), (true, 0.0), "the first");
+            assert_eq!(go(0.5, 0.0, false, false), (false, 0.0));
+            assert_eq!(go(2.0, 2.0, false, false), (false, 0.0), "she walks");
+            assert_eq!(go(2.5, 1.5, true, false), (true, 0.0), "she leans");
+            assert_eq!(go(2.6, 1.5, false, false), (false, 0.0));
+            assert_eq!(go(2.7, 1.5, false, true), (true, 2.7), "she asks");
+            assert_eq!(go(4.0, 1.5, true, false), (true, 4.0), "another place");
+            assert_eq!(go(4.1, 0.3, true, false), (true, 4.1), "another way");
+            assert_eq!(go(4.2, -0.6, true, false), (true, 4.1));
         }
     }
 

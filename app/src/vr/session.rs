@@ -198,6 +198,7 @@ impl Session {
             mirror.entitle(&info, Some(why));
         }
         self.steps.clock.pause();
+        self.placement.interrupt();
         self.counts.pause();
         self.catch_up(&NoFrameOpen::in_a_turn_without())
     }
@@ -218,7 +219,6 @@ impl Session {
         self.counts.tally.restart();
         self.steps.submitted();
         self.readings.under_way = None;
-        self.placement.last = None;
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 
 mod common;
 mod hands;
+mod leap;
 mod loss;
 #[cfg(target_os = "linux")]
 mod mirror;

@@ -6,9 +6,8 @@ use crate::common::{Trouble, Worn, hash, heard, options, pour, session_with};
 use crate::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
-use vitriol::vr::placement::SWITCH_PLACEMENT;
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
+use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_START};
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose};
 

@@ -35,6 +35,24 @@ pub const RELEASE_SPIN_MAX: f32 = 31.4;
 pub(super) struct GripState {
     closed: bool,
     held: Option<Held>,
+    /// It was absent in the last step.
+    away: bool,
+    /// It is there, and was absent in the step before.
+    back: bool,
+    /// It took hold in this step.
+    took: bool,
+}
+
+impl GripState {
+    /// Whether the hand is where it is without having been followed there.
+    pub(super) fn is_back(&self) -> bool {
+        self.back
+    }
+
+    /// Whether what it holds is where it is because another held it, or none.
+    pub(super) fn has_just_taken(&self) -> bool {
+        self.took
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +76,11 @@ pub(super) fn advance(
 ) {
     for index in 0..hands.len() {
         let hand = &hands[index];
-        if !hand.present || !hand.stage_from_grip.is_valid() {
+        let present = hand.present && hand.stage_from_grip.is_valid();
+        grips[index].back = present && grips[index].away;
+        grips[index].away = !present;
+        grips[index].took = false;
+        if !present {
             continue;
         }
         let was_closed = grips[index].closed;
@@ -66,10 +88,11 @@ pub(super) fn advance(
         if hand.squeeze >= GRIP_CLOSES {
             grips[index].closed = true;
         } else if hand.squeeze < GRIP_OPENS {
-            grips[index] = GripState::default();
+            (grips[index].closed, grips[index].held) = (false, None);
         }
         if grips[index].closed && !was_closed {
             grips[index].held = nearest(hand.stage_from_grip, flasks, poses, reach);
+            grips[index].took = true;
             if let (Some(taken), Some(other)) = (grips[index].held, grips[1 - index].held)
                 && taken.flask == other.flask
             {

@@ -24,4 +24,4 @@ mod tests;
 
 pub use grip::{GRIP_CLOSES, GRIP_OPENS, GRIP_REACH, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
-pub use world::{Bodies, Velocity};
+pub use world::{Bodies, Leap, Velocity};

@@ -13,8 +13,17 @@ use super::units::Units;
 use crate::pose::Pose;
 
 /// Speed (m/s, at real size) above which a held flask's motion is a leap of the
-/// tracker: it goes there, but what stands in between is not struck by it.
+/// tracker. A leap takes no time: what stands in between is not struck, and what is in the flask goes with it.
 const HELD_SPEED_MAX: f32 = 20.0;
+
+/// A leap of a held flask.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leap {
+    /// Which flask.
+    pub flask: usize,
+    /// From where it was to where it goes on from, both in the stage.
+    pub after_from_before: Pose,
+}
 
 /// How a flask moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,6 +52,8 @@ pub struct Bodies {
     flasks: Vec<Flask>,
     state: State,
     poses: Vec<Pose>,
+    hands_leap: bool,
+    leaps: Vec<Leap>,
     gravity: Vec3,
     step: f32,
     units: Units,
@@ -69,6 +80,8 @@ impl Bodies {
                 past: poses.iter().map(|&pose| [pose; 4]).collect(),
             },
             poses,
+            hands_leap: false,
+            leaps: Vec::new(),
             gravity: spec.gravity,
             step: spec.step,
             units: Units::new(spec.length_scale),
@@ -85,6 +98,7 @@ impl Bodies {
         let reach = GRIP_REACH * self.length_scale;
         let grips = &mut self.state.grips;
         grip::advance(grips, hands, &self.flasks, &self.poses, reach);
+        self.take_leaps();
         for index in 0..self.flasks.len() {
             let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
             if self.holder(index).is_some() {
@@ -103,6 +117,17 @@ impl Bodies {
     /// `stage_from_flask` of every flask after the last step.
     pub fn poses(&self) -> &[Pose] {
         &self.poses
+    }
+
+    /// Between the last step and the next the hands do not come to where they are by moving: what they hold leaps. So
+    /// does, unasked, what a hand holds that was absent, and that goes faster than hands do.
+    pub fn hands_leap(&mut self) {
+        self.hands_leap = true;
+    }
+
+    /// Held flasks that leapt in the last step.
+    pub fn leaps(&self) -> &[Leap] {
+        &self.leaps
     }
 
     /// The velocity of a flask: of a held one by its last two poses. `None` where there
@@ -220,6 +245,43 @@ impl Bodies {
         }
     }
 
+    /// Puts the held flasks that leap where their hands have them, as if they had always been there: a leap ends a step
+    /// before the hand, at the velocity that the flask has had.
+    fn take_leaps(&mut self) {
+        let all = std::mem::take(&mut self.hands_leap);
+        self.leaps.clear();
+        for (index, flask) in self.flasks.iter().enumerate() {
+            let Some((hand, target)) = grip::holder(&self.state.grips, index) else {
+                continue;
+            };
+            let before = self.poses[index];
+            let (linear, _) = grip::velocity_between(before, target, Vec3::ZERO, self.step);
+            let fast = linear.length() > HELD_SPEED_MAX * self.length_scale;
+            let grip = &self.state.grips[hand];
+            if grip.has_just_taken() || !(all || fast || grip.is_back()) {
+                continue;
+            }
+            let past = &mut self.state.past[index];
+            let turned = past[0].orientation * past[1].orientation.conjugate();
+            let would_be = Pose::new(
+                before.position + (past[0].position - past[1].position),
+                (turned * before.orientation).normalize(),
+            );
+            let after_from_before = target.compose(would_be.inverse());
+            for pose in past.iter_mut() {
+                *pose = after_from_before.compose(*pose);
+            }
+            self.poses[index] = past[0];
+            if let Some(body) = self.rapier.bodies.get_mut(flask.body) {
+                body.set_position(self.units.pose(past[0]), true);
+            }
+            self.leaps.push(Leap {
+                flask: index,
+                after_from_before,
+            });
+        }
+    }
+
     /// Brings the held flasks to `fraction` of the way of this step.
     fn move_held(&mut self, fraction: f32) {
         for (index, flask) in self.flasks.iter().enumerate() {
@@ -229,14 +291,8 @@ impl Bodies {
             let Some(body) = self.rapier.bodies.get_mut(flask.body) else {
                 continue;
             };
-            let before = self.poses[index];
-            let (linear, _) = grip::velocity_between(before, target, Vec3::ZERO, self.step);
-            if linear.length() > HELD_SPEED_MAX * self.length_scale {
-                body.set_position(self.units.pose(target), true);
-            } else {
-                let pose = before.interpolate(target, fraction);
-                body.set_next_kinematic_position(self.units.pose(pose));
-            }
+            let pose = self.poses[index].interpolate(target, fraction);
+            body.set_next_kinematic_position(self.units.pose(pose));
         }
     }
 

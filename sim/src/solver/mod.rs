@@ -12,6 +12,7 @@
 
 mod bubbles;
 mod buffers;
+mod carry;
 mod colour;
 mod counters;
 mod error;

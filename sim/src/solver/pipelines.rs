@@ -58,6 +58,8 @@ impl Grid {
 
 /// Compiled passes, named as their shaders.
 pub(super) struct Pipelines {
+    /// Where flasks can be lifted.
+    pub(super) carry: Option<SolverPass>,
     pub(super) predict: SolverPass,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
@@ -153,6 +155,7 @@ impl Pipelines {
             Some(_) => make(shader, &[("LANES", lanes.into())]).map(Some),
         };
         Ok(Self {
+            carry: spec.loads.then(|| make(sim::CARRY, &[])).transpose()?,
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
             cell_scan: make(sim::CELL_SCAN, &[])?,

@@ -5,6 +5,7 @@
 
 mod against_reference;
 mod brink;
+mod carry;
 mod chaos;
 mod chemistry;
 mod common;

@@ -86,8 +86,9 @@ impl Session {
         if let Some(scene) = chosen.scene {
             self.benches.build(headset.gpu(), scene);
         }
-        if chosen.recentre || recentred || !self.placement.is_known() {
-            self.track.switch(self.placement.recentre(now));
+        if let Some(switch) = self.placement.place(now, chosen.recentre || recentred) {
+            self.track.switch(switch);
+            self.benches.current.world.hands_leap();
             self.steps.clock.pause();
         }
     }

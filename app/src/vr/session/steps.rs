@@ -157,9 +157,7 @@ mod tests {
         let mut placement = Placement::new(Posture::Seated);
         let plan = |&time: &f64| {
             let now = at(time);
-            if !placement.is_known() {
-                placement.recentre(&now);
-            }
+            placement.place(&now, false);
             steps.plan(&now, &placement, scene);
             placement.last = Some(now);
             steps.due.drain(..).collect()
@@ -195,7 +193,7 @@ mod tests {
         let scene = Scene::builtin("two-flasks").unwrap();
         let mut steps = Steps::new();
         let mut placement = Placement::new(Posture::Seated);
-        placement.recentre(&at(0.0));
+        placement.place(&at(0.0), false);
         let mut due = |time: f64, pause: bool| {
             if pause {
                 steps.clock.pause();

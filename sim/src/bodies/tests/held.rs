@@ -159,19 +159,110 @@ fn a_thrown_flask_flies_a_parabola() {
     assert!((found.angular - spin).length() < 1e-3, "{found:?}");
 }
 
-/// What a tracker's leap leaves behind is no missile.
+/// What a tracker's jerk leaves behind is no missile.
 #[test]
 fn release_velocity_is_limited() {
     let start = above_table(0.5);
     let mut bodies = world(vec![beaker(start)]);
     bodies.step(&gripping(start), &[]);
-    let leapt = Pose::new(start.position + Vec3::Y * 2.0, Quat::from_rotation_x(3.0));
+    // 18 m/s, less than a leap.
+    let leapt = Pose::new(start.position + Vec3::Y * 0.2, Quat::from_rotation_x(3.0));
     bodies.step(&gripping(leapt), &[]);
     bodies.step(&[Hand::ABSENT, hand(leapt, 0.0)], &[]);
     let velocity = bodies.velocity(0).unwrap();
     assert!(velocity.angular.length() < RELEASE_SPIN_MAX * 1.001);
     // The base circles the centre of mass, at most at the flask's height.
     assert!(velocity.linear.length() < RELEASE_SPEED_MAX + RELEASE_SPIN_MAX * HEIGHT);
+}
+
+/// After a leap a flask moves as before it, seen from the hand, without a step at rest.
+#[test]
+fn a_leap_takes_no_time() {
+    let start = above_table(0.5);
+    let (velocity, spin) = (Vec3::new(0.6, 0.2, 0.0), Vec3::new(0.0, 3.0, 1.0));
+    let carried = |t: f32| {
+        let turned = Quat::from_scaled_axis(spin * t);
+        Pose::new(start.position + velocity * t, turned)
+    };
+    let far = Pose::new(Vec3::new(2.0, 0.1, -1.0), Quat::from_rotation_y(2.0));
+    let near = Pose::new(Vec3::new(0.05, 0.0, 0.0), Quat::from_rotation_y(0.1));
+    for (asked, there) in [(true, near), (true, far), (false, far)] {
+        let mut bodies = world(vec![beaker(start)]);
+        for step in 0..10 {
+            bodies.step(&gripping(carried(step as f32 * STEP)), &[]);
+            assert_eq!(bodies.leaps(), []);
+        }
+        if asked {
+            bodies.hands_leap();
+        }
+        for step in 10..12 {
+            let before = bodies.poses()[0];
+            let grip = there.compose(carried(step as f32 * STEP));
+            bodies.step(&gripping(grip), &[]);
+            assert_eq!(bodies.holder(0), Some(1));
+            assert_follows(bodies.poses()[0], grip, Pose::IDENTITY);
+            // Round-off of the poses over a step.
+            let found = bodies.velocity(0).unwrap();
+            let linear = found.linear - there.transform_vector(velocity);
+            let angular = found.angular - there.transform_vector(spin);
+            assert!(
+                linear.length() < 1e-3 && angular.length() < 1e-3,
+                "{found:?}"
+            );
+            if step == 10 {
+                let [leap] = bodies.leaps() else {
+                    panic!("{:?}", bodies.leaps())
+                };
+                let expected = there.compose(before);
+                assert_follows(
+                    leap.after_from_before.compose(before),
+                    expected,
+                    Pose::IDENTITY,
+                );
+            } else {
+                assert_eq!(bodies.leaps(), []);
+            }
+        }
+    }
+}
+
+/// A hand of which nothing is known for a while leaves what it holds where it is, and finds it in itself again.
+#[test]
+fn a_hand_that_comes_back_leaps() {
+    let start = above_table(0.5);
+    let mut bodies = world(vec![beaker(start)]);
+    bodies.step(&gripping(start), &[]);
+    for _ in 0..3 {
+        bodies.step(&NO_HANDS, &[]);
+        assert_eq!((bodies.poses()[0], bodies.leaps()), (start, &[][..]));
+    }
+    // 1.8 m/s, were it followed.
+    let there = above_table(0.52);
+    bodies.step(&gripping(there), &[]);
+    assert_follows(bodies.poses()[0], there, Pose::IDENTITY);
+    assert_eq!(bodies.leaps().len(), 1);
+    assert_eq!(bodies.velocity(0).unwrap().linear, Vec3::ZERO);
+    // One that closes when it comes takes hold, and nothing leaps.
+    let mut bodies = world(vec![beaker(start)]);
+    bodies.step(&NO_HANDS, &[]);
+    bodies.step(&gripping(start), &[]);
+    assert_eq!((bodies.holder(0), bodies.leaps()), (Some(1), &[][..]));
+}
+
+/// Recentred, a held flask strikes nothing that stands between, however near.
+#[test]
+fn a_short_leap_strikes_nothing_either() {
+    let start = above_table(0.0);
+    let at = |x: f32| Pose::from_position(start.position + Vec3::X * x);
+    let mut bodies = world(vec![beaker(start), beaker(at(0.1))]);
+    bodies.step(&gripping(start), &[]);
+    // 18 m/s would be no leap by itself.
+    bodies.hands_leap();
+    bodies.step(&gripping(at(0.2)), &[]);
+    for _ in 0..30 {
+        bodies.step(&gripping(at(0.2)), &[]);
+    }
+    assert!((bodies.poses()[1].position - at(0.1).position).length() < 1e-4);
 }
 
 #[test]

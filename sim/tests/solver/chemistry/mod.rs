@@ -2,7 +2,7 @@
 
 mod air;
 mod boiling;
-mod bubbles;
+pub mod bubbles;
 mod bubbly_liquid;
 mod conserved;
 mod extremes;
@@ -17,5 +17,5 @@ mod physical;
 mod repeat;
 mod scenes;
 pub mod setup;
-mod spray;
+pub mod spray;
 mod steam;

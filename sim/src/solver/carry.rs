@@ -1,0 +1,35 @@
+//! What is in a flask goes with it where it leaps, before Algorithm 1 begins.
+
+use super::{Solver, SolverError};
+use crate::bodies::Leap;
+use vitriol_gpu::Recorder;
+use vitriol_shaders::layout::Carry;
+
+impl Solver {
+    /// Records the rigid motion of all that is in the flask.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn carry(&self, rec: &mut Recorder, leap: &Leap) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.carry else {
+            return Ok(());
+        };
+        if self.count == 0 {
+            return Ok(());
+        }
+        let bubbles = self.parameters.bubbles();
+        // Two records of drops for each place of a bubble.
+        let places = bubbles.map_or(0, |bubbles| 2 * bubbles.slots());
+        let motion = leap.after_from_before;
+        let carry = Carry {
+            position: motion.position.extend(0.0).to_array(),
+            orientation: motion.orientation.to_array(),
+            membership: leap.flask as u32 + 1,
+            ..Carry::default()
+        };
+        self.pass(rec, pass)
+            .constants(&carry)
+            .invocations(self.count.max(places))?;
+        Ok(())
+    }
+}
