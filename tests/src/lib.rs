@@ -5,10 +5,14 @@
 pub mod browser;
 pub mod gpu;
 #[cfg(target_os = "linux")]
+pub mod mock;
+#[cfg(target_os = "linux")]
 pub mod monado;
 pub mod program;
 pub mod random;
 pub mod readers;
+#[cfg(target_os = "linux")]
+mod rig;
 #[cfg(target_os = "linux")]
 pub mod screen;
 pub mod wait;

@@ -1,0 +1,286 @@
+//! What a test tells the runtime: lines of JSON in the file `script`, each a [`Cue`].
+
+use serde::{Deserialize, Serialize};
+
+use crate::number::{one, two};
+pub use crate::pose::{Known, Pose};
+
+/// A change and its time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cue {
+    /// As the xrWaitFrame of that number begins, counted from 0 over all sessions of the process; at
+    /// once where it has begun already, and for `None`.
+    pub at: Option<u64>,
+    /// What changes.
+    pub change: Change,
+}
+
+/// What can be changed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Change {
+    /// The head moves.
+    Head {
+        /// In the runtime's own world.
+        pose: Pose,
+        /// What of it is known.
+        known: Known,
+    },
+    /// A controller moves, is pressed, comes or goes.
+    Hand {
+        /// 0 left, 1 right.
+        side: usize,
+        /// `None` without a controller.
+        state: Option<HandState>,
+    },
+    /// A hand is seen (XR_EXT_hand_tracking).
+    Joints {
+        /// 0 left, 1 right.
+        side: usize,
+        /// The 26 joints in the extension's order; `None` for a hand that is not seen.
+        joints: Option<Vec<Joint>>,
+    },
+    /// A reference space gets another origin.
+    Move {
+        /// Which: all but VIEW and actions'.
+        space: SpaceKind,
+        /// Its new origin in the runtime's own world.
+        origin: Pose,
+        /// Whether XrEventDataReferenceSpaceChangePending is raised.
+        announced: bool,
+        /// The event's `poseValid`.
+        pose_valid: bool,
+        /// How many frames after the next one of which the events can be polled before.
+        later: u32,
+    },
+    /// The reference spaces that are offered.
+    Offer {
+        /// All of them.
+        spaces: Vec<SpaceKind>,
+    },
+    /// The extensions that are offered.
+    Extensions(Vec<String>),
+    /// Display rates (XR_FB_display_refresh_rate), and with them the period.
+    Rates {
+        /// Those that can be chosen, Hz.
+        rates: Vec<f32>,
+        /// The present one, Hz.
+        now: f32,
+    },
+    /// Period of the display alone, ns.
+    Period(i64),
+    /// Whether a session that is seen is asked for pictures.
+    ShouldRender(bool),
+    /// Whether someone wears the headset (XR_EXT_user_presence).
+    Presence(bool),
+    /// What no eye sees (XR_KHR_visibility_mask).
+    Mask {
+        /// 0 left, 1 right.
+        eye: usize,
+        /// Corners in the plane 1 m ahead.
+        vertices: Vec<[f32; 2]>,
+        /// Three for each triangle.
+        indices: Vec<u32>,
+    },
+    /// Formats of swapchains that are offered, Vulkan's numbers.
+    Formats(Vec<i64>),
+    /// Most layers of a swapchain's images.
+    ArrayLayers(u32),
+    /// The eyes.
+    Views {
+        /// Their fields of view.
+        fov: [Fov; 2],
+        /// Between them, m.
+        ipd: f32,
+    },
+    /// Recommended size of an eye's picture, pixels.
+    Extent([u32; 2]),
+    /// Blend modes that are offered, OpenXR's numbers.
+    Blends(Vec<i32>),
+    /// Where the session is led to.
+    Goal(Goal),
+    /// What is there now is lost.
+    Lose(Lost),
+    /// Whether a headset is connected.
+    Headset(bool),
+    /// A call is refused. Where several fit, the earliest that is not used up counts.
+    Refuse {
+        /// OpenXR's name of it.
+        call: String,
+        /// The XrResult.
+        answer: i32,
+        /// How often; always for `None`.
+        times: Option<u32>,
+        /// Only where this holds. xrCreateSwapchain: its format's number, or `layers>1`. xrEndFrame:
+        /// `projection`, `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
+        when: Option<String>,
+    },
+    /// Nothing is refused any more.
+    RefuseNothing,
+    /// The events that wait are lost, and the runtime says so (XrEventDataEventsLost).
+    LoseEvents,
+    /// XrEventDataInstanceLossPending is raised.
+    InstanceLossPending,
+}
+
+impl Change {
+    /// The head at `pose`, tracked.
+    #[must_use]
+    pub fn head(pose: Pose) -> Self {
+        Self::Head {
+            pose,
+            known: Known::TRACKED,
+        }
+    }
+
+    /// A controller in that hand.
+    #[must_use]
+    pub fn hand(side: usize, state: HandState) -> Self {
+        Self::Hand {
+            side,
+            state: Some(state),
+        }
+    }
+
+    /// The space moves with the next frame, and the runtime says so.
+    #[must_use]
+    pub fn recentre(space: SpaceKind, origin: Pose) -> Self {
+        Self::Move {
+            space,
+            origin,
+            announced: true,
+            pose_valid: true,
+            later: 0,
+        }
+    }
+
+    /// The call is refused once.
+    #[must_use]
+    pub fn refuse_once(call: &str, answer: i32) -> Self {
+        Self::Refuse {
+            call: call.to_owned(),
+            answer,
+            times: Some(1),
+            when: None,
+        }
+    }
+}
+
+/// A hand with its controller.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HandState {
+    /// Interaction profile.
+    pub profile: String,
+    /// Grip in the runtime's own world.
+    pub grip: Pose,
+    /// Aim in the runtime's own world.
+    pub aim: Pose,
+    /// What of both is known.
+    pub known: Known,
+    /// 0 to 1.
+    #[serde(with = "one")]
+    pub squeeze: f32,
+    /// 0 to 1.
+    #[serde(with = "one")]
+    pub trigger: f32,
+    /// Thumbstick or trackpad.
+    #[serde(with = "two")]
+    pub stick: [f32; 2],
+    /// First button.
+    pub a: bool,
+    /// Second button.
+    pub b: bool,
+}
+
+/// Profile of Touch's controllers.
+pub const TOUCH: &str = "/interaction_profiles/oculus/touch_controller";
+
+impl HandState {
+    /// One of Touch's controllers, 20 cm to its side, 1 m high and 40 cm ahead, with nothing pressed.
+    #[must_use]
+    pub fn touch(side: usize) -> Self {
+        let pose = Pose::at(if side == 0 { -0.2 } else { 0.2 }, 1.0, -0.4);
+        Self {
+            profile: TOUCH.to_owned(),
+            grip: pose,
+            aim: pose,
+            known: Known::TRACKED,
+            squeeze: 0.0,
+            trigger: 0.0,
+            stick: [0.0; 2],
+            a: false,
+            b: false,
+        }
+    }
+}
+
+/// A joint of a hand that is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// In the runtime's own world.
+    pub pose: Pose,
+    /// m.
+    #[serde(with = "one")]
+    pub radius: f32,
+    /// What of it is known.
+    pub known: Known,
+}
+
+/// Angles from the line of sight, rad; left and down are negative.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fov {
+    /// Left side.
+    #[serde(with = "one")]
+    pub left: f32,
+    /// Right side.
+    #[serde(with = "one")]
+    pub right: f32,
+    /// Upper side.
+    #[serde(with = "one")]
+    pub up: f32,
+    /// Lower side.
+    #[serde(with = "one")]
+    pub down: f32,
+}
+
+/// What a space is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum SpaceKind {
+    /// The head.
+    View,
+    /// Where the eyes were.
+    Local,
+    /// The floor below.
+    LocalFloor,
+    /// The middle of the floor that is free.
+    Stage,
+    /// A hand; never offered as a reference space.
+    Action,
+}
+
+/// The state that the runtime leads a session to, step by step: one event in each round of xrPollEvent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Goal {
+    /// The headset sleeps: no session runs.
+    Idle,
+    /// Frames, but not seen.
+    Synchronized,
+    /// Seen, without input.
+    Visible,
+    /// Seen, with input.
+    Focused,
+    /// As [`Goal::Idle`].
+    Stopping,
+    /// The end. Once it is told, later sessions are led to the focus.
+    Exiting,
+    /// A loss that is announced. Once it is told, later sessions are led to the focus.
+    LossPending,
+}
+
+/// What is lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Lost {
+    /// The sessions that are there: calls on them answer XR_ERROR_SESSION_LOST.
+    Session,
+    /// The instances that are there: calls on them and their sessions answer XR_ERROR_INSTANCE_LOST.
+    Instance,
+}
