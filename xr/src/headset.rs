@@ -30,11 +30,12 @@ pub trait Headset {
     /// What cannot be mended by asking again; a lost runtime or session is a [`Turn`].
     fn next(&mut self) -> Result<Turn, HeadsetError>;
 
-    /// Where the frame's pictures are to be copied to; `end` hands them over.
+    /// Where the frame's pictures are to be copied to, the panel's only if it is to change; `end` hands them over. `None` where
+    /// the runtime gives no images, which it may do at any time: the frame is then ended without a picture.
     ///
     /// # Errors
     /// As for [`Headset::next`].
-    fn acquire(&mut self) -> Result<Targets, HeadsetError>;
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError>;
 
     /// The eyes at the frame's display time, located anew.
     ///
@@ -68,8 +69,11 @@ pub trait Headset {
 pub enum Turn {
     /// A frame has begun.
     Frame(Box<HeadsetFrame>),
-    /// No frame now: the headset is off, or the session is not running. It has waited a little (100 ms at most).
-    Paused,
+    /// No frame now. It has waited a little (100 ms at most).
+    Paused {
+        /// Why.
+        cause: Pause,
+    },
     /// The runtime or its session is gone, and is sought again. It has waited a little.
     Lost {
         /// What was lost.
@@ -79,6 +83,15 @@ pub enum Turn {
     Renewed,
     /// The runtime or the student asked to end.
     Ended,
+}
+
+/// Why nothing is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pause {
+    /// The headset is off, or shows something else.
+    Off,
+    /// The runtime does not know yet where it is.
+    Unseen,
 }
 
 /// A frame that has begun.
@@ -111,8 +124,8 @@ pub struct Targets {
     pub colour: Image,
     /// Two layers of reversed depth, where the runtime takes it.
     pub depth: Option<Image>,
-    /// The panel, one layer, 8 bits a channel, sRGB.
-    pub panel: Image,
+    /// The panel, one layer, 8 bits a channel, sRGB; `None` where it stays as it was shown last.
+    pub panel: Option<Image>,
 }
 
 /// What a frame shows.
@@ -138,6 +151,12 @@ pub enum HeadsetError {
     #[error("{remedy}")]
     NoRuntime {
         /// What is missing, and what to install or start.
+        remedy: String,
+    },
+    /// There is a runtime, but its headset is switched off.
+    #[error("{remedy}")]
+    Asleep {
+        /// What to do.
         remedy: String,
     },
     /// The runtime refused a call.

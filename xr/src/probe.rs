@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use openxr::{ApplicationInfo, ExtensionSet, Version};
+use openxr::{ApplicationInfo, Entry, ExtensionSet, Version};
 
 use crate::entry::entry;
 
@@ -46,20 +46,24 @@ pub fn probe() -> Probe {
         }
     };
     found.extensions = wanted(&offered);
-    let instance = entry.create_instance(&application(), &ExtensionSet::default(), &[], &());
-    match instance.and_then(|instance| instance.properties()) {
-        Ok(properties) => {
-            found.runtime = Some(format!(
-                "{} {}",
-                properties.runtime_name, properties.runtime_version
-            ));
-        }
+    match name_of(&entry) {
+        Ok(name) => found.runtime = Some(name),
         Err(error) => found.missing.push(no_runtime(error)),
     }
     if !offered.khr_vulkan_enable2 {
-        found.missing.push(NO_VULKAN.to_owned());
+        found.missing.push(no_vulkan(&entry));
     }
     found
+}
+
+/// Name and version of the runtime.
+fn name_of(entry: &Entry) -> Result<String, openxr::sys::Result> {
+    let instance = entry.create_instance(&application(), &ExtensionSet::default(), &[], &());
+    let properties = instance.and_then(|instance| instance.properties())?;
+    Ok(format!(
+        "{} {}",
+        properties.runtime_name, properties.runtime_version
+    ))
 }
 
 /// What the program tells a runtime of itself.
@@ -74,15 +78,29 @@ pub(crate) fn application() -> ApplicationInfo<'static> {
     }
 }
 
-/// A runtime without the extension that everything is built on.
-pub(crate) const NO_VULKAN: &str = "The OpenXR runtime lacks XR_KHR_vulkan_enable2: update it, or \
-                                    choose another runtime in XR_RUNTIME_JSON.";
+/// A runtime without the extension that everything is built on, such as Microsoft's own: which other to choose.
+pub(crate) fn no_vulkan(entry: &Entry) -> String {
+    let name = name_of(entry).unwrap_or_else(|_| "of no name".to_owned());
+    let others = others();
+    let choose = match others.is_empty() {
+        true => format!("install another, such as {RUNTIMES}"),
+        false => {
+            let paths = others.iter().map(|path| path.display().to_string());
+            let paths = paths.collect::<Vec<_>>().join(", ");
+            format!("choose another in XR_RUNTIME_JSON; here are {paths}")
+        }
+    };
+    format!(
+        "The OpenXR runtime {name} does without Vulkan (it lacks XR_KHR_vulkan_enable2): {choose}. \
+         SteamVR has it, and becomes the active one in its settings under OpenXR."
+    )
+}
 
 /// Runtimes of this system's headsets.
 #[cfg(windows)]
 const RUNTIMES: &str = "SteamVR or Meta Quest Link, and make it the active one in its settings";
 #[cfg(not(windows))]
-const RUNTIMES: &str = "SteamVR or Monado";
+const RUNTIMES: &str = "SteamVR, WiVRn or Monado";
 
 /// A loader without a runtime that answers.
 pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
@@ -127,6 +145,41 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
 fn manifest() -> Option<PathBuf> {
     let named = std::env::var_os("XR_RUNTIME_JSON");
     named.map(PathBuf::from).or_else(active_manifest)
+}
+
+/// Files of runtimes that are installed beside the active one.
+#[cfg(windows)]
+fn others() -> Vec<PathBuf> {
+    // A value for each, whose name is the path, and 0 where it may be chosen (OpenXR loader specification).
+    let key = windows_registry::LOCAL_MACHINE.open(r"SOFTWARE\Khronos\OpenXR\1\AvailableRuntimes");
+    let values =
+        key.and_then(|key| Ok(key.values()?.map(|(name, _)| PathBuf::from(name)).collect()));
+    let values: Vec<PathBuf> = values.unwrap_or_default();
+    beside_the_active(values)
+}
+
+/// Files of runtimes that are installed beside the active one. Packages put them here; SteamVR's is in the user's Steam.
+#[cfg(not(windows))]
+fn others() -> Vec<PathBuf> {
+    let home = std::env::var_os("HOME").map(PathBuf::from);
+    let steam = home
+        .map(|home| home.join(".local/share/Steam/steamapps/common/SteamVR/steamxr_linux64.json"));
+    let packaged = std::fs::read_dir("/usr/share/openxr/1")
+        .into_iter()
+        .flatten();
+    let packaged = packaged.filter_map(|entry| Some(entry.ok()?.path()));
+    let packaged = packaged.filter(|path| path.extension().is_some_and(|it| it == "json"));
+    let all = steam.into_iter().chain(packaged);
+    let mut all: Vec<PathBuf> = all.filter(|path| path.exists()).collect();
+    all.sort();
+    beside_the_active(all)
+}
+
+fn beside_the_active(mut all: Vec<PathBuf>) -> Vec<PathBuf> {
+    let real = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
+    let active = manifest().as_ref().map(real);
+    all.retain(|path| Some(real(path)) != active);
+    all
 }
 
 /// On Windows the registry names it.

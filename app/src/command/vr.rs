@@ -123,7 +123,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             (worn(&mut headset)?, Some((spec, headset.ready())))
         }
         None => {
-            let mut headset = OpenXr::open(OpenXrOptions {
+            let opened = OpenXrOptions {
                 gpu: vitriol_gpu::Options {
                     timestamps,
                     ..vitriol_gpu::Options::default()
@@ -131,8 +131,15 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 instance_extensions: Vec::new(),
                 device_extensions: Vec::new(),
                 panel: PANEL,
-            })
-            .map_err(blame)?;
+            };
+            let mut told = false;
+            let waits = |remedy: &str| {
+                if !std::mem::replace(&mut told, true) {
+                    eprintln!("{remedy} Waiting for it; Ctrl-C ends.");
+                }
+                true
+            };
+            let mut headset = OpenXr::open(opened, waits).map_err(blame)?;
             (worn(&mut headset)?, None)
         }
     };

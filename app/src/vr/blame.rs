@@ -4,10 +4,12 @@ use vitriol_xr::HeadsetError;
 
 use vitriol_experiment::Failure;
 
-/// A missing runtime is [`Failure::NoDevice`], everything else [`Failure::Other`].
+/// A missing runtime or headset is [`Failure::NoDevice`], everything else [`Failure::Other`].
 pub fn blame(error: HeadsetError) -> Failure {
     match error {
-        HeadsetError::NoRuntime { .. } => Failure::NoDevice(error.into()),
+        HeadsetError::NoRuntime { .. } | HeadsetError::Asleep { .. } => {
+            Failure::NoDevice(error.into())
+        }
         _ => Failure::Other(error.into()),
     }
 }

@@ -18,7 +18,7 @@ use std::sync::mpsc::Receiver;
 use vitriol_experiment::device::statement;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Timestamps;
-use vitriol_xr::{Headset, Turn};
+use vitriol_xr::{Headset, Pause, Turn};
 
 use super::blame::blame;
 use super::decision::Decision;
@@ -175,7 +175,10 @@ impl Session {
                         headset.request_exit().map_err(blame)?;
                     }
                 }
-                Turn::Paused => self.pause("the headset is off")?,
+                Turn::Paused { cause } => self.pause(match cause {
+                    Pause::Off => "the headset is off",
+                    Pause::Unseen => "the headset is not seen yet",
+                })?,
                 Turn::Lost { cause } => {
                     if !std::mem::replace(&mut lost, true) {
                         tracing::warn!("{cause}; the experiment waits where it is");

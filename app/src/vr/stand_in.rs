@@ -200,7 +200,7 @@ fn targets(gpu: &Gpu, eyes: [u32; 2]) -> Result<Targets, GpuError> {
     Ok(Targets {
         colour: image("stand-in's colour", eyes, 2, rgba)?,
         depth: Some(image("stand-in's depth", eyes, 2, vk::Format::D32_SFLOAT)?),
-        panel: image("stand-in's panel", PANEL, 1, rgba)?,
+        panel: Some(image("stand-in's panel", PANEL, 1, rgba)?),
     })
 }
 
@@ -245,8 +245,10 @@ impl Headset for StandIn {
         Ok(Turn::Frame(Box::new(frame)))
     }
 
-    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
-        Ok(self.targets.clone())
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        let mut targets = self.targets.clone();
+        targets.panel = targets.panel.filter(|_| panel);
+        Ok(Some(targets))
     }
 
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {

@@ -1,9 +1,11 @@
-//! `vitriol vr` in a headset from end to end: against Monado, which a track drives.
+//! `vitriol vr` in a headset from end to end: against Monado, which a track drives, and against the mock runtime, which does
+//! what Monado does not.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod drive;
 mod hold;
 mod loss;
+mod moved;
 mod pour;
 mod program;

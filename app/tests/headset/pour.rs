@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use vitriol_experiment::switches::SWITCH_SOLVER;
+use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SOLVER};
 use vitriol_experiment::{Scenes, stage};
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
@@ -146,7 +146,8 @@ pub struct Replayed {
     pub hash: String,
     /// Highest place of the first flask's base, m.
     pub lifted: f32,
-    /// What the second flask holds at the end, kg.
+    /// What the two flasks hold at the end, kg.
+    pub kept: f64,
     pub poured: f64,
 }
 
@@ -171,6 +172,9 @@ pub fn replay(track: &Track) -> Replayed {
             let effort = [substeps, iterations].map(|number| number.parse().unwrap());
             world.set_effort(effort).unwrap();
         }
+        if frame.scenario.iter().any(|it| it.key == SWITCH_PLACEMENT) {
+            world.hands_leap();
+        }
         let hands = stage::hands(&frame.hands, &scene);
         world.step(&StepInput { hands }).unwrap();
         assert_eq!(&stage::flasks(&world), flasks, "step {}", frame.step);
@@ -180,6 +184,7 @@ pub fn replay(track: &Track) -> Replayed {
     Replayed {
         hash: format!("{:016x}", world.snapshot().unwrap().solver.hash()),
         lifted,
+        kept: measured.in_flasks[0],
         poured: measured.in_flasks[1],
     }
 }

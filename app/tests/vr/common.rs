@@ -158,8 +158,8 @@ impl<T: Trouble> Headset for Worn<T> {
         }
         Ok(turn)
     }
-    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
-        self.inner.acquire()
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        self.inner.acquire(panel)
     }
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
         self.inner.locate_views()

@@ -6,7 +6,7 @@ use vitriol::vr::stand_in::StandIn;
 use vitriol_experiment::switches::SWITCH_PLACEMENT;
 use vitriol_gpu::Gpu;
 use vitriol_tests::gpu;
-use vitriol_xr::{HeadsetFrame, Pose, PoseFrame, Turn};
+use vitriol_xr::{HeadsetFrame, Pause, Pose, PoseFrame, Turn};
 
 use crate::common::{Trouble, Worn, hash, nobody, pour, session};
 use crate::loss::replayed;
@@ -61,7 +61,7 @@ impl Trouble for Leaping {
         }
         self.turns += 1;
         match &self.how {
-            How::Off => Some(Turn::Paused),
+            How::Off => Some(Turn::Paused { cause: Pause::Off }),
             How::Renewed(_) if self.turns < 3 => Some(Turn::Lost {
                 cause: "the test took the runtime away".into(),
             }),

@@ -9,7 +9,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Track, TrackSource};
-use vitriol_xr::{HeadsetFrame, Turn};
+use vitriol_xr::{HeadsetFrame, Pause, Turn};
 
 /// What `vitriol replay` makes of a track: the hash of its end.
 pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
@@ -100,7 +100,7 @@ impl Trouble for Off {
     fn turn(&mut self, _: &mut StandIn, _: u64) -> Option<Turn> {
         let off = (20..30).contains(&self.0);
         self.0 += 1;
-        off.then_some(Turn::Paused)
+        off.then_some(Turn::Paused { cause: Pause::Off })
     }
 
     fn frame(&mut self, frame: &mut HeadsetFrame, _: u64) {

@@ -16,7 +16,7 @@ use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::track::{Track, load};
-use vitriol_xr::{Headset, Turn};
+use vitriol_xr::{Headset, Pause, Turn};
 
 /// Size of an eye's picture, see `common`.
 const EYE: [usize; 2] = [96, 64];
@@ -162,7 +162,7 @@ impl Trouble for Onlooker {
         if self.paused {
             // What is done is handed over after the turn.
             gpu_done(headset);
-            return Some(Turn::Paused);
+            return Some(Turn::Paused { cause: Pause::Off });
         }
         let since = *self.looking.get_or_insert_with(Instant::now);
         match self.look(headset, window) {

@@ -92,8 +92,8 @@ impl<T: Trouble> Headset for Strict<T> {
         self.begun = matches!(turn, Turn::Frame(_)).then(waits);
         Ok(turn)
     }
-    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
-        self.inner.acquire()
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        self.inner.acquire(panel)
     }
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
         let away = disturbed(self.frames);

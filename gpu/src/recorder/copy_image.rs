@@ -15,9 +15,29 @@ impl Recorder {
     /// # Errors
     /// [`GpuError::ImageUnsupported`] where the two do not fit each other.
     pub fn copy_image(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
+        let layers = from.desc().layers;
+        self.copy_layers(from, [0, layers], to)
+    }
+
+    /// Copies one layer of `from` to all of `to`, which has no other, as [`Recorder::copy_image`] does.
+    ///
+    /// # Errors
+    /// As for [`Recorder::copy_image`].
+    pub fn copy_layer(&mut self, from: &Image, layer: u32, to: &Image) -> Result<(), GpuError> {
+        self.copy_layers(from, [layer, 1], to)
+    }
+
+    /// `count` layers of `from` beginning with `first`.
+    fn copy_layers(
+        &mut self,
+        from: &Image,
+        [first, count]: [u32; 2],
+        to: &Image,
+    ) -> Result<(), GpuError> {
         let (source, target) = (*from.desc(), *to.desc());
         let fits = source.extent == target.extent
-            && source.layers == target.layers
+            && count == target.layers
+            && first.saturating_add(count) <= source.layers
             && source.aspect() == target.aspect()
             && texel_bytes(source.format).is_some()
             && texel_bytes(source.format) == texel_bytes(target.format)
@@ -27,8 +47,8 @@ impl Recorder {
             return Err(GpuError::ImageUnsupported {
                 label: to.label().to_owned(),
                 cause: format!(
-                    "it takes no copy of \"{}\" ({source:?} to {target:?}); two images of the \
-                     same extent, layers and size of texel are needed",
+                    "it takes no copy of {count} layers of \"{}\" from layer {first} on ({source:?} to \
+                     {target:?}); as many layers of the same extent and size of texel are needed",
                     from.label()
                 ),
             });
@@ -44,9 +64,9 @@ impl Recorder {
         storage.open_pass(b"copy image")?;
         let layers = vk::ImageSubresourceLayers::default()
             .aspect_mask(source.aspect())
-            .layer_count(source.layers);
+            .layer_count(count);
         let region = vk::ImageCopy::default()
-            .src_subresource(layers)
+            .src_subresource(layers.base_array_layer(first))
             .dst_subresource(layers)
             .extent(vk::Extent3D {
                 width: source.extent[0],

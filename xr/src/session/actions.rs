@@ -19,6 +19,8 @@ pub(super) struct Actions {
     hands: [Bound; 2],
     pinch: Option<Pinch>,
     of: Set,
+    /// Which hands were shaken when that was last said.
+    shaken: [bool; 2],
 }
 
 /// The actions of an instance, each before its set.
@@ -130,6 +132,7 @@ impl Actions {
             hands: [bound(of.hands[0])?, bound(of.hands[1])?],
             pinch: Pinch::new(instance, session),
             of,
+            shaken: [false; 2],
         })
     }
 
@@ -238,14 +241,16 @@ impl Actions {
         Ok(())
     }
 
-    /// Shakes a hand, or stops it at amplitude 0.
+    /// Shakes a hand, or stops it at amplitude 0. A hand that is still is left alone: some runtimes send a packet to the
+    /// controller for each call.
     pub(super) fn vibrate(
-        &self,
+        &mut self,
         session: &Session,
         side: Side,
         amplitude: f32,
     ) -> Result<(), CallFailure> {
         let path = self.hands[side as usize].path;
+        let shaken = std::mem::replace(&mut self.shaken[side as usize], amplitude > 0.0);
         if amplitude > 0.0 {
             let vibration = xr::HapticVibration::new()
                 .duration(xr::Duration::from_nanos(FADE_NS))
@@ -255,6 +260,8 @@ impl Actions {
                 .haptic
                 .apply_feedback(session, path, &vibration)
                 .map_err(failed("xrApplyHapticFeedback"))
+        } else if !shaken {
+            Ok(())
         } else {
             self.of
                 .haptic

@@ -14,6 +14,8 @@ pub(super) struct Chain {
     /// Of the image that was acquired, and whether the compositor has let go of it: until then it
     /// can be neither written nor given back.
     held: Option<(usize, bool)>,
+    /// An image has been given back, which is what is shown until the next is.
+    has_shown: bool,
 }
 
 impl Chain {
@@ -81,6 +83,7 @@ impl Chain {
             images,
             chain,
             held: None,
+            has_shown: false,
         })
     }
 
@@ -108,21 +111,36 @@ impl Chain {
 
     /// Gives the image back with what was submitted for it.
     pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), CallFailure> {
-        if self.held.take_if(|(_, ours)| *ours).is_none() {
+        if self.acquired().is_none() {
             return Ok(());
         }
         gpu.with_queue(QueueKind::Main, |_| self.chain.release_image())
-            .map_err(failed("xrReleaseSwapchainImage"))
+            .map_err(failed("xrReleaseSwapchainImage"))?;
+        // Where it was refused, the image is still ours, for the next frame.
+        self.held = None;
+        self.has_shown = true;
+        Ok(())
     }
 
-    /// Any of the images, for a frame that is lost anyhow.
-    pub(super) fn stale(&self) -> Image {
-        self.images[self.held.map_or(0, |(held, _)| held)].clone()
+    /// Whether there is an image to be shown.
+    pub(super) fn has_shown(&self) -> bool {
+        self.has_shown
+    }
+
+    /// The image that can be written now.
+    pub(super) fn acquired(&self) -> Option<&Image> {
+        let (held, ours) = self.held?;
+        ours.then(|| &self.images[held])
+    }
+
+    /// What the images are like.
+    pub(super) fn desc(&self) -> &ImageDesc {
+        self.images[0].desc()
     }
 
     /// Width and height, pixels.
     pub(super) fn extent(&self) -> [u32; 2] {
-        self.images[0].desc().extent
+        self.desc().extent
     }
 
     /// One layer of it, as composition layers name it.

@@ -55,9 +55,32 @@ pub(super) fn state(state: xr::SessionState) -> SessionState {
 
 /// A located pose, `None` unless position and orientation are both valid.
 pub(super) fn located(location: &xr::SpaceLocation) -> Option<Pose> {
-    let valid = xr::SpaceLocationFlags::POSITION_VALID | xr::SpaceLocationFlags::ORIENTATION_VALID;
-    let pose = pose(location.pose);
-    (location.location_flags.contains(valid) && pose.is_valid()).then_some(pose)
+    let (position, orientation) = parts(location);
+    Some(Pose::new(position?, orientation?))
+}
+
+/// Position and orientation of what was located, each if it is valid: a runtime that has lost the one may know the other.
+pub(super) fn parts(location: &xr::SpaceLocation) -> (Option<Vec3>, Option<Quat>) {
+    let has = |flag| location.location_flags.contains(flag);
+    let (position, orientation) = sound(location.pose);
+    (
+        position.filter(|_| has(xr::SpaceLocationFlags::POSITION_VALID)),
+        orientation.filter(|_| has(xr::SpaceLocationFlags::ORIENTATION_VALID)),
+    )
+}
+
+/// Position and orientation, each if it is one.
+pub(super) fn sound(raw: xr::Posef) -> (Option<Vec3>, Option<Quat>) {
+    let Pose {
+        position,
+        orientation,
+    } = pose(raw);
+    (
+        position.is_finite().then_some(position),
+        Pose::new(Vec3::ZERO, orientation)
+            .is_valid()
+            .then_some(orientation),
+    )
 }
 
 /// Why a call on a live session failed.
@@ -67,6 +90,24 @@ pub(super) enum CallFailure {
     Lost(String),
     /// Asking again does not help.
     Fatal(HeadsetError),
+}
+
+impl CallFailure {
+    /// `instead` where the runtime has refused a call, which is said: `what` is then done without. A loss, and a failure of
+    /// the device, stay what they are.
+    pub(super) fn do_without<T>(self, what: &str, instead: T) -> Result<T, Self> {
+        match self {
+            Self::Fatal(HeadsetError::Refused { call, cause }) => {
+                tracing::warn!(
+                    call,
+                    cause,
+                    "the runtime refuses {what}; it goes on without"
+                );
+                Ok(instead)
+            }
+            failure => Err(failure),
+        }
+    }
 }
 
 impl From<vitriol_gpu::GpuError> for CallFailure {

@@ -5,6 +5,7 @@ use openxr as xr;
 use super::convert::{CallFailure, failed, state};
 use super::live::Live;
 use super::mask::Mask;
+use super::stage::tells_of_recentring;
 use super::system::STEREO;
 
 impl Live {
@@ -38,9 +39,12 @@ impl Live {
                 self.actions.name_profiles(&self.instance, &self.session)?;
             }
             xr::Event::ReferenceSpaceChangePending(change)
-                if change.reference_space_type() == self.stage.kind =>
+                if tells_of_recentring(change.reference_space_type()) =>
             {
-                self.moves_at = Some(change.change_time());
+                // Of several spaces that move, ours has the time that poses go by.
+                let ours = change.reference_space_type() == self.stage.kind;
+                let known = self.moves_at.filter(|_| !ours);
+                self.moves_at = known.or(Some(change.change_time()));
             }
             xr::Event::VisibilityMaskChangedKHR(change)
                 if change.view_configuration_type() == STEREO =>

@@ -5,17 +5,83 @@ use vitriol_gpu::QueueKind;
 
 use super::chain::Chain;
 use super::convert::{CallFailure, failed, fovf, posef};
+use super::images::Eyes;
 use super::live::{Begun, Live};
 use super::stage::Stage;
-use crate::{Pose, Shown, View};
+use crate::{HeadsetError, Pose, Shown, View};
+
+/// Distance at which depth ends for a runtime that takes no infinite range, m. Depths that were drawn for an infinite one are
+/// then off by a share of distance over this.
+const FAR: f32 = 1e5;
+
+/// What a frame has beside the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Extras {
+    depth: DepthRange,
+    panel: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum DepthRange {
+    Infinite,
+    Finite,
+    None,
+}
+
+/// What is tried, the best first.
+const ALL: [Extras; 6] = {
+    const fn with(depth: DepthRange, panel: bool) -> Extras {
+        Extras { depth, panel }
+    }
+    [
+        with(DepthRange::Infinite, true),
+        with(DepthRange::Finite, true),
+        with(DepthRange::None, true),
+        with(DepthRange::Infinite, false),
+        with(DepthRange::Finite, false),
+        with(DepthRange::None, false),
+    ]
+};
 
 impl Live {
-    /// Gives the images back and shows them.
+    /// Gives the images back and shows them. What the runtime refuses a frame with, and takes it without, is left out from
+    /// then on; where it takes none of it, the frame ends empty.
     pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), CallFailure> {
-        self.release()?;
-        let depths = self.depth.as_ref().map(|depth| depths(depth, shown));
+        let released = self.images.release(&self.gpu, true);
+        if let Err(failure) = released {
+            self.end_with_nothing(begun)?;
+            return Err(failure);
+        }
+        let mut refusal = None;
+        for (rung, extras) in ALL.iter().enumerate().skip(self.rung) {
+            match self.end_with(begun, shown, *extras) {
+                Err(CallFailure::Fatal(HeadsetError::Refused { call, cause })) => {
+                    refusal = Some(HeadsetError::Refused { call, cause });
+                }
+                ended => {
+                    if let (Ok(()), Some(refusal)) = (&ended, refusal) {
+                        tracing::warn!("{refusal}; it takes a frame with {extras:?}");
+                        self.rung = rung;
+                    }
+                    return ended;
+                }
+            }
+        }
+        self.end_with_nothing(begun)?;
+        refusal.map_or(Ok(()), |refusal| Err(CallFailure::Fatal(refusal)))
+    }
+
+    fn end_with(&mut self, begun: Begun, shown: &Shown, extras: Extras) -> Result<(), CallFailure> {
+        let images = &self.images;
+        let ends = match extras.depth {
+            DepthRange::Infinite => Some(f32::INFINITY),
+            DepthRange::Finite => Some(FAR),
+            DepthRange::None => None,
+        };
+        let depths =
+            (images.depth.as_ref().zip(ends)).map(|(depth, far)| depths(depth, shown, far));
         let views = [0, 1].map(|eye| {
-            let view = view(&self.colour, eye, shown);
+            let view = view(&images.colour, eye, shown);
             let Some(depths) = &depths else {
                 return view;
             };
@@ -28,19 +94,18 @@ impl Live {
         let world = xr::CompositionLayerProjection::new()
             .space(&self.stage.space)
             .views(&views);
+        // A swapchain whose image was never released has nothing to show.
         let panel = shown
             .panel
-            .as_ref()
-            .map(|(at, width)| quad(&self.stage, &self.panel, at, *width));
+            .filter(|_| extras.panel && images.panel.has_shown());
+        let panel = panel.map(|(at, width)| quad(&self.stage, &images.panel, &at, width));
         let mut layers: Vec<&xr::CompositionLayerBase<'_, xr::Vulkan>> = vec![&world];
         if let Some(panel) = &panel {
             layers.push(panel);
         }
-        let stream = &mut self.stream;
+        let (stream, blend) = (&mut self.stream, self.blend);
         self.gpu
-            .with_queue(QueueKind::Main, |_| {
-                stream.end(begun.time, self.blend, &layers)
-            })
+            .with_queue(QueueKind::Main, |_| stream.end(begun.time, blend, &layers))
             .map_err(failed("xrEndFrame"))
     }
 }
@@ -65,7 +130,7 @@ fn quad<'a>(
 }
 
 fn view<'a>(
-    colour: &'a Chain,
+    colour: &'a Eyes,
     eye: u32,
     shown: &Shown,
 ) -> xr::CompositionLayerProjectionView<'a, xr::Vulkan> {
@@ -79,16 +144,16 @@ fn view<'a>(
         .sub_image(colour.corner(eye, shown.extent))
 }
 
-/// Depth 1 at the near plane and 0 at infinity: the extension has the plane of the smaller depth
+/// Depth 1 at the near plane and 0 at `far`: the extension has the plane of the smaller depth
 /// in `near_z` and lets it be the far one, and infinite (XR_KHR_composition_layer_depth).
-fn depths(depth: &Chain, shown: &Shown) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
+fn depths(depth: &Eyes, shown: &Shown, far: f32) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
     [0, 1].map(|eye| xr::sys::CompositionLayerDepthInfoKHR {
         ty: xr::sys::CompositionLayerDepthInfoKHR::TYPE,
         next: std::ptr::null(),
         sub_image: *depth.corner(eye, shown.extent).as_raw(),
         min_depth: 0.0,
         max_depth: 1.0,
-        near_z: f32::INFINITY,
+        near_z: far,
         far_z: shown.near,
     })
 }

@@ -2,17 +2,18 @@
 
 use openxr as xr;
 use vitriol_gpu::ash::vk::Handle as _;
-use vitriol_gpu::{Gpu, QueueKind, vk};
+use vitriol_gpu::{Gpu, QueueKind};
 
 use super::actions::Actions;
-use super::chain::Chain;
 use super::convert::{CallFailure, failed};
+use super::images::Images;
 use super::mask::Mask;
 use super::options::OpenXrOptions;
 use super::provider::Runtime;
+use super::refusals::Refusals;
 use super::stage::Stage;
 use super::system::{self, ConnectedHeadset};
-use crate::{HeadsetError, SessionState, Targets};
+use crate::SessionState;
 
 /// The display rate that is asked for where the runtime offers a choice, Hz: the time of a step
 /// and of a picture is laid out for it (docs/measurements/performance.md).
@@ -31,9 +32,7 @@ pub(super) struct Begun {
 pub(super) struct Live {
     pub stream: xr::FrameStream<xr::Vulkan>,
     pub waiter: xr::FrameWaiter,
-    pub colour: Chain,
-    pub depth: Option<Chain>,
-    pub panel: Chain,
+    pub images: Images,
     pub head: xr::Space,
     pub stage: Stage,
     pub actions: Actions,
@@ -54,6 +53,16 @@ pub(super) struct Live {
     pub present: bool,
     /// When the stage will have moved.
     pub moves_at: Option<xr::Time>,
+    /// The head has been seen in this session.
+    pub seen: bool,
+    /// Frames in which nothing but its orientation was.
+    pub turning: u32,
+    /// How much less than all there is a frame is shown with beside its picture (`layers`).
+    pub rung: usize,
+    /// Calls that were refused.
+    pub refusals: Refusals,
+    /// A frame that was waited for and has not begun.
+    waited: Option<Begun>,
     pub begun: Option<Begun>,
 }
 
@@ -90,28 +99,7 @@ impl Live {
             .create_reference_space(xr::ReferenceSpaceType::VIEW, xr::Posef::IDENTITY)
             .map_err(failed("xrCreateReferenceSpace"))?;
         let actions = Actions::new(&instance, &session)?;
-        let formats = session
-            .enumerate_swapchain_formats()
-            .map_err(failed("xrEnumerateSwapchainFormats"))?;
-        let offered = |format: vk::Format| formats.contains(&(format.as_raw() as u32));
-        let srgb = vk::Format::R8G8B8A8_SRGB;
-        if !offered(srgb) {
-            return Err(CallFailure::Fatal(HeadsetError::Refused {
-                call: "xrCreateSwapchain",
-                cause: "it has no images in 8-bit RGBA, sRGB".to_owned(),
-            }));
-        }
-        let d32 = vk::Format::D32_SFLOAT;
-        let takes_depth = instance.exts().khr_composition_layer_depth.is_some() && offered(d32);
-        let chain = |label, extent, layers, format| {
-            Chain::new(&gpu, &session, label, extent, layers, format)
-        };
-        let colour = chain("headset", extent, 2, srgb)?;
-        let depth = match takes_depth {
-            true => Some(chain("headset's depth", extent, 2, d32)?),
-            false => None,
-        };
-        let panel = chain("panel", options.panel, 1, srgb)?;
+        let images = Images::new(&gpu, &session, extent, options)?;
         choose_rate(&session);
         let runtime = instance
             .properties()
@@ -127,9 +115,7 @@ impl Live {
             masks: [Mask::of(&session, 0), Mask::of(&session, 1)],
             stream,
             waiter,
-            colour,
-            depth,
-            panel,
+            images,
             head,
             stage,
             actions,
@@ -144,23 +130,36 @@ impl Live {
             ended: false,
             present: true,
             moves_at: None,
+            seen: false,
+            turning: 0,
+            rung: 0,
+            refusals: Refusals::default(),
+            waited: None,
             begun: None,
         })
     }
 
     /// Waits for the next frame and begins it.
     pub(super) fn begin(&mut self) -> Result<Begun, CallFailure> {
-        let state = self.waiter.wait().map_err(failed("xrWaitFrame"))?;
-        let begun = Begun {
-            time: state.predicted_display_time,
-            period: state.predicted_display_period,
-            should_render: state.should_render,
+        // One that was waited for and not begun comes first: the runtime gives no other before.
+        let frame = match self.waited {
+            Some(frame) => frame,
+            None => {
+                let state = self.waiter.wait().map_err(failed("xrWaitFrame"))?;
+                let frame = Begun {
+                    time: state.predicted_display_time,
+                    period: state.predicted_display_period,
+                    should_render: state.should_render,
+                };
+                *self.waited.insert(frame)
+            }
         };
         self.gpu
             .with_queue(QueueKind::Main, |_| self.stream.begin())
             .map_err(failed("xrBeginFrame"))?;
-        self.begun = Some(begun);
-        Ok(begun)
+        self.waited = None;
+        self.begun = Some(frame);
+        Ok(frame)
     }
 
     /// Ends the frame, if one has begun, with nothing to show.
@@ -168,42 +167,16 @@ impl Live {
         let Some(begun) = self.begun.take() else {
             return Ok(());
         };
-        self.release()?;
+        let released = self.images.release(&self.gpu, false);
+        self.end_with_nothing(begun)?;
+        released
+    }
+
+    pub(super) fn end_with_nothing(&mut self, begun: Begun) -> Result<(), CallFailure> {
+        let (stream, blend) = (&mut self.stream, self.blend);
         self.gpu
-            .with_queue(QueueKind::Main, |_| {
-                self.stream.end(begun.time, self.blend, &[])
-            })
+            .with_queue(QueueKind::Main, |_| stream.end(begun.time, blend, &[]))
             .map_err(failed("xrEndFrame"))
-    }
-
-    /// The frame's images, when the compositor has let go of them.
-    pub(super) fn acquire(&mut self) -> Result<Targets, CallFailure> {
-        Ok(Targets {
-            colour: self.colour.acquire(&self.gpu)?,
-            depth: match &mut self.depth {
-                Some(depth) => Some(depth.acquire(&self.gpu)?),
-                None => None,
-            },
-            panel: self.panel.acquire(&self.gpu)?,
-        })
-    }
-
-    /// Images of the right size that are not the compositor's: for a frame whose session is lost.
-    pub(super) fn stale(&self) -> Targets {
-        Targets {
-            colour: self.colour.stale(),
-            depth: self.depth.as_ref().map(Chain::stale),
-            panel: self.panel.stale(),
-        }
-    }
-
-    /// Gives all images back.
-    pub(super) fn release(&mut self) -> Result<(), CallFailure> {
-        self.colour.release(&self.gpu)?;
-        if let Some(depth) = &mut self.depth {
-            depth.release(&self.gpu)?;
-        }
-        self.panel.release(&self.gpu)
     }
 }
 

@@ -8,12 +8,15 @@ mod bindings;
 mod chain;
 mod convert;
 mod events;
+mod eyes;
+mod images;
 mod layers;
 mod live;
 mod mask;
 mod options;
 mod pinch;
 mod provider;
+mod refusals;
 mod seek;
 mod stage;
 mod system;
@@ -21,14 +24,14 @@ mod system;
 use openxr as xr;
 use vitriol_gpu::Gpu;
 
-use convert::{CallFailure, failed, fov, located, pose};
+use convert::{CallFailure, failed, parts};
+use eyes::Eyes;
 use live::{Begun, Live};
 pub use options::OpenXrOptions;
 use seek::Seek;
-use system::STEREO;
 
-use crate::headset::{HeadsetFrame, Shown, Targets, Turn, View};
-use crate::{Fov, FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionState, Side};
+use crate::headset::{HeadsetFrame, Pause, Shown, Targets, Turn, View};
+use crate::{FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionState, Side};
 
 /// Longest that a turn without a frame waits.
 const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
@@ -54,30 +57,40 @@ pub struct OpenXr {
     // Continued by a new session.
     index: u64,
     head: Pose,
-    views: [View; 2],
+    eyes: Eyes,
     hands: [Hand; 2],
 }
 
 impl OpenXr {
-    /// Finds runtime and headset, and has the runtime open the device.
+    /// Finds runtime and headset, and has the runtime open the device. While the headset is switched off it is looked for
+    /// again, as long as `waits` says so, which is told what to do.
     ///
     /// # Errors
     /// [`HeadsetError::NoRuntime`] where loader, runtime or headset are absent, with the remedy;
     /// else what the runtime or the device refused.
-    pub fn open(options: OpenXrOptions) -> Result<Self, HeadsetError> {
+    pub fn open(
+        options: OpenXrOptions,
+        mut waits: impl FnMut(&str) -> bool,
+    ) -> Result<Self, HeadsetError> {
         let entry = system::entry()?;
-        let live = Live::start(&entry, &options).map_err(|failure| match failure {
-            CallFailure::Lost(cause) => HeadsetError::NoRuntime {
-                remedy: format!(
-                    "The OpenXR runtime went away while the session was opened ({cause}): start it \
-                     again."
-                ),
-            },
-            CallFailure::Fatal(error) => error,
-        })?;
-        let eye = View {
-            stage_from_eye: Pose::IDENTITY,
-            fov: Fov::default(),
+        let mut seek = Seek::begin();
+        let live = loop {
+            if !seek.wait(IDLE) {
+                continue;
+            }
+            match Live::start(&entry, &options) {
+                Ok(live) => break live,
+                Err(CallFailure::Fatal(HeadsetError::Asleep { remedy })) if waits(&remedy) => {}
+                Err(CallFailure::Fatal(error)) => return Err(error),
+                Err(CallFailure::Lost(cause)) => {
+                    return Err(HeadsetError::NoRuntime {
+                        remedy: format!(
+                            "The OpenXR runtime went away while the session was opened ({cause}): \
+                             start it again."
+                        ),
+                    });
+                }
+            }
         };
         Ok(Self {
             gpu: live.gpu.clone(),
@@ -91,7 +104,7 @@ impl OpenXr {
             lost: None,
             index: 0,
             head: Pose::IDENTITY,
-            views: [eye; 2],
+            eyes: Eyes::default(),
             hands: [Hand::default(), Hand::default()],
         })
     }
@@ -126,42 +139,53 @@ impl OpenXr {
         }
     }
 
-    /// One turn of a live session.
+    /// One turn of a live session. What the runtime refuses, the frame is without.
     fn turn(&mut self) -> Result<Turn, CallFailure> {
+        let paused = |cause| Ok(Turn::Paused { cause });
         let Some(live) = &mut self.live else {
-            return Ok(Turn::Paused);
+            return paused(Pause::Off);
         };
+        live.refusals.begin();
         // The caller may not have ended the frame before.
-        live.end_empty()?;
-        live.take_events()?;
+        let ended = live.end_empty();
+        live.refusals.bear(ended)?;
+        let taken = live.take_events();
+        live.refusals.bear(taken)?;
         if live.ended {
             return Ok(Turn::Ended);
         }
         if !live.running {
             std::thread::sleep(IDLE);
-            return Ok(Turn::Paused);
+            return paused(Pause::Off);
         }
-        let begun = live.begin()?;
+        let begun = live.begin();
+        let Some(begun) = live.refusals.bear(begun)? else {
+            std::thread::sleep(IDLE);
+            return paused(Pause::Off);
+        };
         let visible = matches!(live.state, SessionState::Focused | SessionState::Visible);
         // Frames go on at the runtime's pace, so that it can show the session again at any time.
-        if !visible || !live.present {
-            live.end_empty()?;
-            return Ok(Turn::Paused);
+        let pause = if !visible || !live.present {
+            Some(Pause::Off)
+        } else {
+            let seen = find_head(live, begun, &mut self.head);
+            let seen = live.refusals.bear(seen)?.unwrap_or(live.seen);
+            (!seen).then_some(Pause::Unseen)
+        };
+        if let Some(cause) = pause {
+            let ended = live.end_empty();
+            live.refusals.bear(ended)?;
+            return paused(cause);
         }
-        live.actions.read(
-            &live.session,
-            &live.stage.space,
-            begun.time,
-            &mut self.hands,
-        )?;
-        let head = live
-            .head
-            .locate(&live.stage.space, begun.time)
-            .map_err(failed("xrLocateSpace"))?;
-        if let Some(head) = located(&head) {
-            self.head = head;
+        let space = &live.stage.space;
+        let read = live
+            .actions
+            .read(&live.session, space, begun.time, &mut self.hands);
+        if live.refusals.bear(read)?.is_none() {
+            asleep(&mut self.hands);
         }
-        locate_views(live, begun, &mut self.views)?;
+        let located = self.eyes.locate(live, begun, &self.head);
+        live.refusals.bear(located)?;
         let recentred = live
             .moves_at
             .take_if(|at| at.as_nanos() <= begun.time.as_nanos())
@@ -177,7 +201,7 @@ impl OpenXr {
                 info: FrameInfo {
                     xr_time: begun.time.as_nanos(),
                     period_ns: begun.period.as_nanos(),
-                    fov: self.views.map(|view| view.fov),
+                    fov: self.eyes.views.map(|view| view.fov),
                     session_state: live.state,
                 },
             },
@@ -185,6 +209,11 @@ impl OpenXr {
             recentred,
         };
         self.index += 1;
+        self.log(&frame);
+        Ok(Turn::Frame(Box::new(frame)))
+    }
+
+    fn log(&self, frame: &HeadsetFrame) {
         let told = |pose: &Pose| (pose.position.to_array(), pose.orientation.to_array());
         let hand = |hand: &Hand| {
             let is_known = hand.active && hand.valid;
@@ -193,18 +222,22 @@ impl OpenXr {
         let [left, right] = &self.hands;
         tracing::debug!(
             "frame for {} ns: head {:?}, left {:?}, right {:?}",
-            begun.time.as_nanos(),
+            frame.poses.info.xr_time,
             told(&self.head),
             hand(left),
             hand(right)
         );
-        Ok(Turn::Frame(Box::new(frame)))
     }
 
-    /// Keeps a loss in the middle of a frame for the next turn, which reports it.
+    /// What a call in the middle of a frame gave; `None` where the runtime refused it. A loss is kept for the next turn,
+    /// which reports it.
     fn settle<T>(&mut self, result: Result<T, CallFailure>) -> Result<Option<T>, HeadsetError> {
-        match result {
-            Ok(value) => Ok(Some(value)),
+        let borne = match &mut self.live {
+            Some(live) => live.refusals.bear(result),
+            None => result.map(Some),
+        };
+        match borne {
+            Ok(value) => Ok(value),
             Err(CallFailure::Lost(cause)) => {
                 self.lost = Some(cause);
                 Ok(None)
@@ -217,11 +250,7 @@ impl OpenXr {
     fn lose(&mut self, cause: String) -> Turn {
         tracing::warn!(cause, "OpenXR session lost");
         self.live = None;
-        for hand in &mut self.hands {
-            hand.active = false;
-            hand.valid = false;
-            hand.tracked = false;
-        }
+        asleep(&mut self.hands);
         self.seek = Seek::begin();
         Turn::Lost { cause }
     }
@@ -239,7 +268,7 @@ impl Headset for OpenXr {
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         let of = |eye: usize| {
             let masks = self.live.as_ref().map(|live| &live.masks[eye]);
-            masks.map(|mask| mask.in_picture(&self.views[eye].fov))
+            masks.map(|mask| mask.in_picture(&self.eyes.views[eye].fov))
         };
         [0, 1].map(|eye| of(eye).unwrap_or_default())
     }
@@ -265,30 +294,22 @@ impl Headset for OpenXr {
         }
     }
 
-    fn acquire(&mut self) -> Result<Targets, HeadsetError> {
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
         let acquired = match (&mut self.live, &self.lost) {
-            (Some(live), None) => live.acquire(),
-            _ => Err(CallFailure::Lost("there is no session".to_owned())),
+            (Some(live), None) => live.images.acquire(&live.gpu, panel),
+            _ => return Ok(None),
         };
-        if let Some(targets) = self.settle(acquired)? {
-            return Ok(targets);
-        }
-        // The copies go to images that nobody will see; the next turn says that they are lost.
-        let stale = self.live.as_ref().map(Live::stale);
-        stale.ok_or_else(|| HeadsetError::Refused {
-            call: "xrAcquireSwapchainImage",
-            cause: "no frame has begun".to_owned(),
-        })
+        self.settle(acquired)
     }
 
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
         if let (Some(live), None) = (&mut self.live, &self.lost)
             && let Some(begun) = live.begun
         {
-            let located = locate_views(live, begun, &mut self.views);
+            let located = self.eyes.locate(live, begun, &self.head);
             self.settle(located)?;
         }
-        Ok(self.views)
+        Ok(self.eyes.views)
     }
 
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
@@ -304,7 +325,7 @@ impl Headset for OpenXr {
     }
 
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
-        let vibrated = match (&self.live, &self.lost) {
+        let vibrated = match (&mut self.live, &self.lost) {
             (Some(live), None) => live.actions.vibrate(&live.session, side, amplitude),
             _ => Ok(()),
         };
@@ -324,20 +345,30 @@ impl Headset for OpenXr {
     }
 }
 
-/// The eyes at the frame's display time; what is not known stays.
-fn locate_views(live: &Live, begun: Begun, views: &mut [View; 2]) -> Result<(), CallFailure> {
-    let (flags, found) = live
-        .session
-        .locate_views(STEREO, begun.time, &live.stage.space)
-        .map_err(failed("xrLocateViews"))?;
-    let valid = xr::ViewStateFlags::POSITION_VALID | xr::ViewStateFlags::ORIENTATION_VALID;
-    if flags.contains(valid) {
-        for (view, found) in views.iter_mut().zip(found) {
-            *view = View {
-                stage_from_eye: pose(found.pose),
-                fov: fov(found.fov),
-            };
-        }
+/// Frames with nothing but the head's orientation after which a session begins all the same: two seconds at 90 Hz. Some
+/// headsets never know more.
+const TURNS: u32 = 180;
+
+/// The head at the frame's display time; what is not known of it stays. Whether it has been seen in this session: before
+/// that, nothing that is drawn or placed would be where it is meant to be.
+fn find_head(live: &mut Live, begun: Begun, head: &mut Pose) -> Result<bool, CallFailure> {
+    let found = live
+        .head
+        .locate(&live.stage.space, begun.time)
+        .map_err(failed("xrLocateSpace"))?;
+    let (position, orientation) = parts(&found);
+    head.orientation = orientation.unwrap_or(head.orientation);
+    head.position = position.unwrap_or(head.position);
+    live.turning += u32::from(orientation.is_some());
+    live.seen |= orientation.is_some() && (position.is_some() || live.turning > TURNS);
+    Ok(live.seen)
+}
+
+/// Of hands of which nothing is known now; their poses stay.
+fn asleep(hands: &mut [Hand; 2]) {
+    for hand in hands {
+        hand.active = false;
+        hand.valid = false;
+        hand.tracked = false;
     }
-    Ok(())
 }

@@ -11,8 +11,9 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// STAGE, else LOCAL_FLOOR, else LOCAL, whose origin is where the eyes were: there the floor
-    /// is not known, and the bench is placed by the head.
+    /// LOCAL_FLOOR, else STAGE, else LOCAL. The first is where the user has recentred to; STAGE is the play area's, which
+    /// may lie metres away; the origin of LOCAL is where the eyes were: there the floor is not known, and the bench is placed
+    /// by the head.
     pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, CallFailure> {
         let offered = session
             .enumerate_reference_spaces()
@@ -25,11 +26,22 @@ impl Stage {
     }
 }
 
+/// Whether a move of that space is the user's recentring. The specification ties that to LOCAL and LOCAL_FLOOR, and runtimes
+/// differ in which of the three they name.
+pub(super) fn tells_of_recentring(kind: xr::ReferenceSpaceType) -> bool {
+    [
+        xr::ReferenceSpaceType::LOCAL,
+        xr::ReferenceSpaceType::LOCAL_FLOOR,
+        xr::ReferenceSpaceType::STAGE,
+    ]
+    .contains(&kind)
+}
+
 /// The best of the offered spaces.
 fn choose(offered: &[xr::ReferenceSpaceType]) -> xr::ReferenceSpaceType {
     let floors = [
-        xr::ReferenceSpaceType::STAGE,
         xr::ReferenceSpaceType::LOCAL_FLOOR,
+        xr::ReferenceSpaceType::STAGE,
     ];
     let floor = floors.into_iter().find(|kind| offered.contains(kind));
     floor.unwrap_or(xr::ReferenceSpaceType::LOCAL)
@@ -45,9 +57,9 @@ mod tests {
         use xr::ReferenceSpaceType as T;
         assert_eq!(
             choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR, T::STAGE]),
-            T::STAGE
+            T::LOCAL_FLOOR
         );
-        assert_eq!(choose(&[T::VIEW, T::LOCAL, T::LOCAL_FLOOR]), T::LOCAL_FLOOR);
+        assert_eq!(choose(&[T::VIEW, T::LOCAL, T::STAGE]), T::STAGE);
         assert_eq!(choose(&[T::VIEW, T::LOCAL]), T::LOCAL);
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, CallFailure> {
     let absent = |error| none(probe::no_runtime(error));
     let offered = entry.enumerate_extensions().map_err(absent)?;
     if !offered.khr_vulkan_enable2 {
-        return Err(none(probe::NO_VULKAN.to_owned()));
+        return Err(none(probe::no_vulkan(entry)));
     }
     let mut wanted = xr::ExtensionSet::default();
     wanted.khr_vulkan_enable2 = true;
@@ -47,9 +47,18 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<ConnectedHeadset, CallF
     let system = instance
         .system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)
         .map_err(|answer| match answer {
-            xr::sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE
-            | xr::sys::Result::ERROR_FORM_FACTOR_UNSUPPORTED => none(
-                "The OpenXR runtime runs, but finds no headset: connect it and switch it on."
+            // For now, as the specification says: it may be connected or wake at any time.
+            xr::sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE => {
+                CallFailure::Fatal(HeadsetError::Asleep {
+                    remedy:
+                        "The OpenXR runtime runs, but finds no headset: connect it, switch it on \
+                             and put it on."
+                            .to_owned(),
+                })
+            }
+            xr::sys::Result::ERROR_FORM_FACTOR_UNSUPPORTED => none(
+                "The OpenXR runtime runs, but is not one for headsets: choose your headset's, or \
+                 name its file in XR_RUNTIME_JSON."
                     .to_owned(),
             ),
             answer => failed("xrGetSystem")(answer),

@@ -30,7 +30,7 @@ struct Pictures {
 
 impl Client {
     pub fn open() -> Self {
-        let xr = OpenXr::open(OpenXrOptions {
+        let options = OpenXrOptions {
             gpu: Options {
                 validation: true,
                 ..Options::default()
@@ -38,8 +38,8 @@ impl Client {
             instance_extensions: Vec::new(),
             device_extensions: Vec::new(),
             panel: PANEL,
-        })
-        .unwrap();
+        };
+        let xr = OpenXr::open(options, |_| false).unwrap();
         Self { xr, pictures: None }
     }
 
@@ -54,7 +54,7 @@ impl Client {
                     self.pictures = None;
                     others.push("renewed".to_owned());
                 }
-                Turn::Paused => others.push("paused".to_owned()),
+                Turn::Paused { cause } => others.push(format!("paused: {cause:?}")),
                 Turn::Lost { cause } => others.push(format!("lost: {cause}")),
                 Turn::Ended => panic!("ended"),
             }
@@ -87,7 +87,7 @@ impl Client {
 
     /// Draws the frame and ends it; gives the colour target.
     pub fn draw(&mut self) -> Image {
-        let targets = self.xr.acquire().unwrap();
+        let targets = self.xr.acquire(true).unwrap().unwrap();
         self.submit(&targets);
         let views = self.xr.locate_views().unwrap();
         let panel = Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY);
@@ -138,7 +138,9 @@ impl Client {
             rec.copy_to_image(texels, image).unwrap();
         }
         rec.copy_image(&pictures.colour.1, &targets.colour).unwrap();
-        rec.copy_image(&pictures.panel.1, &targets.panel).unwrap();
+        if let Some(panel) = &targets.panel {
+            rec.copy_image(&pictures.panel.1, panel).unwrap();
+        }
         if let Some(depth) = &targets.depth {
             rec.copy_image(&pictures.depth.1, depth).unwrap();
         }

@@ -26,7 +26,7 @@ fn an_exit_that_is_asked_for_comes() {
                 client.draw();
             }
             Turn::Ended => break,
-            Turn::Paused => {}
+            Turn::Paused { .. } => {}
             turn => panic!("{turn:?}"),
         }
     }
@@ -49,7 +49,7 @@ fn every_frame_that_has_begun_is_ended() {
             0 => {}
             1 => client.xr.end(None).unwrap(),
             2 => {
-                let targets = client.xr.acquire().unwrap();
+                let targets = client.xr.acquire(true).unwrap().unwrap();
                 client.submit(&targets);
             }
             _ => {
@@ -102,7 +102,10 @@ fn until(client: &mut Client, wanted: impl Fn(&Turn) -> bool) {
         if wanted(&turn) {
             return;
         }
-        assert!(matches!(turn, Turn::Frame(_) | Turn::Paused), "{turn:?}");
+        assert!(
+            matches!(turn, Turn::Frame(_) | Turn::Paused { .. }),
+            "{turn:?}"
+        );
     }
     panic!("the turn does not come");
 }
@@ -137,7 +140,7 @@ fn the_focus_goes_to_another_program_and_comes_back() {
         .unwrap();
     let _other = Other(other);
     // The newcomer is shown in our place.
-    until(&mut client, |turn| matches!(turn, Turn::Paused));
+    until(&mut client, |turn| matches!(turn, Turn::Paused { .. }));
     show("1");
     until(&mut client, has_hand);
     client.assert_silent();

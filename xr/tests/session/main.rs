@@ -1,9 +1,14 @@
-//! The OpenXR session against Monado, with a small client that draws two colours.
+//! The OpenXR session against Monado and against the mock runtime, with a small client that draws two colours.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod awake;
 mod client;
 mod hands;
 mod life;
 mod loss;
+mod mock;
+mod recentring;
+mod refused;
 mod rules;
+mod tracking;

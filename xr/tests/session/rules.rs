@@ -49,7 +49,7 @@ fn draw(dump: &Path) {
         let head = Vec3::new(0.02 * n as f32, 1.6, 0.1);
         remote.head(head, Quat::from_rotation_y(0.05 * n as f32));
         remote.send().unwrap();
-        let targets = client.xr.acquire().unwrap();
+        let targets = client.xr.acquire(true).unwrap().unwrap();
         client.submit(&targets);
         let views = client.hear(head);
         // The frame began with the head where it was before.

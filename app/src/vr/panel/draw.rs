@@ -40,7 +40,8 @@ pub struct Painter {
     indices: Vec<Vec<u32>>,
     parts: Vec<Part>,
     buffers: Option<Buffers>,
-    changed: bool,
+    /// There is a picture that was not recorded.
+    pub changed: bool,
 }
 
 /// On the device; made anew where they are too small.
@@ -55,6 +56,8 @@ struct Buffers {
 struct Texture {
     size: [usize; 2],
     texels: Vec<u32>,
+    /// Not on the device yet as it is. It seldom changes, and is half a megabyte.
+    changed: bool,
 }
 
 impl Painter {
@@ -119,7 +122,9 @@ impl Painter {
             return Ok(());
         };
         rec.upload(&buffers.vertices, &self.vertices).other()?;
-        rec.upload(&buffers.texture, &self.texture.texels).other()?;
+        if std::mem::take(&mut self.texture.changed) {
+            rec.upload(&buffers.texture, &self.texture.texels).other()?;
+        }
         for (buffer, indices) in buffers.indices.iter().zip(&self.indices) {
             rec.upload(buffer, indices).other()?;
         }
@@ -155,6 +160,7 @@ impl Painter {
         if enough {
             return Ok(());
         }
+        self.texture.changed = true;
         // Half as much again as is needed now, since texts grow.
         let room = |label, words: usize| {
             let bytes = 4 * (words + words / 2).max(1024) as u64;
@@ -175,6 +181,7 @@ impl Painter {
 impl Texture {
     /// Replaces all, or the part at `pos`.
     fn set(&mut self, pos: Option<[usize; 2]>, image: &Arc<egui::ColorImage>) {
+        self.changed = true;
         let texels = image.pixels.iter();
         let texels = texels.map(|colour| u32::from_le_bytes(colour.to_array()));
         let Some([left, upper]) = pos else {

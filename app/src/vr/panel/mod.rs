@@ -115,6 +115,11 @@ impl Panel {
         decided
     }
 
+    /// Whether its picture has changed since it was recorded last.
+    pub fn has_changed(&self) -> bool {
+        self.painter.changed
+    }
+
     /// Records the picture, if it has changed since it was recorded last.
     ///
     /// # Errors

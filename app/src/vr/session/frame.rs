@@ -53,14 +53,18 @@ impl Session {
             // 5. The panel, and which button of it a hand points at.
             self.show_panel();
             // 6. The images, and the liquid's ellipsoids behind the steps.
-            let (targets, shapes) = self.acquire(headset)?;
-            // 7. The eyes, as late as can be, and the picture for them.
-            Some(self.locate_and_draw(headset, &targets, shapes)?)
+            match self.acquire(headset)? {
+                // 7. The eyes, as late as can be, and the picture for them.
+                Some((targets, shapes)) => Some(self.locate_and_draw(headset, &targets, shapes)?),
+                None => None,
+            }
         } else {
-            // Times are of frames that are shown.
-            self.steps.submitted();
             None
         };
+        if shown.is_none() {
+            // Times are of frames that are shown.
+            self.steps.submitted();
+        }
         // 8. The frame's end, with what is shown.
         let no_frame = NoFrameOpen::by_ending(headset, shown.as_ref())?;
         // 9. The mirror's part, behind the picture, and what may wait for the device.
@@ -146,9 +150,12 @@ impl Session {
     }
 
     /// Acquires the headset's images, and submits the picture's part that reads the particles behind the steps, on
-    /// the solver's queue.
-    fn acquire(&mut self, headset: &mut dyn Headset) -> Result<(Targets, Ticket), Failure> {
-        let targets = headset.acquire().map_err(blame)?;
+    /// the solver's queue. `None` where the headset gives no images.
+    fn acquire(&mut self, headset: &mut dyn Headset) -> Result<Option<(Targets, Ticket)>, Failure> {
+        let targets = headset.acquire(self.panel.has_changed());
+        let Some(targets) = targets.map_err(blame)? else {
+            return Ok(None);
+        };
         let Workbench { world, picture, .. } = &self.benches.current;
         let is_due = self.readings.is_due(self.counts.frames);
         let mut reading = None;
@@ -161,7 +168,7 @@ impl Session {
         if let Some(reading) = reading {
             self.readings.under_way = Some((reading, shapes.clone()));
         }
-        Ok((targets, shapes))
+        Ok(Some((targets, shapes)))
     }
 
     /// Locates the eyes, and draws and submits the picture with these views, which are those that it is to be shown
@@ -188,8 +195,13 @@ impl Session {
         };
         let panel = &mut self.panel;
         let picture = picture.draw(world, &shapes, &sight, targets, |rec| {
-            panel.record(rec)?;
-            rec.copy_image(&panel.image, &targets.panel).other()
+            match &targets.panel {
+                Some(target) => {
+                    panel.record(rec)?;
+                    rec.copy_image(&panel.image, target).other()
+                }
+                None => Ok(()),
+            }
         })?;
         let age_ms = 1e3 * located.elapsed().as_secs_f64();
 

@@ -1,0 +1,152 @@
+//! A session's swapchains: both eyes' colour and depth, and the panel.
+
+use openxr as xr;
+use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
+
+use super::chain::Chain;
+use super::convert::{CallFailure, failed};
+use super::options::OpenXrOptions;
+use crate::{HeadsetError, Targets};
+
+/// See the module.
+pub(super) struct Images {
+    pub colour: Eyes,
+    /// `None` where the runtime takes no depth.
+    pub depth: Option<Eyes>,
+    pub panel: Chain,
+}
+
+/// Images of both eyes.
+pub(super) enum Eyes {
+    /// One swapchain with a layer for each.
+    Array(Chain),
+    /// A swapchain for each, where the runtime has none with layers. Pictures are copied to an image of our own, whose
+    /// layers are copied to theirs when they are released.
+    Each { array: Image, chains: [Chain; 2] },
+}
+
+impl Images {
+    /// Those that the runtime makes, the best first; what it refuses and can be done without is said.
+    pub(super) fn new(
+        gpu: &Gpu,
+        session: &xr::Session<xr::Vulkan>,
+        extent: [u32; 2],
+        options: &OpenXrOptions,
+    ) -> Result<Self, CallFailure> {
+        let formats = session
+            .enumerate_swapchain_formats()
+            .map_err(failed("xrEnumerateSwapchainFormats"))?;
+        let offered = |format: vk::Format| formats.contains(&(format.as_raw() as u32));
+        let (srgb, d32) = (vk::Format::R8G8B8A8_SRGB, vk::Format::D32_SFLOAT);
+        if !offered(srgb) {
+            return Err(CallFailure::Fatal(HeadsetError::Refused {
+                call: "xrCreateSwapchain",
+                cause: "it has no images in 8-bit RGBA, sRGB".to_owned(),
+            }));
+        }
+        let colour = Eyes::new(gpu, session, "headset", extent, srgb)?;
+        let exts = session.instance().exts();
+        let depth = match exts.khr_composition_layer_depth.is_some() && offered(d32) {
+            true => Eyes::new(gpu, session, "headset's depth", extent, d32)
+                .map(Some)
+                .or_else(|failure| failure.do_without("depth in the headset's images", None))?,
+            false => None,
+        };
+        Ok(Self {
+            colour,
+            depth,
+            panel: Chain::new(gpu, session, "panel", options.panel, 1, srgb)?,
+        })
+    }
+
+    /// The frame's images, when the compositor has let go of them; the panel's only if it is to change.
+    pub(super) fn acquire(&mut self, gpu: &Gpu, panel: bool) -> Result<Targets, CallFailure> {
+        Ok(Targets {
+            colour: self.colour.acquire(gpu)?,
+            depth: match &mut self.depth {
+                Some(depth) => Some(depth.acquire(gpu)?),
+                None => None,
+            },
+            panel: match panel {
+                true => Some(self.panel.acquire(gpu)?),
+                false => None,
+            },
+        })
+    }
+
+    /// Gives all images back, with what was `drawn` if anything was.
+    pub(super) fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
+        self.colour.release(gpu, drawn)?;
+        if let Some(depth) = &mut self.depth {
+            depth.release(gpu, drawn)?;
+        }
+        self.panel.release(gpu)
+    }
+}
+
+impl Eyes {
+    fn new(
+        gpu: &Gpu,
+        session: &xr::Session<xr::Vulkan>,
+        label: &'static str,
+        extent: [u32; 2],
+        format: vk::Format,
+    ) -> Result<Self, CallFailure> {
+        let chain = |layers| Chain::new(gpu, session, label, extent, layers, format);
+        let array = chain(2)
+            .map(Some)
+            .or_else(|failure| failure.do_without("swapchains with a layer for each eye", None))?;
+        if let Some(array) = array {
+            return Ok(Self::Array(array));
+        }
+        let chains = [chain(1)?, chain(1)?];
+        let desc = ImageDesc {
+            layers: 2,
+            ..*chains[0].desc()
+        };
+        let array = Image::new(gpu, label, desc)?;
+        Ok(Self::Each { array, chains })
+    }
+
+    /// An image with a layer for each eye.
+    fn acquire(&mut self, gpu: &Gpu) -> Result<Image, CallFailure> {
+        match self {
+            Self::Array(chain) => chain.acquire(gpu),
+            Self::Each { array, chains } => {
+                for chain in chains {
+                    chain.acquire(gpu)?;
+                }
+                Ok(array.clone())
+            }
+        }
+    }
+
+    fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
+        match self {
+            Self::Array(chain) => chain.release(gpu),
+            Self::Each { array, chains } => {
+                let [left, right] = chains;
+                if let (true, Some(left), Some(right)) = (drawn, left.acquired(), right.acquired())
+                {
+                    let mut rec = gpu.recorder(QueueKind::Main)?;
+                    rec.copy_layer(array, 0, left)?;
+                    rec.copy_layer(array, 1, right)?;
+                    gpu.submit(rec)?;
+                }
+                left.release(gpu).and(right.release(gpu))
+            }
+        }
+    }
+
+    /// The upper left corner of an eye's image, so many pixels wide and high.
+    pub(super) fn corner(
+        &self,
+        eye: u32,
+        extent: [u32; 2],
+    ) -> xr::SwapchainSubImage<'_, xr::Vulkan> {
+        match self {
+            Self::Array(chain) => chain.corner(eye, extent),
+            Self::Each { chains, .. } => chains[eye as usize].corner(0, extent),
+        }
+    }
+}

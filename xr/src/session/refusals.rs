@@ -1,0 +1,89 @@
+//! Calls of a frame that the runtime refused: each is said once, and the session goes on.
+
+use std::collections::BTreeSet;
+
+use super::convert::CallFailure;
+use crate::HeadsetError;
+
+/// Frames in a row with a refused call after which the session is made anew: two thirds of a second at 90 Hz.
+const MOST: u32 = 60;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(super) struct Refusals {
+    said: BTreeSet<&'static str>,
+    /// Frames in a row that had one.
+    row: u32,
+    in_frame: bool,
+}
+
+impl Refusals {
+    /// `None` where the call was refused: the frame goes on without what it was to give. A loss is passed on, and so are
+    /// refusals that do not end, as one.
+    pub(super) fn bear<T>(
+        &mut self,
+        result: Result<T, CallFailure>,
+    ) -> Result<Option<T>, CallFailure> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(CallFailure::Fatal(HeadsetError::Refused { call, cause })) => {
+                if self.said.insert(call) {
+                    tracing::warn!(call, cause, "refused by the runtime; the session goes on");
+                }
+                self.row += u32::from(!std::mem::replace(&mut self.in_frame, true));
+                if self.row > MOST {
+                    return Err(CallFailure::Lost(format!(
+                        "{call} is always refused: {cause}"
+                    )));
+                }
+                Ok(None)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    /// A frame begins.
+    pub(super) fn begin(&mut self) {
+        if !std::mem::take(&mut self.in_frame) {
+            self.row = 0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+
+    fn refused() -> Result<(), CallFailure> {
+        Err(CallFailure::Fatal(HeadsetError::Refused {
+            call: "xrSyncActions",
+            cause: "no".to_owned(),
+        }))
+    }
+
+    #[test]
+    fn refusals_are_borne_unless_they_do_not_end() {
+        let mut refusals = Refusals::default();
+        for frame in 0..10 * MOST {
+            refusals.begin();
+            assert!(matches!(refusals.bear(Ok(7)), Ok(Some(7))));
+            // Two in a frame are one frame; every third has none.
+            if frame % 3 != 0 {
+                assert!(matches!(refusals.bear(refused()), Ok(None)));
+                assert!(matches!(refusals.bear(refused()), Ok(None)));
+            }
+        }
+        let lost = (0..2 * MOST).find(|_| {
+            refusals.begin();
+            matches!(refusals.bear(refused()), Err(CallFailure::Lost(_)))
+        });
+        // The last of the frames before had one, too.
+        assert!(
+            lost.is_some_and(|lost| lost.abs_diff(MOST) <= 2),
+            "{lost:?}"
+        );
+        let lost = refusals.bear::<()>(Err(CallFailure::Lost("gone".into())));
+        assert!(matches!(lost, Err(CallFailure::Lost(_))));
+    }
+}
