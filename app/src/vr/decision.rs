@@ -11,4 +11,13 @@ pub enum Decision {
     Recentre,
     /// The session's end.
     End,
+    /// The same, if it is asked for twice: a key is soon pressed by mistake.
+    AskEnd,
+}
+
+impl Decision {
+    /// Whether it undoes what the user did, so that it takes a [`hold`](super::hold).
+    pub fn loses_work(&self) -> bool {
+        matches!(self, Self::Scene(_) | Self::Start)
+    }
 }

@@ -23,6 +23,10 @@ pub struct Info {
     pub effort: Option<Effort>,
     /// The scene that is being set up.
     pub coming: Option<String>,
+    /// How far a hold of the button for a new start has come, per cent.
+    pub holding: Option<u32>,
+    /// The end was asked for once.
+    pub ends: bool,
 }
 
 /// A flask's line.

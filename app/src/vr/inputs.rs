@@ -4,6 +4,8 @@ use std::f32::consts::FRAC_PI_2;
 
 use vitriol_xr::{Hand, Pose, PoseFrame, Side};
 
+use super::hold::Hold;
+
 /// `frame` with each value in its range and each pose finite and normalised. The steps consume this one, because the
 /// recording keeps what they consumed and a track refuses anything else. An invalid pose is replaced by the last one,
 /// and its hand is marked as not valid.
@@ -44,7 +46,7 @@ fn within(value: f32, least: f32, most: f32) -> f32 {
 /// What was pressed in a frame and not in the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pressed {
-    /// B (Y on the left): back to the start.
+    /// B (Y on the left), held: back to the start.
     pub start: bool,
     /// A (X on the left): the bench before the user.
     pub recentre: bool,
@@ -53,24 +55,31 @@ pub struct Pressed {
 /// Remembers what is held down.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Buttons {
-    held: [[bool; 2]; 2],
+    /// By hand, A.
+    pressed: [bool; 2],
+    /// By hand, B.
+    held: [Hold; 2],
 }
 
 impl Buttons {
-    /// Takes in a frame's hands.
-    pub fn advance(&mut self, hands: &[Hand; 2]) -> Pressed {
+    /// Takes in the hands of the frame that is shown at `now` (ns).
+    pub fn advance(&mut self, hands: &[Hand; 2], now: i64) -> Pressed {
         let mut pressed = Pressed::default();
-        for (held, hand) in self.held.iter_mut().zip(hands) {
-            // A controller that sleeps keeps its buttons as they were.
-            if !hand.active {
-                continue;
+        for (side, hand) in hands.iter().enumerate() {
+            // A controller that sleeps holds nothing, and keeps its A as it was.
+            pressed.start |= self.held[side].advance(hand.active && hand.button_b, now);
+            if hand.active {
+                let before = std::mem::replace(&mut self.pressed[side], hand.button_a);
+                pressed.recentre |= hand.button_a && !before;
             }
-            let now = [hand.button_b, hand.button_a];
-            pressed.start |= now[0] && !held[0];
-            pressed.recentre |= now[1] && !held[1];
-            *held = now;
         }
         pressed
+    }
+
+    /// How far a hold of B has come at `now` (ns), 0 to 1.
+    pub fn holding(&self, now: i64) -> Option<f32> {
+        let shares = self.held.iter().filter_map(|held| held.share(now));
+        shares.reduce(f32::max)
     }
 }
 
@@ -130,6 +139,8 @@ mod tests {
     fn a_button_counts_once() {
         let mut buttons = Buttons::default();
         let mut hands = [Hand::default(), Hand::default()];
+        // Half a second from one to the next.
+        let mut now = 0;
         let mut press = |active, b, a| {
             hands[1] = Hand {
                 active,
@@ -137,15 +148,18 @@ mod tests {
                 button_a: a,
                 ..Hand::default()
             };
-            let pressed = buttons.advance(&hands);
-            (pressed.start, pressed.recentre)
+            now += 500_000_000;
+            let pressed = buttons.advance(&hands, now);
+            (pressed.start, pressed.recentre, buttons.holding(now))
         };
-        assert_eq!(press(true, true, false), (true, false));
-        assert_eq!(press(true, true, true), (false, true));
-        // Asleep: what was held down still is.
-        assert_eq!(press(false, false, false), (false, false));
-        assert_eq!(press(true, true, true), (false, false));
-        assert_eq!(press(true, false, false), (false, false));
-        assert_eq!(press(true, true, false), (true, false));
+        assert_eq!(press(true, true, false), (false, false, Some(0.0)));
+        assert_eq!(press(true, true, true), (false, true, Some(0.5)));
+        assert_eq!(press(true, true, true), (true, false, None));
+        assert_eq!(press(true, true, true), (false, false, None));
+        // Asleep: A is as it was, and a hold is broken.
+        assert_eq!(press(false, false, false), (false, false, None));
+        assert_eq!(press(true, true, true), (false, false, Some(0.0)));
+        assert_eq!(press(true, false, false), (false, false, None));
+        assert_eq!(press(true, true, true), (false, true, Some(0.0)));
     }
 }

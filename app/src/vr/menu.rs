@@ -27,7 +27,7 @@ pub const CHOICES: [Choice; 6] = [
 pub const START: char = 'b';
 /// Key of [`Decision::Recentre`].
 pub const RECENTRE: char = 'a';
-/// Key of [`Decision::End`].
+/// Key of [`Decision::AskEnd`].
 pub const END: char = 'q';
 
 const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
@@ -40,7 +40,7 @@ pub fn decision(key: char) -> Option<Decision> {
     match key {
         START => Some(Decision::Start),
         RECENTRE => Some(Decision::Recentre),
-        END => Some(Decision::End),
+        END => Some(Decision::AskEnd),
         _ => {
             let chosen = CHOICES.iter().find(|choice| choice.key == key);
             chosen.map(|choice| Decision::Scene(choice.scene.into()))
@@ -54,7 +54,9 @@ pub fn lines() -> String {
     for Choice { key, title, .. } in CHOICES {
         text += &format!("\n  {key}  {title}");
     }
-    text + &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {END}  end")
+    text + &format!(
+        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {END}  end, pressed twice"
+    )
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub mod clock;
 pub mod decision;
 pub mod governor;
 pub mod haptics;
+pub mod hold;
 pub mod info;
 pub mod inputs;
 pub mod ladder;

@@ -14,6 +14,7 @@ mod track;
 
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
+use std::time::Instant;
 
 use vitriol_experiment::device::statement;
 use vitriol_experiment::{Blame, Failure};
@@ -165,7 +166,7 @@ impl Session {
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
         loop {
-            if self.choices.hear() {
+            if self.choices.hear(Instant::now()) {
                 headset.request_exit().map_err(blame)?;
             }
             match headset.next().map_err(blame)? {

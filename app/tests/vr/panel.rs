@@ -41,6 +41,8 @@ fn info() -> Info {
             other_filter: false,
         }),
         coming: Some("acid-into-water".into()),
+        holding: Some(65),
+        ends: true,
     }
 }
 
@@ -72,14 +74,37 @@ fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
     }
 }
 
-/// Points somewhere, pulls the trigger and lets it go; what that decided.
-fn press(panel: &mut Panel, x: f32, y: f32) -> Option<Decision> {
+/// Points somewhere, pulls the trigger for so long (s) and lets it go; what that decided.
+fn press(panel: &mut Panel, [x, y]: [f32; 2], seconds: f64) -> Option<Decision> {
     let mut decided = None;
-    for trigger in [0.0, 0.0, 1.0, 1.0, 0.0, 0.0] {
+    // Ten frames a second.
+    let pulled = (10.0 * seconds) as i64;
+    for frame in -2..pulled + 2 {
+        let trigger = if (0..pulled).contains(&frame) {
+            1.0
+        } else {
+            0.0
+        };
         let hand = pointing(x, y, trigger);
-        let said = panel.update([None, Some(&hand)], &info());
+        let now = 100_000_000 * frame;
+        let said = panel.update([None, Some(&hand)], &info(), now);
         assert!(decided.is_none() || said.is_none(), "pressed twice");
         decided = decided.or(said);
+    }
+    decided
+}
+
+/// What is decided down the middle of the right half, in order, by a trigger that is pulled for so long.
+fn down_the_buttons(panel: &mut Panel, seconds: f64) -> Vec<Decision> {
+    panel.update([None, None], &info(), 0);
+    let mut decided = Vec::new();
+    for y in (30..PANEL[1]).step_by(12) {
+        let at = [0.75 * PANEL[0] as f32, y as f32];
+        if let Some(decision) = press(panel, at, seconds)
+            && decided.last() != Some(&decision)
+        {
+            decided.push(decision);
+        }
     }
     decided
 }
@@ -88,26 +113,79 @@ fn press(panel: &mut Panel, x: f32, y: f32) -> Option<Decision> {
 fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    panel.update([None, None], &info());
-    // Down the middle of the right half: every decision once, in order.
-    let mut decided = Vec::new();
-    for y in (30..PANEL[1]).step_by(12) {
-        if let Some(decision) = press(&mut panel, 0.75 * PANEL[0] as f32, y as f32)
-            && decided.last() != Some(&decision)
-        {
-            decided.push(decision);
-        }
-    }
+    // What would lose the user's work takes a second.
     let scenes = CHOICES.map(|choice| Decision::Scene(choice.scene.into()));
     let all = [&scenes[..], &[Decision::Start, Decision::Recentre]].concat();
-    assert_eq!(decided, all);
+    assert_eq!(down_the_buttons(&mut panel, 1.2), all);
+    assert_eq!(down_the_buttons(&mut panel, 0.8), [Decision::Recentre]);
     // A trigger that is pulled before the hand comes in presses nothing.
-    for x in [2000.0, 768.0, 768.0] {
+    for (now, x) in (0..).zip([2000.0, 768.0, 768.0]) {
         let hand = pointing(x, 60.0, 1.0);
-        assert_eq!(panel.update([Some(&hand), None], &info()), None);
+        let now = 1_000_000_000 * now;
+        assert_eq!(panel.update([Some(&hand), None], &info(), now), None);
     }
     let hand = pointing(768.0, 60.0, 0.0);
-    assert_eq!(panel.update([Some(&hand), None], &info()), None);
+    assert_eq!(
+        panel.update([Some(&hand), None], &info(), 4_000_000_000),
+        None
+    );
+}
+
+/// A hold that leaves its button, or is broken, is none.
+#[test]
+fn a_hold_is_of_one_button() {
+    let gpu = gpu::device();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
+    let x = 0.75 * PANEL[0] as f32;
+    panel.update([None, None], &info(), 0);
+    for (tenth, (y, trigger)) in (0..).zip([
+        (120.0, 0.0),
+        (120.0, 1.0),
+        (120.0, 1.0),
+        (300.0, 1.0),
+        (300.0, 1.0),
+        (300.0, 1.0),
+    ]) {
+        let hand = pointing(x, y, trigger);
+        let now = 400_000_000 * tenth;
+        assert_eq!(panel.update([None, Some(&hand)], &info(), now), None);
+    }
+}
+
+/// Of two hands that point, the one that pulled its trigger last presses.
+#[test]
+fn the_last_trigger_decides_whose_hand_points() {
+    let gpu = gpu::device();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
+    let x = 0.75 * PANEL[0] as f32;
+    let rows: Vec<f32> = (30..PANEL[1]).step_by(6).map(|y| y as f32).collect();
+    panel.update([None, None], &info(), 0);
+    let recentre = rows
+        .into_iter()
+        .find(|&y| press(&mut panel, [x, y], 0.3) == Some(Decision::Recentre));
+    let y = recentre.unwrap() + 15.0;
+    let mut frame = |now: i64, left: f32, right: f32| {
+        let hands = [pointing(x, y, left), pointing(300.0, 300.0, right)];
+        panel.update(
+            [Some(&hands[0]), Some(&hands[1])],
+            &info(),
+            100_000_000 * now,
+        )
+    };
+    // The right one points first; the left one, on the button, takes over by pulling its trigger.
+    assert_eq!(frame(0, 0.0, 0.0), None);
+    let decided: Vec<_> = (1..)
+        .zip([1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
+        .filter_map(|(now, left)| frame(now, left, 0.0))
+        .collect();
+    assert_eq!(decided.last(), Some(&Decision::Recentre));
+    // And keeps it until the right one pulls.
+    assert_eq!(frame(20, 0.0, 1.0), None);
+    let decided: Vec<_> = (21..)
+        .zip([1.0, 0.0, 1.0, 0.0])
+        .filter_map(|(now, right)| frame(now, 0.0, right))
+        .collect();
+    assert_eq!(decided, []);
 }
 
 #[test]
@@ -115,7 +193,7 @@ fn the_panel_is_legible() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     let hand = pointing(700.0, 150.0, 0.0);
-    panel.update([None, Some(&hand)], &info());
+    panel.update([None, Some(&hand)], &info(), 0);
     let shown = picture(&gpu, &mut panel);
     if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
         let file = std::path::Path::new(&keep).join("panel.png");
@@ -134,7 +212,7 @@ fn the_panel_is_legible() {
     assert!((0.01..0.2).contains(&bright), "{bright}");
     // Nothing has changed: nothing is drawn.
     let before = shown;
-    panel.update([None, Some(&hand)], &info());
+    panel.update([None, Some(&hand)], &info(), 0);
     assert_eq!(picture(&gpu, &mut panel), before);
 }
 
@@ -145,11 +223,12 @@ struct Points {
 
 impl Trouble for Points {
     fn awaits(&self, after: u64) -> bool {
-        after == 20 && heard(TAKEN_UP) == 0
+        after == 115 && heard(TAKEN_UP) == 0
     }
 
     fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
-        let trigger = if (8..12).contains(&after) { 1.0 } else { 0.0 };
+        // 1.1 s at 90 Hz.
+        let trigger = if (8..108).contains(&after) { 1.0 } else { 0.0 };
         frame.poses.hands[0] = pointing(self.at[0], self.at[1], trigger);
     }
 }
@@ -160,16 +239,16 @@ fn a_hand_presses_the_panel_in_a_session() {
     let gpu = gpu::device();
     // Where the button is, found as above.
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    panel.update([None, None], &info());
+    panel.update([None, None], &info(), 0);
     let x = 0.75 * PANEL[0] as f32;
     let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);
-    let y = rows.find(|&y| press(&mut panel, x, y) == Some(Decision::Start));
+    let y = rows.find(|&y| press(&mut panel, [x, y], 1.2) == Some(Decision::Start));
     let trouble = Points {
         // Within the button, not at its edge.
         at: [x, y.unwrap() + 15.0],
     };
     let folder = tempfile::tempdir().unwrap();
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 24, trouble);
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 120, trouble);
     let (_, track) = session(&mut headset, folder.path(), channel().1);
     let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
     let starts = switches.filter(|switch| switch.key == SWITCH_START).count();

@@ -11,7 +11,7 @@ use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_START}
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose};
 
-/// Presses B, moves the stage and presses A, then chooses a scene; each once, when what came before
+/// Holds B, moves the stage and presses A, then chooses a scene; each once, when what came before
 /// has been built.
 struct Restless {
     decisions: Sender<Decision>,
@@ -19,18 +19,20 @@ struct Restless {
     moved: bool,
 }
 
+/// At 60 Hz it takes 60 frames more.
 const B: u64 = 15;
-const A: u64 = 40;
-const SCENE: u64 = 60;
+const HELD: u64 = B + 61;
+const A: u64 = 100;
+const SCENE: u64 = 120;
 
 impl Trouble for Restless {
     fn awaits(&self, after: u64) -> bool {
-        (after == B + 1 && heard(TAKEN_UP) < 1) || (after == SCENE + 1 && heard(TAKEN_UP) < 2)
+        (after == HELD + 1 && heard(TAKEN_UP) < 1) || (after == SCENE + 1 && heard(TAKEN_UP) < 2)
     }
 
     fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
         frame.poses.hands[0].active = true;
-        frame.poses.hands[0].button_b = after == B;
+        frame.poses.hands[0].button_b = (B..HELD).contains(&after);
         frame.poses.hands[0].button_a = after == A;
         if after == SCENE {
             self.decisions
@@ -67,7 +69,7 @@ fn start_placement_and_scene_replay() {
         scene: "other.toml".into(),
         moved: false,
     };
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 120, trouble);
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 180, trouble);
     let mut options = options(folder.path());
     let other = options.plan.scenes.open(other_file.to_str().unwrap());
     assert_eq!(other.unwrap(), "other.toml");

@@ -11,6 +11,7 @@ use vitriol_shaders::Library;
 use vitriol_xr::{Hand, Pose};
 
 use super::decision::Decision;
+use super::hold::Hold;
 use super::info::Info;
 use draw::Painter;
 
@@ -40,8 +41,27 @@ pub struct Panel {
     pressed: bool,
     /// Whether the pointing hand has had its trigger released while it pointed here.
     armed: bool,
-    shown: Option<(Info, Option<Pos2>, bool)>,
+    /// A button that is held, and what it stands for.
+    holds: Option<(Decision, Hold)>,
+    /// Which hand points, where both do: the one whose trigger was pulled last.
+    side: usize,
+    /// By hand, whether its trigger is pulled.
+    pulled: [bool; 2],
+    shown: Option<Shown>,
 }
+
+/// What the panel's picture depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct Shown {
+    info: Info,
+    pointer: Option<Pos2>,
+    pressed: bool,
+    /// How far the button that is held has come, in so many steps.
+    ring: Option<u32>,
+}
+
+/// Steps in which a ring fills.
+const RING: f32 = 20.0;
 
 impl Panel {
     /// A panel that shows nothing yet.
@@ -58,19 +78,18 @@ impl Panel {
             pointer: None,
             pressed: false,
             armed: false,
+            holds: None,
+            side: 1,
+            pulled: [false; 2],
             shown: None,
         })
     }
 
-    /// Takes in where the free hands point (in the scene's stage), shows `info`, and returns what
-    /// was pressed. `None` stands for a hand that is not there or holds something.
-    pub fn update(&mut self, hands: [Option<&Hand>; 2], info: &Info) -> Option<Decision> {
+    /// Takes in where the free hands point (in the scene's stage) in the frame that is shown at `now` (ns), shows `info`, and
+    /// returns what was pressed, or held for long enough. `None` stands for a hand that is not there or holds something.
+    pub fn update(&mut self, hands: [Option<&Hand>; 2], info: &Info, now: i64) -> Option<Decision> {
         let mut events = Vec::new();
-        // The right hand first: only one can point at a time.
-        let pointing = hands.into_iter().rev().flatten().find_map(|hand| {
-            let at = pointed_at(&hand.stage_from_aim, PANEL)?;
-            Some((at, hand.trigger))
-        });
+        let pointing = self.pointing(hands);
         let was = std::mem::replace(&mut self.pointer, pointing.map(|(at, _)| at));
         match pointing {
             Some((at, trigger)) => {
@@ -90,29 +109,66 @@ impl Panel {
             }
             None => {}
         }
-        let now = (info.clone(), self.pointer, self.pressed);
-        if self.shown.as_ref() == Some(&now) {
-            return None;
+        let held = self.holds.as_mut().and_then(|(decision, hold)| {
+            let long = hold.advance(self.pressed, now);
+            long.then(|| decision.clone())
+        });
+        let share = self.holds.as_ref().and_then(|(_, hold)| hold.share(now));
+        let shown = Shown {
+            info: info.clone(),
+            pointer: self.pointer,
+            pressed: self.pressed,
+            ring: share.map(|share| (RING * share) as u32),
+        };
+        if self.shown.as_ref() == Some(&shown) {
+            return held;
         }
-        self.shown = Some(now);
-        self.show(info, events)
+        let seen = self.show(&shown, events);
+        self.shown = Some(shown);
+        match seen.held.filter(|_| self.pressed) {
+            Some(decision) if self.holds.as_ref().is_none_or(|(of, _)| *of != decision) => {
+                let mut hold = Hold::default();
+                hold.advance(true, now);
+                self.holds = Some((decision, hold));
+            }
+            Some(_) => {}
+            // Let go, or on another button.
+            None => self.holds = None,
+        }
+        held.or(seen.clicked)
     }
 
-    fn show(&mut self, info: &Info, events: Vec<Event>) -> Option<Decision> {
+    /// Where a hand points, and its trigger. Of two that point, the one that pulled its trigger last.
+    fn pointing(&mut self, hands: [Option<&Hand>; 2]) -> Option<(Pos2, f32)> {
+        for (side, hand) in hands.iter().enumerate() {
+            let pulls = hand.is_some_and(|hand| hand.trigger >= PRESSES);
+            if pulls && !self.pulled[side] {
+                self.side = side;
+            }
+            self.pulled[side] = pulls;
+        }
+        [self.side, 1 - self.side].into_iter().find_map(|side| {
+            let hand = hands[side]?;
+            let at = pointed_at(&hand.stage_from_aim, PANEL)?;
+            Some((at, hand.trigger))
+        })
+    }
+
+    fn show(&mut self, shown: &Shown, events: Vec<Event>) -> view::Seen {
         let [width, height] = PANEL.map(|side| side as f32);
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
             events,
             ..RawInput::default()
         };
-        let mut decided = None;
-        let pointer = self.pointer;
+        let mut seen = view::Seen::default();
+        let ring = shown.ring.map(|step| step as f32 / RING);
         let output = self.context.run(input, |context| {
-            decided = view::show(context, info, pointer);
+            seen = view::show(context, &shown.info, shown.pointer, ring);
         });
         let meshes = self.context.tessellate(output.shapes, 1.0);
         self.painter.take(meshes, output.textures_delta);
-        decided
+        seen
     }
 
     /// Whether its picture has changed since it was recorded last.

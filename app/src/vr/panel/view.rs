@@ -2,8 +2,9 @@
 
 use egui::{
     Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Layout,
-    Margin, Pos2, Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
+    Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
 };
+use std::f32::consts::TAU;
 use vitriol_render::tints;
 
 use crate::vr::decision::Decision;
@@ -40,22 +41,56 @@ pub fn style(context: &Context) {
     });
 }
 
-/// Lays the panel out; returns what was pressed.
-pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>) -> Option<Decision> {
-    let mut decided = None;
+/// What a hand does on the panel.
+#[derive(Debug, Default)]
+pub struct Seen {
+    /// What was pressed.
+    pub clicked: Option<Decision>,
+    /// What is being held that takes a hold.
+    pub held: Option<Decision>,
+}
+
+/// Lays the panel out; `ring` is how far a button that is held has come, 0 to 1.
+pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<f32>) -> Seen {
+    let mut seen = Seen::default();
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         ui.columns(2, |columns| {
             readings(&mut columns[0], info);
-            decided = buttons(&mut columns[1], info);
+            buttons(&mut columns[1], info, &mut seen);
         });
+        let painter = ui.painter();
         if let Some(at) = pointer {
-            let painter = ui.painter();
             painter.circle_filled(at, 9.0, Color32::from_rgba_premultiplied(120, 110, 40, 120));
             painter.circle_stroke(at, 9.0, Stroke::new(2.5, WHITE));
+            if let Some(share) = ring {
+                filling(painter, at, 24.0, share);
+            }
+        }
+        if let Some(per_cent) = info.holding {
+            let middle = ui.max_rect().center();
+            let ground = Color32::from_rgba_unmultiplied(10, 12, 16, 225);
+            painter.circle_filled(middle, 130.0, ground);
+            filling(painter, middle, 112.0, per_cent as f32 / 100.0);
+            let font = FontId::proportional(HEADING);
+            painter.text(middle, Align2::CENTER_CENTER, "from the start", font, WHITE);
         }
     });
-    decided
+    seen
+}
+
+/// A ring that fills from its top, clockwise.
+fn filling(painter: &Painter, middle: Pos2, radius: f32, share: f32) {
+    painter.circle_stroke(middle, radius, Stroke::new(6.0, Color32::from_gray(70)));
+    let steps = (64.0 * share).ceil() as u32;
+    let at = |step: u32| {
+        let angle = TAU * share * step as f32 / steps as f32;
+        middle + radius * vec2(angle.sin(), -angle.cos())
+    };
+    if steps > 0 {
+        let points = (0..=steps).map(at).collect();
+        painter.add(Shape::line(points, Stroke::new(6.0, WARNING)));
+    }
 }
 
 fn readings(ui: &mut Ui, info: &Info) {
@@ -89,6 +124,10 @@ fn readings(ui: &mut Ui, info: &Info) {
     }
     if info.unwritten > 0 {
         let text = format!("{} steps not recorded", info.unwritten);
+        ui.label(RichText::new(text).color(WARNING));
+    }
+    if info.ends {
+        let text = format!("{} again ends the session", menu::END);
         ui.label(RichText::new(text).color(WARNING));
     }
     if info.missed > 0 {
@@ -146,28 +185,32 @@ fn legend(ui: &mut Ui) {
     ui.label(RichText::new("the tints are artificial").color(FAINT));
 }
 
-fn buttons(ui: &mut Ui, info: &Info) -> Option<Decision> {
-    let mut decided = None;
+fn buttons(ui: &mut Ui, info: &Info, seen: &mut Seen) {
     let size = vec2(ui.available_width(), 46.0);
     let mut button = |ui: &mut Ui, text: String, chosen: bool, decision: Decision| {
         let button = Button::new(text).min_size(size).selected(chosen);
-        if ui.add(button).clicked() {
-            decided = Some(decision);
+        let answer = ui.add(button);
+        if decision.loses_work() {
+            if answer.is_pointer_button_down_on() && answer.contains_pointer() {
+                seen.held = Some(decision);
+            }
+        } else if answer.clicked() {
+            seen.clicked = Some(decision);
         }
     };
+    ui.label(RichText::new("hold for a second").color(FAINT));
     for choice in CHOICES {
         let text = format!("{}   {}", choice.key, choice.title);
         let decision = Decision::Scene(choice.scene.into());
         button(ui, text, info.scene == choice.scene, decision);
     }
-    ui.add_space(10.0);
     let key = |key: char| key.to_ascii_uppercase();
     let start = format!("{}   From the start", key(menu::START));
     button(ui, start, false, Decision::Start);
+    ui.add_space(10.0);
     let recentre = format!("{}   Bench before me", key(menu::RECENTRE));
     button(ui, recentre, false, Decision::Recentre);
     if let Some(coming) = &info.coming {
         ui.label(RichText::new(format!("setting up {coming} …")).color(WARNING));
     }
-    decided
 }

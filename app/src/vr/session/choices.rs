@@ -1,11 +1,15 @@
 //! What the user chooses, by button, key and panel.
 
 use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
 
 use vitriol_xr::Hand;
 
 use crate::vr::decision::Decision;
 use crate::vr::inputs::Buttons;
+
+/// Within this time the end must be asked for again.
+const AGAIN: Duration = Duration::from_secs(5);
 
 /// Collects decisions until the next frame does them.
 pub(super) struct Choices {
@@ -14,6 +18,8 @@ pub(super) struct Choices {
     buttons: Buttons,
     /// Decided and not done yet.
     wanted: Vec<Decision>,
+    /// When the end was asked for once.
+    asked: Option<Instant>,
 }
 
 /// What a frame has to do.
@@ -32,15 +38,33 @@ impl Choices {
             elsewhere,
             buttons: Buttons::default(),
             wanted: Vec::new(),
+            asked: None,
         }
     }
 
-    /// Takes in what the keys said; whether the end was asked for, which waits for no frame.
-    pub fn hear(&mut self) -> bool {
-        self.wanted.extend(self.elsewhere.try_iter());
-        let all = self.wanted.len();
-        self.wanted.retain(|decision| *decision != Decision::End);
-        self.wanted.len() < all
+    /// Takes in what the keys said until `now`; whether the end was asked for, which waits for no frame.
+    pub fn hear(&mut self, now: Instant) -> bool {
+        let mut ends = false;
+        for decision in self.elsewhere.try_iter() {
+            match decision {
+                Decision::End => ends = true,
+                Decision::AskEnd if self.asks_to_end(now) => ends = true,
+                Decision::AskEnd => self.asked = Some(now),
+                decision => self.wanted.push(decision),
+            }
+        }
+        ends
+    }
+
+    /// Whether the end was asked for once, and is not confirmed yet.
+    pub fn asks_to_end(&self, now: Instant) -> bool {
+        self.asked
+            .is_some_and(|asked| now.duration_since(asked) < AGAIN)
+    }
+
+    /// How far a hold of the button for a new start has come at that display time (ns), 0 to 1.
+    pub fn holding(&self, now: i64) -> Option<f32> {
+        self.buttons.holding(now)
     }
 
     /// Takes in what was pressed on the panel.
@@ -48,10 +72,10 @@ impl Choices {
         self.wanted.extend(decision);
     }
 
-    /// What is to be done in a frame with these hands, beside the scene `present`. Of several scenes it is the
-    /// last; a decision counts more than a button.
-    pub fn take(&mut self, hands: &[Hand; 2], present: &str) -> Chosen {
-        let pressed = self.buttons.advance(hands);
+    /// What is to be done in a frame with these hands, shown at `now` (ns), beside the scene `present`. Of several scenes it
+    /// is the last; a decision counts more than a button.
+    pub fn take(&mut self, hands: &[Hand; 2], now: i64, present: &str) -> Chosen {
+        let pressed = self.buttons.advance(hands, now);
         let mut chosen = Chosen {
             scene: pressed.start.then(|| present.to_owned()),
             recentre: pressed.recentre,
@@ -61,8 +85,8 @@ impl Choices {
                 Decision::Scene(name) => chosen.scene = Some(name),
                 Decision::Start => chosen.scene = Some(present.to_owned()),
                 Decision::Recentre => chosen.recentre = true,
-                // `hear` says it before the next frame.
-                Decision::End => self.wanted.push(decision),
+                // `hear` has taken them.
+                Decision::End | Decision::AskEnd => {}
             }
         }
         chosen
@@ -87,18 +111,18 @@ mod tests {
         for decision in [scene("first"), Decision::Recentre, scene("second")] {
             keys.send(decision).unwrap();
         }
-        assert!(!choices.hear());
-        let chosen = choices.take(&hands, "present");
+        assert!(!choices.hear(Instant::now()));
+        let chosen = choices.take(&hands, 0, "present");
         let scene = Some("second".to_owned());
         let expected = Chosen {
             scene,
             recentre: true,
         };
         assert_eq!(chosen, expected);
-        assert_eq!(choices.take(&hands, "present"), Chosen::default());
+        assert_eq!(choices.take(&hands, 0, "present"), Chosen::default());
         // A start is one of the scene that is there.
         choices.add(Some(Decision::Start));
-        let chosen = choices.take(&hands, "present");
+        let chosen = choices.take(&hands, 0, "present");
         assert_eq!(chosen.scene.as_deref(), Some("present"));
     }
 
@@ -108,32 +132,52 @@ mod tests {
         let mut choices = Choices::new(elsewhere);
         keys.send(scene("other")).unwrap();
         keys.send(Decision::End).unwrap();
-        assert!(choices.hear());
-        assert!(!choices.hear());
+        assert!(choices.hear(Instant::now()));
+        assert!(!choices.hear(Instant::now()));
         let hands = [Hand::default(), Hand::default()];
-        assert_eq!(choices.take(&hands, "x").scene.as_deref(), Some("other"));
+        assert_eq!(choices.take(&hands, 0, "x").scene.as_deref(), Some("other"));
+    }
+
+    #[test]
+    fn a_key_that_ends_is_pressed_twice() {
+        let (keys, elsewhere) = channel();
+        let mut choices = Choices::new(elsewhere);
+        let start = Instant::now();
+        let mut press = |seconds: u64| {
+            keys.send(Decision::AskEnd).unwrap();
+            choices.hear(start + Duration::from_secs(seconds))
+        };
+        assert!(!press(0));
+        // Too late.
+        assert!(!press(6));
+        assert!(press(8));
     }
 
     #[test]
     fn a_key_counts_more_than_a_button() {
         let (keys, elsewhere) = channel();
         let mut choices = Choices::new(elsewhere);
-        let b = Hand {
-            active: true,
-            button_b: true,
-            ..Hand::default()
+        let b = |down| {
+            let hand = Hand {
+                active: true,
+                button_b: down,
+                ..Hand::default()
+            };
+            [Hand::default(), hand]
         };
-        let hands = [Hand::default(), b];
-        keys.send(scene("other")).unwrap();
-        choices.hear();
-        assert_eq!(choices.take(&hands, "x").scene.as_deref(), Some("other"));
-        // Held down it is no longer pressed; let go and pressed again it is.
-        assert_eq!(choices.take(&hands, "x").scene, None);
-        let up = Hand {
-            active: true,
-            ..Hand::default()
+        let mut frame = |down, seconds: i64, key: bool| {
+            if key {
+                keys.send(scene("other")).unwrap();
+                choices.hear(Instant::now());
+            }
+            choices.take(&b(down), 1_000_000_000 * seconds, "x").scene
         };
-        choices.take(&[Hand::default(), up], "x");
-        assert_eq!(choices.take(&hands, "x").scene.as_deref(), Some("x"));
+        assert_eq!(frame(true, 0, false), None);
+        assert_eq!(frame(true, 1, true).as_deref(), Some("other"));
+        // Held on it counts no more; let go and held again it does.
+        assert_eq!(frame(true, 2, false), None);
+        assert_eq!(frame(false, 3, false), None);
+        assert_eq!(frame(true, 4, false), None);
+        assert_eq!(frame(true, 5, false).as_deref(), Some("x"));
     }
 }

@@ -23,6 +23,9 @@ use crate::vr::picture::{Sight, eye};
 use crate::vr::tally::Submitted;
 use crate::vr::workbench::Workbench;
 
+/// Steps in which the panel's rings fill, per cent: the panel is drawn anew for each.
+const RING: u32 = 5;
+
 impl Session {
     /// One frame, which the headset's `next` has begun: item 1 of the list. Between there and the end nothing waits
     /// for the device.
@@ -86,7 +89,7 @@ impl Session {
     /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
     fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
         let present = &self.benches.current.plan.scene;
-        let chosen = self.choices.take(&now.hands, present);
+        let chosen = self.choices.take(&now.hands, now.info.xr_time, present);
         if let Some(scene) = chosen.scene {
             self.benches.build(headset.gpu(), scene);
         }
@@ -143,7 +146,8 @@ impl Session {
         };
         let hands = Side::BOTH.map(pointing);
         let info = self.info();
-        self.choices.add(self.panel.update(hands, &info));
+        let decided = self.panel.update(hands, &info, self.shown_at());
+        self.choices.add(decided);
         if let Some(mirror) = &mut self.mirror {
             mirror.entitle(&info, None);
         }
@@ -235,6 +239,14 @@ impl Session {
         self.counts.tally.collect()
     }
 
+    /// Display time of the last frame, ns.
+    fn shown_at(&self) -> i64 {
+        self.placement
+            .last
+            .as_ref()
+            .map_or(0, |last| last.info.xr_time)
+    }
+
     /// What panel and window title say.
     pub(super) fn info(&self) -> Info {
         let bench = &self.benches.current;
@@ -251,6 +263,9 @@ impl Session {
             missed: self.counts.skipped,
             effort: self.pacing.effort(bench),
             coming: self.benches.coming().map(Into::into),
+            holding: (self.choices.holding(self.shown_at()))
+                .map(|share| RING * (100.0 * share / RING as f32) as u32),
+            ends: self.choices.asks_to_end(Instant::now()),
         }
     }
 }
