@@ -292,6 +292,12 @@ impl World {
         self.bodies.poses()
     }
 
+    /// Distance (m) of a point in the scene's frame from a flask's outer surface, which is closed at the rim; negative within.
+    /// `None` of a flask that nobody can grip.
+    pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
+        self.bodies.distance(flask, point)
+    }
+
     /// Index of the hand that holds a flask.
     pub fn holder(&self, flask: usize) -> Option<usize> {
         self.bodies.holder(flask)

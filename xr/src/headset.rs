@@ -5,6 +5,7 @@
 //! late as can be, the picture's submission, [`end`](Headset::end). Each frame that `next` gives is
 //! ended, drawn or not. Nothing between them waits for the GPU.
 
+use glam::Vec3;
 use vitriol_gpu::{Gpu, GpuError, Image};
 
 use crate::{Fov, Pose, PoseFrame, Side};
@@ -106,6 +107,21 @@ pub struct HeadsetFrame {
     pub should_render: bool,
     /// The runtime moved the stage (the student recentred).
     pub recentred: bool,
+    /// Of the left and the right hand, if it is seen and holds no controller. They are in no recording: what simulation steps
+    /// consume of them is in [`Hand`](crate::Hand).
+    pub joints: [Option<Joints>; 2],
+}
+
+/// Joints of a hand that is seen, in the order of OpenXR's XrHandJointEXT: where each is in the stage, m, and how far the skin
+/// is from it, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joints(pub [(Vec3, f32); 26]);
+
+impl Joints {
+    /// The tip of the thumb.
+    pub const THUMB: usize = 5;
+    /// The tips of the other fingers, from the index finger on.
+    pub const FINGERS: [usize; 4] = [10, 15, 20, 25];
 }
 
 /// An eye at the display time.

@@ -20,7 +20,7 @@ mod source;
 pub mod track;
 
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
-pub use headset::{Headset, HeadsetError, HeadsetFrame, Pause, Shown, Targets, Turn, View};
+pub use headset::{Headset, HeadsetError, HeadsetFrame, Joints, Pause, Shown, Targets, Turn, View};
 pub use pose::Pose;
 pub use session::{OpenXr, OpenXrOptions};
 pub use source::{PoseSource, SourceError};

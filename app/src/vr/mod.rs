@@ -6,6 +6,7 @@
 
 pub mod blame;
 pub mod clock;
+pub mod closing;
 pub mod decision;
 pub mod governor;
 pub mod haptics;

@@ -240,6 +240,7 @@ impl Headset for StandIn {
             poses: self.poses()?,
             should_render: true,
             recentred: false,
+            joints: [None, None],
         };
         self.index += 1;
         Ok(Turn::Frame(Box::new(frame)))

@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
-use crate::common::{Calm, Worn, nobody, session};
+use crate::common::{Calm, Trouble, Worn, hash, nobody, pour, session};
+use crate::loss::replayed;
+use glam::{Quat, Vec3};
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
+use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose};
 
 /// The left hand grips the flask, shakes it, and gives it to the right one, which lifts it and then
 /// lets it fall. The flask stands at (-0.12, 0.75, -0.40), 36 mm in radius, 95 mm high.
@@ -75,4 +78,78 @@ fn a_flask_changes_hands_and_is_felt() {
     let (outcome, _, _) = run(2.39);
     assert_eq!(outcome.bench.world.holder(0), None);
     assert!(outcome.bench.world.poses()[0].position.y < height - 5e-3);
+}
+
+/// A bare hand about an axis that stands, its palm to the user: thumb and four fingers so far (m) from the axis, on opposite
+/// sides. A finger's skin is 8 mm from its joint.
+fn bare(axis: Vec3, reach: f32) -> (Hand, Joints) {
+    let mut joints = Joints([(axis + Vec3::Z * 0.06, 0.008); 26]);
+    joints.0[Joints::THUMB].0 = axis + Vec3::NEG_X * reach;
+    for (n, finger) in Joints::FINGERS.into_iter().enumerate() {
+        joints.0[finger].0 = axis + Vec3::X * reach + Vec3::Y * (0.02 * (n as f32 - 1.5));
+    }
+    let hand = Hand {
+        active: true,
+        valid: true,
+        tracked: true,
+        stage_from_grip: Pose::new(axis + Vec3::Z * 0.05, Quat::IDENTITY),
+        ..Hand::default()
+    };
+    (hand, joints)
+}
+
+/// The right hand comes to the flask open, closes round it, lifts it at 1.5 m/s, and opens.
+struct Bare {
+    /// How near the fingers come to the flask's axis, m.
+    closes_to: f32,
+}
+
+/// At 90 Hz.
+const CLOSES: u64 = 20;
+const LIFTS: u64 = 30;
+const LIFTED: u64 = LIFTS + 18;
+const OPENS: u64 = LIFTED + 10;
+
+impl Trouble for Bare {
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
+        let up = 1.5 / 90.0 * after.clamp(LIFTS, LIFTED).saturating_sub(LIFTS) as f32;
+        let axis = Vec3::new(-0.12, 0.80 + up, -0.40);
+        let reach = match (CLOSES..OPENS).contains(&after) {
+            true => self.closes_to,
+            // A hand at rest before it.
+            false => 0.036 + 0.008 + 0.03,
+        };
+        let (hand, joints) = bare(axis, reach);
+        frame.poses.stage_from_view = Pose::new(Vec3::new(0.0, 1.2, 0.0), Quat::IDENTITY);
+        frame.poses.hands = [Hand::default(), hand];
+        frame.joints = [None, Some(joints)];
+    }
+}
+
+/// The flask is 36 mm in radius and stands at 0.75 m.
+#[test]
+fn a_bare_hand_grips_what_it_closes_round() {
+    let gpu = gpu::device();
+    let run = |closes_to: f32, frames: u64| {
+        let folder = tempfile::tempdir().unwrap();
+        let trouble = Bare { closes_to };
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, frames, trouble);
+        let (outcome, track) = session(&mut headset, folder.path(), nobody());
+        let world = &outcome.bench.world;
+        let found = (world.holder(0), world.poses()[0].position.y);
+        let expected = hash(&outcome);
+        assert_eq!(replayed(&gpu, track), expected);
+        found
+    };
+    // Fingers touch the glass, and go into it.
+    for touches in [0.036 + 0.008, 0.02] {
+        let (holder, height) = run(touches, OPENS);
+        assert_eq!(holder, Some(1));
+        assert!((height - (0.75 + 0.30)).abs() < 0.02, "{height}");
+    }
+    let (holder, height) = run(0.044, OPENS + 10);
+    assert_eq!(holder, None, "it has opened");
+    assert!(height < 1.04, "and the flask falls: {height}");
+    // As bent as before, but 20 mm off.
+    assert_eq!(run(0.064, OPENS).0, None);
 }

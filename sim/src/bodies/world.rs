@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::build::{self, Flask, SUBSTEPS};
 use super::coupling::{self, PastPoses};
 use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
+use super::reach;
 use super::rolling;
 use super::spec::{BodiesError, BodiesSpec, Hand, Load};
 use super::units::Units;
@@ -148,6 +149,15 @@ impl Bodies {
     /// The hand (index into the hands of [`step`](Self::step)) that holds a flask.
     pub fn holder(&self, flask: usize) -> Option<usize> {
         grip::holder(&self.state.grips, flask).map(|(hand, _)| hand)
+    }
+
+    /// Distance (m) of a point of the stage from a flask's outer surface, which is closed at the rim; negative within. `None` of
+    /// a flask that nobody can grip, or that is not there.
+    pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
+        let shape = self.flasks.get(flask).filter(|shape| !shape.fixed)?;
+        let flask_from_stage = self.poses.get(flask)?.inverse();
+        let point = flask_from_stage.transform_point(point);
+        Some(reach::signed_distance(&shape.outline, point))
     }
 
     /// The whole state as bytes, for [`restore`](Self::restore).

@@ -6,8 +6,8 @@ use openxr as xr;
 
 use super::bindings::{On, POSES, PROFILES, Profile, Use};
 use super::convert::{CallFailure, failed, located};
-use super::pinch::Pinch;
-use crate::{Hand, Side};
+use super::seen::Seen;
+use crate::{Hand, Joints, Side};
 
 type Session = xr::Session<xr::Vulkan>;
 
@@ -17,7 +17,7 @@ const FADE_NS: i64 = 200_000_000;
 /// The actions in a session: spaces first, so that each is destroyed before what it is of.
 pub(super) struct Actions {
     hands: [Bound; 2],
-    pinch: Option<Pinch>,
+    seen: Option<Seen>,
     of: Set,
     /// Which hands were shaken when that was last said.
     shaken: [bool; 2],
@@ -130,7 +130,7 @@ impl Actions {
         };
         Ok(Self {
             hands: [bound(of.hands[0])?, bound(of.hands[1])?],
-            pinch: Pinch::new(instance, session),
+            seen: Seen::new(instance, session),
             of,
             shaken: [false; 2],
         })
@@ -158,27 +158,29 @@ impl Actions {
         Ok(())
     }
 
-    /// Syncs the actions and brings `hands` up to date for `time`. A pose that is not known stays.
+    /// Syncs the actions and brings `hands` up to date for `time`; the joints of those that are bare. A pose that is not known
+    /// stays.
     pub(super) fn read(
         &self,
         session: &Session,
         stage: &xr::Space,
         time: xr::Time,
         hands: &mut [Hand; 2],
-    ) -> Result<(), CallFailure> {
+    ) -> Result<[Option<Joints>; 2], CallFailure> {
         // Without the focus this answers SESSION_NOT_FOCUSED, which is no error, and every action
         // is inactive.
         session
             .sync_actions(&[xr::ActiveActionSet::new(&self.of.set)])
             .map_err(failed("xrSyncActions"))?;
+        let mut joints = [None, None];
         for side in Side::BOTH {
             let hand = &mut hands[side as usize];
             self.read_hand(session, stage, time, &self.hands[side as usize], hand)?;
-            if let (false, Some(pinch)) = (hand.active, &self.pinch) {
-                pinch.read(stage, time, side, hand)?;
+            if let Some(seen) = &self.seen {
+                joints[side as usize] = seen.read(stage, time, side, hand)?;
             }
         }
-        Ok(())
+        Ok(joints)
     }
 
     fn read_hand(

@@ -14,10 +14,10 @@ mod layers;
 mod live;
 mod mask;
 mod options;
-mod pinch;
 mod provider;
 mod refusals;
 mod seek;
+mod seen;
 mod stage;
 mod system;
 
@@ -181,7 +181,8 @@ impl OpenXr {
         let read = live
             .actions
             .read(&live.session, space, begun.time, &mut self.hands);
-        if live.refusals.bear(read)?.is_none() {
+        let joints = live.refusals.bear(read)?;
+        if joints.is_none() {
             asleep(&mut self.hands);
         }
         let located = self.eyes.locate(live, begun, &self.head);
@@ -207,6 +208,7 @@ impl OpenXr {
             },
             should_render: begun.should_render,
             recentred,
+            joints: joints.unwrap_or_default(),
         };
         self.index += 1;
         self.log(&frame);

@@ -160,3 +160,77 @@ fn a_hand_whose_place_is_lost_stays_where_it_was() {
     client.assert_silent();
     assert!(layers(&mock).iter().rev().take(5).all(|&count| count == 2));
 }
+
+/// A right hand whose palm looks left, thumb up and fingers ahead, with the tips of thumb and index finger so far apart, m.
+fn bare(apart: f32) -> Vec<mock::Joint> {
+    let palm = Vec3::new(0.2, 1.1, -0.4);
+    // Of a palm joint +Y leaves the back of the hand, and -Z looks along the fingers.
+    let turned = Quat::from_rotation_z(-std::f32::consts::FRAC_PI_2);
+    let joint = |index: usize| {
+        let place = match index {
+            0 => palm,
+            5 => palm + Vec3::new(0.0, 0.05, -0.08),
+            10 => palm + Vec3::new(0.0, 0.05 - apart, -0.08),
+            n => palm + Vec3::Z * (0.002 * n as f32),
+        };
+        mock::Joint {
+            pose: mock::Pose::new(place, turned),
+            radius: 0.008,
+            known: Known::TRACKED,
+        }
+    };
+    (0..26).map(joint).collect()
+}
+
+#[test]
+fn a_bare_hand_is_seen() {
+    let none = [0, 1].map(|side| Change::Hand { side, state: None });
+    let Some(mock) = mock::enter("tracking::a_bare_hand_is_seen", &none) else {
+        return;
+    };
+    let mut client = Client::open();
+    client.focus();
+    let mut see = |joints: Option<Vec<mock::Joint>>| {
+        mock.say(Change::Joints { side: 1, joints });
+        let (frame, _) = client.frame();
+        client.draw();
+        frame
+    };
+    for (apart, pulls) in [(0.06, 0.0), (0.016, 1.0)] {
+        let frame = see(Some(bare(apart)));
+        let hand = frame.poses.hand(Side::Right);
+        assert!(hand.active && hand.valid && hand.tracked, "{hand:?}");
+        assert_eq!(hand.stage_from_grip.position, Vec3::new(0.2, 1.1, -0.4));
+        // The grip's -Z leaves the fist at the thumb, which is up.
+        let up = hand.stage_from_grip.orientation * Vec3::NEG_Z;
+        assert!(up.distance(Vec3::Y) < 1e-5, "{up}");
+        assert!((hand.trigger - pulls).abs() < 1e-3, "{hand:?}");
+        let joints = frame.joints[1].as_ref().unwrap();
+        let tip = Vec3::new(0.2, 1.15 - apart, -0.48);
+        assert!(joints.0[10].0.distance(tip) < 1e-6, "{:?}", joints.0[10]);
+        assert_eq!(joints.0[10].1, 0.008);
+        assert!(frame.joints[0].is_none());
+    }
+    // One joint that is not known, and there are none; nor while it holds a controller.
+    let mut partly = bare(0.06);
+    partly[7].known = Known::NOTHING;
+    assert!(see(Some(partly)).joints[1].is_none());
+    mock.say(Change::hand(1, HandState::touch(1)));
+    let frame = see(Some(bare(0.06)));
+    assert!(frame.joints[1].is_none());
+    assert_eq!(
+        frame.poses.hand(Side::Right).stage_from_grip.position.y,
+        1.0
+    );
+    // Out of sight it is gone, and stays where it was.
+    mock.say(Change::Hand {
+        side: 1,
+        state: None,
+    });
+    see(Some(bare(0.06)));
+    let frame = see(None);
+    let hand = frame.poses.hand(Side::Right);
+    assert!(!hand.active && !hand.valid, "{hand:?}");
+    assert_eq!(hand.stage_from_grip.position, Vec3::new(0.2, 1.1, -0.4));
+    client.assert_silent();
+}

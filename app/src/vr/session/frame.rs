@@ -14,6 +14,7 @@ use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 use super::Session;
 use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
+use crate::vr::closing;
 use crate::vr::haptics;
 use crate::vr::info::Info;
 use crate::vr::inputs::sound;
@@ -45,9 +46,12 @@ impl Session {
             self.pacing.report.settings.clear();
         }
         // 2. What the user decided, and a bench that was built meanwhile.
-        let now = sound(&frame.poses, self.placement.last.as_ref());
+        let mut now = sound(&frame.poses, self.placement.last.as_ref());
         self.decide(headset, frame.recentred, &now);
         self.replace_bench()?;
+        let (world, placed) = (&self.benches.current.world, &self.placement);
+        let (last, stage_from_scene) = (placed.last.as_ref(), placed.stage_from_scene());
+        closing::close(&mut now, &frame.joints, last, world, &stage_from_scene);
         // 3. The steps up to this frame's display time.
         self.take_steps(now)?;
         // 4. What the hands feel.

@@ -1,13 +1,13 @@
-//! A tracked hand without a controller, where the runtime has no hand_interaction profile: the
-//! palm is the grip, and pinching thumb and index finger pulls the trigger (XR_EXT_hand_tracking).
+//! A hand that is seen (XR_EXT_hand_tracking). Where it holds no controller and the runtime has no hand_interaction profile, the
+//! palm is the grip, and pinching thumb and index finger pulls the trigger.
 
 use std::sync::Arc;
 
 use glam::{Mat3, Quat, Vec3};
 use openxr as xr;
 
-use super::convert::{CallFailure, failed, pose};
-use crate::{Hand, Pose, Side};
+use super::convert::{CallFailure, failed, pose, sound};
+use crate::{Hand, Joints, Pose, Side};
 
 /// Distance of the two fingertips' joints at which they touch, m: a joint lies half a finger's
 /// thickness, some 8 mm, below the skin.
@@ -16,33 +16,37 @@ const CLOSED: f32 = 0.016;
 const OPEN: f32 = 0.05;
 
 /// A tracker for each hand.
-pub(super) struct Pinch([xr::HandTracker; 2]);
+pub(super) struct Seen([xr::HandTracker; 2]);
 
-impl Pinch {
-    /// `None` where the runtime tracks no hands, or the profile of hand_interaction serves.
+/// What controllers are called that are bare hands.
+const BARE: &str = "hand_interaction";
+
+impl Seen {
+    /// `None` where the runtime tracks no hands.
     pub(super) fn new(instance: &xr::Instance, session: &xr::Session<xr::Vulkan>) -> Option<Self> {
-        let on = instance.exts();
-        if on.ext_hand_tracking.is_none() || on.ext_hand_interaction.is_some() {
-            return None;
-        }
+        instance.exts().ext_hand_tracking?;
         // A system without hand tracking refuses here, and there is nothing else to do.
         let tracker = |hand| session.create_hand_tracker(hand).ok();
         Some(Self([tracker(xr::Hand::LEFT)?, tracker(xr::Hand::RIGHT)?]))
     }
 
-    /// Fills in a hand that no controller is bound to.
+    /// The hand's joints, if it is bare and all of them are known; fills `hand` in where no profile serves.
     pub(super) fn read(
         &self,
         stage: &xr::Space,
         time: xr::Time,
         side: Side,
         hand: &mut Hand,
-    ) -> Result<(), CallFailure> {
+    ) -> Result<Option<Joints>, CallFailure> {
+        // A runtime may make joints up from the controller.
+        if hand.active && !hand.profile.contains(BARE) {
+            return Ok(None);
+        }
         let joints = stage
             .locate_hand_joints(&self.0[side as usize], time)
             .map_err(failed("xrLocateHandJointsEXT"))?;
         let Some(joints) = joints else {
-            return Ok(());
+            return Ok(None);
         };
         let joint = |index: xr::HandJoint| {
             let joint = &joints[index.into_raw() as usize];
@@ -51,22 +55,37 @@ impl Pinch {
             let pose = pose(joint.pose);
             (joint.location_flags.contains(valid) && pose.is_valid()).then_some(pose)
         };
-        let (Some(palm), Some(thumb), Some(index)) = (
+        if let (false, Some(palm), Some(thumb), Some(index)) = (
+            hand.active,
             joint(xr::HandJoint::PALM),
             joint(xr::HandJoint::THUMB_TIP),
             joint(xr::HandJoint::INDEX_TIP),
-        ) else {
-            return Ok(());
-        };
-        hand.active = true;
-        hand.valid = true;
-        hand.tracked = true;
-        hand.stage_from_grip = palm.compose(&palm_from_grip(side));
-        hand.stage_from_aim = palm;
-        hand.trigger = closeness(thumb.position.distance(index.position));
-        hand.profile = Arc::from("");
-        Ok(())
+        ) {
+            hand.active = true;
+            hand.valid = true;
+            hand.tracked = true;
+            hand.stage_from_grip = palm.compose(&palm_from_grip(side));
+            hand.stage_from_aim = palm;
+            hand.squeeze = 0.0;
+            hand.trigger = closeness(thumb.position.distance(index.position));
+            hand.profile = Arc::from("");
+        }
+        Ok(places(&joints))
     }
+}
+
+/// Where all joints are, and their radii; `None` where one is not known.
+fn places(joints: &xr::HandJointLocations) -> Option<Joints> {
+    let mut places = [(Vec3::ZERO, 0.0); 26];
+    for (place, joint) in places.iter_mut().zip(joints) {
+        let known = joint
+            .location_flags
+            .contains(xr::SpaceLocationFlags::POSITION_VALID);
+        let position = sound(joint.pose).0.filter(|_| known)?;
+        let radius = Some(joint.radius).filter(|radius| radius.is_finite() && *radius >= 0.0)?;
+        *place = (position, radius);
+    }
+    Some(Joints(places))
 }
 
 /// 0 apart to 1 touching.
