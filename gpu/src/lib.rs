@@ -53,7 +53,8 @@ pub use ash::vk;
 
 pub use device::{
     BindingLimits, Candidate, Core, DeviceInfo, DeviceRequest, DeviceSummary, EnabledFeatures,
-    InstanceRequest, Options, PlainLoader, Provider, QueueRequest, Timestamps, list_devices,
+    InstanceRequest, NEEDS, Needs, Options, PlainLoader, Provider, QueueRequest, Timestamps,
+    list_devices,
 };
 pub use error::GpuError;
 pub use gpu::{DeviceHandles, Gpu};

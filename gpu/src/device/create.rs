@@ -128,15 +128,13 @@ pub(crate) fn create_device(
     request: &DeviceRequest,
 ) -> Result<vk::Device, GpuError> {
     let on = request.features;
-    let most = request.queues.iter().map(|queue| queue.count).max();
-    let priorities = vec![1.0; most.unwrap_or(1) as usize];
     let queues: Vec<_> = request
         .queues
         .iter()
         .map(|queue| {
             vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(queue.family)
-                .queue_priorities(&priorities[..queue.count as usize])
+                .queue_priorities(&queue.priorities)
         })
         .collect();
     let extensions = pointers(&request.extensions);

@@ -4,6 +4,8 @@ use std::ffi::{CStr, CString};
 
 use ash::vk;
 
+use super::needs;
+
 /// Properties of the opened device.
 #[derive(Clone, Debug)]
 pub struct DeviceInfo {
@@ -115,6 +117,7 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             format!("Vulkan 1.3 (it has {})", version_text(core.api_version)),
         );
     }
+    missing.extend(needs::lacks(&core.limits, push.max_push_descriptors));
     let driver_name = text(v12.driver_name_as_c_str());
     let driver_info = text(v12.driver_info_as_c_str());
     Properties {

@@ -4,6 +4,9 @@ use ash::vk;
 
 use super::provider::QueueRequest;
 
+/// Of the main queue and the second: a picture that is late is seen, a step of the simulation that is late is not.
+const PRIORITIES: [f32; 2] = [1.0, 0.5];
+
 /// One queue of the device.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
@@ -73,7 +76,12 @@ impl QueuePlan {
             .into_iter()
             .map(|family| QueueRequest {
                 family,
-                count: self.places().filter(|p| p.family == family).count() as u32,
+                priorities: PRIORITIES
+                    .into_iter()
+                    .zip(self.places())
+                    .filter(|(_, place)| place.family == family)
+                    .map(|(priority, _)| priority)
+                    .collect(),
             })
             .collect()
     }

@@ -26,12 +26,12 @@ pub struct InstanceRequest {
 }
 
 /// One queue family to take queues from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct QueueRequest {
     /// Index of the family.
     pub family: u32,
-    /// Number of queues of it.
-    pub count: u32,
+    /// Priority of each queue of it, 0 to 1.
+    pub priorities: Vec<f32>,
 }
 
 /// What the device is to have.

@@ -64,6 +64,33 @@ fn both_layers_arrive_bit_by_bit_in_a_swapchain_image() {
     assert_silent(&gpu);
 }
 
+/// A layer goes to an image of its own, as to a swapchain of each eye.
+#[test]
+fn each_layer_arrives_alone() {
+    let gpu = open();
+    let linear = vk::Format::R8G8B8A8_UNORM;
+    let picture = image(&gpu, "picture", linear, 2, 8);
+    let eyes = ["left", "right"].map(|eye| image(&gpu, eye, vk::Format::R8G8B8A8_SRGB, 1, 8));
+    let texels = Buffer::storage(&gpu, "texels", 2 * 8 * 4 * 4).unwrap();
+    // Each layer has its own number.
+    let words: Vec<u32> = (0..2 * 8 * 4).map(|texel| 1 + texel / (8 * 4)).collect();
+    gpu.write(&texels, &words).unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.copy_to_image(&texels, &picture).unwrap();
+    let read = [0, 1].map(|layer: u32| {
+        let eye = &eyes[layer as usize];
+        rec.copy_layer(&picture, layer, eye).unwrap();
+        rec.read_back_image(eye).unwrap()
+    });
+    assert!(rec.copy_layer(&picture, 2, &eyes[0]).is_err());
+    assert!(rec.copy_layer(&picture, 0, &picture).is_err());
+    gpu.submit(rec).unwrap().wait().unwrap();
+    for (layer, read) in (1..).zip(read) {
+        assert_eq!(read.get::<u32>().unwrap(), [layer; 8 * 4]);
+    }
+    assert_silent(&gpu);
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let gpu = open();

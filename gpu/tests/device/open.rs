@@ -1,9 +1,10 @@
 //! Opening: choice of device, what the provider adds, and refusals.
 
 use vitriol_gpu::{
-    DeviceRequest, Gpu, GpuError, InstanceRequest, Options, PlainLoader, Provider, ash,
+    DeviceRequest, Gpu, GpuError, InstanceRequest, NEEDS, Options, PlainLoader, Provider, ash,
     list_devices, vk,
 };
+use vitriol_shaders::{ALL, Binding, BindingKind, Library};
 
 use crate::common::{assert_silent, open};
 
@@ -33,6 +34,40 @@ fn devices_are_listed_and_described() {
         !info.driver.is_empty() && info.api.starts_with("1."),
         "{info:?}"
     );
+}
+
+/// The limits that a device is asked for are what the shaders use, with all switched on that goes together.
+#[test]
+fn no_shader_needs_more_than_is_asked_for() {
+    let library = Library::embedded();
+    // Of the two chemistries one is on.
+    let chemistries = [["DILUTION", "BOILING"].as_slice(), &["PHYSICAL"]];
+    let (mut buffers, mut invocations) = (0, 0);
+    for id in ALL {
+        if !library.source(id).unwrap().contains("@compute") {
+            continue;
+        }
+        let flags = library.constants(id).unwrap();
+        let is_flag = |name: &str| {
+            let text = library.source(id).unwrap();
+            text.contains(&format!("override {name}: bool"))
+        };
+        for off in chemistries {
+            let on: Vec<(&str, f64)> = flags
+                .iter()
+                .map(String::as_str)
+                .filter(|name| (is_flag(name) || *name == "HYSTERESIS") && !off.contains(name))
+                .map(|name| (name, 1.0))
+                .collect();
+            let compiled = library.compile(id, "main", &on).unwrap();
+            let storage = |binding: &&Binding| matches!(binding.kind, BindingKind::Storage { .. });
+            let count = compiled.bindings.iter().filter(storage).count();
+            buffers = buffers.max(count as u32);
+            invocations = invocations.max(compiled.workgroup_size.iter().product());
+        }
+    }
+    assert!(buffers <= NEEDS.storage_buffers, "{buffers}");
+    assert_eq!(invocations, NEEDS.invocations);
 }
 
 #[test]

@@ -8,14 +8,25 @@ use vitriol_gpu::{Gpu, vk};
 pub(super) fn of_particles(gpu: &Gpu, count: u32) -> u32 {
     let info = gpu.info();
     if info.kind == vk::PhysicalDeviceType::CPU || !info.features.subgroups {
-        1
-    } else if count <= 32_768 {
+        return 1;
+    }
+    wanted(count).min(within(info.least_subgroup_size))
+}
+
+fn wanted(count: u32) -> u32 {
+    if count <= 32_768 {
         8
     } else if count <= 131_072 {
         4
     } else {
         1
     }
+}
+
+/// Most lanes whose shuffles stay within a subgroup, of which the smallest has so many invocations: a driver may choose any size
+/// that it has.
+fn within(least_subgroup: u32) -> u32 {
+    1 << least_subgroup.max(1).ilog2()
 }
 
 /// Most invocations that share a bubble, as it looks into 27 cells or more.
@@ -26,6 +37,25 @@ pub(super) fn of_bubbles(gpu: &Gpu, lanes: u32) -> u32 {
     if lanes == 1 {
         return 1;
     }
-    let subgroup = gpu.info().least_subgroup_size.min(MOST_LANES);
-    (1 << subgroup.max(1).ilog2()).max(lanes)
+    within(gpu.info().least_subgroup_size.min(MOST_LANES)).max(lanes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_do_not_reach_beyond_a_subgroup() {
+        let lanes = |count: u32, least: u32| wanted(count).min(within(least));
+        assert_eq!(
+            [lanes(10_000, 32), lanes(100_000, 32), lanes(1 << 20, 32)],
+            [8, 4, 1]
+        );
+        // Some drivers have subgroups of 4, and of none that they tell of.
+        assert_eq!(
+            [lanes(10_000, 4), lanes(10_000, 1), lanes(10_000, 0)],
+            [4, 1, 1]
+        );
+        assert_eq!(lanes(10_000, 6), 4);
+    }
 }
