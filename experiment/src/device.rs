@@ -1,5 +1,7 @@
 //! The device that a command runs on.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Gpu, GpuError, Options, PlainLoader, Timestamps};
@@ -33,9 +35,15 @@ pub fn timed(device: Option<&str>, timestamps: Timestamps) -> Result<Gpu, Failur
     let options = Options {
         device: device.map(str::to_owned),
         timestamps,
+        pipelines: pipelines(),
         ..Options::default()
     };
     Gpu::open(&mut PlainLoader::default(), &options).map_err(blame)
+}
+
+/// The user's folder in which compiled pipelines are kept, where there is one.
+pub fn pipelines() -> Option<PathBuf> {
+    dirs::cache_dir().map(|folder| folder.join("vitriol").join("pipelines"))
 }
 
 /// What a report says of it.

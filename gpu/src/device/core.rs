@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use ash::vk;
 use gpu_allocator::vulkan::Allocator;
 
+use super::cache::Kept;
 use super::info::DeviceInfo;
 use super::validation::Messages;
 
@@ -24,6 +25,8 @@ pub struct Core {
     pub(crate) messages: Messages,
     pub(crate) allocator: Mutex<ManuallyDrop<Allocator>>,
     pub(crate) pipeline_cache: vk::PipelineCache,
+    /// Where its pipelines are kept.
+    pub(super) kept: Option<Kept>,
     pub(crate) info: DeviceInfo,
     /// Queue families in use, each once.
     pub(crate) families: Vec<u32>,
@@ -57,6 +60,11 @@ impl Core {
 
 impl Drop for Core {
     fn drop(&mut self) {
+        if let Some(kept) = &self.kept {
+            // SAFETY: the cache is this device's; what is not given is not kept.
+            let data = unsafe { self.device.get_pipeline_cache_data(self.pipeline_cache) };
+            kept.write(&data.unwrap_or_default());
+        }
         // SAFETY: every resource holds this core, so none is left; `Gpu` waited
         // for the device before it let go. The allocator frees its blocks
         // before the device goes, and is not touched again.

@@ -1,5 +1,6 @@
 //! Instance and device: how they are chosen, opened and described.
 
+mod cache;
 mod core;
 mod create;
 mod info;

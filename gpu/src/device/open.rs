@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
+use super::cache::Kept;
 use super::core::Core;
 use super::create::{
     create_device, create_instance, create_messenger, device_request, instance_extensions,
@@ -84,10 +85,18 @@ pub(crate) fn open(
         bytes: 0,
         cause: error.to_string(),
     })?;
-    // SAFETY: the device is alive; no initial data.
-    let pipeline_cache =
-        unsafe { device.create_pipeline_cache(&vk::PipelineCacheCreateInfo::default(), None) }
-            .map_err(GpuError::vulkan("vkCreatePipelineCache"))?;
+    let kept = options.pipelines.as_deref().map(|folder| {
+        // SAFETY: `physical` is a device of `instance`.
+        Kept::read(folder, &unsafe {
+            instance.get_physical_device_properties(physical)
+        })
+    });
+    let (kept, data) = kept.map_or((None, Vec::new()), |(kept, data)| (Some(kept), data));
+    let initial = vk::PipelineCacheCreateInfo::default().initial_data(&data);
+    // SAFETY: the device is alive; the data were another cache's of the same device and driver, bit by bit, and live through
+    // the call.
+    let pipeline_cache = unsafe { device.create_pipeline_cache(&initial, None) }
+        .map_err(GpuError::vulkan("vkCreatePipelineCache"))?;
 
     let core = Arc::new(Core {
         push: ash::khr::push_descriptor::Device::new(instance, &device),
@@ -96,6 +105,7 @@ pub(crate) fn open(
         messages,
         allocator: Mutex::new(ManuallyDrop::new(allocator)),
         pipeline_cache,
+        kept,
         info: device_info(properties, request.features, &plan),
         families: plan.families(),
         physical,

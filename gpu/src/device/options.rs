@@ -1,5 +1,7 @@
 //! How a device is opened.
 
+use std::path::PathBuf;
+
 /// What the device's clock is read for; see [`Ticket::timings`](crate::Ticket::timings).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Timestamps {
@@ -26,4 +28,6 @@ pub struct Options {
     /// Marks each pass as the device reaches it, so that
     /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost) can name the last one.
     pub markers: bool,
+    /// Folder in which compiled pipelines are kept for the next run; none are without one.
+    pub pipelines: Option<PathBuf>,
 }

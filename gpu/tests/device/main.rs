@@ -7,6 +7,7 @@ mod bindings;
 mod common;
 mod compute;
 mod copy_image;
+mod kept;
 mod loss;
 mod memory;
 mod open;
