@@ -76,6 +76,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--preset",
                 "--seed",
                 "--posture",
+                "--grip",
                 "--record",
                 "--frames",
                 "--stand-in",

@@ -11,9 +11,10 @@ use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
 use vitriol_sim::world::World;
+use vitriol_xr::Hand;
 
 use crate::failure::{Blame, Failure};
-use crate::hands::{BEADS_BY, Bead, Beads};
+use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of};
 
@@ -96,8 +97,9 @@ pub struct Camera {
     pub view: View,
     /// What the colours of temperature run over.
     temperatures: ColourBy,
-    /// The user's hands, where it shows what the head sees; pictures of liquid alone have them.
-    hands: Option<(Beads, Vec<Bead>)>,
+    gloves: Gloves,
+    /// The user's hands, where it shows what the head sees.
+    hands: [Hand; 2],
 }
 
 impl Camera {
@@ -123,7 +125,8 @@ impl Camera {
             eyes: shot.eyes,
             view: tripod(scene, extent[0] as f32 / extent[1] as f32),
             temperatures: temperatures(scene),
-            hands: None,
+            gloves: Gloves::of(scene),
+            hands: Default::default(),
         })
     }
 
@@ -139,17 +142,9 @@ impl Camera {
         };
     }
 
-    /// Shows the hands with these beads, in the scene's stage, real metres.
-    ///
-    /// # Errors
-    /// What the device says.
-    pub fn show_hands(&mut self, gpu: &Gpu, beads: Vec<Bead>) -> Result<(), Failure> {
-        let shown = match self.hands.take() {
-            Some((shown, _)) => shown,
-            None => Beads::new(gpu)?,
-        };
-        self.hands = Some((shown, beads));
-        Ok(())
+    /// Shows these hands, in the scene's stage, real metres.
+    pub fn show_hands(&mut self, hands: [Hand; 2]) {
+        self.hands = hands;
     }
 
     /// The world as it is now, coloured by speed where it has not what is asked
@@ -161,10 +156,6 @@ impl Camera {
     pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
         let gpu = world.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        if let Some((beads, places)) = &self.hands {
-            let scale = world.scene().scale.length_scale as f32;
-            beads.upload(&mut rec, places, scale)?;
-        }
         self.record(&mut rec, world, colour)?;
         let picture = self.renderer.read_back(&mut rec).other()?;
         gpu.submit(rec).and_then(|ticket| ticket.wait()).other()?;
@@ -244,18 +235,13 @@ impl Camera {
             radius: (DRAWN_RADIUS * scale.spacing) as f32,
         };
         let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
-        let hands = self.hands.as_ref();
-        let hands =
-            hands.and_then(|(beads, places)| beads.source(places.len(), scale.length_scale as f32));
+        let bones = self.gloves.worn(world, &self.hands, &[None; 2]);
         let frame = FrameDesc {
             extent: None,
             views: &self.views(),
             vessels: &vessels,
-            particles: if liquid.is_none() {
-                Some(particles)
-            } else {
-                hands
-            },
+            particles: liquid.is_none().then_some(particles),
+            hands: bones.each_ref().map(Vec::as_slice),
             liquid,
             steam: solver
                 .puffs()
@@ -264,11 +250,7 @@ impl Camera {
                     puffs,
                     count: vitriol_sim::solver::PUFFS,
                 }),
-            colour_by: if liquid.is_none() {
-                colour_by
-            } else {
-                BEADS_BY
-            },
+            colour_by,
             length_scale: scale.length_scale as f32,
         };
         f(&frame).other()

@@ -16,7 +16,6 @@ use crate::camera::{Camera, Colour, Shot};
 use crate::device;
 use crate::experiment::{Counters, Experiment, Outcome, Taken};
 use crate::failure::{Blame, Failure};
-use crate::hands::beads;
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 use crate::scenes::Scenes;
 use crate::stage::hands;
@@ -262,9 +261,11 @@ impl Experiment for Laboratory {
             let mut view = frame.stage_from_view;
             view.position -= origin.as_vec3();
             camera.follow(&view);
-            let beads = beads(frame).into_iter();
-            let beads = beads.map(|(middle, closed)| (middle - origin.as_vec3(), closed));
-            camera.show_hands(self.world.gpu(), beads.collect())?;
+            let mut hands = frame.hands.clone();
+            for hand in &mut hands {
+                hand.stage_from_grip.position -= origin.as_vec3();
+            }
+            camera.show_hands(hands);
         }
         let scale = self.world.scene().scale;
         let hands = hands(&frame.hands, self.world.scene());

@@ -46,6 +46,14 @@ pub enum RenderError {
         /// How many there may be.
         most: usize,
     },
+    /// A hand has more bones than a picture.
+    #[error("a hand of {given} bones; a picture has at most {most}: leave some out")]
+    TooManyBones {
+        /// How many the hand has.
+        given: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A liquid surface was asked of a renderer that was made without one.
     #[error("this renderer has no liquid surface; make it with RenderDesc::liquid")]
     NoLiquid,

@@ -7,6 +7,7 @@ use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
+use crate::hands::{Bone, MOST_BONES};
 use crate::scene::Scene;
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
@@ -70,6 +71,9 @@ pub struct FrameDesc<'a> {
     pub vessels: &'a [Affine3A],
     /// Particles to be coloured by an attribute; `None` for none.
     pub particles: Option<ParticleSource<'a>>,
+    /// The bones of the user's left and right hand, at most [`MOST_BONES`] each, in any order; none of a hand that
+    /// is not seen.
+    pub hands: [&'a [Bone]; 2],
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,
@@ -107,6 +111,10 @@ impl FrameDesc<'_> {
                     wanted,
                 });
             }
+        }
+        if let Some(hand) = self.hands.iter().find(|hand| hand.len() > MOST_BONES) {
+            let (given, most) = (hand.len(), MOST_BONES);
+            return Err(RenderError::TooManyBones { given, most });
         }
         if let Some(steam) = self.steam {
             let held = steam.puffs.bytes() / size_of::<layout::Puff>() as u64;

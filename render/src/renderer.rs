@@ -7,11 +7,13 @@ use crate::RenderError;
 use crate::desc::RenderDesc;
 use crate::fluid::{Fluid, SurfaceReadback, zeros};
 use crate::frame::FrameDesc;
+use crate::hands::Hands;
 use crate::hidden::hidden_words;
 use crate::pass_pictures::PassesReadback;
 use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
+use crate::solids::Solids;
 use crate::source::LiquidSource;
 use crate::spheres::Spheres;
 use crate::tiles::Tiles;
@@ -38,6 +40,8 @@ pub struct Renderer {
     /// Bound in place of what a frame lacks.
     nothing: Buffer,
     spheres: Spheres,
+    hands: Hands,
+    solids: Solids,
     /// The picture before its edges are smoothed.
     drawn: Image,
     between: Sampler,
@@ -79,7 +83,9 @@ impl Renderer {
             hidden: None,
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
-            spheres: Spheres::new(gpu, library, extent, views)?,
+            spheres: Spheres::new(gpu, library, views)?,
+            hands: Hands::new(gpu, library, views)?,
+            solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
             between: Sampler::linear(gpu)?,
             picture: image("picture")?,
@@ -98,8 +104,10 @@ impl Renderer {
         let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
         let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views));
         let fluid = fluid.transpose()?;
-        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, extent, views));
+        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views));
         let spheres = spheres.transpose()?;
+        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views));
+        let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;
             self.pipelines = Pipelines::new(gpu, library)?;
@@ -110,6 +118,9 @@ impl Renderer {
         }
         if let Some(spheres) = spheres {
             self.spheres = spheres;
+        }
+        if let Some(hands) = hands {
+            self.hands = hands;
         }
         Ok(())
     }
@@ -209,8 +220,13 @@ impl Renderer {
         let steam = frame.steam.as_ref();
         self.tiles.mark(rec, &self.frame, shapes, steam)?;
         if let Some(particles) = &frame.particles {
+            let solids = &self.solids;
             self.spheres
-                .record_nearest(rec, &self.frame, particles, &self.tiles)?;
+                .record_nearest(rec, &self.frame, particles, solids, &self.tiles)?;
+        }
+        if has_hands(frame) {
+            self.hands
+                .record_marks(rec, &self.frame, frame, &self.tiles)?;
         }
         self.tiles.list(
             rec,
@@ -272,9 +288,19 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         self.prepare(rec, frame, slot)?;
         if let Some(particles) = &frame.particles {
-            let colour_by = frame.colour_by;
-            self.spheres
-                .record_light(rec, &self.frame, particles, colour_by, &self.tiles)?;
+            let (colour_by, solids) = (frame.colour_by, &self.solids);
+            self.spheres.record_light(
+                rec,
+                &self.frame,
+                particles,
+                colour_by,
+                solids,
+                &self.tiles,
+            )?;
+        }
+        if has_hands(frame) {
+            self.hands
+                .record_light(rec, &self.frame, frame, &self.solids, &self.tiles)?;
         }
         self.draw_picture(rec, frame)?;
         self.finish(rec, frame)
@@ -298,14 +324,11 @@ impl Renderer {
                     .read("hidden_area", self.hidden())
                     .read("outlines", &self.scene.outlines)
                     .read("tiles", self.tiles.marks())
-                    .read("sphere_light", self.spheres.light())
-                    .read("sphere_depths", self.spheres.depths())
+                    .read("solid_light", &self.solids.nearest)
+                    .read("solid_depths", &self.solids.depths)
                     .storage_image("drawn", &self.drawn)
                     .storage_image("finished", &self.picture)
-                    .write("depths", &self.depths)
-                    .constants(&layout::PictureDraw {
-                        spheres: frame.particles.is_some().into(),
-                    });
+                    .write("depths", &self.depths);
                 self.tiles.over(*class, pass)?;
             }
             Ok(())
@@ -423,4 +446,9 @@ impl Renderer {
             extent,
         })
     }
+}
+
+/// Whether a frame shows any hand.
+fn has_hands(frame: &FrameDesc<'_>) -> bool {
+    frame.hands.iter().any(|bones| !bones.is_empty())
 }

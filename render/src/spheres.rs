@@ -1,17 +1,18 @@
-//! Particles as spheres, coloured by an attribute: hands' beads, and the films of temperature, acid and speed.
+//! Particles as spheres, coloured by an attribute: the films of temperature, acid and speed.
 
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements, vk};
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, vk};
 use vitriol_shaders::{Library, ShaderId, layout, spheres};
 
 use crate::RenderError;
 use crate::compute::compute;
 use crate::frame::ColourBy;
 use crate::lanes::workgroups;
+use crate::solids::Solids;
 use crate::source::ParticleSource;
 use crate::tiles::{Class, Tiles};
 
 /// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and of few
-/// spheres, which are as big as a hand's beads, so many more that all of them together fill it.
+/// spheres so many more that all of them together fill it.
 const LEAST_LANES: [u32; 2] = [32, 8];
 const MOST_LANES: [u32; 2] = [1024, 8];
 const FILLS: u32 = 1 << 17;
@@ -20,28 +21,16 @@ const FILLS: u32 = 1 << 17;
 pub(crate) struct Spheres {
     nearest_pass: ComputePipeline,
     light_pass: ComputePipeline,
-    /// Reversed depth, each view's pixels row by row.
-    depths: Buffer,
-    /// Numbers, and then light, of the same pixels.
-    nearest: Buffer,
     views: u32,
     is_cpu: bool,
 }
 
 impl Spheres {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        library: &Library,
-        [width, height]: [u32; 2],
-        views: u32,
-    ) -> Result<Self, RenderError> {
-        let words = bytes_of_elements::<u32>((views * width * height) as usize);
+    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
         let class = ("CLASS", f64::from(Class::Spheres as u32));
         Ok(Self {
             nearest_pass: compute(gpu, library, spheres::NEAREST, &[])?,
             light_pass: compute(gpu, library, spheres::LIGHT, &[class])?,
-            depths: Buffer::storage(gpu, "sphere depth", words)?,
-            nearest: Buffer::storage(gpu, "nearest sphere", words)?,
             views,
             is_cpu: gpu.info().kind == vk::PhysicalDeviceType::CPU,
         })
@@ -61,21 +50,22 @@ impl Spheres {
         rec: &mut Recorder,
         uniforms: &Buffer,
         particles: &ParticleSource<'_>,
+        solids: &Solids,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
         let [least, most] = [LEAST_LANES, MOST_LANES].map(|lanes| lanes[usize::from(self.is_cpu)]);
         let share = (FILLS / particles.count.max(1)).next_power_of_two();
         let lanes = share.clamp(least, most);
         rec.group("spheres", |rec| {
-            rec.fill(&self.depths, 0)?;
-            rec.fill(&self.nearest, 0)?;
+            rec.fill(&solids.depths, 0)?;
+            rec.fill(&solids.nearest, 0)?;
             for numbers in [0, 1] {
                 rec.pass(&self.nearest_pass)
                     .label("spheres")
                     .uniform("frame", uniforms)
                     .read("positions", particles.positions)
-                    .write("depths", &self.depths)
-                    .write("nearest", &self.nearest)
+                    .write("depths", &solids.depths)
+                    .write("nearest", &solids.nearest)
                     .write("tiles", tiles.marks())
                     .constants(&layout::SphereRun {
                         count: particles.count,
@@ -96,6 +86,7 @@ impl Spheres {
         uniforms: &Buffer,
         particles: &ParticleSource<'_>,
         colour_by: ColourBy,
+        solids: &Solids,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
         let [start, end] = colour_by.range();
@@ -105,8 +96,8 @@ impl Spheres {
             .uniform("frame", uniforms)
             .read("positions", particles.positions)
             .read("attributes", particles.attributes)
-            .read("depths", &self.depths)
-            .write("nearest", &self.nearest)
+            .read("depths", &solids.depths)
+            .write("nearest", &solids.nearest)
             .constants(&layout::SphereLight {
                 radius: particles.radius,
                 colour_by: colour_by.attribute(),
@@ -114,15 +105,5 @@ impl Spheres {
                 inverse_range: (end - start).max(f32::MIN_POSITIVE).recip(),
             });
         tiles.over(Class::Spheres, pass)
-    }
-
-    /// Reversed depth of the nearest sphere, 0 where there is none.
-    pub(crate) fn depths(&self) -> &Buffer {
-        &self.depths
-    }
-
-    /// The light of the nearest sphere where there is one.
-    pub(crate) fn light(&self) -> &Buffer {
-        &self.nearest
     }
 }

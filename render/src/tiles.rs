@@ -47,9 +47,10 @@ pub(crate) enum Class {
     Steam = 4,
     /// Coloured spheres.
     Spheres = 5,
+    Hands = 6,
 }
 
-const CLASSES: u64 = 6;
+const CLASSES: u64 = 7;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {

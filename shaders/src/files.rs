@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The folders under `wgsl`: those of `common` are only included, the others hold a shader a file.
-pub const FOLDERS: [&str; 11] = [
+pub const FOLDERS: [&str; 12] = [
     "common/maths",
     "common/liquid",
     "common/chemistry",
@@ -13,6 +13,7 @@ pub const FOLDERS: [&str; 11] = [
     "sim",
     "render",
     "render/fluid",
+    "render/hands",
     "render/spheres",
     "panel",
     "mirror",

@@ -58,6 +58,15 @@ pub trait Headset {
     /// As for [`Headset::next`].
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
 
+    /// Display rates that can be asked for, Hz; empty where there is no choice.
+    fn rates(&self) -> &[f32];
+
+    /// Asks for one of them. The frames' periods tell when it has come.
+    ///
+    /// # Errors
+    /// As for [`Headset::next`].
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError>;
+
     /// Asks the runtime for the end; [`Turn::Ended`] follows some turns later.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ use vitriol_experiment::switches::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_study::parse::{filter, named, positive, preset};
 
+use crate::vr::latch::Grip;
 use crate::vr::placement::Posture;
 
 /// Where a film is seen from.
@@ -239,6 +240,9 @@ pub struct VrArgs {
     /// How you are at the bench
     #[arg(long, value_enum, default_value_t, value_name = "POSTURE")]
     pub posture: Posture,
+    /// How a hand grips
+    #[arg(long, value_enum, default_value_t, value_name = "GRIP")]
+    pub grip: Grip,
     /// Keep the session as a pose track in this new file, for `vitriol replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,

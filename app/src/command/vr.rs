@@ -92,6 +92,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             filter: None,
         },
         posture: args.posture,
+        grip: args.grip,
         frames: args.frames,
         record: args.record.clone(),
         governed: !args.fixed,
@@ -126,6 +127,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             let opened = OpenXrOptions {
                 gpu: vitriol_gpu::Options {
                     timestamps,
+                    pipelines: device::pipelines(),
                     ..vitriol_gpu::Options::default()
                 },
                 instance_extensions: Vec::new(),

@@ -30,6 +30,10 @@ const TREND: usize = 12;
 /// Frames that a trend is extrapolated by: those under way, and those until a step down takes effect.
 const AHEAD: f64 = 12.0;
 
+/// Frames of a new bench or device in which times tell nothing yet: pipelines are used for the first time, and the device's
+/// clock rises. Missed frames do.
+const YOUNG: u32 = 2 * WINDOW as u32;
+
 /// Two frames missed within this time are taken as overload and not as chance, s.
 const AGAIN: f64 = 1.0;
 
@@ -69,6 +73,8 @@ pub struct Governor {
     risen: [Option<f64>; 2],
     /// Seconds since a frame was missed.
     since_miss: f64,
+    /// Frames until it is no longer [`YOUNG`].
+    young: u32,
 }
 
 impl Governor {
@@ -82,6 +88,7 @@ impl Governor {
             wait: [WAIT[0]; 2],
             risen: [None; 2],
             since_miss: f64::INFINITY,
+            young: YOUNG,
         }
     }
 
@@ -89,6 +96,18 @@ impl Governor {
     pub fn forget(&mut self) {
         self.times.iter_mut().for_each(VecDeque::clear);
         self.room = [0.0; 2];
+    }
+
+    /// Forgets it, and that the next frames are a new bench's or another device's.
+    pub fn begin(&mut self) {
+        self.forget();
+        self.young = YOUNG;
+    }
+
+    /// Goes on at the level before the last one that [`Governor::take`] gave, since something else was done instead.
+    pub fn stay(&mut self, level: Level) {
+        self.level = level;
+        self.forget();
     }
 
     /// Takes in a frame that is done, and whether a frame was missed since the last one. Returns the new level if the
@@ -102,6 +121,7 @@ impl Governor {
             times.push_back(time);
         }
         self.age(taken.since);
+        self.young = self.young.saturating_sub(1);
         let whole: f64 = taken.times.iter().sum();
         let missed = whole > taken.period || (missed && whole > BUSY * taken.period);
         let next = self
@@ -132,7 +152,7 @@ impl Governor {
     /// Rungs down, each of the part that takes longer, until the extrapolated time fits.
     fn step_down(&mut self, taken: &FrameTimes, missed: bool) -> Option<Level> {
         let again = missed && std::mem::replace(&mut self.since_miss, 0.0) < AGAIN;
-        let known = self.foreseen();
+        let known = self.foreseen().filter(|_| self.young == 0);
         // With too few frames for an extrapolation, this frame's own times.
         let mut foreseen = known.unwrap_or(taken.times);
         let mut level = self.level;

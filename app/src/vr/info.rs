@@ -53,6 +53,8 @@ pub struct Effort {
     pub picture: u32,
     /// Whether the liquid's surface is drawn by another filter than was asked for.
     pub other_filter: bool,
+    /// The display's rate, Hz, where it was higher at first.
+    pub rate: Option<u32>,
 }
 
 impl Effort {
@@ -70,6 +72,9 @@ impl Effort {
         }
         if self.picture < 100 {
             parts.push(format!("picture {} %", self.picture));
+        }
+        if let Some(rate) = self.rate {
+            parts.push(format!("display {rate} Hz"));
         }
         let how = if self.finer { "finer again" } else { "coarser" };
         format!("{how}: {}", parts.join(", "))

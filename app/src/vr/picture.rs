@@ -1,18 +1,19 @@
 //! The picture for both eyes, drawn while the next steps are solved.
 
 use glam::Affine3A;
-use vitriol_experiment::hands::{BEADS_BY, Bead, Beads};
+use vitriol_experiment::hands::{Gloves, Joints};
 use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
 use vitriol_render::{
-    Fov, FrameDesc, LiquidDesc, RenderDesc, RenderError, Renderer, SteamSource, View,
+    Bone, ColourBy, Fov, FrameDesc, LiquidDesc, RenderDesc, RenderError, Renderer, SteamSource,
+    View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
-use vitriol_xr::{Headset, Pose, Targets};
+use vitriol_xr::{Headset, Pose, PoseFrame, Targets};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
 /// poses that it draws with older by then.
@@ -42,7 +43,7 @@ pub struct Picture {
     renderer: Renderer,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
-    beads: Beads,
+    gloves: Gloves,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
     under_way: Vec<Ticket>,
     drawn: usize,
@@ -73,8 +74,8 @@ pub struct Sight<'a> {
     pub extent: [u32; 2],
     /// Both eyes in the scene's stage, real metres.
     pub views: [View; 2],
-    /// The hands.
-    pub beads: &'a [Bead],
+    /// The bones of the hands.
+    pub hands: [&'a [Bone]; 2],
 }
 
 impl Picture {
@@ -119,7 +120,7 @@ impl Picture {
         let mut picture = Self {
             renderer,
             puffs,
-            beads: Beads::new(gpu)?,
+            gloves: Gloves::of(scene),
             under_way: Vec::new(),
             drawn: 0,
         };
@@ -176,8 +177,6 @@ impl Picture {
     ) -> Result<Ticket, Failure> {
         let (gpu, slot) = (world.gpu(), self.drawn % 2);
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
-        let scale = world.scene().scale.length_scale as f32;
-        self.beads.upload(&mut rec, sight.beads, scale)?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_picture(&mut rec, frame, slot);
         self.with_frame(world, Some(sight), record)?;
         rec.copy_image(self.renderer.image(), &targets.colour)
@@ -203,6 +202,18 @@ impl Picture {
         Ok(())
     }
 
+    /// The bones of the hands as `seen` in the scene's stage, and as they are tracked there, where they are.
+    pub fn gloves(
+        &self,
+        world: &World,
+        seen: Option<&PoseFrame>,
+        joints: &[Option<Joints>; 2],
+    ) -> [Vec<Bone>; 2] {
+        seen.map_or_else(Default::default, |seen| {
+            self.gloves.worn(world, &seen.hands, joints)
+        })
+    }
+
     /// The colour image, a layer an eye.
     pub fn image(&self) -> &vitriol_gpu::Image {
         self.renderer.image()
@@ -216,7 +227,6 @@ impl Picture {
     ) -> Result<(), Failure> {
         let scale = world.scene().scale.length_scale as f32;
         let vessels: Vec<Affine3A> = world.poses().iter().map(affine).collect();
-        let hands = sight.and_then(|sight| self.beads.source(sight.beads.len(), scale));
         let nowhere = View {
             stage_from_eye: Affine3A::IDENTITY,
             fov: Fov::symmetric(1.0, 1.0),
@@ -225,13 +235,14 @@ impl Picture {
             extent: sight.map(|sight| sight.extent),
             views: &sight.map_or([nowhere; 2], |sight| sight.views),
             vessels: &vessels,
-            particles: hands,
+            particles: None,
+            hands: sight.map_or([&[]; 2], |sight| sight.hands),
             liquid: Some(liquid_of(world)),
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
                 puffs: &puffs[self.drawn % 2],
                 count: PUFFS,
             }),
-            colour_by: BEADS_BY,
+            colour_by: ColourBy::Acid,
             length_scale: scale,
         };
         f(&frame).other()

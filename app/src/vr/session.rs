@@ -17,12 +17,14 @@ use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
 use vitriol_experiment::device::statement;
+use vitriol_experiment::hands::Joints;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Timestamps;
 use vitriol_xr::{Headset, Pause, Turn};
 
 use super::blame::blame;
 use super::decision::Decision;
+use super::latch::{Grip, Latches};
 use super::mirror::{Mirror, Window};
 use super::panel::Panel;
 use super::placement::{Placement, Posture};
@@ -49,6 +51,8 @@ pub struct Options {
     pub plan: Plan,
     /// How the user is at it.
     pub posture: Posture,
+    /// How hands grip.
+    pub grip: Grip,
     /// Frames that are measured, after which the session ends; `None` for as long as the user likes.
     pub frames: Option<u64>,
     /// The track to be made.
@@ -91,6 +95,10 @@ pub struct Session {
     choices: Choices,
     /// Where the bench stands, and the last frame's poses.
     placement: Placement,
+    /// Where one press grips and the next lets go.
+    latches: Option<Latches>,
+    /// Joints of the hands that are bare in the last frame, in the scene's stage.
+    joints: [Option<Joints>; 2],
     /// Steps that are due.
     steps: Steps,
     /// The recording, with simulated time and the switches of the next step.
@@ -136,6 +144,8 @@ impl Session {
             benches,
             choices: Choices::new(decisions),
             placement: Placement::new(options.posture),
+            latches: (options.grip == Grip::Toggle).then(Latches::default),
+            joints: [None; 2],
             steps: Steps::new(),
             track,
             readings: Readings::default(),
@@ -220,6 +230,7 @@ impl Session {
         }
         // What was under way on the old device will not come, and what it took says nothing of the new one.
         self.pacing.forget();
+        self.pacing.forget_rates();
         self.counts.tally.restart();
         self.steps.submitted();
         self.readings.under_way = None;

@@ -79,6 +79,8 @@ pub struct StandIn {
     index: u64,
     view: Pose,
     leaving: bool,
+    /// Display rates that it offers, Hz.
+    pub rates: Vec<f32>,
     /// What the left and the right hand feel.
     pub felt: [f32; 2],
     compositor: Option<Compositor>,
@@ -110,6 +112,7 @@ impl StandIn {
             index: 0,
             view: Pose::IDENTITY,
             leaving: false,
+            rates: Vec::new(),
             felt: [0.0; 2],
             compositor: (spec.timing == Timing::Real).then(Compositor::start),
             name: format!(
@@ -279,6 +282,15 @@ impl Headset for StandIn {
 
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
         self.felt[side as usize] = amplitude;
+        Ok(())
+    }
+
+    fn rates(&self) -> &[f32] {
+        &self.rates
+    }
+
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        self.spec.rate_hz = rate.into();
         Ok(())
     }
 

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use tracing::span::{Attributes, Id, Record};
 use tracing::{Event, Metadata, Subscriber};
 use vitriol::vr::decision::Decision;
+use vitriol::vr::latch::Grip;
 use vitriol::vr::placement::Posture;
 use vitriol::vr::session::{Options, Session, SessionOutcome};
 use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
@@ -172,6 +173,12 @@ impl<T: Trouble> Headset for Worn<T> {
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
         self.inner.vibrate(side, amplitude)
     }
+    fn rates(&self) -> &[f32] {
+        self.inner.rates()
+    }
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        self.inner.request_rate(rate)
+    }
     fn request_exit(&mut self) -> Result<(), HeadsetError> {
         self.inner.request_exit()
     }
@@ -195,6 +202,7 @@ pub fn options(folder: &Path) -> Options {
             filter: None,
         },
         posture: Posture::Seated,
+        grip: Grip::Hold,
         frames: None,
         record: Some(folder.join("session.mcap")),
         // What a software driver takes is no matter to most.

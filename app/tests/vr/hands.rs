@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use crate::common::{Calm, Trouble, Worn, hash, nobody, pour, session};
+use crate::common::{Calm, Trouble, Worn, hash, nobody, options, pour, session, session_with};
 use crate::loss::replayed;
 use glam::{Quat, Vec3};
+use vitriol::vr::latch::Grip;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose};
@@ -152,4 +153,39 @@ fn a_bare_hand_grips_what_it_closes_round() {
     assert!(height < 1.04, "and the flask falls: {height}");
     // As bent as before, but 20 mm off.
     assert_eq!(run(0.064, OPENS).0, None);
+}
+
+/// The right hand presses beside the flask, lets the button go, lifts the flask, and presses again.
+struct Presses;
+
+impl Trouble for Presses {
+    fn frame(&mut self, frame: &mut HeadsetFrame, after: u64) {
+        let up = 0.01 * after.clamp(30, 50).saturating_sub(30) as f32;
+        let (mut hand, _) = bare(Vec3::new(-0.12, 0.80 + up, -0.40), 0.0);
+        let presses = (20..25).contains(&after) || (60..65).contains(&after);
+        hand.squeeze = if presses { 1.0 } else { 0.0 };
+        frame.poses.stage_from_view = Pose::new(Vec3::new(0.0, 1.2, 0.0), Quat::IDENTITY);
+        frame.poses.hands = [Hand::default(), hand];
+    }
+}
+
+#[test]
+fn one_press_grips_and_the_next_lets_go() {
+    let gpu = gpu::device();
+    let run = |grip: Grip, frames: u64| {
+        let folder = tempfile::tempdir().unwrap();
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, frames, Presses);
+        let mut options = options(folder.path());
+        options.grip = grip;
+        let (outcome, _) = session_with(&mut headset, options, nobody());
+        let world = &outcome.bench.world;
+        (world.holder(0), world.poses()[0].position.y)
+    };
+    let (holder, height) = run(Grip::Toggle, 58);
+    assert_eq!(holder, Some(1));
+    assert!((height - 0.95).abs() < 5e-3, "{height}");
+    let (holder, height) = run(Grip::Toggle, 80);
+    assert!(holder.is_none() && height < 0.94, "{height}");
+    // Held, the button would have had to stay pressed.
+    assert_eq!(run(Grip::Hold, 58).0, None);
 }

@@ -319,9 +319,12 @@ fn keys_and_closing_are_heard() {
     let starts = switches.filter(|switch| switch.key == SWITCH_START);
     assert_eq!(starts.count(), 1);
 
-    // `q`: the end.
+    // `q`, twice: the end.
     let program = Program::start(&scene, &[]);
-    screen.press(screen.wait_for("small.toml"), 'q');
+    let window = screen.wait_for("small.toml");
+    for _ in 0..2 {
+        screen.press(window, 'q');
+    }
     program.end();
 }
 

@@ -196,3 +196,28 @@ fn the_filter_gives_way() {
     assert_eq!(filters[0], PictureFilter::CurvatureFlow);
     assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));
 }
+
+/// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
+#[test]
+fn the_displays_rate_gives_way_first() {
+    let gpu = timed();
+    let folder = tempfile::tempdir().unwrap();
+    // The frames' periods are the stand-in's own.
+    struct Own;
+    impl Trouble for Own {}
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 2000.0, 60, Own);
+    headset.inner.rates = vec![0.1, 2000.0];
+    let mut options = options(folder.path());
+    options.governed = true;
+    let (outcome, track) = session_with(&mut headset, options, nobody());
+    // Of 10 s in which five steps are taken.
+    let [rate] = outcome.governor.rates[..] else {
+        panic!("{:?}", outcome.governor.rates)
+    };
+    // It came as 32 bits.
+    assert!((rate - 0.1).abs() < 1e-6);
+    assert_eq!(outcome.governor.changes, 0);
+    let said = switches(&track);
+    assert!(values(&said, SWITCH_SOLVER).is_empty(), "{said:?}");
+    assert!(values(&said, SWITCH_RESOLUTION).is_empty(), "{said:?}");
+}

@@ -39,6 +39,7 @@ fn info() -> Info {
             asked: [10, 3],
             picture: 85,
             other_filter: false,
+            rate: Some(72),
         }),
         coming: Some("acid-into-water".into()),
         holding: Some(65),

@@ -114,6 +114,12 @@ impl<T: Trouble> Headset for Strict<T> {
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
         self.inner.vibrate(side, amplitude)
     }
+    fn rates(&self) -> &[f32] {
+        self.inner.rates()
+    }
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        self.inner.request_rate(rate)
+    }
     fn request_exit(&mut self) -> Result<(), HeadsetError> {
         self.inner.request_exit()
     }

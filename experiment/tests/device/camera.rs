@@ -92,12 +92,14 @@ fn the_head_sees_the_hands() {
     };
     let (with, without) = (picture(true), picture(false));
     let (width, height) = SIZE;
-    let (mut sum, mut count) = ((0.0, 0.0), 0.0);
+    let (mut sum, mut count) = (0.0, 0.0);
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     let pixels = with.chunks_exact(4).zip(without.chunks_exact(4));
     for (index, (a, b)) in (0u32..).zip(pixels) {
         if a != b {
-            sum.0 += f64::from(index % width) + 0.5 - 0.5 * f64::from(width);
-            sum.1 += f64::from(index / width) + 0.5 - 0.5 * f64::from(height);
+            sum += f64::from(index % width) + 0.5 - 0.5 * f64::from(width);
+            let y = f64::from(index / width) + 0.5 - 0.5 * f64::from(height);
+            ends = [ends[0].min(y), ends[1].max(y)];
             count += 1.0;
         }
     }
@@ -105,18 +107,20 @@ fn the_head_sees_the_hands() {
     let focal = 0.5 * f64::from(height) / 20.0_f64.to_radians().tan();
     let ahead = f64::from(BEFORE.z - place.z);
     let right = f64::from(place.x - BEFORE.x) / ahead * focal;
-    // Palm and fingers, which hang down, are some 84 mm broad and 150 mm long, with gaps.
-    let hand = 0.084 * 0.15 * (focal / ahead).powi(2);
+    // With its cuff it is some 84 mm broad and 250 mm long, and between the fingers are gaps.
+    let hand = 0.084 * 0.25 * (focal / ahead).powi(2);
     assert!(
-        (0.25 * hand..1.2 * hand).contains(&count),
+        (0.5 * hand..1.2 * hand).contains(&count),
         "{count} of {hand} pixels"
     );
-    let (x, y) = (sum.0 / count, sum.1 / count);
+    let x = sum / count;
     let millimetre = 1e-3 * focal / ahead;
     assert!(
         (x - right).abs() < 30.0 * millimetre,
         "{x} instead of {right}"
     );
-    // Below the grip, since the fingers are.
-    assert!((0.0..80.0 * millimetre).contains(&y), "{y}");
+    // Fingers hang down from the middle of the palm, and the cuff is above it.
+    let [above, below] = ends.map(|end| end / millimetre);
+    assert!((105.0..150.0).contains(&below), "{below}");
+    assert!((-140.0..-90.0).contains(&above), "{above}");
 }

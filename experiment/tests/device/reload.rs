@@ -151,14 +151,17 @@ fn a_running_replay_takes_up_what_is_sound() {
     // Valid, but not with what the program binds.
     folder.edit("render/spheres/light.wgsl", "nonsense *", "");
     folder.edit(
-        "render/picture.wgsl",
-        "var<immediate> picture",
-        "var<private> picture",
+        "render/spheres/light.wgsl",
+        "var<immediate> spheres",
+        "var<private> spheres",
     );
     let still = step(laboratory.as_mut());
     assert!(red(&still) > 250, "{}", red(&still));
     let said = messages.take();
-    assert!(said.contains("the old render/picture.wgsl stays"), "{said}");
+    assert!(
+        said.contains("the old render/spheres/light.wgsl stays"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod ellipsoids;
 mod extent;
 mod glass;
 mod golden;
+mod hands;
 mod liquid;
 mod rig;
 mod scene;

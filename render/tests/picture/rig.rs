@@ -135,6 +135,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         views,
         vessels: &[],
         particles: None,
+        hands: [&[]; 2],
         liquid: None,
         steam: None,
         colour_by: ColourBy::Speed(1.0),

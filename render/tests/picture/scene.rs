@@ -4,7 +4,7 @@ use crate::rig::{Rig, ray, without_particles};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::QueueKind;
 use vitriol_render::{
-    ColourBy, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
+    Bone, ColourBy, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
 };
 
 const EXTENT: [u32; 2] = [320, 180];
@@ -200,6 +200,11 @@ fn another_length_scale_gives_the_same_picture() {
         let positions = rig.buffer("positions", &[position.extend(1.0).to_array()]);
         let velocities = rig.buffer("velocities", &[[0.7 / scale, 0.0, 0.0, 0.0]]);
         let vessels = [Affine3A::from_translation(at)];
+        let finger = Bone {
+            ends: [Vec3::new(0.05, 0.80, -0.38), Vec3::new(0.08, 0.84, -0.40)],
+            radii: [0.012, 0.009],
+            cuff: false,
+        };
         rig.draw(&FrameDesc {
             extent: None,
             views: &views,
@@ -212,6 +217,8 @@ fn another_length_scale_gives_the_same_picture() {
                 count: 1,
                 radius: 0.02 / scale,
             }),
+            // Hands are in real metres, as views are.
+            hands: [&[finger], &[]],
             colour_by: ColourBy::Speed(1.0 / scale),
             length_scale: scale,
         })

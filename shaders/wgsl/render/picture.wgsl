@@ -1,4 +1,4 @@
-//! The picture without smooth edges: what of the room, the liquid and the coloured particles is nearest at
+//! The picture without smooth edges: what of the room, the liquid, the hands and the coloured particles is nearest at
 //! each pixel, in its light, and the glass over it.
 //!
 //! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are.
@@ -14,18 +14,12 @@
 override GLASS: bool = false;
 override LIQUID: bool = false;
 
-struct PictureDraw {
-    /// Whether particles were drawn as coloured spheres.
-    spheres: u32,
-}
-
-var<immediate> picture: PictureDraw;
-
 /// Marks of the tiles.
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
-/// The light of the nearest sphere, and its reversed depth, 0 where there is none.
-@group(0) @binding(7) var<storage, read> sphere_light: array<u32>;
-@group(0) @binding(8) var<storage, read> sphere_depths: array<f32>;
+/// The light of the nearest hand or coloured sphere, and its reversed depth, 0 where there is none; in tiles that are
+/// marked for them.
+@group(0) @binding(7) var<storage, read> solid_light: array<u32>;
+@group(0) @binding(8) var<storage, read> solid_depths: array<f32>;
 @group(0) @binding(9) var drawn: texture_storage_2d_array<rgba8unorm, write>;
 /// The same where no edges are to be smoothed.
 @group(0) @binding(10) var finished: texture_storage_2d_array<rgba8unorm, write>;
@@ -77,12 +71,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         if (met.way == 0.0) { light = ambient_light(direction.y); }
         colour = display(kept * light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
-        if (picture.spheres != 0u) {
+        if ((tiles[place.tile] & (MARK_SPHERES | MARK_HANDS)) != 0u) {
             let index = pixel_index(place.pixel, eye);
-            let sphere = sphere_depths[index];
-            if (sphere > reversed) {
-                reversed = sphere;
-                colour = unpacked(sphere_light[index]);
+            let solid = solid_depths[index];
+            if (solid > reversed) {
+                reversed = solid;
+                colour = unpacked(solid_light[index]);
             }
         }
         if (GLASS) {

@@ -16,7 +16,7 @@ fn append(class_: u32, tile: u32, all: u32) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if (id.x < 6u) {
+    if (id.x < 7u) {
         atomicStore(&arguments[3u * id.x + 1u], 4u);
         atomicStore(&arguments[3u * id.x + 2u], 1u);
     }
@@ -36,5 +36,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if ((marks & MARK_LIQUID) != 0u) { class_ = 0u; }
     append(class_, id.x, all);
     if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
+    if ((marks & MARK_HANDS) != 0u) { append(6u, id.x, all); }
     if (marks != 0u) { append(select(3u, 4u, (marks & MARK_STEAM) != 0u), id.x, all); }
 }

@@ -1,15 +1,17 @@
 //! `vitriol bench --render`: what each pass of the picture takes, at a headset's
 //! resolutions and a screen's, of a scene in motion.
 
+use std::f32::consts::FRAC_PI_2;
 use std::time::Instant;
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_gpu::{Gpu, QueueKind, Ticket};
 use vitriol_render::{Fov, View};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
+use vitriol_xr::{Hand, Pose};
 
 use super::frame::{QUEUED, milliseconds, solve};
 use super::report::{PassRow, RenderRow, Timing};
@@ -25,6 +27,9 @@ const BEGIN: f64 = 0.5;
 /// Half a meter before the vessels and above them, in real metres, as one
 /// leans over a bench.
 const HEAD: [Vec3; 2] = [Vec3::new(0.0, 1.12, 0.02), Vec3::new(0.0, 0.84, -0.40)];
+
+/// A headset's hands: open, palms towards each other, half a metre from the eyes, real metres.
+const HANDS: [Vec3; 2] = [Vec3::new(-0.10, 0.87, -0.36), Vec3::new(0.10, 0.87, -0.36)];
 
 /// The scene's picture at each size.
 ///
@@ -81,6 +86,14 @@ fn ready(
     let [eye, target] = HEAD;
     let fov = Fov::symmetric(vertical.to_radians(), aspect);
     camera.view = View::look_at(eye, target, fov);
+    if eyes == 2 {
+        camera.show_hands(HANDS.map(|place| Hand {
+            active: true,
+            valid: true,
+            stage_from_grip: Pose::new(place, Quat::from_rotation_x(FRAC_PI_2)),
+            ..Hand::default()
+        }));
+    }
     for _ in 0..(BEGIN / scene.scale.frame_time) as u32 {
         solve(gpu, &world)?;
     }

@@ -100,6 +100,7 @@ impl Draw for Screen {
             views: eyes,
             vessels: &vessels,
             particles: None,
+            hands: [&[]; 2],
             liquid: Some(liquid_of(&state.world)),
             steam: None,
             colour_by: ColourBy::Acid,

@@ -15,8 +15,8 @@ use super::stage::Stage;
 use super::system::{self, ConnectedHeadset};
 use crate::SessionState;
 
-/// The display rate that is asked for where the runtime offers a choice, Hz: the time of a step
-/// and of a picture is laid out for it (docs/measurements/performance.md).
+/// The display rate that is asked for at least where the runtime offers a choice, Hz: the time of a step
+/// and of a picture is laid out for it (docs/measurements/performance.md). A display that is faster stays so.
 const RATE: f32 = 90.0;
 
 /// The frame that has begun.
@@ -43,6 +43,8 @@ pub(super) struct Live {
     pub name: String,
     pub blend: xr::EnvironmentBlendMode,
     pub masks: [Mask; 2],
+    /// Those of the display, Hz; empty without a choice.
+    pub rates: Vec<f32>,
     /// Runtime's last word on the session.
     pub state: SessionState,
     /// Between xrBeginSession and xrEndSession.
@@ -100,7 +102,7 @@ impl Live {
             .map_err(failed("xrCreateReferenceSpace"))?;
         let actions = Actions::new(&instance, &session)?;
         let images = Images::new(&gpu, &session, extent, options)?;
-        choose_rate(&session);
+        let rates = choose_rate(&session);
         let runtime = instance
             .properties()
             .map_err(failed("xrGetInstanceProperties"))?;
@@ -113,6 +115,7 @@ impl Live {
         tracing::info!(name, ?extent, stage = ?stage.kind, "headset");
         Ok(Self {
             masks: [Mask::of(&session, 0), Mask::of(&session, 1)],
+            rates,
             stream,
             waiter,
             images,
@@ -189,20 +192,24 @@ impl Drop for Live {
     }
 }
 
-/// Asks for the rate next to [`RATE`], where there is a choice; a refusal leaves it as it is.
-fn choose_rate(session: &xr::Session<xr::Vulkan>) {
+/// Asks for the rate next to [`RATE`], where there is a choice and the display is slower; a refusal leaves it as it is. Gives
+/// those that there are.
+fn choose_rate(session: &xr::Session<xr::Vulkan>) -> Vec<f32> {
     if session.instance().exts().fb_display_refresh_rate.is_none() {
-        return;
+        return Vec::new();
     }
     let rates = session
         .enumerate_display_refresh_rates()
         .unwrap_or_default();
+    let now = session.get_display_refresh_rate().unwrap_or_default();
     let best = rates
-        .into_iter()
+        .iter()
+        .copied()
         .min_by(|a, b| (a - RATE).abs().total_cmp(&(b - RATE).abs()));
-    if let Some(best) = best
+    if let Some(best) = best.filter(|best| *best > now)
         && let Err(answer) = session.request_display_refresh_rate(best)
     {
         tracing::warn!(best, %answer, "display rate refused");
     }
+    rates
 }

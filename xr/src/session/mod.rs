@@ -334,6 +334,21 @@ impl Headset for OpenXr {
         self.settle(vibrated).map(|_| ())
     }
 
+    fn rates(&self) -> &[f32] {
+        self.live.as_ref().map_or(&[], |live| &live.rates)
+    }
+
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        let asked = match (&self.live, &self.lost) {
+            (Some(live), None) => live
+                .session
+                .request_display_refresh_rate(rate)
+                .map_err(failed("xrRequestDisplayRefreshRateFB")),
+            _ => Ok(()),
+        };
+        self.settle(asked).map(|_| ())
+    }
+
     fn request_exit(&mut self) -> Result<(), HeadsetError> {
         self.leaving = true;
         let asked = match (&self.live, &self.lost) {

@@ -171,3 +171,39 @@ fn a_mask_may_change() {
     }
     client.assert_silent();
 }
+
+/// A display that is slower than 90 Hz is asked for 90, one that is faster is left alone, and what is asked for later arrives.
+#[test]
+fn the_displays_rate_can_be_chosen() {
+    let rates = |now| Change::Rates {
+        rates: vec![72.0, 80.0, 90.0, 120.0],
+        now,
+    };
+    let name = "awake::the_displays_rate_can_be_chosen";
+    let Some(mock) = mock::enter(name, &[rates(72.0)]) else {
+        return;
+    };
+    let asked = || {
+        let calls = mock.calls_of("xrRequestDisplayRefreshRateFB").into_iter();
+        calls
+            .map(|call| call.with["rate"].as_f64().unwrap())
+            .collect::<Vec<_>>()
+    };
+    let mut client = Client::open();
+    client.focus();
+    assert_eq!(asked(), [90.0]);
+    assert_eq!(client.xr.rates(), [72.0, 80.0, 90.0, 120.0]);
+    client.xr.request_rate(80.0).unwrap();
+    client.focus();
+    let (frame, _) = client.frame();
+    client.draw();
+    // Whole nanoseconds.
+    assert!((frame.poses.info.period_ns - 12_500_000).abs() < 2);
+    client.assert_silent();
+    drop(client);
+    mock.say(rates(120.0));
+    let mut client = Client::open();
+    client.focus();
+    assert_eq!(asked(), [90.0, 80.0]);
+    client.assert_silent();
+}

@@ -167,6 +167,19 @@ fn a_spike() {
     }
 }
 
+/// The first frames of a session take long, and none of them is missed: that is no load. Missed ones are.
+#[test]
+fn a_start_is_no_load() {
+    for (start, changes) in [(0.95, 0), (1.3, 2)] {
+        let run = run(10.0, |time, level| {
+            let full = if time < 0.25 { start } else { 0.45 };
+            at(level, [0.5 * full, 0.5 * full])
+        });
+        assert!((changes == 0) == run.changes.is_empty(), "{start}: {run:?}");
+        assert_eq!(run.level, [0, 0]);
+    }
+}
+
 /// The dear part is made cheaper, whichever it is; where both are dear, both.
 #[test]
 fn the_dear_part_pays() {

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use vitriol_experiment::hands::beads as beads_of;
 use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_experiment::{Blame, Failure};
@@ -52,6 +51,21 @@ impl Session {
         let (world, placed) = (&self.benches.current.world, &self.placement);
         let (last, stage_from_scene) = (placed.last.as_ref(), placed.stage_from_scene());
         closing::close(&mut now, &frame.joints, last, world, &stage_from_scene);
+        if let Some(latches) = &mut self.latches {
+            // A bare hand has nothing to press.
+            for side in Side::BOTH
+                .into_iter()
+                .filter(|side| frame.joints[*side as usize].is_none())
+            {
+                let holds = held_by(world, side).next().is_some();
+                latches.apply(side, &mut now.hands[side as usize], holds);
+            }
+        }
+        let scene_from_stage = stage_from_scene.inverse();
+        self.joints = frame.joints.each_ref().map(|joints| {
+            let joints = joints.as_ref()?.0;
+            Some(joints.map(|(at, radius)| (scene_from_stage.transform_point(at), radius)))
+        });
         // 3. The steps up to this frame's display time.
         self.take_steps(now)?;
         // 4. What the hands feel.
@@ -84,8 +98,12 @@ impl Session {
         // 10. What the next frames are solved and drawn with.
         let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
         let (benches, track) = (&mut self.benches, &mut self.track);
+        let display = (period, headset.rates());
         self.pacing
-            .govern(&loads, period, benches, track, &no_frame)?;
+            .govern(&loads, display, benches, track, &no_frame)?;
+        if let Some(rate) = self.pacing.wants_rate.take() {
+            headset.request_rate(rate).map_err(blame)?;
+        }
         // 11. What the lenses hide.
         self.benches.take_mask(headset, &no_frame)
     }
@@ -189,17 +207,17 @@ impl Session {
     ) -> Result<Shown, Failure> {
         let placed = self.placement.stage_from_scene();
         let seen = self.placement.seen();
-        let beads = seen.as_ref().map_or_else(Vec::new, beads_of);
         let setting = self.pacing.setting(&self.benches.current);
         let extent = scaled(self.benches.eyes.extent, &setting);
         let Workbench { world, picture, .. } = &mut self.benches.current;
+        let gloves = picture.gloves(world, seen.as_ref(), &self.joints);
 
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {
             extent,
             views: views.each_ref().map(|view| eye(view, &placed)),
-            beads: &beads,
+            hands: gloves.each_ref().map(Vec::as_slice),
         };
         let panel = &mut self.panel;
         let picture = picture.draw(world, &shapes, &sight, targets, |rec| {

@@ -14,6 +14,7 @@ use crate::vr::clock::MOST_STEPS;
 use crate::vr::governor::{FrameTimes, Governor, Level};
 use crate::vr::info::Effort;
 use crate::vr::ladder::Setting;
+use crate::vr::rates::{Rates, Taken};
 use crate::vr::tally::FrameLoad;
 use crate::vr::workbench::{TAKEN_UP, Workbench};
 
@@ -34,6 +35,9 @@ pub struct GovernorReport {
     pub changes: u64,
     /// Settings, in the order in which they came.
     pub settings: Vec<FramesWith>,
+    /// Display rates that it asked for, Hz.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rates: Vec<f64>,
 }
 
 /// Frames that were shown with a setting.
@@ -63,6 +67,10 @@ pub(super) struct Pacing {
     finer: bool,
     /// What it did in the frames that count.
     pub report: GovernorReport,
+    /// The display's rates; `None` until a frame has told its period.
+    rates: Option<Rates>,
+    /// A rate that the headset is to be asked for.
+    pub wants_rate: Option<f32>,
     repainter: Repainter,
 }
 
@@ -106,6 +114,14 @@ impl Pacing {
     pub fn forget(&mut self) {
         self.repainter.forget();
         self.settle();
+        if let Some(governor) = &mut self.governor {
+            governor.begin();
+        }
+    }
+
+    /// Another session has its own display.
+    pub fn forget_rates(&mut self) {
+        (self.rates, self.wants_rate) = (None, None);
     }
 
     /// Something changed, so that the frames under way say nothing about the next ones.
@@ -118,11 +134,11 @@ impl Pacing {
     }
 
     /// Tells the governor what the frames that are done took, and does what it decides; `period` is the display's,
-    /// ms.
+    /// ms, and `rates` are those that it offers, Hz.
     pub fn govern(
         &mut self,
         loads: &[FrameLoad],
-        period: f64,
+        (period, rates): (f64, &[f32]),
         benches: &mut Benches,
         track: &mut SessionTrack,
         no_frame: &NoFrameOpen,
@@ -130,6 +146,7 @@ impl Pacing {
         // A runtime may not say how long a frame is shown. While another picture is in the making nothing is
         // decided, since it changes what frames take.
         if period > 0.0 && !self.repainter.is_busy() {
+            (self.rates).get_or_insert_with(|| Rates::new(rates, 1e3 / period));
             for load in loads {
                 if let Some(level) = self.heed(load, period, &benches.current) {
                     self.go_to(level, &mut benches.current, track)?;
@@ -171,8 +188,29 @@ impl Pacing {
             since: std::mem::take(&mut self.since),
         };
         let missed = std::mem::take(&mut self.missed);
-        let level = governor.take(&times, missed)?;
-        self.finer = level.iter().sum::<usize>() < self.level.iter().sum();
+        let decided = governor.take(&times, missed);
+        let taken = Taken {
+            step: load.solve_ms / load.steps as f64,
+            picture: load.picture_ms,
+            frame_time,
+        };
+        let rates = self.rates.get_or_insert_default();
+        let coarser = |to: &Level| to.iter().sum::<usize>() > self.level.iter().sum();
+        let rate = match decided {
+            Some(level) if coarser(&level) => rates.lower(&taken),
+            None if self.level == [0, 0] => rates.raise(&taken, times.since),
+            _ => None,
+        };
+        if let Some(rate) = rate {
+            governor.stay(self.level);
+            tracing::info!("to keep pace: display {rate} Hz");
+            self.wants_rate = Some(rate as f32);
+            self.report.rates.push(rate);
+            self.settle();
+            return None;
+        }
+        let level = decided?;
+        self.finer = !coarser(&level);
         self.report.changes += 1;
         Some(level)
     }
@@ -231,12 +269,14 @@ impl Pacing {
     /// What the panel says of it; `None` where all is as it was asked for.
     pub fn effort(&self, bench: &Workbench) -> Option<Effort> {
         let (now, asked) = (self.setting(bench), bench.ladder.setting([0, 0]));
-        (now != asked).then_some(Effort {
+        let rate = self.rates.as_ref().and_then(Rates::lowered);
+        (now != asked || rate.is_some()).then_some(Effort {
             finer: self.finer,
             solver: now.solver,
             asked: asked.solver,
             picture: (100.0 * now.resolution).round() as u32,
             other_filter: now.filter != asked.filter,
+            rate: rate.map(|rate| rate.round() as u32),
         })
     }
 }

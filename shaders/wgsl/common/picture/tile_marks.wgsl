@@ -10,6 +10,7 @@ const MARK_EDGE = 0x40000000u;
 const MARK_STEAM = 0x20000000u;
 /// Particles as coloured spheres.
 const MARK_SPHERES = 0x10000000u;
+const MARK_HANDS = 0x08000000u;
 const MARK_VESSELS = 0xffu;
 
 /// Words of a tile's bits for puffs of steam, a bit a puff: for 1024 puffs, as many as the solver keeps.

@@ -6,7 +6,7 @@
 //!include common/picture/tile_marks.wgsl
 
 /// Whose list: 0 liquid, 1 glass without liquid, 2 neither; 3 edges to be smoothed, 4 those with
-/// steam over them; 5 coloured spheres.
+/// steam over them; 5 coloured spheres; 6 hands.
 override CLASS: u32 = 0u;
 
 /// For each class its tiles, counted row by row, eye by eye; `tile_lists.wgsl` writes them.

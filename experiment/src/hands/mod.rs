@@ -1,0 +1,71 @@
+//! The user's hands as gloves: without them nobody sees where to grip.
+//!
+//! A hand is OpenXR's 26 joints, tracked or, from a controller's pose, as a hand would hold it; bones are
+//! made of either. What a hand holds is between its palm and its fingers.
+
+mod bones;
+mod glass;
+mod grasp;
+mod posture;
+#[cfg(test)]
+mod tests;
+
+use vitriol_render::Bone;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::world::World;
+use vitriol_xr::{Hand, Pose, Side};
+
+pub use bones::{JOINTS, Joints, bones_of};
+pub use glass::Glass;
+pub use grasp::{Grasp, closed_on};
+pub use posture::{Posture, joints_of};
+
+/// The gloves of a scene's user.
+#[derive(Clone, Debug)]
+pub struct Gloves {
+    /// Of the flasks, in the scene's order.
+    glasses: Vec<Glass>,
+}
+
+impl Gloves {
+    /// For a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let scale = scene.scale.length_scale;
+        let glass = |flask: &vitriol_sim::scene::Flask| Glass::of(&flask.profile, scale);
+        Self {
+            glasses: scene.flasks.iter().map(glass).collect(),
+        }
+    }
+
+    /// The bones of both hands in the scene's stage, real metres, as they are at the flasks of `world`: of hands that are
+    /// tracked their own, of others what their controllers' poses say. None of a hand that is not there.
+    pub fn worn(
+        &self,
+        world: &World,
+        hands: &[Hand; 2],
+        joints: &[Option<Joints>; 2],
+    ) -> [Vec<Bone>; 2] {
+        Side::BOTH.map(|side| {
+            let hand = &hands[side as usize];
+            if let Some(joints) = &joints[side as usize] {
+                return bones_of(joints);
+            }
+            if !(hand.active && hand.valid) {
+                return Vec::new();
+            }
+            bones_of(&self.of_controller(world, hand, side))
+        })
+    }
+
+    fn of_controller(&self, world: &World, hand: &Hand, side: Side) -> Joints {
+        let held = (0..self.glasses.len()).find(|&n| world.holder(n) == Some(side as usize));
+        let held = held.and_then(|n| Some((self.glasses.get(n)?, world.poses().get(n)?)));
+        let grasp = held.map(|(glass, pose)| {
+            let scale = world.scene().scale.length_scale as f32;
+            let stage_from_flask = Pose::new(scale * pose.position, pose.orientation);
+            closed_on(&hand.stage_from_grip, side, glass, &stage_from_flask)
+        });
+        let grasp = grasp.unwrap_or_else(|| Grasp::empty(hand.squeeze.max(hand.trigger)));
+        joints_of(&grasp, &hand.stage_from_grip, side)
+    }
+}

@@ -1,0 +1,137 @@
+//! Hands as gloves: round cones about their bones, joined smoothly.
+
+use glam::Vec3;
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
+use vitriol_shaders::{Library, ShaderId, hands, layout};
+
+use crate::RenderError;
+use crate::compute::compute;
+use crate::frame::FrameDesc;
+use crate::solids::Solids;
+use crate::tiles::{Class, Tiles};
+
+/// Bones that a hand has at most, as in `common/picture/bones.wgsl`.
+pub const MOST_BONES: usize = 28;
+
+/// Distance over which the bones of a hand join smoothly, metres: they add up to a quarter of it where they meet, 1 mm. With
+/// more, fingers that touch grow together.
+pub const JOINED: f32 = 0.004;
+
+/// One bone of a glove: the convex hull of two spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bone {
+    /// The spheres' middles in the stage, metres.
+    pub ends: [Vec3; 2],
+    /// Their radii, metres.
+    pub radii: [f32; 2],
+    /// Whether it is of the cuff, which is lighter.
+    pub cuff: bool,
+}
+
+/// The passes that draw hands.
+pub(crate) struct Hands {
+    mark_pass: ComputePipeline,
+    light_pass: ComputePipeline,
+    bones: Buffer,
+    views: u32,
+}
+
+impl Hands {
+    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
+        let class = ("CLASS", f64::from(Class::Hands as u32));
+        let bytes = bytes_of_elements::<layout::Bone>(2 * MOST_BONES);
+        Ok(Self {
+            mark_pass: compute(gpu, library, hands::MARK, &[])?,
+            light_pass: compute(gpu, library, hands::LIGHT, &[class])?,
+            bones: Buffer::storage(gpu, "bones", bytes)?,
+            views,
+        })
+    }
+
+    /// Whether any of these shaders is one of these.
+    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
+        changed
+            .iter()
+            .any(|id| id.path().starts_with("render/hands/"))
+    }
+
+    /// Records which tiles they are in; these are marked with everything else by then and not listed yet.
+    pub(crate) fn record_marks(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        frame: &FrameDesc<'_>,
+        tiles: &Tiles,
+    ) -> Result<(), GpuError> {
+        let mut bones = [layout::Bone::default(); 2 * MOST_BONES];
+        for (slots, hand) in bones.chunks_mut(MOST_BONES).zip(frame.hands) {
+            for (slot, bone) in slots.iter_mut().zip(drawn(hand)) {
+                let [a, b] = bone.ends.map(|end| (end / frame.length_scale).to_array());
+                let [radius_a, radius_b] = bone.radii.map(|radius| radius / frame.length_scale);
+                *slot = layout::Bone {
+                    a,
+                    radius_a,
+                    b,
+                    radius_b,
+                    cuff: f32::from(u8::from(bone.cuff)),
+                    ..layout::Bone::default()
+                };
+            }
+        }
+        rec.upload(&self.bones, &bones)?;
+        rec.group("hands", |rec| {
+            rec.pass(&self.mark_pass)
+                .label("hands")
+                .uniform("frame", uniforms)
+                .read("bones", &self.bones)
+                .write("tiles", tiles.marks())
+                .constants(&run(frame))
+                .workgroups([2 * MOST_BONES as u32, self.views, 1])
+        })
+    }
+
+    /// Records their depth and light over those of the spheres; the tiles are listed.
+    pub(crate) fn record_light(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        frame: &FrameDesc<'_>,
+        solids: &Solids,
+        tiles: &Tiles,
+    ) -> Result<(), GpuError> {
+        rec.group("hands", |rec| {
+            let pass = rec
+                .pass(&self.light_pass)
+                .label("hands")
+                .uniform("frame", uniforms)
+                .read("bones", &self.bones)
+                .write("depths", &solids.depths)
+                .write("nearest", &solids.nearest)
+                .constants(&run(frame));
+            tiles.over(Class::Hands, pass)
+        })
+    }
+}
+
+fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
+    layout::HandsRun {
+        counts: frame.hands.map(|hand| drawn(hand).count() as u32),
+        joined: JOINED / frame.length_scale,
+        over: frame.particles.is_some().into(),
+    }
+}
+
+/// Farthest that a bone may be from the stage's origin, metres. Beyond, or where it is no number, no tracker
+/// knows the hand.
+const FARTHEST: f32 = 100.0;
+
+fn drawn(hand: &[Bone]) -> impl Iterator<Item = &Bone> {
+    let is_drawn = |bone: &&Bone| {
+        let near = bone.ends.iter().all(|end| end.length() < FARTHEST);
+        near && bone
+            .radii
+            .iter()
+            .all(|radius| *radius > 0.0 && *radius < FARTHEST)
+    };
+    hand.iter().filter(is_drawn)
+}

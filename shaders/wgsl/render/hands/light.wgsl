@@ -1,0 +1,177 @@
+//! The hands at each pixel of their tiles: their depth, and their light, which is that of gloves of nitrile.
+//!
+//! The ray begins where it enters the first capsule about a bone, and goes on as far as distances to the bones, and their slopes, say.
+
+//!include common/picture/daylight.wgsl
+//!include common/picture/glove_surface.wgsl
+//!include common/picture/packed_light.wgsl
+//!include common/picture/tile_pixels.wgsl
+
+/// Reversed depth of the nearest hand or sphere, 0 where there is none; in tiles that have neither, of no meaning.
+@group(0) @binding(3) var<storage, read_write> depths: array<f32>;
+/// Its light.
+@group(0) @binding(4) var<storage, read_write> nearest: array<u32>;
+
+/// Reflectance of the glove, and of its cuff. Ours: in the room's light about the sRGB colours (70, 110, 170) and (120, 150, 190).
+const GLOVE = vec3<f32>(0.075, 0.130, 0.245);
+const CUFF = vec3<f32>(0.180, 0.240, 0.330);
+/// Reflectance of a smooth surface of n = 1.5, seen at right angles.
+const HEAD_ON = 0.04;
+/// Most strides of a ray: most rays take four or five.
+const STRIDES = 32;
+/// The distance that is taken for none, pixels.
+const CLOSE = 0.01;
+/// How far from the surface other parts of the hand take light from it, over the distance of joining: 8 mm. And how far from the
+/// surface such a part may be.
+const SHADE = 2.0;
+const SHADING = 4.0;
+
+/// Pixels of a block, of which a workgroup has four in a row and two in a column. A GPU's invocations in step share one,
+/// and the bones that reach it.
+const BLOCK = vec2<u32>(8u, 4u);
+const BLOCKS = 8u;
+/// Where each bone is seen as far as it has an effect on the surface, and then as far as it has one on its light.
+var<workgroup> seen_bones: array<Seen, 112>;
+/// By block and hand a bit for each bone that reaches it; the last two are the whole workgroup's for the light.
+var<workgroup> present: array<atomic<u32>, 18>;
+
+/// From where to where a ray from the eye is in a capsule about a bone that is `grown` thicker; the second is 0 where it
+/// passes by.
+fn way_through(cone: Cone, ray: vec3<f32>, grown: f32) -> vec2<f32> {
+    let radius = cone.greatest + grown;
+    // From next to the bone, since squares of its distance would lose the digits of its radius.
+    let near = dot(cone.end + 0.5 * cone.length * cone.axis, ray);
+    let from_a = near * ray - cone.end;
+    let from_b = from_a - cone.length * cone.axis;
+    let along = dot(from_a, cone.axis);
+    let turn = dot(ray, cone.axis);
+    // The cylinder, between its ends; then the spheres there. NaN, for a ray along the axis, fails each comparison.
+    let k2 = 1.0 - turn * turn;
+    let k1 = dot(from_a, ray) - along * turn;
+    let k0 = dot(from_a, from_a) - along * along - radius * radius;
+    let inside = k1 * k1 - k0 * k2;
+    let at_a = dot(from_a, ray);
+    let at_b = dot(from_b, ray);
+    let sides = (vec2<f32>(-1.0, 1.0) * sqrt(max(inside, 0.0)) - k1) / k2;
+    let roots_a = within(at_a, at_a * at_a - dot(from_a, from_a) + radius * radius);
+    let roots_b = within(at_b, at_b * at_b - dot(from_b, from_b) + radius * radius);
+    var way = vec2<f32>(min(roots_a.x, roots_b.x), max(roots_a.y, roots_b.y));
+    let places = along + sides * turn;
+    if (inside >= 0.0 && places.x >= 0.0 && places.x <= cone.length) { way.x = min(way.x, sides.x); }
+    if (inside >= 0.0 && places.y >= 0.0 && places.y <= cone.length) { way.y = max(way.y, sides.y); }
+    return select(near + way, vec2<f32>(1e9, 0.0), way.y < way.x);
+}
+
+/// From where to where a ray is in a sphere; a negative way where it is not.
+fn within(at: f32, inside: f32) -> vec2<f32> {
+    let half_way = sqrt(max(inside, 0.0));
+    return select(vec2<f32>(1e9, -1e9), vec2<f32>(-at - half_way, half_way - at), inside >= 0.0);
+}
+
+/// The first and the last place of a ray that may be in a hand, of those of its bones whose bits are set.
+fn way_of(hand: u32, bits: u32, ray: vec3<f32>) -> vec2<f32> {
+    var way = vec2<f32>(1e9, 0.0);
+    for (var rest = bits; rest != 0u; rest &= rest - 1u) {
+        let through = way_through(cones[BONES * hand + firstTrailingBit(rest)], ray, ADDED * run.joined);
+        way = vec2<f32>(min(way.x, through.x), max(way.y, through.y));
+    }
+    return way;
+}
+
+fn glove_light(at: vec3<f32>, ray: vec3<f32>, place: GlovePlace, open: f32) -> vec3<f32> {
+    let key = key_light(at * frame.metres_per_unit);
+    let facing = max(dot(place.normal, key.direction), 0.0);
+    let reflectance = mix(GLOVE, CUFF, place.cuff);
+    let ambient = ambient_light(place.normal.y) * open;
+    let half_vector = normalize(key.direction - ray);
+    let sheen = pow(max(dot(place.normal, half_vector), 0.0), 22.0) * facing;
+    let glancing = pow(1.0 - saturate(-dot(place.normal, ray)), 5.0);
+    let mirrored = HEAD_ON + (1.0 - HEAD_ON) * 0.4 * glancing;
+    let turned = reflect(ray, place.normal);
+    return reflectance * (ambient + facing * key.light) + (0.22 * sheen * key.light + mirrored * ambient_light(turned.y)) * open;
+}
+
+@compute @workgroup_size(32, 8)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let block = lane / 32u;
+    let in_block = vec2<u32>(lane % BLOCK.x, lane / BLOCK.x % BLOCK.y);
+    let place = place_of(group, vec3<u32>(BLOCK * vec2<u32>(block % 4u, block / 4u) + in_block, 0u));
+    let eye = place.eye;
+    // The last half of the invocations looks where light ends.
+    let half = lane / 128u;
+    let n = lane % 128u;
+    let is_bone = n < 2u * BONES && n % BONES < run.counts[min(n / BONES, 1u)];
+    if (lane < 18u) { atomicStore(&present[lane], 0u); }
+    if (is_bone) {
+        let bone = bones[n];
+        if (half == 0u) { cones[n] = cone_of(bone, frame.views[eye].eye); }
+        seen_bones[2u * BONES * half + n] = bone_seen(bone, eye, select(EFFECT, SHADING, half == 1u) * run.joined);
+    }
+    workgroupBarrier();
+    if (is_bone) {
+        let low = vec2<f32>(place.pixel) - vec2<f32>(BLOCK * vec2<u32>(block % 4u, block / 4u) + in_block);
+        let hand = n / BONES;
+        let bit = 1u << (n % BONES);
+        let at = seen_bones[2u * BONES * half + n];
+        if (half == 1u) {
+            if (reaches(at, low, low + vec2<f32>(32.0, 8.0))) { atomicOr(&present[2u * BLOCKS + hand], bit); }
+        } else {
+            for (var other = 0u; other < BLOCKS; other++) {
+                let corner = low + vec2<f32>(BLOCK * vec2<u32>(other % 4u, other / 4u));
+                if (reaches(at, corner, corner + vec2<f32>(BLOCK))) { atomicOr(&present[2u * other + hand], bit); }
+            }
+        }
+    }
+    workgroupBarrier();
+    if (!place.inside) { return; }
+    let left = atomicLoad(&present[2u * block]);
+    let right = atomicLoad(&present[2u * block + 1u]);
+
+    let seen = seen_along(eye, vec2<f32>(place.pixel) + 0.5);
+    let stretch = length(seen);
+    let ray = seen / stretch;
+    let near = frame.views[eye].near * stretch;
+    let way_left = way_of(0u, left, ray);
+    let way_right = way_of(1u, right, ray);
+    let end = max(way_left.y, way_right.y);
+    var way = max(min(way_left.x, way_right.x), near);
+    var is_left = false;
+    let pixel = 1.0 / frame.views[eye].focal;
+    var met = false;
+    var apart = 1e9;
+    for (var stride = 0; stride < STRIDES && way < end; stride++) {
+        let to_left = stride_at(0u, left, way * ray, ray);
+        let to_right = stride_at(1u, right, way * ray, ray);
+        is_left = to_left.distance <= to_right.distance;
+        apart = min(to_left.distance, to_right.distance);
+        // A hand that the eye is in, or that reaches through the near plane, is not seen from within.
+        if (apart < 0.0 && way == near) { break; }
+        if (apart < CLOSE * pixel * way) {
+            met = true;
+            break;
+        }
+        way += min(to_left.free, to_right.free);
+    }
+    // In the last corner of a crease strides are short; nothing is seen through it.
+    met = met || (way < end && apart > 0.0 && apart < pixel * way);
+    let index = pixel_index(place.pixel, eye);
+    var before = 0.0;
+    if (run.over != 0u) { before = depths[index]; }
+    let reversed = select(0.0, near / way, met);
+    if (reversed > before) {
+        let at = way * ray;
+        let hand = select(1u, 0u, is_left);
+        let all = atomicLoad(&present[2u * BLOCKS + hand]);
+        let surface = hand_place(hand, all, at);
+        // Between fingers less of the room is seen.
+        let reach = SHADE * run.joined;
+        let open = saturate(0.25 + 0.75 * hand_distance(hand, all, at + reach * surface.normal) / reach);
+        nearest[index] = packed(display(glove_light(at + frame.views[eye].eye, ray, surface, open)));
+        depths[index] = reversed;
+    } else if (run.over == 0u) {
+        depths[index] = 0.0;
+    }
+}
