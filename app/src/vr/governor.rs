@@ -30,9 +30,11 @@ const TREND: usize = 12;
 /// Frames that a trend is extrapolated by: those under way, and those until a step down takes effect.
 const AHEAD: f64 = 12.0;
 
-/// Frames of a new bench or device in which times tell nothing yet: pipelines are used for the first time, and the device's
-/// clock rises. Missed frames do.
+/// Frames of a new bench or device in which times tell nothing yet: pipelines are used for the first time, which has a driver
+/// compile some of them, and the device's clock rises.
 const YOUNG: u32 = 2 * WINDOW as u32;
+/// So many frames that are missed one after the other are a load all the same.
+const LATE: u32 = 12;
 
 /// Two frames missed within this time are taken as overload and not as chance, s.
 const AGAIN: f64 = 1.0;
@@ -75,6 +77,8 @@ pub struct Governor {
     since_miss: f64,
     /// Frames until it is no longer [`YOUNG`].
     young: u32,
+    /// Frames that were missed one after the other until now.
+    late: u32,
 }
 
 impl Governor {
@@ -89,6 +93,7 @@ impl Governor {
             risen: [None; 2],
             since_miss: f64::INFINITY,
             young: YOUNG,
+            late: 0,
         }
     }
 
@@ -124,6 +129,8 @@ impl Governor {
         self.young = self.young.saturating_sub(1);
         let whole: f64 = taken.times.iter().sum();
         let missed = whole > taken.period || (missed && whole > BUSY * taken.period);
+        self.late = if missed { self.late + 1 } else { 0 };
+        let missed = missed && (self.young == 0 || self.late >= LATE);
         let next = self
             .step_down(taken, missed)
             .or_else(|| self.step_up(taken.period));

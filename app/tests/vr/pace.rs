@@ -205,7 +205,8 @@ fn the_displays_rate_gives_way_first() {
     // The frames' periods are the stand-in's own.
     struct Own;
     impl Trouble for Own {}
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 2000.0, 60, Own);
+    // Each 22nd frame of 2,000 Hz has a step, and a dozen of those are a load.
+    let mut headset = Worn::new(&gpu, pour().sample_track(), 2000.0, 320, Own);
     headset.inner.rates = vec![0.1, 2000.0];
     let mut options = options(folder.path());
     options.governed = true;

@@ -46,12 +46,12 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
     let middle = FOOT + Vec3::new(0.0, 0.02, 0.0);
     let places: Vec<_> = places.iter().map(|place| middle + *place).collect();
     let liquid = Liquid::new(&rig, &places, |x| if x.y < middle.y { 0.9 } else { 0.0 });
-    let beads: Vec<_> = (0..5)
+    let balls: Vec<_> = (0..5)
         .map(|n| [0.03 * n as f32 - 0.06, 0.8, -0.38, 1.0])
         .collect();
     let attributes: Vec<_> = (0..5).map(|n| [0.2 * n as f32, 0.0, 0.0, 0.0]).collect();
-    let beads = (
-        rig.buffer("beads", &beads),
+    let balls = (
+        rig.buffer("balls", &balls),
         rig.buffer("attributes", &attributes),
     );
     let puffs = Buffer::storage(&rig.gpu, "puffs", size_of::<Puff>() as u64).unwrap();
@@ -71,8 +71,8 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
     let of = |extent| FrameDesc {
         extent,
         particles: Some(ParticleSource {
-            positions: &beads.0,
-            attributes: &beads.1,
+            positions: &balls.0,
+            attributes: &balls.1,
             count: 5,
             radius: 2.0 * SPACING,
         }),
