@@ -1,16 +1,17 @@
 //! The simulation's one entrance: a world that advances by a fixed step with
 //! that step's inputs.
 
-use crate::bodies::{Bodies, BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
-use crate::chemistry::table::SolutionTable;
+mod start;
+
+pub use start::{ground, particles};
+
+use crate::bodies::{Bodies, BodiesError, Hand, Load};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
-use crate::scene::{Boundary, Feature, Scene, StartParticle};
-use crate::solver::{
-    Counters, FrameRecord, Ground, Particle, Solver, SolverError, SolverSpec, SolverState,
-};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use crate::scene::{Boundary, Scene};
+use crate::solver::{Counters, FrameRecord, Solver, SolverError, SolverSpec, SolverState};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use thiserror::Error;
@@ -144,7 +145,7 @@ impl World {
         };
         Ok(Self {
             gpu: gpu.clone(),
-            bodies: Bodies::new(&bodies(scene))?,
+            bodies: Bodies::new(&start::bodies(scene))?,
             solver: Solver::new(gpu, library, &spec)?,
             scene: scene.clone(),
             loads: VecDeque::new(),
@@ -424,91 +425,5 @@ fn load(sum: &LiquidLoad, stage_from_flask: Pose, particle_mass: f32) -> Load {
         angular_impulse: axes(sum.angular),
         liquid_mass: number * particle_mass,
         liquid_centre: stage_from_flask.orientation.inverse() * offset,
-    }
-}
-
-/// The liquid of a scene at the start, under the pressure of its depth: from
-/// none, the column would first be squeezed while its multipliers build up.
-///
-/// # Errors
-/// [`FillError`] where a liquid does not fit.
-pub fn particles(scene: &Scene, seed: u64) -> Result<Vec<Particle>, FillError> {
-    let start = scene.start(Some(seed))?;
-    let table = scene.models(Feature::Density).then(SolutionTable::new);
-    let rest_density = scene.scale.rest_density;
-    let density = |particle: &StartParticle| match &table {
-        Some(table) => table
-            .at(particle.acid_fraction)
-            .density_at(particle.temperature),
-        None => rest_density,
-    };
-    // Down each flask from its highest particle, ∫ ρ g dy.
-    let mut order: Vec<usize> = (0..start.len()).collect();
-    order.sort_by(|&a, &b| {
-        let by_flask = start[a].flask.cmp(&start[b].flask);
-        by_flask.then(start[b].position.y.total_cmp(&start[a].position.y))
-    });
-    let mut carried = vec![0.0; start.len()];
-    for pair in order.windows(2) {
-        let (above, below) = (&start[pair[0]], &start[pair[1]]);
-        if above.flask == below.flask {
-            let drop = above.position.y - below.position.y;
-            let mean = 0.5 * (density(above) + density(below)) / rest_density;
-            carried[pair[1]] = carried[pair[0]] - scene.scale.gravity * drop * mean;
-        }
-    }
-    Ok(start
-        .iter()
-        .zip(carried)
-        .map(|(particle, carried)| Particle {
-            position: particle.position,
-            velocity: DVec3::ZERO,
-            flask: Some(particle.flask),
-            temperature: particle.temperature,
-            acid: particle.acid_fraction,
-            carried,
-        })
-        .collect())
-}
-
-/// Table and floor of a scene, for the particles.
-pub fn ground(scene: &Scene) -> Ground {
-    Ground {
-        floor: scene.floor.height,
-        table: scene
-            .table
-            .map(|t| (t.top, DVec2::from(t.centre), DVec2::from(t.size))),
-        scale: 1.0 / scene.scale.length_scale,
-    }
-}
-
-/// The rigid bodies of a scene.
-fn bodies(scene: &Scene) -> BodiesSpec {
-    let single = |pair: [f64; 2]| Vec2::new(pair[0] as f32, pair[1] as f32);
-    BodiesSpec {
-        gravity: Vec3::new(0.0, -scene.scale.gravity as f32, 0.0),
-        step: scene.scale.frame_time as f32,
-        length_scale: (1.0 / scene.scale.length_scale) as f32,
-        table: scene.table.map(|table| Table {
-            top: table.top as f32,
-            centre: single(table.centre),
-            size: single(table.size),
-        }),
-        floor: scene.floor.height as f32,
-        flasks: scene
-            .flasks
-            .iter()
-            .map(|flask| BodySpec {
-                outline: flask
-                    .profile
-                    .outer_outline()
-                    .iter()
-                    .map(|&[r, y]| [r as f32, y as f32])
-                    .collect(),
-                glass_mass: flask.mass as f32,
-                stage_from_flask: flask.stage_from_flask,
-                fixed: flask.fixed,
-            })
-            .collect(),
     }
 }

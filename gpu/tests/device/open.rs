@@ -42,7 +42,7 @@ fn no_shader_needs_more_than_is_asked_for() {
     let library = Library::embedded();
     // Of the two chemistries one is on.
     let chemistries = [["DILUTION", "BOILING"].as_slice(), &["PHYSICAL"]];
-    let (mut buffers, mut invocations) = (0, 0);
+    let (mut buffers, mut bindings, mut invocations) = (0, 0, 0);
     for id in ALL {
         if !library.source(id).unwrap().contains("@compute") {
             continue;
@@ -63,10 +63,12 @@ fn no_shader_needs_more_than_is_asked_for() {
             let storage = |binding: &&Binding| matches!(binding.kind, BindingKind::Storage { .. });
             let count = compiled.bindings.iter().filter(storage).count();
             buffers = buffers.max(count as u32);
+            bindings = bindings.max(compiled.bindings.len() as u32);
             invocations = invocations.max(compiled.workgroup_size.iter().product());
         }
     }
     assert!(buffers <= NEEDS.storage_buffers, "{buffers}");
+    assert!(bindings <= NEEDS.bindings, "{bindings}");
     assert_eq!(invocations, NEEDS.invocations);
 }
 

@@ -128,6 +128,15 @@ fn a_change_takes_effect_in_its_frame() {
     client.assert_silent();
 }
 
+/// What [`moves`] comes to: the poses leap in the frame for which the space moves, which is told of in that frame.
+const AT_ITS_TIME: [(f32, bool); 5] = [
+    (0.0, false),
+    (0.0, false),
+    (0.0, false),
+    (-2.0, true),
+    (-2.0, false),
+];
+
 /// Where the head is in the frames around one before which the space moves, and which of them the
 /// client takes for recentred.
 fn moves(mock: &Mock, client: &mut Client, space: SpaceKind) -> Vec<(f32, bool)> {
@@ -161,14 +170,7 @@ fn the_stage_moves_at_its_time() {
         return;
     };
     let mut client = Client::open();
-    let wanted = [
-        (0.0, false),
-        (0.0, false),
-        (0.0, false),
-        (-2.0, true),
-        (-2.0, false),
-    ];
-    assert_eq!(moves(&mock, &mut client, SpaceKind::Stage), wanted);
+    assert_eq!(moves(&mock, &mut client, SpaceKind::Stage), AT_ITS_TIME);
 }
 
 #[test]
@@ -178,14 +180,10 @@ fn the_floor_moves_at_its_time() {
         return;
     };
     let mut client = Client::open();
-    let wanted = [
-        (0.0, false),
-        (0.0, false),
-        (0.0, false),
-        (-2.0, true),
-        (-2.0, false),
-    ];
-    assert_eq!(moves(&mock, &mut client, SpaceKind::LocalFloor), wanted);
+    assert_eq!(
+        moves(&mock, &mut client, SpaceKind::LocalFloor),
+        AT_ITS_TIME
+    );
 }
 
 #[test]

@@ -43,6 +43,7 @@ impl Session {
             // What came before was the warm-up.
             self.pacing.report.changes = 0;
             self.pacing.report.settings.clear();
+            self.pacing.report.rates.clear();
         }
         // 2. What the user decided, and a bench that was built meanwhile.
         let mut now = sound(&frame.poses, self.placement.last.as_ref());
