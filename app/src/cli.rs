@@ -6,7 +6,8 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ExportArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ExportArgs, ForgetArgs, KeepArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs,
+    TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -48,6 +49,8 @@ pub enum Command {
     /// What measures.
     #[command(flatten)]
     Study(vitriol_study::cli::Command),
+    /// Delete all that is kept of a student
+    Forget(ForgetArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing
     Doctor,
     /// Write the manual's pages, completions for bash, fish and zsh, and the report's JSON schema

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use vitriol_lesson::Attempt;
+use vitriol_record::{Keeping, Scored, Session, keep};
 use vitriol_tests::program::Program;
 
 const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
@@ -105,6 +107,7 @@ fn help_names_every_subcommand_and_its_options() {
                 "--device",
             ],
         ),
+        ("forget", &["--class"]),
         ("doctor", &[]),
     ] {
         assert!(all.contains(command), "{all}");
@@ -250,6 +253,84 @@ fn built_in_tracks_are_listed() {
     let two_flasks = tracks.iter().find(|t| t["track"] == "two-flasks").unwrap();
     assert!(two_flasks["duration_s"].as_f64().unwrap() >= 8.0, "{list}");
     assert!(tracks.len() >= 3);
+}
+
+#[test]
+fn who_is_forgotten_is_in_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // Windows has no such variable: what it would find there is not a test's.
+    let forget = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_vitriol"));
+        command
+            .current_dir(here)
+            .env("XDG_DATA_HOME", here.join("data"));
+        command.arg("forget").args(arguments).output().unwrap()
+    };
+    let attempt = Attempt {
+        begun_s: 0.0,
+        scene: "water-into-acid".into(),
+        contents: Default::default(),
+        pours: Vec::new(),
+        incidents: Vec::new(),
+        ending: None,
+    };
+    let attempts = [attempt].map(|attempt| Scored {
+        attempt,
+        score: None,
+    });
+    let class = here.join("data/vitriol/class.sqlite");
+    for name in ["Zebra-Quagga", "Otter"] {
+        let pseudonym = name.parse().unwrap();
+        let kept = keep(&Keeping {
+            class: &class,
+            pseudonym: &pseudonym,
+            session: Session::now(),
+            lesson: None,
+            source: Some(Path::new("pour.mcap")),
+            attempts: &attempts,
+            out: Some(&here.join(name)),
+            lrs: None,
+        });
+        assert_eq!(kept.unwrap().new, 1);
+    }
+
+    refuses(here, &["forget"], 2, &["PSEUDONYM"]);
+    refuses(here, &["forget", "ada@example.org"], 2, &["e-mail", "p07"]);
+    let typo = ["forget", "Otter", "--class", "typo.sqlite"];
+    refuses(here, &typo, 2, &["typo.sqlite", "no such file"]);
+    fs::write(here.join("text"), "no table").unwrap();
+    let other = ["forget", "Otter", "--class", "text"];
+    refuses(here, &other, 2, &["text", "not a class's file"]);
+
+    #[cfg(unix)]
+    {
+        let output = forget(&["Zebra-Quagga", "--json"]);
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(told["attempts"], 1, "{told}");
+        assert_eq!(told["files"].as_array().unwrap().len(), 1, "{told}");
+        assert!(
+            told["recordings"][0]
+                .as_str()
+                .unwrap()
+                .ends_with("pour.mcap")
+        );
+        assert!(!here.join("Zebra-Quagga/statements.jsonl").exists());
+        assert!(here.join("Otter/statements.jsonl").exists());
+        let class = fs::read(&class).unwrap();
+        let holds = |name: &str| {
+            class
+                .windows(name.len())
+                .any(|part| part == name.as_bytes())
+        };
+        assert!(holds("Otter") && !holds("Zebra-Quagga"));
+        let again = forget(&["Zebra-Quagga"]);
+        assert!(text(&again.stdout).starts_with("Nothing is kept of Zebra-Quagga"));
+        // Where nobody was ever kept, nothing is made.
+        fs::remove_dir_all(here.join("data")).unwrap();
+        assert!(forget(&["Otter"]).status.success());
+        assert!(!here.join("data").exists());
+    }
 }
 
 #[test]

@@ -10,12 +10,16 @@ use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
 use vitriol_experiment::{
-    Blame, Colour, Counters, DeviceStatement, Experiment, Failure, Format, HeatSample,
+    Blame, Colour, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
     LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
 };
+
+use vitriol_lesson::{Attempt, Cause, Ending, Event, Incident, Rubric, Texts, What};
+use vitriol_record::store::Store;
 use vitriol_render::PassPicture;
 use vitriol_tests::browser::{self, Look};
 use vitriol_xr::PoseFrame;
+use vitriol_xr::track::{Existing, save};
 
 /// Pours 200 g from one flask into another along a smooth curve; every number
 /// is a formula of the step.
@@ -25,6 +29,8 @@ struct Toy {
     fails_at: u64,
     /// Whether its scene models heat.
     hot: bool,
+    /// Whether something is found.
+    finds: bool,
     picture: Vec<u8>,
 }
 
@@ -76,6 +82,7 @@ impl Toy {
             steps: 0,
             fails_at,
             hot: false,
+            finds: false,
             picture: Vec::new(),
         }
     }
@@ -124,6 +131,10 @@ impl Experiment for Toy {
         Ok(&self.picture)
     }
 
+    fn heard(&mut self) -> Result<Heard, Failure> {
+        Ok(Heard::default())
+    }
+
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
         Ok(Vec::new())
     }
@@ -133,6 +144,10 @@ impl Experiment for Toy {
             return Err("the device was lost").other();
         }
         Ok(Outcome {
+            events: match self.finds {
+                true => events(self.steps as f64 * FRAME_TIME),
+                false => Vec::new(),
+            },
             scene: None,
             effort: [8, 4],
             fluid_particles: 13_894,
@@ -147,6 +162,7 @@ impl Experiment for Toy {
             counters: Counters {
                 substeps: self.steps * 4,
                 solver_changes: 0,
+                flasks_broken: 0,
                 neighbour_rebuilds: 320,
                 limiters: BTreeMap::from([("v_max".into(), 0), ("max neighbours".into(), 3)]),
             },
@@ -154,10 +170,51 @@ impl Experiment for Toy {
     }
 }
 
+/// Water was poured into acid, and the attempt ended at `t` (s).
+fn events(t: f64) -> Vec<Event> {
+    let incident = Incident {
+        t_s: 0.02,
+        until_s: 0.05,
+        what: What::WaterIntoAcid {
+            flask: FLASK.into(),
+            met_acid: 0.96,
+            volume_m3: 12e-6,
+        },
+        cause: Cause::Pouring {
+            from: "erlenmeyer".into(),
+        },
+        place_m: [0.1, 0.8, -0.4],
+    };
+    let (scene, contents) = ("two-flasks".to_owned(), BTreeMap::new());
+    vec![
+        Event::Begun {
+            t_s: 0.0,
+            scene,
+            contents,
+        },
+        Event::Incident(incident),
+        Event::Ended(Ending {
+            t_s: t,
+            contents: BTreeMap::new(),
+            hottest: None,
+            bench_m3: 0.0,
+            floor_m3: 0.0,
+        }),
+    ]
+}
+
 /// What `vitriol replay two-flasks --out OUT …` does, with the toy.
 fn replay(out: &Path, more: &[&str], fails_at: u64) -> Result<(), Failure> {
+    replay_with(out, more, || Toy::new(fails_at))
+}
+
+fn replay_with(out: &Path, more: &[&str], toy: impl Fn() -> Toy) -> Result<(), Failure> {
+    replay_of("two-flasks", out, more, toy)
+}
+
+fn replay_of(track: &str, out: &Path, more: &[&str], toy: impl Fn() -> Toy) -> Result<(), Failure> {
     let out = out.to_str().unwrap();
-    let arguments = ["vitriol", "replay", "two-flasks", "--out", out];
+    let arguments = ["vitriol", "replay", track, "--out", out];
     let arguments = arguments.iter().chain(more);
     let Command::Replay(args) = <Cli as clap::Parser>::parse_from(arguments).command else {
         panic!("replay is parsed as another command");
@@ -167,12 +224,93 @@ fn replay(out: &Path, more: &[&str], fails_at: u64) -> Result<(), Failure> {
             setup.scene.name, "two-flasks",
             "the scene that the track names"
         );
-        Ok(Box::new(Toy::new(fails_at)))
+        Ok(Box::new(toy()))
     })
 }
 
 fn report_of(out: &Path) -> Report {
     serde_json::from_slice(&fs::read(out.join("report.json")).unwrap()).unwrap()
+}
+
+/// What was found is in report, table and page; under a pseudonym it is kept, and what is kept already is not kept twice.
+#[test]
+fn what_was_found_is_kept_under_a_pseudonym() {
+    let folder = tempfile::tempdir().unwrap();
+    let class = folder.path().join("class.db");
+    let track = folder.path().join("recorded.mcap");
+    let built_in = vitriol_experiment::track::load("two-flasks").unwrap();
+    save(&built_in, &track, Existing::Refuse).unwrap();
+    let kept = ["--pseudonym", "p07", "--class", class.to_str().unwrap()];
+    for (name, more, attempts) in [("a", &[][..], 0), ("b", &kept, 1), ("c", &kept, 1)] {
+        let out = folder.path().join(name);
+        let options = [&["--no-video"], more].concat();
+        let finds = || Toy {
+            finds: true,
+            ..Toy::new(u64::MAX)
+        };
+        replay_of(track.to_str().unwrap(), &out, &options, finds).unwrap();
+        let report = report_of(&out);
+        assert_eq!(report.attempts.len(), 1);
+        assert_eq!(report.attempts[0].incidents.len(), 1);
+        assert_eq!(report.score.len(), 1);
+        let page = fs::read_to_string(out.join("report.html")).unwrap();
+        assert!(page.contains("What happened") && page.contains("the wrong order"));
+        let table = fs::read_to_string(out.join("incidents.csv")).unwrap();
+        assert!(
+            table.lines().count() == 2 && table.contains("water-into-acid"),
+            "{table}"
+        );
+        assert_eq!(class.exists(), attempts > 0);
+        let statements = fs::read_to_string(out.join("statements.jsonl"));
+        assert_eq!(statements.is_ok(), attempts > 0);
+        if attempts > 0 {
+            // Named by the pseudonym alone.
+            let statements = statements.unwrap();
+            assert!(
+                statements.lines().all(|line| line.contains("\"p07\"")),
+                "{statements}"
+            );
+            let store = Store::open_existing(&class).unwrap();
+            let of_student = store.attempts_of(&"p07".parse().unwrap()).unwrap();
+            assert_eq!(of_student.len(), attempts);
+        }
+    }
+}
+
+/// What is kept is what was recorded, and not what somebody asks for instead.
+#[test]
+fn what_is_asked_for_otherwise_is_not_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let class = folder.path().join("class.db");
+    let options = [
+        "--no-video",
+        "--seconds",
+        "1",
+        "--pseudonym",
+        "p07",
+        "--class",
+    ];
+    let options = [&options[..], &[class.to_str().unwrap()]].concat();
+    let error = replay(&folder.path().join("out"), &options, u64::MAX).unwrap_err();
+    assert!(
+        matches!(error, Failure::Input(_)) && error.to_string().contains("--seconds"),
+        "{error}"
+    );
+    assert!(!class.exists());
+}
+
+/// A report names what makes its run again, for the command line and for `vitriol export`.
+#[test]
+fn glass_that_was_to_break_is_in_the_report() {
+    let folder = tempfile::tempdir().unwrap();
+    for (more, breaks) in [(&["--breakable"][..], true), (&[], false)] {
+        let out = folder.path().join(format!("{breaks}"));
+        let options = [&["--seconds", "0.1", "--no-video"], more].concat();
+        replay(&out, &options, u64::MAX).unwrap();
+        let report = report_of(&out);
+        assert_eq!(report.command.contains(" --breakable"), breaks);
+        assert_eq!(report.asked.unwrap().breakable, breaks);
+    }
 }
 
 #[test]
@@ -257,6 +395,12 @@ fn a_scene_with_heat_has_two_films_and_its_chemistry() {
     assert_eq!(boiling["erlenmeyer"], 0.0);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert_eq!(page.matches("<video").count(), 2);
+    // Films are heard: each has a track of Opus, and no player is told to be silent.
+    assert!(!page.contains("muted"));
+    for film in ["film.mp4", "film-temperature.mp4"] {
+        let bytes = fs::read(out.join(film)).unwrap();
+        assert!(bytes.windows(4).any(|word| word == b"dOps"), "{film}");
+    }
     for part in [
         "film-temperature.mp4",
         "Coloured by temperature",
@@ -298,6 +442,39 @@ fn a_failed_run_leaves_nothing() {
     }
 }
 
+/// The report of a run in which a student did what the lesson's own tests have: water into acid, then acid into water. The acid's
+/// flask has a name that breaks a page which does not escape it.
+fn told(mut report: Report) -> (Report, String) {
+    let events = include_str!("../../lesson/tests/events.json");
+    let events = events.replace("\"target\"", &serde_json::to_string(FLASK).unwrap());
+    let events: Vec<Event> = serde_json::from_str(&events).unwrap();
+    report.attempts = Attempt::all(events);
+    let texts = Texts::english().unwrap();
+    report.judge(&Rubric::default(), &texts);
+    let page = report.to_html(&texts);
+    (report, page)
+}
+
+#[test]
+fn a_report_of_attempts_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    replay(folder.path(), &["--seconds", "0.1", "--no-video"], u64::MAX).unwrap();
+    let plain = report_of(folder.path());
+    let json = serde_json::to_value(&plain).unwrap();
+    // Where nobody looked, nothing is said, and readers of older reports see what they know.
+    assert!(json.get("attempts").is_none() && json.get("score").is_none());
+    assert!(!folder.path().join("incidents.csv").exists());
+    let page = plain.to_html(&Texts::english().unwrap());
+    assert!(page.contains("<details class=\"solver\" open") && !page.contains("What happened"));
+
+    let (report, page) = told(plain);
+    let json = serde_json::to_string(&report).unwrap();
+    assert_eq!(serde_json::from_str::<Report>(&json).unwrap(), report);
+    // Without a film there is nothing to go to.
+    assert!(page.contains("What happened") && !page.contains("href=\"#t="));
+    assert!(page.contains("<span class=\"moment\">1.9\u{a0}s</span>"));
+}
+
 #[test]
 fn the_report_reads_in_a_browser() {
     let folder = tempfile::tempdir().unwrap();
@@ -309,25 +486,52 @@ fn the_report_reads_in_a_browser() {
         (report.simulated_s * 30.0 - 1e-6).ceil() as u64
     );
 
+    let (report, page) = told(report);
+    fs::write(folder.path().join("report.html"), page).unwrap();
     fs::write(
         folder.path().join("reader.html"),
-        r#"<!doctype html><iframe src="report.html" width="1100" height="900"></iframe><script>
+        r##"<!doctype html><iframe src="report.html#t=1.2" width="1100" height="900"></iframe><script>
         const frame = document.querySelector("iframe");
         frame.onload = async () => {
           const page = frame.contentDocument;
           const film = page.querySelector("video");
-          if (film.readyState < 1) await new Promise((done) => (film.onloadedmetadata = done));
-          const seeked = new Promise((done) => (film.onseeked = done));
+          while (film.readyState < 2) await new Promise((done) => setTimeout(done, 20));
+          const fragment = film.currentTime;
+          const after = async (act) => {
+            const seeked = new Promise((done) => (film.onseeked = done));
+            act();
+            await seeked;
+            return film.currentTime;
+          };
+          // What a browser does for a link that has the focus when Enter is pressed, or a finger taps it.
+          const link = page.querySelector(".said a.moment");
+          link.focus();
+          const focused = page.activeElement === link;
+          const first = await after(() => link.click());
+          await after(() => (film.currentTime = 0.5));
+          const again = await after(() => link.click());
+          const address = frame.contentWindow.location.hash;
+          const other = await after(() => (frame.contentWindow.location.hash = "#t=3.3"));
+          const moments = [...page.querySelectorAll("a.moment")].map((it) => [it.textContent, it.hash]);
+
+          const details = page.querySelector("details");
+          const folded = !page.body.innerText.includes("Limiter: max neighbours");
+          details.querySelector("summary").focus();
+          const summary = page.activeElement.tagName;
+          details.querySelector("summary").click();
+          await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
           const canvas = page.querySelector(".canvas");
           const box = canvas.querySelector("svg").getBoundingClientRect();
           const points = canvas.querySelector("polyline[stroke='#0072B2']").getAttribute("points").trim();
           const ends = points.split(/\s+/).map((pair) => Number(pair.split(",")[0]));
           const middle = (ends[0] + ends.at(-1)) / 2;
           const x = box.left + (middle / canvas.querySelector("svg").viewBox.baseVal.width) * box.width;
-          canvas.dispatchEvent(new MouseEvent("click", { clientX: x, clientY: box.top + 50, bubbles: true }));
-          await seeked;
+          const point = { clientX: x, clientY: box.top + 50, bubbles: true };
+          await after(() => canvas.dispatchEvent(new MouseEvent("click", point)));
           const marks = [...page.querySelectorAll("line.now")];
           console.log("TOLD " + JSON.stringify({
+            fragment, focused, first, again, address, other, moments, folded, summary,
+            open: details.open,
             text: page.body.innerText,
             values: Object.fromEntries([...page.querySelectorAll("[data-key]")].map((e) => [e.dataset.key, e.textContent])),
             plots: page.querySelectorAll(".canvas svg").length,
@@ -337,7 +541,7 @@ fn the_report_reads_in_a_browser() {
             wide: page.documentElement.scrollWidth - page.documentElement.clientWidth,
           }));
         };
-        </script>"#,
+        </script>"##,
     )
     .unwrap();
     let Some(visit) = browser::visit(&folder.path().join("reader.html")) else {
@@ -354,6 +558,39 @@ fn the_report_reads_in_a_browser() {
     assert_eq!(told["wide"], 0, "nothing sticks out sideways");
     let duration = told["duration"].as_f64().unwrap();
     assert!((duration - film.frames as f64 / 30.0).abs() < 2e-3);
+    // The address's end, a link once and again, and a fragment that is typed: all go to their moment, up to the rounding of a film's
+    // clock.
+    for (key, moment) in [
+        ("fragment", 1.2),
+        ("first", 1.9),
+        ("again", 1.9),
+        ("other", 3.3),
+    ] {
+        let at = told[key].as_f64().unwrap();
+        assert!((at - moment).abs() < 1e-3, "{key}: {at}");
+    }
+    assert_eq!(told["address"], "#t=1.900");
+    // Links and the fold are reached and worked by keyboard, since a browser's own are.
+    assert_eq!(
+        (&told["focused"], &told["summary"]),
+        (&true.into(), &"SUMMARY".into())
+    );
+    assert_eq!(
+        (&told["folded"], &told["open"]),
+        (&true.into(), &true.into())
+    );
+    // Each incident of the words, and each that points are withheld for, says its moment and goes there.
+    let incidents = report.attempts.iter().flat_map(|it| &it.incidents);
+    for incident in incidents {
+        let link = serde_json::json!([
+            format!("{:.1}\u{a0}s", incident.t_s),
+            format!("#t={:.3}", incident.t_s)
+        ]);
+        assert!(
+            told["moments"].as_array().unwrap().contains(&link),
+            "{link}"
+        );
+    }
     // A click in a plot's middle is the run's middle, up to a pixel.
     let at = told["at"].as_f64().unwrap();
     assert!((at - report.simulated_s / 2.0).abs() < 0.03, "{at}");
@@ -368,6 +605,9 @@ fn the_report_reads_in_a_browser() {
         "Limiter: max neighbours",
         "00000000feedf00d",
         &report.command,
+        "19 of 100 points",
+        "99 of 100 points",
+        &format!("“{FLASK}” boiled over and threw out: 3.4\u{a0}mL of 71\u{a0}% acid."),
     ] {
         assert!(text.contains(part), "{part} is missing in {text}");
     }
@@ -376,9 +616,13 @@ fn the_report_reads_in_a_browser() {
         let page = folder.path().join("report.html");
         for (look, name) in [(Look::Light, "light.png"), (Look::Dark, "dark.png")] {
             let picture = Path::new(&keep).join(name);
-            browser::photograph(&page, (1200, 2700), look, &picture).unwrap();
+            browser::photograph(&page, (1280, 4000), look, &picture).unwrap();
+            // A browser's window is no narrower than 500 pixels, so a telephone is a frame in one.
+            let phone = folder.path().join("phone.html");
+            let frame = "<body style='margin:0'><iframe src=report.html width=390 height=4600 style='border:0'>";
+            fs::write(&phone, frame).unwrap();
+            let picture = Path::new(&keep).join(format!("phone-{name}"));
+            browser::photograph(&phone, (500, 4600), look, &picture).unwrap();
         }
-        let picture = Path::new(&keep).join("narrow.png");
-        browser::photograph(&page, (500, 3600), Look::Light, &picture).unwrap();
     }
 }

@@ -11,12 +11,13 @@ use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
 use vitriol_sim::world::World;
+use vitriol_sound::Listener;
 use vitriol_xr::Hand;
 
 use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
-use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of};
+use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -142,6 +143,15 @@ impl Camera {
         };
     }
 
+    /// Ears where its view is: the middle between its eyes.
+    pub fn listener(&self) -> Listener {
+        let (_, orientation, position) = self.view.stage_from_eye.to_scale_rotation_translation();
+        Listener {
+            position,
+            orientation,
+        }
+    }
+
     /// Shows these hands, in the scene's stage, real metres.
     pub fn show_hands(&mut self, hands: [Hand; 2]) {
         self.hands = hands;
@@ -240,6 +250,7 @@ impl Camera {
             extent: None,
             views: &self.views(),
             vessels: &vessels,
+            shards: &shards(world),
             particles: liquid.is_none().then_some(particles),
             hands: bones.each_ref().map(Vec::as_slice),
             liquid,
@@ -250,6 +261,10 @@ impl Camera {
                     puffs,
                     count: vitriol_sim::solver::PUFFS,
                 }),
+            panel: None,
+            sign: None,
+            shown: 1.0,
+            goggles: 0.0,
             colour_by,
             length_scale: scale.length_scale as f32,
         };

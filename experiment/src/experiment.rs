@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_render::PassPicture;
+use vitriol_sound::{Event, Listener};
 use vitriol_xr::PoseFrame;
 
 use crate::device::DeviceStatement;
@@ -36,6 +37,13 @@ pub trait Experiment {
     /// What the device says.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
 
+    /// What could be heard since the last call, and from where; nothing where no pictures were asked for. Waits for the
+    /// device.
+    ///
+    /// # Errors
+    /// What the device says.
+    fn heard(&mut self) -> Result<Heard, Failure>;
+
     /// What each pass of a picture of the liquid leaves behind, now; nothing where
     /// no pictures were asked for. Waits for the device.
     ///
@@ -48,6 +56,15 @@ pub trait Experiment {
     /// # Errors
     /// What the device says while the final state is read.
     fn outcome(&mut self) -> Result<Outcome, Failure>;
+}
+
+/// What can be heard at a camera.
+#[derive(Clone, Debug, Default)]
+pub struct Heard {
+    /// Where it is.
+    pub listener: Listener,
+    /// What happened; times are of the run's clock.
+    pub events: Vec<Event>,
 }
 
 /// A step that was taken.
@@ -77,6 +94,8 @@ pub struct Outcome {
     pub state_hash: u64,
     /// Device and driver.
     pub device: DeviceStatement,
+    /// What was found in looks at the liquid, over the whole run.
+    pub events: Vec<vitriol_lesson::Event>,
     /// What was counted.
     pub counters: Counters,
 }
@@ -89,6 +108,9 @@ pub struct Counters {
     /// Times that substeps and iterations changed, as in a session that had to keep pace.
     #[serde(default)]
     pub solver_changes: u64,
+    /// Flasks that broke.
+    #[serde(default)]
+    pub flasks_broken: u64,
     /// Times that the neighbour list was rebuilt.
     pub neighbour_rebuilds: u64,
     /// How often each limiter acted, by its name.

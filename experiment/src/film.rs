@@ -1,5 +1,5 @@
 //! The film of a run: H.264 in MP4, the one pair that every browser plays
-//! without a plug-in.
+//! without a plug-in, and where there is sound, Opus.
 //!
 //! Encoding runs on a thread of its own, fed through a short bounded channel,
 //! so that the next frame is simulated and drawn while this one is encoded; a
@@ -13,7 +13,9 @@ use std::thread::JoinHandle;
 
 use crate::h264::{H264, MOST_BITS};
 use crate::output::Staged;
-use muxide::api::{Muxer, MuxerBuilder, MuxerError, VideoCodec};
+use crate::soundtrack::Soundtrack;
+use muxide::api::{AudioCodec, Muxer, MuxerBuilder, MuxerError, VideoCodec};
+use vitriol_sound::{OpusError, RATE};
 
 /// Frames that may wait for the encoder: enough to even out a slow key frame,
 /// few enough (2 MB each at 960×540) not to matter.
@@ -64,6 +66,12 @@ pub enum FilmError {
     /// The MP4 writer refused.
     #[error("the film could not be put into its MP4 file")]
     Mux(#[from] MuxerError),
+    /// Sound could not be encoded.
+    #[error("the film's sound could not be encoded")]
+    Sound(#[from] OpusError),
+    /// Samples came for a film without a track for them.
+    #[error("the film was begun without sound, and sound was given to it")]
+    Mute,
     /// The file could not be made, written or put in its place.
     #[error("the film {path} could not be written; is there room and permission?")]
     Write {
@@ -84,9 +92,16 @@ pub enum FilmError {
 #[derive(Debug)]
 pub struct Film {
     frame_bytes: usize,
-    frames: Option<SyncSender<Vec<u8>>>,
+    sounds: bool,
+    parts: Option<SyncSender<Part>>,
     spent: Receiver<Vec<u8>>,
     encoder: Option<JoinHandle<Result<Staged, FilmError>>>,
+}
+
+/// What the encoder is given.
+enum Part {
+    Picture(Vec<u8>),
+    Sound(Vec<[f32; 2]>),
 }
 
 impl Film {
@@ -97,6 +112,23 @@ impl Film {
     /// [`FilmError::Size`], [`FilmError::Rate`], or [`FilmError::Write`] where
     /// the folder does not take a file.
     pub fn create(path: &Path, width: u32, height: u32, fps: u32) -> Result<Self, FilmError> {
+        Self::begin(path, [width, height], fps, false)
+    }
+
+    /// The same with a track of sound.
+    ///
+    /// # Errors
+    /// As [`Film::create`].
+    pub fn with_sound(path: &Path, size: [u32; 2], fps: u32) -> Result<Self, FilmError> {
+        Self::begin(path, size, fps, true)
+    }
+
+    fn begin(
+        path: &Path,
+        [width, height]: [u32; 2],
+        fps: u32,
+        sounds: bool,
+    ) -> Result<Self, FilmError> {
         let (long, short) = (width.max(height), width.min(height));
         if !width.is_multiple_of(2)
             || !height.is_multiple_of(2)
@@ -110,16 +142,23 @@ impl Film {
             return Err(FilmError::Rate { fps });
         }
         let staged = Staged::create(path).map_err(unwritten(path))?;
-        let (frames, queue) = sync_channel(QUEUED_FRAMES);
+        // A frame may have its sound beside it.
+        let (parts, queue) = sync_channel(QUEUED_FRAMES * if sounds { 2 } else { 1 });
         let (give_back, spent) = sync_channel(QUEUED_FRAMES + 1);
-        let shape = Shape { width, height, fps };
+        let shape = Shape {
+            width,
+            height,
+            fps,
+            sounds,
+        };
         let encoder = std::thread::Builder::new()
             .name("film".into())
             .spawn(move || shape.encode(staged, &queue, &give_back))
             .map_err(unwritten(path))?;
         Ok(Self {
             frame_bytes: width as usize * height as usize * 4,
-            frames: Some(frames),
+            sounds,
+            parts: Some(parts),
             spent,
             encoder: Some(encoder),
         })
@@ -140,8 +179,24 @@ impl Film {
         let mut frame = self.spent.try_recv().unwrap_or_default();
         frame.clear();
         frame.extend_from_slice(rgba);
-        match &self.frames {
-            Some(frames) if frames.send(frame).is_ok() => Ok(()),
+        self.give(Part::Picture(frame))
+    }
+
+    /// Adds the next samples at 48 kHz, left and right; the first belongs to the
+    /// film's begin. They should come with the frames that are shown meanwhile.
+    ///
+    /// # Errors
+    /// [`FilmError::Mute`], or what stopped the encoder.
+    pub fn push_sound(&mut self, samples: &[[f32; 2]]) -> Result<(), FilmError> {
+        if !self.sounds {
+            return Err(FilmError::Mute);
+        }
+        self.give(Part::Sound(samples.to_vec()))
+    }
+
+    fn give(&mut self, part: Part) -> Result<(), FilmError> {
+        match &self.parts {
+            Some(parts) if parts.send(part).is_ok() => Ok(()),
             _ => Err(self.end().err().unwrap_or(FilmError::Stopped)),
         }
     }
@@ -161,7 +216,7 @@ impl Film {
 
     /// Waits for the encoder, which has no more to come.
     fn end(&mut self) -> Result<Staged, FilmError> {
-        self.frames = None;
+        self.parts = None;
         let ended = self.encoder.take().map(JoinHandle::join);
         ended
             .and_then(Result::ok)
@@ -189,28 +244,46 @@ struct Shape {
     width: u32,
     height: u32,
     fps: u32,
+    sounds: bool,
 }
 
 impl Shape {
     fn encode(
         self,
         staged: Staged,
-        queue: &Receiver<Vec<u8>>,
+        queue: &Receiver<Part>,
         give_back: &SyncSender<Vec<u8>>,
     ) -> Result<Staged, FilmError> {
         let mut encoder = H264::new([self.width, self.height], self.fps)?;
         let file = staged.try_clone().map_err(unwritten(&staged.path))?;
-        let mut muxer: Muxer<BufWriter<File>> = MuxerBuilder::new(BufWriter::new(file))
+        let mut builder = MuxerBuilder::new(BufWriter::new(file))
             .video(
                 VideoCodec::H264,
                 self.width,
                 self.height,
                 f64::from(self.fps),
             )
-            .with_fast_start(true)
-            .build()?;
+            .with_fast_start(true);
+        let mut sound = None;
+        if self.sounds {
+            builder = builder.audio(AudioCodec::Opus, RATE, 2);
+            sound = Some(Soundtrack::new()?);
+        }
+        let mut muxer: Muxer<BufWriter<File>> = builder.build()?;
         let mut number = 0u32;
-        for frame in queue {
+        for part in queue {
+            let frame = match (part, &mut sound) {
+                (Part::Picture(frame), _) => frame,
+                (Part::Sound(samples), Some(sound)) => {
+                    sound.push(&samples)?;
+                    // The muxer wants a picture first.
+                    if number > 0 {
+                        sound.give(&mut muxer)?;
+                    }
+                    continue;
+                }
+                (Part::Sound(_), None) => return Err(FilmError::Mute),
+            };
             let coded = encoder.encode(&frame)?;
             let coded = coded.ok_or(FilmError::TooRich { number })?;
             let seconds = f64::from(number) / f64::from(self.fps);
@@ -221,6 +294,9 @@ impl Shape {
         }
         if number == 0 {
             return Err(FilmError::Empty);
+        }
+        if let Some(sound) = sound {
+            sound.finish(&mut muxer, f64::from(number) / f64::from(self.fps))?;
         }
         muxer.finish_in_place()?;
         let flushed = muxer.into_writer().into_inner();

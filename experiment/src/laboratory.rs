@@ -4,22 +4,29 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use vitriol_gpu::Gpu;
+use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_lesson as lesson;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
+use vitriol_sound::Event;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
+use crate::audible::Audible;
 use crate::camera::{Camera, Colour, Shot};
+use crate::clock::SimulatedTime;
 use crate::device;
-use crate::experiment::{Counters, Experiment, Outcome, Taken};
+use crate::experiment::{Counters, Experiment, Heard, Outcome, Taken};
 use crate::failure::{Blame, Failure};
+use crate::looks::{Looked, Looks};
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 use crate::scenes::Scenes;
 use crate::stage::hands;
-use crate::switches::{self, SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
+use crate::switches::{
+    self, GLASS, SWITCH_GLASS, SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START,
+};
 
 /// What an experiment is made of.
 #[derive(Debug)]
@@ -69,6 +76,9 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
     Ok(Box::new(Laboratory::new(gpu, setup)?))
 }
 
+/// Looks that may be under way: the device does its work meanwhile, as with what pushes on the flasks.
+const MOST_LOOKS: usize = 2;
+
 /// The camera for the pictures that were asked for.
 fn camera(
     world: &World,
@@ -98,6 +108,8 @@ pub struct Laboratory {
     /// The scene that a switch brought up.
     switched: Option<String>,
     follows_head: bool,
+    /// Whether glass breaks.
+    breakable: bool,
     seed: u64,
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
@@ -106,11 +118,19 @@ pub struct Laboratory {
     substeps: u64,
     /// Times that a switch changed substeps or iterations.
     solver_changes: u64,
+    flasks_broken: u64,
     departures: Departures,
     /// The ledger at the first sample.
     start: Option<Ledger>,
     colours: Vec<Colour>,
     picture: Vec<u8>,
+    audible: Audible,
+    time: SimulatedTime,
+    looks: Looks,
+    /// What could be heard since it was asked for last.
+    heard: Vec<Event>,
+    /// What was found so far.
+    found: Vec<lesson::Event>,
 }
 
 impl Laboratory {
@@ -147,15 +167,22 @@ impl Laboratory {
             scenes: setup.scenes.clone(),
             switched: None,
             follows_head: setup.head.is_some(),
+            breakable: false,
             seed: setup.seed,
             shaders: setup.shaders.clone(),
             lost: 0,
             substeps: 0,
             solver_changes: 0,
+            flasks_broken: 0,
             departures: Departures::default(),
             start: None,
             colours: setup.colours.clone(),
             picture: Vec::new(),
+            audible: Audible::of(setup.scene),
+            time: SimulatedTime::default(),
+            looks: Looks::of(setup.scene_name, setup.scene),
+            heard: Vec::new(),
+            found: Vec::new(),
         })
     }
 
@@ -211,6 +238,7 @@ impl Laboratory {
                 }
                 SWITCH_SOLVER => self.change_solver(&switch.value)?,
                 SWITCH_PLACEMENT => self.world.hands_leap(),
+                SWITCH_GLASS => self.change_glass(&switch.value)?,
                 _ => {}
             }
         }
@@ -227,13 +255,61 @@ impl Laboratory {
         Ok(())
     }
 
+    fn change_glass(&mut self, value: &str) -> Result<(), Failure> {
+        let Some(breaks) = GLASS.iter().position(|name| *name == value) else {
+            return Err(format!(
+                "a switch of the glass to {value:?}: it holds or breaks"
+            ))
+            .input();
+        };
+        self.breakable = breaks == 1;
+        self.world.set_breakable(self.breakable);
+        Ok(())
+    }
+
     fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
         let scene = self.scenes.get(name)?.with_preset(self.preset);
         let gpu = self.world.gpu().clone();
         self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
+        self.world.set_breakable(self.breakable);
         self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
         (self.departures, self.start) = (Departures::default(), None);
+        self.end_attempt()?;
+        self.audible = Audible::of(&scene);
+        self.looks = Looks::of(name, &scene);
         self.switched = Some(name.to_owned());
+        Ok(())
+    }
+
+    /// Takes in the looks that are older than the newest ones, so many of them; waits for the device.
+    fn collect_looks(&mut self, newest: usize) -> Result<(), Failure> {
+        while self.looks.under_way() > newest {
+            let Some(looked) = self.looks.wait()? else {
+                break;
+            };
+            let Looked {
+                census,
+                elapsed,
+                poses,
+                t,
+                events,
+                ..
+            } = looked;
+            self.found.extend(events);
+            if self.film.is_some() {
+                // From the look before on: the film's sound up to now is not made yet.
+                let since = t - elapsed;
+                let heard = self.audible.looked(&poses, &census, elapsed, since);
+                self.heard.extend(heard);
+            }
+        }
+        Ok(())
+    }
+
+    /// What went on in the attempt is over.
+    fn end_attempt(&mut self) -> Result<(), Failure> {
+        self.collect_looks(0)?;
+        self.found.extend(self.looks.end());
         Ok(())
     }
 
@@ -271,6 +347,19 @@ impl Experiment for Laboratory {
         let hands = hands(&frame.hands, self.world.scene());
         self.world.step(&StepInput { hands }).map_err(blame_world)?;
         self.substeps += u64::from(self.world.scene().solver.substeps);
+        self.flasks_broken += self.world.breaks().len() as u64;
+        self.time.advance(scale.frame_time);
+        let t = self.time.seconds();
+        self.looks
+            .look(&mut self.world, QueueKind::Main, frame, t)?;
+        if self.film.is_some() {
+            let held = |flask| self.world.holder(flask).is_some();
+            let blows = self.audible.struck(self.world.strikes(), held, t);
+            self.heard.extend(blows);
+            let broke = self.audible.broke(self.world.breaks(), t);
+            self.heard.extend(broke);
+        }
+        self.collect_looks(MOST_LOOKS)?;
         Ok(Taken {
             frame_time: scale.frame_time,
             anew,
@@ -312,12 +401,22 @@ impl Experiment for Laboratory {
         Ok(&self.picture)
     }
 
+    fn heard(&mut self) -> Result<Heard, Failure> {
+        let Some(listener) = self.film.as_ref().map(Camera::listener) else {
+            return Ok(Heard::default());
+        };
+        self.collect_looks(0)?;
+        let events = std::mem::take(&mut self.heard);
+        Ok(Heard { listener, events })
+    }
+
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
         let passes = self.film.as_ref().map(|camera| camera.passes(&self.world));
         passes.unwrap_or_else(|| Ok(Vec::new()))
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {
+        self.end_attempt()?;
         let measured = self.world.measure().map_err(blame_world)?;
         let counted = self.world.counters().map_err(blame_world)?;
         let state = self.world.snapshot().map_err(blame_world)?;
@@ -347,9 +446,11 @@ impl Experiment for Laboratory {
             nan_particles: measured.nan_particles,
             state_hash: state.solver.hash(),
             device: device::statement(self.world.gpu()),
+            events: self.found.clone(),
             counters: Counters {
                 substeps: self.substeps,
                 solver_changes: self.solver_changes,
+                flasks_broken: self.flasks_broken,
                 neighbour_rebuilds: counted.list_rebuilds.into(),
                 limiters: limiters
                     .map(|(name, times)| (name.to_owned(), times.into()))

@@ -1,6 +1,7 @@
 //! The experiment: a scene on a device, driven by poses, and what is kept of it.
 //! Below program and study: it parses no command line.
 
+pub mod audible;
 mod camera;
 mod clock;
 mod console;
@@ -15,6 +16,7 @@ pub mod interrupt;
 mod laboratory;
 mod legend;
 mod liquid;
+mod looks;
 mod moment;
 mod observer;
 pub mod output;
@@ -26,6 +28,8 @@ mod run;
 mod sample;
 pub mod scenery;
 pub mod scenes;
+mod skin;
+mod soundtrack;
 pub mod stage;
 pub mod switches;
 pub mod track;
@@ -35,12 +39,13 @@ pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};
 pub use device::DeviceStatement;
-pub use experiment::{Counters, Experiment, Outcome, Taken};
+pub use experiment::{Counters, Experiment, Heard, Outcome, Taken};
 pub use failure::{Blame, Cause, Failure};
 pub use film::{Film, FilmError};
 pub use h264::{Coded, H264};
 pub use laboratory::{Laboratory, Setup, on_device, prepare};
 pub use liquid::Liquid;
+pub use looks::{Looked, Looks};
 pub use moment::{Moment, Watch};
 pub use observer::{FILM_FPS, FILM_SIZE, Observations, Observer, sample_is_due};
 pub use progress::Progress;

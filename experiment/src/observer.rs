@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::clock::{SimulatedTime, Span};
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Heard};
 use crate::failure::{Blame, Failure};
 use crate::film::Film;
 use crate::moment::{Moment, Watch};
 use crate::progress::Progress;
 use crate::sample::Sample;
+use vitriol_sound::{Mixer, RATE};
 
 /// Frame rate of the film, Hz.
 pub const FILM_FPS: u32 = 30;
@@ -26,6 +27,8 @@ pub struct Observer {
     span: Span,
     films: Vec<Film>,
     film_frames: u64,
+    /// The films' sound, as far as their last frame.
+    mixer: Mixer,
     samples: Vec<Sample>,
     /// Number of the last sample's time.
     sampled: Option<u64>,
@@ -60,6 +63,7 @@ impl Observer {
             span,
             films,
             film_frames: 0,
+            mixer: Mixer::new(0),
             samples: Vec::new(),
             sampled: None,
             scenes_before: 0,
@@ -73,7 +77,8 @@ impl Observer {
     ///
     /// # Errors
     /// What a film says.
-    pub fn finish(self) -> Result<Observations, Failure> {
+    pub fn finish(mut self) -> Result<Observations, Failure> {
+        self.sound(self.film_frames)?;
         let films: Result<_, _> = self.films.into_iter().map(Film::finish).collect();
         Ok(Observations {
             films: films.other()?,
@@ -83,6 +88,18 @@ impl Observer {
             time: self.time,
             wall: self.begin.elapsed(),
         })
+    }
+
+    /// Gives the films sound as long as so many frames.
+    fn sound(&mut self, frames: u64) -> Result<(), Failure> {
+        let until = frames * u64::from(RATE / FILM_FPS);
+        let done = (self.mixer.time() * f64::from(RATE)).round() as u64;
+        let mut samples = vec![[0.0; 2]; until.saturating_sub(done) as usize];
+        self.mixer.render(&mut samples);
+        for film in &mut self.films {
+            film.push_sound(&samples).other()?;
+        }
+        Ok(())
     }
 
     /// Film frames whose time has come: frame n shows the
@@ -115,6 +132,13 @@ impl<E: Experiment + ?Sized> Watch<E> for Observer {
                 }
             }
             self.film_frames = due;
+            if !self.films.is_empty() {
+                // The newest frame shows what happened up to now: what happened since the one before it sounds between the two.
+                let Heard { listener, events } = experiment.heard()?;
+                self.mixer.listen(listener);
+                events.into_iter().for_each(|event| self.mixer.push(event));
+                self.sound(due - 1)?;
+            }
         }
         if sample_is_due(&mut self.sampled, time) || self.span.is_over(time) {
             self.samples.push(experiment.sample(time.seconds())?);

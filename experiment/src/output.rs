@@ -15,6 +15,10 @@ use crate::failure::{Blame, Failure};
 pub const REPORT_JSON: &str = "report.json";
 /// The readable report's name in the output folder.
 pub const REPORT_HTML: &str = "report.html";
+/// The name of the table of incidents in the output folder.
+pub const INCIDENTS_CSV: &str = "incidents.csv";
+/// What is said of attempts to other programs, where it is.
+pub const STATEMENTS: &str = "statements.jsonl";
 /// The film's name in the output folder.
 pub const FILM: &str = "film.mp4";
 /// Likewise of the film coloured by temperature.
@@ -294,7 +298,15 @@ impl OutDir {
     fn named(path: &Path) -> Result<Self, OutputError> {
         let dir = path.to_owned();
         if path.is_dir() {
-            for found in [REPORT_JSON, REPORT_HTML, FILM, FILM_TEMPERATURE] {
+            let files = [
+                REPORT_JSON,
+                REPORT_HTML,
+                INCIDENTS_CSV,
+                STATEMENTS,
+                FILM,
+                FILM_TEMPERATURE,
+            ];
+            for found in files {
                 if path.join(found).symlink_metadata().is_ok() {
                     return Err(OutputError::Taken { dir, found });
                 }

@@ -2,8 +2,10 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
-    BoxDesc, LiquidSource, Neighbours, SceneDesc, SurfaceFilter, VesselDesc, VesselTables,
+    BoxDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SurfaceFilter, VesselDesc,
+    VesselTables,
 };
+use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::{Flask, PictureFilter, Scene, TableTop};
 use vitriol_sim::world::World;
@@ -98,6 +100,22 @@ pub fn laboratory(scene: &Scene) -> SceneDesc {
 pub fn has_acid(scene: &Scene) -> bool {
     let mut liquids = scene.liquids.iter();
     liquids.any(|liquid| liquid.acid_fraction > 0.0)
+}
+
+/// What is left of broken glass.
+pub fn shards(world: &World) -> Vec<ShardDesc> {
+    let flasks = &world.scene().flasks;
+    let shard = |shard: Shard| {
+        let outline = flasks.get(shard.flask)?.profile.outer_outline();
+        let top = outline.last().map_or(0.0, |[_, height]| *height as f32);
+        Some(ShardDesc {
+            vessel: shard.flask,
+            piece: shard.piece,
+            base: BASE_SHARE * top,
+            stage_from_vessel: affine(&shard.stage_from_flask),
+        })
+    };
+    world.shards().into_iter().filter_map(shard).collect()
 }
 
 /// A pose as the renderer takes it.

@@ -13,6 +13,11 @@ pub const SWITCH_SOLVER: &str = "solver";
 /// what they hold goes with them.
 pub const SWITCH_PLACEMENT: &str = "stage_from_scene";
 
+/// Key of the switch that says whether glass breaks from the next step on, and in every scene from then on.
+pub const SWITCH_GLASS: &str = "glass";
+/// Values of [`SWITCH_GLASS`], where it does not and where it does.
+pub const GLASS: [&str; 2] = ["holds", "breaks"];
+
 /// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
 pub fn pair(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);

@@ -8,6 +8,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use vitriol_experiment::Liquid;
 use vitriol_experiment::glassware::Glassware;
 use vitriol_render::reference::{Anisotropy, Field, Nothing, SURFACE, Shape, Surroundings};
+use vitriol_sim::bodies::is_nowhere;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
@@ -70,14 +71,17 @@ impl Surfaces {
             })
             .collect();
 
+        // Shards are no solids of revolution, and are left out with the glass that they are of.
+        let is_whole = |index: usize| !is_nowhere(&poses[index]);
         let mut surfaces = Self::default();
         let outside = Side::outside(&kernels, (&vessels, &glassware), spacing);
         outside.add(&vessels, cell, &mut surfaces, |surfaces, field| {
-            for vessel in &vessels {
+            let whole = vessels.iter().enumerate().filter(|it| is_whole(it.0));
+            for (_, vessel) in whole {
                 surfaces.wet(&vessel.place(outer(&vessel.profile, cell)), field);
             }
         });
-        for (index, vessel) in vessels.iter().enumerate() {
+        for (index, vessel) in vessels.iter().enumerate().filter(|it| is_whole(it.0)) {
             let within = Side::inside(&kernels, index, vessel, spacing);
             within.add(&vessels, cell, &mut surfaces, |surfaces, field| {
                 surfaces.wet(&vessel.place(inner(&vessel.profile, cell)), field);

@@ -2,6 +2,7 @@
 
 use std::ops::Deref;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use ash::vk;
 
@@ -20,6 +21,8 @@ pub(crate) struct Inner {
     pub(crate) queues: Queues,
     pub(crate) options: Options,
     pub(crate) core: Arc<Core>,
+    /// A call has said that the device is lost.
+    lost: AtomicBool,
 }
 
 /// Raw handles for a library that shares the device, such as the OpenXR
@@ -60,6 +63,7 @@ impl Gpu {
                 queues: Queues::new(&core, &plan)?,
                 options: options.clone(),
                 core,
+                lost: AtomicBool::new(false),
             }),
         })
     }
@@ -111,6 +115,21 @@ impl Gpu {
         self.inner.last_pass()
     }
 
+    /// Whether the device is lost: nothing that was submitted to it will come, and what lives on it is gone. Another device may be
+    /// opened in its place.
+    pub fn is_lost(&self) -> bool {
+        self.inner.lost.load(Ordering::Relaxed)
+    }
+
+    /// From now on every submission and every wait fails as on a lost device. For tests: no driver loses a device on demand.
+    ///
+    /// A lost device executes nothing more, so what is under way is waited for: whoever hears of the loss may destroy what it uses.
+    pub fn lose(&self) {
+        // A device that is lost already has nothing under way.
+        let _ = self.wait_idle();
+        self.inner.lost.store(true, Ordering::Relaxed);
+    }
+
     /// Waits until every queue has finished.
     ///
     /// # Errors
@@ -126,6 +145,7 @@ impl Gpu {
 impl Inner {
     /// Last value that the queue's timeline has reached.
     fn reached(&self, index: usize) -> Result<u64, GpuError> {
+        self.check()?;
         let timeline = self.queues.at(index).timeline;
         // SAFETY: the semaphore lives as long as the queues.
         unsafe { self.core.device.get_semaphore_counter_value(timeline) }
@@ -133,6 +153,7 @@ impl Inner {
     }
 
     pub(crate) fn wait(&self, index: usize, value: u64) -> Result<(), GpuError> {
+        self.check()?;
         let semaphores = [self.queues.at(index).timeline];
         let values = [value];
         let wait = vk::SemaphoreWaitInfo::default()
@@ -159,12 +180,23 @@ impl Inner {
         self.queues.at(index).recycle(reached)
     }
 
+    /// Once lost, a device stays lost.
+    pub(crate) fn check(&self) -> Result<(), GpuError> {
+        if self.lost.load(Ordering::Relaxed) {
+            return Err(self.error("", vk::Result::ERROR_DEVICE_LOST));
+        }
+        Ok(())
+    }
+
     /// Turns a failed call into an error; a lost device names the last pass.
     pub(crate) fn error(&self, call: &'static str, result: vk::Result) -> GpuError {
         match result {
-            vk::Result::ERROR_DEVICE_LOST => GpuError::DeviceLost {
-                last_pass: self.last_pass(),
-            },
+            vk::Result::ERROR_DEVICE_LOST => {
+                self.lost.store(true, Ordering::Relaxed);
+                GpuError::DeviceLost {
+                    last_pass: self.last_pass(),
+                }
+            }
             vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
                 GpuError::OutOfMemory {
                     label: call.to_owned(),

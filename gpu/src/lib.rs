@@ -53,8 +53,8 @@ pub use ash::vk;
 
 pub use device::{
     BindingLimits, Candidate, Core, DeviceInfo, DeviceRequest, DeviceSummary, EnabledFeatures,
-    InstanceRequest, NEEDS, Needs, Options, PlainLoader, Provider, QueueRequest, Timestamps,
-    list_devices,
+    InstanceRequest, LockWaits, NEEDS, Needs, Options, PlainLoader, Provider, QueueRequest,
+    Timestamps, Waits, list_devices,
 };
 pub use error::GpuError;
 pub use gpu::{DeviceHandles, Gpu};

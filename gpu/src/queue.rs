@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use ash::vk;
 
 use crate::GpuError;
-use crate::device::{Core, Place, QueuePlan, lock};
+use crate::device::{Core, Place, QueuePlan, lock_queue};
 use crate::submission::Storage;
 
 /// Which queue a recorder goes to.
@@ -114,7 +114,7 @@ impl Queue {
 
     /// Memory of a submission that has finished, for the next one.
     pub(crate) fn recycled(&self) -> Option<Box<Storage>> {
-        lock(&self.state).free.pop()
+        lock_queue(&self.state).free.pop()
     }
 
     /// Submits what was recorded, after `waits`, and holds what it uses until
@@ -124,7 +124,7 @@ impl Queue {
         storage: Box<Storage>,
         waits: &[vk::SemaphoreSubmitInfo<'_>],
     ) -> Result<(), vk::Result> {
-        let mut state = lock(&self.state);
+        let mut state = lock_queue(&self.state);
         let value = state.submitted + 1;
         let signals = [vk::SemaphoreSubmitInfo::default()
             .semaphore(self.timeline)
@@ -149,34 +149,45 @@ impl Queue {
 
     /// Value of the last submission.
     pub(crate) fn submitted(&self) -> u64 {
-        lock(&self.state).submitted
+        lock_queue(&self.state).submitted
     }
 
     /// Lets go of what submissions up to the timeline's value `reached` used,
     /// and keeps their memory for the next ones.
     pub(crate) fn recycle(&self, reached: u64) -> Result<(), GpuError> {
-        let mut state = lock(&self.state);
-        while let Some((value, mut storage)) = state.in_flight.pop_front() {
-            if value > reached {
-                state.in_flight.push_front((value, storage));
-                break;
+        // Each while the queue is free: times may be waited for, and among what is let go may be the last of a scene's
+        // pipelines and buffers, which a driver destroys in tens of milliseconds.
+        let mut result = Ok(());
+        for mut storage in self.finished(reached) {
+            match storage.recycle(self.timestamp_mask) {
+                Ok(()) => lock_queue(&self.state).free.push(storage),
+                Err(error) => result = Err(error),
             }
-            storage.recycle(self.timestamp_mask)?;
-            state.free.push(storage);
         }
-        Ok(())
+        result
+    }
+
+    /// Takes out those up to the timeline's value `reached`.
+    #[expect(clippy::vec_box, reason = "as for those that are free")]
+    fn finished(&self, reached: u64) -> Vec<Box<Storage>> {
+        let mut state = lock_queue(&self.state);
+        let of = state
+            .in_flight
+            .partition_point(|(value, _)| *value <= reached);
+        let finished = state.in_flight.drain(..of);
+        finished.map(|(_, storage)| storage).collect()
     }
 
     /// Label of the last pass that the device has reached in what is in flight.
     pub(crate) fn last_pass(&self) -> Option<String> {
-        let state = lock(&self.state);
+        let state = lock_queue(&self.state);
         let mut latest_first = state.in_flight.iter().rev();
         latest_first.find_map(|(_, storage)| storage.last_marked())
     }
 
     /// Runs `f` while no one else uses the queue.
     pub(crate) fn with<T>(&self, f: impl FnOnce(vk::Queue) -> T) -> T {
-        let _held = lock(&self.state);
+        let _held = lock_queue(&self.state);
         f(self.handle)
     }
 }

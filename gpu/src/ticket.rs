@@ -42,6 +42,7 @@ impl Ticket {
             return Err(GpuError::NotDone);
         }
         self.gpu.inner.collect(self.submission.queue)?;
-        Ok(self.submission.timings.get().cloned().unwrap_or_default())
+        // Another thread may be reading them.
+        Ok(self.submission.timings.wait().clone())
     }
 }

@@ -9,6 +9,27 @@ pub struct RenderDesc {
     pub views: u32,
     /// The liquid surface that frames may ask for; `None` for none.
     pub liquid: Option<LiquidDesc>,
+    /// How many invocations share a particle.
+    pub lanes: Lanes,
+}
+
+/// How many invocations share a particle; `None` as many as suit the device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lanes {
+    /// Its neighbours, whose sums go from lane to lane: a power of two, up to 32 and to the
+    /// device's smallest subgroup. Other lanes are another order of sums, so other rounding.
+    pub neighbours: Option<u32>,
+    /// Its pixels: a power of two from 8 to 1,024, on any device. The picture has the same bits
+    /// with each.
+    pub pixels: Option<u32>,
+}
+
+impl Lanes {
+    /// As many as suit the device.
+    pub const CHOSEN: Self = Self {
+        neighbours: None,
+        pixels: None,
+    };
 }
 
 impl RenderDesc {
@@ -18,6 +39,7 @@ impl RenderDesc {
             extent,
             views: 1,
             liquid: None,
+            lanes: Lanes::CHOSEN,
         }
     }
 }

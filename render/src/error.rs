@@ -38,6 +38,20 @@ pub enum RenderError {
         /// What there is.
         held: [u32; 2],
     },
+    /// Lanes were asked for that shader or device do not have.
+    #[error(
+        "{asked} lanes for a particle's {of}; take a power of two from {least} to {most}, or leave it to the program"
+    )]
+    Lanes {
+        /// What they share.
+        of: &'static str,
+        /// How many were asked for.
+        asked: u32,
+        /// Fewest.
+        least: u32,
+        /// Most on this device.
+        most: u32,
+    },
     /// A scene has more vessels than a picture.
     #[error("{given} vessels; a picture has at most {most}: leave some out, or draw none")]
     TooManyVessels {

@@ -8,7 +8,8 @@ use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
 use crate::hands::{Bone, MOST_BONES};
-use crate::scene::Scene;
+use crate::panel::{Panel, panel_from_stage};
+use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints;
@@ -69,6 +70,8 @@ pub struct FrameDesc<'a> {
     /// `stage_from_vessel` of each vessel of the scene, rigid, in the scene's
     /// unit.
     pub vessels: &'a [Affine3A],
+    /// Shards of vessels that are broken, which are far away then; of more than 16 the first.
+    pub shards: &'a [ShardDesc],
     /// Particles to be coloured by an attribute; `None` for none.
     pub particles: Option<ParticleSource<'a>>,
     /// The bones of the user's left and right hand, at most [`MOST_BONES`] each, in any order; none of a hand that
@@ -79,6 +82,14 @@ pub struct FrameDesc<'a> {
     pub liquid: Option<LiquidSource<'a>>,
     /// Steam over all that; `None` for none.
     pub steam: Option<SteamSource<'a>>,
+    /// A panel among all that; `None` for none.
+    pub panel: Option<Panel<'a>>,
+    /// A sign among all that: of its image the disc that touches the sides is seen; `None` for none.
+    pub sign: Option<Panel<'a>>,
+    /// Share of the light that is shown, 0 to 1: less than 1 where the picture fades.
+    pub shown: f32,
+    /// How much acid is on the user's goggles, 0 to 1.
+    pub goggles: f32,
     /// What the particles' colours stand for.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
@@ -165,6 +176,10 @@ impl FrameDesc<'_> {
             hides: hides.into(),
             water: tints::absorption(tints::WATER),
             acid: tints::absorption(tints::ACID),
+            shown: self.shown,
+            goggles: self.goggles,
+            panel_from_stage: panel_from_stage(self.panel.as_ref(), self.length_scale),
+            sign_from_stage: panel_from_stage(self.sign.as_ref(), self.length_scale),
             ..layout::Frame::default()
         };
         for (slot, view) in frame.views.iter_mut().zip(self.views) {
@@ -187,6 +202,21 @@ impl FrameDesc<'_> {
                 ..vessel.shape
             };
             frame.blocker_count += 1;
+        }
+        frame.glass_count = frame.blocker_count;
+        for shard in self.shards.iter().take(MOST_SHARDS) {
+            let slot = frame.vessels.get_mut(frame.glass_count as usize);
+            let (Some(slot), Some(vessel)) = (slot, scene.vessels.get(shard.vessel)) else {
+                continue;
+            };
+            let vessel_from_stage = shard.stage_from_vessel.inverse();
+            *slot = layout::Vessel {
+                vessel_from_stage: Mat4::from(vessel_from_stage).to_cols_array_2d(),
+                piece: shard.piece + 1,
+                base: shard.base,
+                ..vessel.shape
+            };
+            frame.glass_count += 1;
         }
         frame
     }

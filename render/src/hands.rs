@@ -11,21 +11,56 @@ use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
 /// Bones that a hand has at most, as in `common/picture/bones.wgsl`.
-pub const MOST_BONES: usize = 28;
+pub const MOST_BONES: usize = 32;
 
 /// Distance over which the bones of a hand join smoothly, metres: they add up to a quarter of it where they meet, 1 mm. With
 /// more, fingers that touch grow together.
 pub const JOINED: f32 = 0.004;
 
-/// One bone of a glove: the convex hull of two spheres.
+/// Reflectance where acid has charred a glove. Ours: about the sRGB colour (62, 42, 28).
+const CHARRED: Vec3 = Vec3::new(0.048, 0.023, 0.011);
+
+/// What a bone is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// A glove.
+    Glove,
+    /// Its cuff, which is lighter.
+    Cuff,
+    /// A ray of light, that a hand points with.
+    Ray,
+    /// Something to hold on to, that is not of the hand.
+    Handle,
+    /// The same while a hand is at it.
+    HandleAtHand,
+}
+
+impl Finish {
+    /// Reflectance of red, green and blue, and how much it shines by itself instead. Ours: glove and cuff are in the room's light
+    /// about the sRGB colours (70, 110, 170) and (120, 150, 190). The others are the panel's amber, which neither glass nor
+    /// liquids have.
+    fn tint(self) -> ([f32; 3], f32) {
+        match self {
+            Self::Glove => ([0.075, 0.130, 0.245], 0.0),
+            Self::Cuff => ([0.180, 0.240, 0.330], 0.0),
+            Self::Ray => ([0.90, 0.52, 0.11], 1.0),
+            Self::Handle => ([0.55, 0.28, 0.05], 0.0),
+            Self::HandleAtHand => ([0.90, 0.52, 0.11], 0.6),
+        }
+    }
+}
+
+/// One bone of a glove, or what is drawn like one: the convex hull of two spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bone {
     /// The spheres' middles in the stage, metres.
     pub ends: [Vec3; 2],
     /// Their radii, metres.
     pub radii: [f32; 2],
-    /// Whether it is of the cuff, which is lighter.
-    pub cuff: bool,
+    /// What it is of.
+    pub finish: Finish,
+    /// How black acid has made it, 0 to 1.
+    pub stain: f32,
 }
 
 /// The passes that draw hands.
@@ -68,13 +103,16 @@ impl Hands {
             for (slot, bone) in slots.iter_mut().zip(drawn(hand)) {
                 let [a, b] = bone.ends.map(|end| (end / frame.length_scale).to_array());
                 let [radius_a, radius_b] = bone.radii.map(|radius| radius / frame.length_scale);
+                let (tint, glow) = bone.finish.tint();
+                let stain = bone.stain.clamp(0.0, 1.0);
+                let tint = Vec3::from(tint).lerp(CHARRED, stain).to_array();
                 *slot = layout::Bone {
                     a,
                     radius_a,
                     b,
                     radius_b,
-                    cuff: f32::from(u8::from(bone.cuff)),
-                    ..layout::Bone::default()
+                    tint,
+                    glow,
                 };
             }
         }
@@ -114,10 +152,14 @@ impl Hands {
 }
 
 fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
+    let bones = || frame.hands.into_iter().flat_map(drawn);
+    let thinnest = bones().flat_map(|bone| bone.radii).fold(FARTHEST, f32::min);
     layout::HandsRun {
         counts: frame.hands.map(|hand| drawn(hand).count() as u32),
         joined: JOINED / frame.length_scale,
         over: frame.particles.is_some().into(),
+        thinnest: thinnest / frame.length_scale,
+        ..layout::HandsRun::default()
     }
 }
 

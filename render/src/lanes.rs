@@ -1,4 +1,80 @@
-//! Dispatches of passes in which some invocations share a particle.
+//! How many invocations share a particle, and the dispatches of such passes.
+
+use vitriol_gpu::{DeviceInfo, vk};
+
+use crate::RenderError;
+
+/// Invocations that share a particle's neighbours on a GPU: the latency of
+/// fetching a list is what a few ten thousand particles cost there.
+const SHARED_BY: u32 = 4;
+
+/// The shader adds up so many lanes at most, see `common/liquid/lane_sums.wgsl`.
+const MOST_OF_NEIGHBOURS: u32 = 32;
+
+/// Invocations that share an ellipsoid's pixels: a warp on a GPU, eight lanes of a vector on a CPU.
+const SPLATTED_BY: [u32; 2] = [32, 8];
+
+/// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and of few
+/// spheres so many more that all of them together fill it.
+const LEAST_OF_SPHERE: [u32; 2] = [32, 8];
+const MOST_OF_SPHERE: [u32; 2] = [1024, 8];
+const FILLS: u32 = 1 << 17;
+
+/// Rows of pixels are shared eight by eight.
+const LEAST_OF_PIXELS: u32 = 8;
+const MOST_OF_PIXELS: u32 = 1024;
+
+/// Lanes of a particle's neighbours where `asked` were asked for.
+pub(crate) fn of_neighbours(info: &DeviceInfo, asked: Option<u32>) -> Result<u32, RenderError> {
+    let most = most_of_neighbours(info);
+    match asked {
+        Some(asked) => refuse("neighbours", asked, 1, most),
+        None if is_cpu(info) => Ok(1),
+        None => Ok(SHARED_BY.min(most)),
+    }
+}
+
+/// Lanes of an ellipsoid's pixels where `asked` were asked for.
+pub(crate) fn of_splats(info: &DeviceInfo, asked: Option<u32>) -> Result<u32, RenderError> {
+    match asked {
+        Some(asked) => refuse("pixels", asked, LEAST_OF_PIXELS, MOST_OF_PIXELS),
+        None => Ok(SPLATTED_BY[usize::from(is_cpu(info))]),
+    }
+}
+
+/// Lanes of each of `count` spheres' pixels where `asked` were asked for, which
+/// [`of_splats`] has not refused.
+pub(crate) fn of_spheres(info: &DeviceInfo, asked: Option<u32>, count: u32) -> u32 {
+    let of_device = |lanes: [u32; 2]| lanes[usize::from(is_cpu(info))];
+    let share = (FILLS / count.max(1)).next_power_of_two();
+    let chosen = share.clamp(of_device(LEAST_OF_SPHERE), of_device(MOST_OF_SPHERE));
+    asked.unwrap_or(chosen)
+}
+
+fn is_cpu(info: &DeviceInfo) -> bool {
+    info.kind == vk::PhysicalDeviceType::CPU
+}
+
+/// Most lanes whose shuffles stay within a subgroup, of which the driver may choose the smallest.
+fn most_of_neighbours(info: &DeviceInfo) -> u32 {
+    if !info.features.subgroups {
+        return 1;
+    }
+    let least = info.least_subgroup_size.clamp(1, MOST_OF_NEIGHBOURS);
+    1 << least.ilog2()
+}
+
+fn refuse(of: &'static str, asked: u32, least: u32, most: u32) -> Result<u32, RenderError> {
+    if asked.is_power_of_two() && (least..=most).contains(&asked) {
+        return Ok(asked);
+    }
+    Err(RenderError::Lanes {
+        of,
+        asked,
+        least,
+        most,
+    })
+}
 
 /// Workgroups in a row along x, which every device takes; as in `common/picture/lanes.wgsl`.
 const ROW: u32 = 65_535;

@@ -1,6 +1,8 @@
 //! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
-use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk};
+use vitriol_gpu::{
+    Buffer, Gpu, GpuError, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk,
+};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
@@ -9,6 +11,8 @@ use crate::fluid::{Fluid, SurfaceReadback, zeros};
 use crate::frame::FrameDesc;
 use crate::hands::Hands;
 use crate::hidden::hidden_words;
+use crate::lanes;
+use crate::panel::Panel;
 use crate::pass_pictures::PassesReadback;
 use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
@@ -45,6 +49,8 @@ pub struct Renderer {
     /// The picture before its edges are smoothed.
     drawn: Image,
     between: Sampler,
+    /// Shown by the panel that a frame has not.
+    no_panel: Image,
     picture: Image,
     depths: Buffer,
 }
@@ -53,12 +59,15 @@ impl Renderer {
     /// A renderer of an empty scene, its shaders from `library`.
     ///
     /// # Errors
-    /// [`RenderError::ViewCount`]; [`RenderError::Gpu`] where the device
+    /// [`RenderError::ViewCount`], [`RenderError::Lanes`]; [`RenderError::Gpu`] where the device
     /// cannot have the images, [`RenderError::Shader`].
     pub fn new(gpu: &Gpu, library: &Library, desc: &RenderDesc) -> Result<Self, RenderError> {
         if !(1..=2).contains(&desc.views) {
             return Err(RenderError::ViewCount { views: desc.views });
         }
+        // Also without a liquid, whose pipelines take them.
+        lanes::of_neighbours(gpu.info(), desc.lanes.neighbours)?;
+        lanes::of_splats(gpu.info(), desc.lanes.pixels)?;
         let image = |label| {
             let desc = ImageDesc {
                 extent: desc.extent,
@@ -68,7 +77,7 @@ impl Renderer {
             };
             Image::new(gpu, label, desc)
         };
-        let (extent, views) = (desc.extent, desc.views);
+        let (extent, views, lanes) = (desc.extent, desc.views, desc.lanes);
         let pixels = (views * extent[0] * extent[1]) as usize;
         Ok(Self {
             gpu: gpu.clone(),
@@ -77,17 +86,18 @@ impl Renderer {
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
-                Some(liquid) => Some(Fluid::new(gpu, library, liquid, extent, views)?),
+                Some(liquid) => Some(Fluid::new(gpu, library, liquid, extent, views, lanes)?),
                 None => None,
             },
             hidden: None,
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
-            spheres: Spheres::new(gpu, library, views)?,
+            spheres: Spheres::new(gpu, library, views, lanes)?,
             hands: Hands::new(gpu, library, views)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
             between: Sampler::linear(gpu)?,
+            no_panel: no_panel(gpu)?,
             picture: image("picture")?,
             depths: Buffer::storage(gpu, "picture depth", bytes_of_elements::<f32>(pixels))?,
         })
@@ -100,11 +110,17 @@ impl Renderer {
     /// [`RenderError::Shader`], [`RenderError::Gpu`].
     pub fn reload(&mut self, library: &Library, changed: &[ShaderId]) -> Result<(), RenderError> {
         // All that can fail comes before anything is replaced.
-        let (gpu, RenderDesc { extent, views, .. }) = (&self.gpu, self.desc);
+        let gpu = &self.gpu;
+        let RenderDesc {
+            extent,
+            views,
+            lanes,
+            ..
+        } = self.desc;
         let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
-        let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views));
+        let fluid = liquid.map(|liquid| Fluid::new(gpu, library, liquid, extent, views, lanes));
         let fluid = fluid.transpose()?;
-        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views));
+        let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views, lanes));
         let spheres = spheres.transpose()?;
         let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views));
         let hands = hands.transpose()?;
@@ -176,7 +192,9 @@ impl Renderer {
     }
 
     /// The picture, a layer a view: `R8G8B8A8_UNORM`, of which the values are sRGB's, so that a copy
-    /// to an image of that encoding is right.
+    /// to an image of that encoding is right. Alpha is 1, and 0 where a frame's panel is seen with nothing before it: there a layer
+    /// under the picture that shows the same may be seen in its place. The picture has the panel all the same, so alpha is not to be
+    /// multiplied with it, and may be left out.
     pub fn image(&self) -> &Image {
         &self.picture
     }
@@ -306,13 +324,19 @@ impl Renderer {
         self.finish(rec, frame)
     }
 
-    fn draw_picture(&self, rec: &mut Recorder, frame: &FrameDesc<'_>) -> Result<(), RenderError> {
+    fn draw_picture<'a>(
+        &'a self,
+        rec: &mut Recorder,
+        frame: &FrameDesc<'a>,
+    ) -> Result<(), RenderError> {
         let liquid = self.liquid(frame)?;
         let of_liquid = |of: fn(&Fluid) -> &Buffer| {
             liquid
                 .as_ref()
                 .map_or(&self.nothing, |(fluid, _)| of(fluid))
         };
+        let shown = |panel: Option<Panel<'a>>| panel.map_or(&self.no_panel, |panel| panel.image);
+        let (panel, sign) = (shown(frame.panel), shown(frame.sign));
         rec.group("picture", |rec| {
             for (class, pipeline) in &self.pipelines.picture {
                 let pass = rec
@@ -326,6 +350,9 @@ impl Renderer {
                     .read("tiles", self.tiles.marks())
                     .read("solid_light", &self.solids.nearest)
                     .read("solid_depths", &self.solids.depths)
+                    .sampled("panel", panel)
+                    .sampled("sign_image", sign)
+                    .sampler("between", &self.between)
                     .storage_image("drawn", &self.drawn)
                     .storage_image("finished", &self.picture)
                     .write("depths", &self.depths);
@@ -446,6 +473,17 @@ impl Renderer {
             extent,
         })
     }
+}
+
+/// Bound in place of a panel's image.
+fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
+    let desc = ImageDesc {
+        extent: [1, 1],
+        layers: 1,
+        format: PICTURE_FORMAT,
+        usage: vk::ImageUsageFlags::SAMPLED,
+    };
+    Image::new(gpu, "no panel", desc)
 }
 
 /// Whether a frame shows any hand.

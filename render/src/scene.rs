@@ -1,14 +1,15 @@
 //! What stands in the room, and its meshes on the device.
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
 use crate::outline::segments;
 
-/// Vessels that a picture has at most: a tile has a bit for each.
+/// Vessels that a picture has at most, and shards: a tile has a bit for each.
 pub(crate) const MOST_VESSELS: usize = 8;
+pub(crate) const MOST_SHARDS: usize = 16;
 
 /// Heights at which the shaders have a vessel's inner radius.
 const INNER_RADII: usize = 16;
@@ -96,6 +97,19 @@ pub(crate) struct Bounds {
     pub(crate) radius: f32,
     pub(crate) bottom: f32,
     pub(crate) top: f32,
+}
+
+/// A shard of a vessel of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShardDesc {
+    /// Which vessel's; one that is not there has no shards.
+    pub vessel: usize,
+    /// 0 its base, 1 to 3 its wall above that, a third of a turn each, from +X to +Z on.
+    pub piece: u32,
+    /// Height up to which the base goes, in the scene's unit.
+    pub base: f32,
+    /// Where the vessel would be with it, rigid, in the scene's unit.
+    pub stage_from_vessel: Affine3A,
 }
 
 /// A box along the stage's axes, metres.

@@ -1,38 +1,41 @@
 //! Particles as spheres, coloured by an attribute: the films of temperature, acid and speed.
 
-use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, vk};
+use vitriol_gpu::{Buffer, ComputePipeline, DeviceInfo, Gpu, GpuError, Recorder};
 use vitriol_shaders::{Library, ShaderId, layout, spheres};
 
 use crate::RenderError;
 use crate::compute::compute;
+use crate::desc::Lanes;
 use crate::frame::ColourBy;
-use crate::lanes::workgroups;
+use crate::lanes::{self, workgroups};
 use crate::solids::Solids;
 use crate::source::ParticleSource;
 use crate::tiles::{Class, Tiles};
-
-/// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and of few
-/// spheres so many more that all of them together fill it.
-const LEAST_LANES: [u32; 2] = [32, 8];
-const MOST_LANES: [u32; 2] = [1024, 8];
-const FILLS: u32 = 1 << 17;
 
 /// The nearest sphere at each pixel and its light.
 pub(crate) struct Spheres {
     nearest_pass: ComputePipeline,
     light_pass: ComputePipeline,
     views: u32,
-    is_cpu: bool,
+    info: DeviceInfo,
+    /// Lanes of a sphere that were asked for.
+    asked: Option<u32>,
 }
 
 impl Spheres {
-    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        views: u32,
+        asked: Lanes,
+    ) -> Result<Self, RenderError> {
         let class = ("CLASS", f64::from(Class::Spheres as u32));
         Ok(Self {
             nearest_pass: compute(gpu, library, spheres::NEAREST, &[])?,
             light_pass: compute(gpu, library, spheres::LIGHT, &[class])?,
             views,
-            is_cpu: gpu.info().kind == vk::PhysicalDeviceType::CPU,
+            info: gpu.info().clone(),
+            asked: asked.pixels,
         })
     }
 
@@ -53,9 +56,7 @@ impl Spheres {
         solids: &Solids,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
-        let [least, most] = [LEAST_LANES, MOST_LANES].map(|lanes| lanes[usize::from(self.is_cpu)]);
-        let share = (FILLS / particles.count.max(1)).next_power_of_two();
-        let lanes = share.clamp(least, most);
+        let lanes = lanes::of_spheres(&self.info, self.asked, particles.count);
         rec.group("spheres", |rec| {
             rec.fill(&solids.depths, 0)?;
             rec.fill(&solids.nearest, 0)?;

@@ -16,7 +16,7 @@ pub(crate) const LIQUID_MARK: u32 = 1 << 31;
 pub(crate) const EDGE_MARK: u32 = 1 << 30;
 pub(crate) const STEAM_MARK: u32 = 1 << 29;
 /// A bit for each vessel.
-pub(crate) const VESSEL_MARKS: u32 = 0xff;
+pub(crate) const VESSEL_MARKS: u32 = 0xff_ffff;
 
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;

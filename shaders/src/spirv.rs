@@ -2,6 +2,7 @@
 
 mod chains;
 mod exact;
+mod reconverge;
 mod texels;
 
 use rspirv::binary::Assemble;
@@ -68,6 +69,7 @@ mod tests {
             for result in [
                 rewrite("test", spirv, Stage::Compute).err(),
                 broken.with_texels().err(),
+                broken.reconverging().err(),
             ] {
                 assert!(
                     matches!(result, Some(ShaderError::Spirv { .. })),

@@ -9,15 +9,12 @@ pub use heat::{HeatMeasurement, Ledger, Superheat, measure as measure_heat};
 
 use crate::flask::Region;
 use crate::scene::Scene;
-use crate::solver::SolverState;
+use crate::solver::{LYING, SolverState};
 use crate::world::{World, WorldError};
 use glam::{DVec3, Vec3};
 use percentile::percentile;
 use serde::Serialize;
 use vitriol_gpu::QueueKind;
-
-/// Thickness of what counts as lying on the table or the floor, support radii.
-const LYING: f64 = 2.0;
 
 /// How far beyond a wall a particle has to be to count as lost, support
 /// radii: rounding in the stage's frame is far below it.

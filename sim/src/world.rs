@@ -1,19 +1,25 @@
 //! The simulation's one entrance: a world that advances by a fixed step with
 //! that step's inputs.
 
+mod lifeline;
+mod look;
 mod start;
 
+pub use lifeline::{Kept, Lifeline, StateRecord};
+pub use look::Look;
 pub use start::{ground, particles};
 
-use crate::bodies::{Bodies, BodiesError, Hand, Load};
+use crate::bodies::{Bodies, BodiesError, Break, Hand, Load, Shard, Strike};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::scene::{Boundary, Scene};
 use crate::solver::{Counters, FrameRecord, Solver, SolverError, SolverSpec, SolverState};
 use glam::Vec3;
+use lifeline::Act;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use thiserror::Error;
 use vitriol_gpu::{Gpu, GpuError, QueueKind, Ticket};
 use vitriol_shaders::Library;
@@ -80,13 +86,17 @@ pub struct World {
     bodies: Bodies,
     solver: Solver,
     /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
-    loads: VecDeque<PendingLoad>,
+    loads: VecDeque<Arc<PendingLoad>>,
     /// By flask: what [`World::stirring`] says.
     stirring: Vec<f32>,
     /// What [`World::set_effort`] asked for, until the next step.
     effort: Option<[u32; 2]>,
     step: u64,
+    /// Steps done at the last look.
+    looked: u64,
     last: Option<Ticket>,
+    /// Where somebody follows, see [`World::follow`].
+    lifeline: Option<Lifeline>,
 }
 
 /// A step's loads, on the device still or read already.
@@ -152,7 +162,9 @@ impl World {
             stirring: vec![0.0; scene.flasks.len()],
             effort: None,
             step: 0,
+            looked: 0,
             last: None,
+            lifeline: None,
         })
     }
 
@@ -182,20 +194,33 @@ impl World {
             self.solver.carry(&mut rec, leap)?;
             before[leap.flask] = leap.after_from_before.compose(before[leap.flask]);
         }
+        for broken in self.bodies.breaks() {
+            self.solver.release(&mut rec, broken.flask)?;
+            before[broken.flask] = self.bodies.poses()[broken.flask];
+        }
         self.follow_walls(&before)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;
         self.loads
-            .push_back(PendingLoad::Device(record, ticket.clone()));
+            .push_back(Arc::new(PendingLoad::Device(record, ticket.clone())));
         self.last = Some(ticket);
         self.step += 1;
+        self.note(Act::Step(queue, *input));
         Ok(())
     }
 
     /// The hands of the next step did not come to where they are by moving: the user was recentred, or found again. What
     /// they hold goes there with all that is in it, as one rigid body, which the liquid does not feel.
     pub fn hands_leap(&mut self) {
+        self.note(Act::Leap);
         self.bodies.hands_leap();
+    }
+
+    /// Whether flasks that are struck too hard break, from the next step on ([`BREAKS_AT`](crate::bodies::BREAKS_AT)). They do not
+    /// in a world at its start. What was in a broken one is nobody's; its shards meet glass, table and floor, and no liquid.
+    pub fn set_breakable(&mut self, on: bool) {
+        self.note(Act::Breakable(on));
+        self.bodies.set_breakable(on);
     }
 
     /// As many substeps as the fastest wall asks for ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that
@@ -239,6 +264,7 @@ impl World {
                 problem,
             });
         }
+        self.note(Act::Effort(effort));
         self.effort = Some(effort);
         Ok(())
     }
@@ -256,9 +282,7 @@ impl World {
     /// [`WorldError::Gpu`] where the device is lost.
     pub fn is_ready(&self) -> Result<bool, WorldError> {
         match self.loads.front() {
-            Some(PendingLoad::Device(_, ticket)) if self.loads.len() >= LOAD_DELAY => {
-                Ok(ticket.is_done()?)
-            }
+            Some(load) if self.loads.len() >= LOAD_DELAY => load.is_done(),
             _ => Ok(true),
         }
     }
@@ -297,6 +321,26 @@ impl World {
     /// `None` of a flask that nobody can grip.
     pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
         self.bodies.distance(flask, point)
+    }
+
+    /// Blows of the last step: of flasks on each other, on the table and on the floor.
+    pub fn strikes(&self) -> &[Strike] {
+        self.bodies.strikes()
+    }
+
+    /// Flasks that broke in the last step. Their poses are [`NOWHERE`](crate::bodies::NOWHERE) from then on.
+    pub fn breaks(&self) -> &[Break] {
+        self.bodies.breaks()
+    }
+
+    /// Whether a flask has broken.
+    pub fn is_broken(&self, flask: usize) -> bool {
+        self.bodies.is_broken(flask)
+    }
+
+    /// What is left of the flasks that have broken.
+    pub fn shards(&self) -> Vec<Shard> {
+        self.bodies.shards()
     }
 
     /// Index of the hand that holds a flask.
@@ -338,17 +382,10 @@ impl World {
     /// [`WorldError`] where the device fails.
     pub fn snapshot(&self) -> Result<WorldState, WorldError> {
         self.wait()?;
-        let solver = self.solver.snapshot()?;
-        let loads = self.loads.iter().map(|load| {
-            let sums = load.read()?;
-            Ok(bytemuck::cast_slice(&sums).to_vec())
-        });
-        Ok(WorldState {
-            step: self.step,
-            solver,
-            bodies: self.bodies.snapshot()?,
-            loads: loads.collect::<Result<_, SolverError>>()?,
-        })
+        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let record = self.record_state(&mut rec)?;
+        self.gpu.submit(rec)?.wait()?;
+        record.get()
     }
 
     /// Takes up a state of the same scene and preset, on this device; what
@@ -360,12 +397,13 @@ impl World {
     pub fn restore(&mut self, state: &WorldState) -> Result<(), WorldError> {
         self.solver.restore(&state.solver)?;
         self.bodies.restore(&state.bodies)?;
-        self.step = state.step;
+        (self.step, self.looked) = (state.step, state.step);
         self.loads = state
             .loads
             .iter()
-            .map(|sums| PendingLoad::Host(bytemuck::cast_slice(sums).to_vec()))
+            .map(|sums| Arc::new(PendingLoad::Host(bytemuck::cast_slice(sums).to_vec())))
             .collect();
+        self.begin_anew(state);
         Ok(())
     }
 
@@ -401,6 +439,13 @@ impl World {
 }
 
 impl PendingLoad {
+    fn is_done(&self) -> Result<bool, WorldError> {
+        match self {
+            Self::Device(_, ticket) => Ok(ticket.is_done()?),
+            Self::Host(_) => Ok(true),
+        }
+    }
+
     fn read(&self) -> Result<Vec<LiquidLoad>, SolverError> {
         match self {
             Self::Device(record, ticket) => {

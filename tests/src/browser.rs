@@ -113,14 +113,7 @@ struct Browser {
 
 impl Browser {
     fn start(page: &Path, look: Look, options: &[String]) -> Option<Self> {
-        let Some(program) = find() else {
-            assert!(
-                std::env::var("CI").as_deref() != Ok("true"),
-                "no browser is installed: this test needs one of {NAMES:?}"
-            );
-            eprintln!("NOT TESTED: no browser is installed (needed: one of {NAMES:?})");
-            return None;
-        };
+        let program = find_or_say()?;
         let page = page.canonicalize().expect("the page's file");
         let profile = tempfile::tempdir().expect("a folder for the browser's profile");
         let mut command = Command::new(program);
@@ -163,6 +156,21 @@ impl Drop for Browser {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// The browser's program.
+///
+/// `None` and panics as for [`visit`].
+pub(crate) fn find_or_say() -> Option<PathBuf> {
+    let found = find();
+    if found.is_none() {
+        assert!(
+            std::env::var("CI").as_deref() != Ok("true"),
+            "no browser is installed: this test needs one of {NAMES:?}"
+        );
+        eprintln!("NOT TESTED: no browser is installed (needed: one of {NAMES:?})");
+    }
+    found
 }
 
 fn find() -> Option<PathBuf> {

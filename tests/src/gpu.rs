@@ -55,8 +55,12 @@ impl Deref for Watched {
 
 impl Drop for Watched {
     fn drop(&mut self) {
-        // What is still under way could be reported after the test.
-        let idle = self.0.wait_idle();
+        // What is still under way could be reported after the test. Of a device that a test has lost nothing comes.
+        let idle = if self.0.is_lost() {
+            Ok(())
+        } else {
+            self.0.wait_idle()
+        };
         let messages = self.0.validation_messages();
         if std::thread::panicking() {
             // A second panic would hide the first.

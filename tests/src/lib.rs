@@ -3,12 +3,16 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod browser;
+#[cfg(target_os = "linux")]
+pub mod devtools;
 pub mod gpu;
+mod installed;
 #[cfg(target_os = "linux")]
 pub mod mock;
 #[cfg(target_os = "linux")]
 pub mod monado;
 pub mod program;
+pub mod ralph;
 pub mod random;
 pub mod readers;
 #[cfg(target_os = "linux")]

@@ -4,6 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::installed;
+
 /// Where they are.
 #[derive(Debug)]
 pub struct Readers {
@@ -18,17 +20,8 @@ impl Readers {
     /// Where there are none and `CI=true`.
     #[must_use]
     pub fn find(test: &str) -> Option<Self> {
-        let cache = std::env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
-        let home = || PathBuf::from(std::env::var_os("HOME").unwrap_or_else(|| "/root".into()));
-        let cache = cache.unwrap_or_else(|| home().join(".cache"));
-        let root = cache.join("vitriol/readers-1");
-        if root.join("complete").exists() {
-            return Some(Self { root });
-        }
-        let cause = "PyVista, Rerun and glTF's validator are not installed (./lab setup does it)";
-        assert!(std::env::var("CI").as_deref() != Ok("true"), "{cause}");
-        eprintln!("NOT TESTED: {test}: {cause}");
-        None
+        let root = installed::find("readers-1", "PyVista, Rerun and glTF's validator are", test)?;
+        Some(Self { root })
     }
 
     /// What a script for Python prints.

@@ -58,6 +58,10 @@ pub trait Headset {
     /// As for [`Headset::next`].
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
 
+    /// The device is lost ([`Gpu::is_lost`]), and with it all images; a frame that is open is not ended. The next turns are
+    /// [`Turn::Lost`], and [`Turn::Renewed`] once there is another device.
+    fn lose_device(&mut self);
+
     /// Display rates that can be asked for, Hz; empty where there is no choice.
     fn rates(&self) -> &[f32];
 
@@ -116,6 +120,8 @@ pub struct HeadsetFrame {
     pub should_render: bool,
     /// The runtime moved the stage (the student recentred).
     pub recentred: bool,
+    /// The head's place was known before and is not now: it is the last one that was, and the orientation goes on.
+    pub lost: bool,
     /// Of the left and the right hand, if it is seen and holds no controller. They are in no recording: what simulation steps
     /// consume of them is in [`Hand`](crate::Hand).
     pub joints: [Option<Joints>; 2],
@@ -145,7 +151,7 @@ pub struct View {
 /// The runtime's images for a frame. They take copies of pictures of the same extent.
 #[derive(Clone)]
 pub struct Targets {
-    /// Two layers, 8 bits a channel, sRGB.
+    /// Two layers, 8 bits a channel, sRGB. Alpha is 0 where the panel is to be seen in their place, and not multiplied with them.
     pub colour: Image,
     /// Two layers of reversed depth, where the runtime takes it.
     pub depth: Option<Image>,
@@ -164,7 +170,7 @@ pub struct Shown {
     /// Distance of the near plane, m, where depth is 1; it is 0 at infinity.
     pub near: f32,
     /// Where the panel stands (its middle; +Z is its face's normal), and its width, m; its height follows from
-    /// its pixels.
+    /// its pixels. It is shown under the picture; `None` where the picture's own panel is to be seen.
     pub panel: Option<(Pose, f32)>,
 }
 

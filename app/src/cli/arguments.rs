@@ -7,6 +7,8 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use vitriol_experiment::Colour;
 use vitriol_experiment::switches::pair;
+use vitriol_record::Pseudonym;
+use vitriol_record::lrs::Endpoint;
 use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_study::parse::{filter, named, positive, preset};
 
@@ -86,6 +88,12 @@ pub struct ReplayArgs {
     /// Filter of the liquid's surface; without it the scene's
     #[arg(long, value_parser = filter(), value_name = "FILTER", conflicts_with = "no_video")]
     pub filter: Option<PictureFilter>,
+    /// Glass that is struck too hard breaks: by a fall of half a metre and more
+    #[arg(long)]
+    pub breakable: bool,
+    /// What is kept of a student
+    #[command(flatten)]
+    pub keep: KeepArgs,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,
@@ -243,12 +251,25 @@ pub struct VrArgs {
     /// How a hand grips
     #[arg(long, value_enum, default_value_t, value_name = "GRIP")]
     pub grip: Grip,
+    /// Glass that is struck too hard breaks: by a fall of half a metre and more
+    #[arg(long)]
+    pub breakable: bool,
     /// Keep the session as a pose track in this new file, for `vitriol replay`
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+    /// What is kept of a student
+    #[command(flatten)]
+    pub keep: KeepArgs,
+    /// Sound output, by its name or description (see `vitriol doctor`), or none; a stand-in
+    /// has none without it
+    #[arg(long, value_name = "OUTPUT")]
+    pub sound: Option<String>,
     /// No window on the computer that shows what the left eye sees
     #[arg(long)]
     pub no_mirror: bool,
+    /// No signs that show a first user how to take a flask, lift it, pour and put it down
+    #[arg(long)]
+    pub no_hints: bool,
     /// Measure that many frames, after some to warm up, and end
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub frames: Option<u64>,
@@ -296,6 +317,34 @@ pub struct ScenesArgs {
     /// With --cost: device to use, its number or a part of its name
     #[arg(long, requires = "cost")]
     pub device: Option<String>,
+}
+
+/// Arguments of `vitriol forget`.
+#[derive(Debug, Args)]
+pub struct ForgetArgs {
+    /// Whose attempts and statements are deleted: one word, such as p07
+    #[arg(value_name = "PSEUDONYM")]
+    pub pseudonym: Pseudonym,
+    /// The class's file; without it the one in your folder for data
+    #[arg(long, value_name = "FILE")]
+    pub class: Option<PathBuf>,
+}
+
+/// What is kept of a student. Nothing is without a pseudonym.
+#[derive(Args, Clone, Debug, Default)]
+pub struct KeepArgs {
+    /// Keep the attempts in the class's file under this pseudonym: one word, such as p07
+    #[arg(long, value_name = "PSEUDONYM")]
+    pub pseudonym: Option<Pseudonym>,
+    /// The class's file; without it the one in your folder for data
+    #[arg(long, value_name = "FILE", requires = "pseudonym")]
+    pub class: Option<PathBuf>,
+    /// Send the statements to this Learning Record Store: https, or http on this machine
+    #[arg(long, value_name = "URL", requires_all = ["pseudonym", "lrs_token"])]
+    pub lrs: Option<Endpoint>,
+    /// File with its token, which you alone may read: `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`
+    #[arg(long, value_name = "FILE", requires = "lrs")]
+    pub lrs_token: Option<PathBuf>,
 }
 
 /// Frames a second.

@@ -28,6 +28,10 @@ struct Device {
     vulkan: String,
     kind: String,
     usable: bool,
+    /// Invocations of the smallest subgroup that the driver may choose, and per subgroup as a rule.
+    subgroup_sizes: [u32; 2],
+    /// Lanes that part in a loop meet again behind it for certain (VK_KHR_shader_maximal_reconvergence).
+    maximal_reconvergence: bool,
     /// Required things that it lacks.
     missing: Vec<String>,
     /// Optional things that it lacks, with what is done instead.
@@ -78,6 +82,8 @@ fn look() -> Findings {
                 .to_lowercase()
                 .replace('_', " "),
             usable: device.missing.is_empty(),
+            subgroup_sizes: device.subgroup_sizes,
+            maximal_reconvergence: device.features.maximal_reconvergence,
             missing: device.missing,
             missing_optional: device.missing_optional,
             extensions: device.extensions,
@@ -124,6 +130,16 @@ fn describe(findings: &Findings) -> String {
             device.vulkan,
             device.driver
         );
+        let [least, usual] = device.subgroup_sizes;
+        let _ = writeln!(
+            text,
+            "      subgroups of {usual}, at least {least}{}",
+            if device.maximal_reconvergence {
+                ", with maximal reconvergence"
+            } else {
+                ""
+            }
+        );
         for lack in &device.missing {
             let _ = writeln!(text, "      lacks {lack}");
         }
@@ -169,4 +185,23 @@ fn sentence(message: &str) -> String {
         first.into_iter().flatten().collect::<String>(),
         letters.as_str()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a device offers it does not lack, and it has the extension for it.
+    #[test]
+    fn what_is_said_of_a_device_agrees() {
+        for device in look().devices {
+            let named = |names: &[String], part: &str| names.iter().any(|it| it.contains(part));
+            let has = device.maximal_reconvergence;
+            let extension = "VK_KHR_shader_maximal_reconvergence";
+            assert!(!has || named(&device.extensions, extension));
+            assert!(!has || !named(&device.missing_optional, "reconvergence"));
+            let [least, usual] = device.subgroup_sizes;
+            assert!(least <= usual && usual.is_power_of_two(), "{least} {usual}");
+        }
+    }
 }

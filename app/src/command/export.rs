@@ -152,6 +152,7 @@ fn simulated(
         seconds: args.at.or(args.seconds).or(made.seconds),
         seed: args.seed.or(made.seed),
         device: args.device.as_deref(),
+        breakable: made.breakable,
         accept_truncated: args.accept_truncated || made.accept_truncated,
     };
     let plan = Plan::new(&ask)?;
@@ -217,6 +218,7 @@ struct Made<'a> {
     solver: Option<[u32; 2]>,
     seconds: Option<f64>,
     seed: Option<u64>,
+    breakable: bool,
     accept_truncated: bool,
 }
 
@@ -258,6 +260,7 @@ impl<'a> Made<'a> {
             scene: asked.scene.as_deref(),
             solver: asked.solver,
             seconds: asked.seconds,
+            breakable: asked.breakable,
             accept_truncated: asked.accept_truncated,
             ..made
         })

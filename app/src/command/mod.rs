@@ -2,6 +2,8 @@
 
 pub mod doctor;
 pub mod export;
+pub mod forget;
+mod keeping;
 pub mod pages;
 pub mod picture;
 mod plan;
@@ -37,6 +39,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Scenes(args) => scenes::run(args, format),
         Command::Vr(args) => vr::run(args, format),
         Command::Study(command) => vitriol_study::command::run(command, format),
+        Command::Forget(args) => forget::run(args, format),
         Command::Doctor => doctor::run(format),
         Command::Pages(args) => pages::run(args, format),
     }

@@ -1,7 +1,9 @@
 //! A replay before it runs: its track, scene, preset, solver and length, all checked.
 
+use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
 use vitriol_experiment::{Blame, Failure, Scenes, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
+use vitriol_xr::Switch;
 use vitriol_xr::track::{Track, limits};
 
 use crate::budget;
@@ -28,6 +30,8 @@ pub struct Ask<'a> {
     pub seed: Option<u64>,
     /// A device in place of the best.
     pub device: Option<&'a str>,
+    /// Glass breaks from the start.
+    pub breakable: bool,
     /// What is whole of a track will do.
     pub accept_truncated: bool,
 }
@@ -45,6 +49,7 @@ impl Ask<'_> {
             ),
             ("--solver", self.solver.is_some()),
             ("--budget-ms", self.budget_ms.is_some()),
+            ("--breakable", self.breakable && !breaks_glass(track)),
             ("--accept-truncated", self.accept_truncated),
             (
                 "--preset",
@@ -60,6 +65,15 @@ impl Ask<'_> {
 fn track_preset(track: &Track) -> Option<&str> {
     let parameters = &track.metadata.parameters;
     parameters.get(track::PRESET).map(String::as_str)
+}
+
+/// Whether the track's own glass breaks, from its first step to its last.
+fn breaks_glass(track: &Track) -> bool {
+    let first = track.frames.first();
+    let mut from_start = first.into_iter().flat_map(|frame| &frame.scenario);
+    let mut all = track.frames.iter().flat_map(|frame| &frame.scenario);
+    from_start.any(|switch| switch.key == SWITCH_GLASS)
+        && all.all(|switch| switch.key != SWITCH_GLASS || switch.value == GLASS[1])
 }
 
 /// What is to run.
@@ -108,6 +122,12 @@ impl Plan {
                 "the track's own changes of substeps and iterations are left out: it is replayed as asked for"
             );
         }
+        let breakable = ask.breakable && !breaks_glass(&track);
+        if breakable {
+            for frame in &mut track.frames {
+                frame.scenario.retain(|switch| switch.key != SWITCH_GLASS);
+            }
+        }
         let preset = preset_of(ask.preset, &track);
         let scene = scenes.get(&name)?.with_preset(preset);
         if is_recording(&track.metadata) {
@@ -115,6 +135,14 @@ impl Plan {
             for difference in differences(&track.metadata, (&name, &scenes), None, &asked) {
                 tracing::warn!("bits may differ: {difference}");
             }
+        }
+        // Only now, since it is no part of what was recorded.
+        if let Some(first) = track.frames.first_mut().filter(|_| breakable) {
+            let switch = Switch {
+                key: SWITCH_GLASS.into(),
+                value: GLASS[1].into(),
+            };
+            first.scenario.insert(0, switch);
         }
         let gpu = || device::open(ask.device);
         let chosen = budget::chosen(ask.solver, ask.budget_ms, &scene, gpu)?;
@@ -142,5 +170,46 @@ impl Plan {
             chosen,
             span,
         })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Glass breaks from the first step on where that is asked for, whatever the track says of it later, and else as the track says.
+    #[test]
+    fn glass_breaks_as_asked_for_or_as_recorded() {
+        let switches = |track: &str, breakable| {
+            let ask = Ask {
+                track,
+                breakable,
+                ..Ask::default()
+            };
+            let plan = Plan::new(&ask).unwrap();
+            let switches = plan.track.frames.iter().enumerate().flat_map(|(n, frame)| {
+                let glass = frame.scenario.iter().filter(|it| it.key == SWITCH_GLASS);
+                glass.map(move |it| (n, it.value.clone()))
+            });
+            switches.collect::<Vec<_>>()
+        };
+        let breaks = [(0, GLASS[1].to_owned())];
+        assert_eq!(switches("two-flasks", false), []);
+        assert_eq!(switches("two-flasks", true), breaks);
+        assert_eq!(switches("dropped", false), breaks);
+        assert_eq!(switches("dropped", true), breaks);
+
+        let mut track = track::load("dropped").unwrap();
+        assert!(breaks_glass(&track));
+        let holds = Switch {
+            key: SWITCH_GLASS.into(),
+            value: GLASS[0].into(),
+        };
+        track.frames[9].scenario.push(holds.clone());
+        assert!(!breaks_glass(&track));
+        track.frames[9].scenario.clear();
+        track.frames[0].scenario = vec![holds];
+        assert!(!breaks_glass(&track));
     }
 }

@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use serde::Serialize;
-use vitriol_experiment::output::{FILM, FILM_TEMPERATURE, OutDir, REPORT_HTML, REPORT_JSON};
+use vitriol_experiment::output::{
+    FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, REPORT_HTML, REPORT_JSON,
+};
 use vitriol_experiment::progress::Runs;
 use vitriol_experiment::track::{DEVICE, DRIVER, STATE_HASH};
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
@@ -13,11 +16,14 @@ use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
     Outcome, Sample, Scenes, Setup, emit, in_a_line,
 };
+use vitriol_lesson::{Attempt, Event, Rubric, Score, Texts, incidents_csv};
+use vitriol_record::{Session, Timestamp};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_xr::track::{TrackMetadata, TrackSource};
+use vitriol_xr::track::{Track, TrackMetadata, TrackSource};
 
 use crate::cli::{CameraName, ReplayArgs};
+use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::plan::{Ask, Plan};
 use crate::command::recorded::{differences, head, is_recording};
 use crate::command::stem;
@@ -34,6 +40,12 @@ struct Replayed {
     report: Report,
     report_json: String,
     report_html: String,
+    /// `None` of a run without attempts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    incidents_csv: Option<String>,
+    /// What was kept under a pseudonym.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<Kept>,
 }
 
 /// What `vitriol replay --json` prints of several tracks.
@@ -61,6 +73,10 @@ pub fn run(
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let bars = Runs::new(format);
+    if args.tracks.len() > 1 && args.keep.pseudonym.is_some() {
+        return Err("--pseudonym: several tracks are of several students; replay one at a time")
+            .input();
+    }
     if let [track] = &args.tracks[..] {
         let done = replay(args, track, args.out.clone(), &bars, &prepare)?;
         return emit(format, &done, describe);
@@ -127,6 +143,15 @@ fn replay(
         span,
     } = Plan::new(&ask)?;
     let head = head(args.camera, name, &track)?;
+    let asked = ask.otherwise(&track);
+    if let (true, Some(option)) = (args.keep.pseudonym.is_some(), asked.first()) {
+        return Err(format!(
+            "--pseudonym keeps what was recorded, and {option} asks for something else: leave one of them out"
+        ))
+        .input();
+    }
+    let keeper = keeping::keeper(&args.keep)?;
+    let session = sitting(name, &track);
     let colours = colours(args, &scene, &name_of_start)?;
     let mut out = OutDir::take(out.as_deref(), &stem(name))?;
     let mut experiment = prepare(&Setup {
@@ -146,13 +171,13 @@ fn replay(
     let recorded = is_recording(&track.metadata).then(|| Recorded {
         metadata: track.metadata.clone(),
         said: track.outcome.clone(),
-        asked: ask.otherwise(&track),
+        asked,
+        events: recorded_events(&track),
     });
 
-    let [width, height] = FILM_SIZE;
     let films = colours.iter().enumerate().map(|(index, _)| {
         let path = out.join(film_name(index));
-        Film::create(&path, width, height, FILM_FPS)
+        Film::with_sound(&path, FILM_SIZE, FILM_FPS)
     });
     let films = films.collect::<Result<_, _>>().other()?;
     let mut observer = Observer::new(span, films, bars.of(name, span));
@@ -183,17 +208,51 @@ fn replay(
         observations,
     );
     report.recording = recording;
+    let texts = Texts::english().other()?;
+    report.judge(&Rubric::default(), &texts);
     // The page first and the numbers last: a folder with `report.json` is a whole run.
-    out.write(REPORT_HTML, report.to_html().as_bytes())?;
+    out.write(REPORT_HTML, report.to_html(&texts).as_bytes())?;
+    let incidents = (!report.attempts.is_empty()).then_some(INCIDENTS_CSV);
+    if let Some(name) = incidents {
+        out.write(name, &incidents_csv(&report.attempts).other()?)?;
+    }
     out.write(REPORT_JSON, &serde_json::to_vec_pretty(&report).other()?)?;
 
-    let replayed = Replayed {
+    let mut replayed = Replayed {
+        kept: None,
         report: report.without_series(),
         report_json: out.join(REPORT_JSON).display().to_string(),
         report_html: out.join(REPORT_HTML).display().to_string(),
+        incidents_csv: incidents.map(|name| out.join(name).display().to_string()),
     };
+    let folder = out.join("");
     out.complete();
+    let sitting = Sitting {
+        session,
+        source: Some(Path::new(name)),
+        out: Some(&folder),
+    };
+    replayed.kept = keeping::keep_under(&args.keep, &keeper, &sitting, &replayed.report.attempts)?;
     Ok(replayed)
+}
+
+/// The sitting that a track was recorded in, which began as long before its file was written as it lasts; of a built-in track one of now.
+fn sitting(name: &str, track: &Track) -> Session {
+    let Ok(content) = std::fs::read(name) else {
+        return Session::now();
+    };
+    let written = Path::new(name).metadata().and_then(|it| it.modified()).ok();
+    let begun = written.and_then(|at| at.checked_sub(Duration::from_secs_f64(track.duration())));
+    let begun = begun.and_then(|at| Timestamp::try_from(at).ok());
+    Session::of_recording(&content, begun.unwrap_or_else(Timestamp::now))
+}
+
+/// What was found in the session; what is no event of this version is left out.
+fn recorded_events(track: &Track) -> Vec<Event> {
+    let events = track.events.iter();
+    events
+        .filter_map(|(_, json)| serde_json::from_str(json).ok())
+        .collect()
 }
 
 /// What the options ask for of a track.
@@ -207,6 +266,7 @@ fn ask<'a>(args: &'a ReplayArgs, track: &'a str) -> Ask<'a> {
         seconds: args.seconds,
         seed: args.seed,
         device: args.device.as_deref(),
+        breakable: args.breakable,
         accept_truncated: args.accept_truncated,
     }
 }
@@ -216,6 +276,7 @@ struct Recorded {
     metadata: TrackMetadata,
     said: BTreeMap<String, String>,
     asked: Vec<&'static str>,
+    events: Vec<Event>,
 }
 
 impl Recorded {
@@ -225,6 +286,7 @@ impl Recorded {
             metadata,
             said,
             asked,
+            events,
         } = self;
         let state_hash = said.get(STATE_HASH).cloned();
         let same = state_hash
@@ -237,6 +299,7 @@ impl Recorded {
             );
         }
         RecordingStatement {
+            same_events: (!events.is_empty()).then(|| events == outcome.events),
             program_version: metadata.program_version.clone(),
             device: metadata.parameters.get(DEVICE).cloned(),
             driver: metadata.parameters.get(DRIVER).cloned(),
@@ -302,6 +365,7 @@ fn assemble(
             scene: args.scene.clone(),
             solver: chosen,
             seconds: args.seconds,
+            breakable: args.breakable,
             accept_truncated: args.accept_truncated,
         }),
         preset: preset.name().into(),
@@ -328,6 +392,8 @@ fn assemble(
         counters: outcome.counters,
         recording: None,
         scenes_before: observations.scenes_before,
+        attempts: Attempt::all(outcome.events),
+        score: Vec::new(),
         series: observations.samples,
     }
 }
@@ -375,6 +441,9 @@ fn command_line(
         line.extend(value.map(|value| format!(" --{name} {value}")));
     }
     line += truncated;
+    if args.breakable {
+        line += " --breakable";
+    }
     if args.no_video {
         line += " --no-video";
     }
@@ -421,12 +490,23 @@ fn describe(done: &Replayed) -> String {
         format!("state {}", report.state_hash),
     ];
     lines.extend(report.recording.iter().map(RecordingStatement::text));
+    for ((attempt, score), number) in report.attempts.iter().zip(&report.score).zip(1..) {
+        let scene = in_a_line(&attempt.scene);
+        let Score { points, of, .. } = score;
+        lines.push(format!(
+            "attempt {number}, {scene}: {points} of {of} points"
+        ));
+    }
     lines.push(String::new());
     for film in report.film.iter().chain(&report.film_temperature) {
         lines.push(format!("film    {}", out.join(&film.path).display()));
     }
     lines.push(format!("report  {}", done.report_html));
+    if let Some(table) = &done.incidents_csv {
+        lines.push(format!("table   {table}"));
+    }
     lines.push(format!("numbers {}", done.report_json));
+    lines.extend(done.kept.iter().flat_map(Kept::lines));
     lines.join("\n")
 }
 

@@ -7,21 +7,28 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use serde::Serialize;
 use vitriol_experiment::units::{grouped, three_digits};
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, Scenes, device, emit, track};
-use vitriol_gpu::{Gpu, Timestamps};
+use vitriol_gpu::{Gpu, PlainLoader, Timestamps};
+use vitriol_lesson::Attempt;
+use vitriol_sound::Device;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
+use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::recorded::whole;
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
+use crate::vr::first_minute::FirstMinuteReport;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
 use crate::vr::panel::PANEL;
 use crate::vr::record::RecordingStatus;
-use crate::vr::session::{FramesWith, GovernorReport, Options, Session, SessionOutcome, WARM_UP};
+use crate::vr::session::{
+    Contacts, FramesWith, GovernorReport, Options, Session, SessionOutcome, SoundReport, Spilt,
+    WARM_UP,
+};
 use crate::vr::stand_in::{Ready, StandIn, StandInSpec, Timing};
-use crate::vr::tally::{Holdings, Spread};
+use crate::vr::tally::{FramesReport, Holdings, Spread, WaitsReport};
 use crate::vr::workbench::Plan;
 
 /// What `vitriol vr` prints at the session's end.
@@ -44,11 +51,19 @@ struct SessionReport {
     missed_frames: u64,
     /// Times that a lost session was found again.
     renewals: u64,
+    /// Times that a device was lost and the bench was brought back on another.
+    devices_lost: u32,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
+    /// Of these, frames with nothing beside them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frames_alone: Option<FramesReport>,
+    /// Frames while a bench or a picture was built on another thread.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frames_while_building: Option<FramesReport>,
     /// The solver's time on the device in a frame, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     gpu_solver_ms: Option<Spread>,
@@ -67,6 +82,25 @@ struct SessionReport {
     /// From the hand's pose to the flask in the picture, simulation steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_steps: Option<Spread>,
+    /// The same, displayed frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input_to_flask_frames: Option<Spread>,
+    /// Sound, and how much of it is buffered.
+    sound: SoundReport,
+    /// What lies beside the flasks at the end, real mL.
+    spilt_ml: Spilt,
+    /// Acid that touched the user.
+    acid_touched: Contacts,
+    /// Flasks that broke.
+    flasks_broken: u32,
+    /// What was done and what went wrong, from each start of a scene on.
+    attempts: Vec<Attempt>,
+    /// What was kept under a pseudonym.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<Kept>,
+    /// Which of the signs' four steps were done, and when.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_minute: Option<FirstMinuteReport>,
     /// What the process held after warming up and at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     holdings: Option<[Holdings; 2]>,
@@ -87,6 +121,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             scene: scenes.open(&args.scene)?,
             scenes,
             preset: args.preset,
+            breakable: args.breakable,
             seed: args.seed,
             solver: None,
             filter: None,
@@ -95,8 +130,11 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         grip: args.grip,
         frames: args.frames,
         record: args.record.clone(),
+        sound: sound(args),
         governed: !args.fixed,
+        hints: !args.no_hints,
     };
+    let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
     // Nobody reads what nobody governs or measures.
     let timestamps = if options.governed || options.frames.is_some() {
         Timestamps::Whole
@@ -119,8 +157,10 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 rate_hz: args.rate,
                 timing: Timing::Real,
             };
+            let opened = gpu.options().clone();
             let mut headset =
                 StandIn::new(&gpu, whole(wearer, track::load(wearer)?, true)?, spec).other()?;
+            headset = headset.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
             (worn(&mut headset)?, Some((spec, headset.ready())))
         }
         None => {
@@ -145,7 +185,44 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             (worn(&mut headset)?, None)
         }
     };
-    emit(format, &state(name, &outcome, stand_in)?, describe)
+    let mut report = state(name, &outcome, stand_in)?;
+    let sitting = Sitting {
+        session: sitting(args, begun),
+        source: args.record.as_deref(),
+        out: None,
+    };
+    let kept = keeping::keep_under(&args.keep, &keeper, &sitting, &report.attempts);
+    // What could not be kept is at least said.
+    let failure = match kept {
+        Ok(kept) => {
+            report.kept = kept;
+            None
+        }
+        Err(failure) => Some(failure),
+    };
+    emit(format, &report, describe)?;
+    failure.map_or(Ok(()), Err)
+}
+
+/// This sitting; with a recording that recording's, so that its replay keeps nothing twice.
+fn sitting(args: &VrArgs, begun: vitriol_record::Session) -> vitriol_record::Session {
+    let content = args
+        .record
+        .as_ref()
+        .and_then(|file| std::fs::read(file).ok());
+    content.map_or(begun, |content| {
+        vitriol_record::Session::of_recording(&content, begun.begun)
+    })
+}
+
+/// Where sound is played: nobody hears a stand-in unless an output is named.
+fn sound(args: &VrArgs) -> Device {
+    match args.sound.as_deref() {
+        Some("none") => Device::Silent,
+        Some(name) => Device::Named(name.to_owned()),
+        None if args.stand_in.is_some() => Device::Silent,
+        None => Device::Default,
+    }
 }
 
 /// A session that hears the computer's keys, and has a window there if it is to be `mirrored` and
@@ -229,14 +306,25 @@ fn state(
         slow_motion_s: outcome.slowed,
         missed_frames: outcome.skipped + late.count() as u64,
         renewals: outcome.renewals,
+        devices_lost: outcome.devices_lost,
         governor: outcome.governor.clone(),
         cpu_ms: Spread::of(&tally.cpu_ms),
+        frames_alone: tally.alone.report(),
+        frames_while_building: tally.building.report(),
         gpu_solver_ms: Spread::of(&tally.solve_ms),
         gpu_picture_ms: Spread::of(&tally.picture_ms),
         ready_ms: Spread::of(&counted),
         period_ms: period,
         pose_age_ms: Spread::of(&tally.pose_age_ms),
         input_to_flask_steps: Spread::of(&tally.delay_steps),
+        input_to_flask_frames: Spread::of(&tally.delay_frames),
+        sound: outcome.sound.clone(),
+        spilt_ml: outcome.spilt,
+        acid_touched: outcome.contacts,
+        flasks_broken: outcome.broken,
+        attempts: outcome.attempts.clone(),
+        kept: None,
+        first_minute: outcome.first_minute,
         holdings: match outcome.holdings {
             [Some(before), Some(after)] => Some([before, after]),
             _ => None,
@@ -267,6 +355,22 @@ fn governed(governor: &GovernorReport) -> String {
     text
 }
 
+/// "3 times, 0.12 ms in all, 0.08 ms at most".
+fn waited(waits: &WaitsReport) -> String {
+    let WaitsReport {
+        waits,
+        total_ms,
+        longest_ms,
+    } = waits;
+    if *waits == 0 {
+        return "never".into();
+    }
+    format!(
+        "{} times, {total_ms:.3} ms in all, {longest_ms:.3} ms at most",
+        grouped(*waits)
+    )
+}
+
 fn describe(session: &SessionReport) -> String {
     let mut text = format!(
         "{}\n{}, {} particles; {} steps, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
@@ -285,11 +389,16 @@ fn describe(session: &SessionReport) -> String {
     text += &governed(&session.governor);
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),
+        (
+            "  while one builds, ms",
+            session.frames_while_building.map(|frames| frames.cpu_ms),
+        ),
         ("device, solver, ms", session.gpu_solver_ms),
         ("device, picture, ms", session.gpu_picture_ms),
         ("from begin to done, ms", session.ready_ms),
         ("age of the eyes' pose, ms", session.pose_age_ms),
         ("hand to flask, steps", session.input_to_flask_steps),
+        ("hand to flask, frames", session.input_to_flask_frames),
     ];
     text += "                                median      95 %      99 %      most\n";
     for (name, spread) in rows {
@@ -301,6 +410,26 @@ fn describe(session: &SessionReport) -> String {
             );
         }
     }
+    for (kind, frames) in [
+        ("alone", session.frames_alone),
+        ("while one builds", session.frames_while_building),
+    ] {
+        if let Some(FramesReport {
+            frames,
+            queue_lock,
+            memory_lock,
+            ..
+        }) = frames
+        {
+            let _ = writeln!(
+                text,
+                "{} frames {kind}: waited for the queue {}, for memory {}",
+                grouped(frames),
+                waited(&queue_lock),
+                waited(&memory_lock)
+            );
+        }
+    }
     if let (Some(period), Some(ready)) = (session.period_ms, session.ready_ms) {
         let _ = writeln!(
             text,
@@ -308,6 +437,16 @@ fn describe(session: &SessionReport) -> String {
             period - ready.p99
         );
     }
+    let sound = &session.sound;
+    let _ = match (&sound.buffered_ms, &sound.cause) {
+        (Some(held), None) => writeln!(
+            text,
+            "sound: {held:.1} ms buffered, ran dry {} times",
+            sound.underflows
+        ),
+        (_, Some(cause)) => writeln!(text, "no sound: {cause}"),
+        (None, None) => Ok(()),
+    };
     if let Some([before, after]) = session.holdings {
         let _ = writeln!(
             text,

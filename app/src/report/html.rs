@@ -1,10 +1,11 @@
 //! `report.html`: one file that needs nothing but the film beside it.
 
 use maud::{Markup, PreEscaped, html};
-use vitriol_experiment::output::REPORT_JSON;
+use vitriol_experiment::output::{INCIDENTS_CSV, REPORT_JSON};
 use vitriol_experiment::page::{CURVE_COLOURS, page};
 use vitriol_experiment::units::{self, grouped, percent, three_digits, with_unit};
 use vitriol_experiment::{LedgerSample, Sample};
+use vitriol_lesson::Texts;
 
 use super::model::Report;
 use super::plot::{Curve, Plot, over_time};
@@ -13,38 +14,50 @@ use super::plot::{Curve, Plot, over_time};
 const AIR_DENSITY: f64 = 1.204;
 
 const SCRIPT: &str = include_str!("report.js");
+const STYLE: &str = include_str!("report.css");
 
 impl Report {
-    /// The report as a web page. Every string in it is escaped.
-    pub fn to_html(&self) -> String {
+    /// The report as a web page: what happened comes first, where anybody looked for it, and the solver's figures are folded below.
+    /// Every string in it is escaped.
+    pub fn to_html(&self, texts: &Texts) -> String {
+        let told = !self.attempts.is_empty();
         let body = html! {
             main {
-                (self.header())
-                (self.figures())
-                (self.film())
-                (self.whereabouts())
-                (self.plots())
-                (self.statements())
+                (self.header(told))
+                @if told { (self.happened(texts)) } @else { (self.film()) }
+                details.solver open[!told] {
+                    summary { h2 { "The solver's figures" } }
+                    @if told { p.lead { (self.run()) } }
+                    (self.figures())
+                    (self.whereabouts())
+                    (self.plots())
+                    (self.statements())
+                }
                 (self.footer())
             }
             script { (PreEscaped(SCRIPT)) }
         };
-        page(&self.heading(), "", &body)
+        page(&self.heading(), STYLE, &body)
     }
 
-    fn header(&self) -> Markup {
+    fn header(&self, told: bool) -> Markup {
         html! {
             header {
                 p.kicker { "Vitriol · replay of a recorded pour" }
                 h1 { (self.heading()) }
-                p.lead {
-                    (grouped(self.fluid_particles)) " particles of "
-                    (with_unit(self.scene.d_m, units::length(self.scene.d_m)))
-                    " for " (three_digits(self.simulated_s)) " s, on " (self.device.name) "."
-                    @if self.lost_particles == 0 && self.nan_particles == 0 {
-                        " None was lost."
-                    }
-                }
+                @if !told { p.lead { (self.run()) } }
+            }
+        }
+    }
+
+    /// What ran, and on what.
+    fn run(&self) -> Markup {
+        html! {
+            (grouped(self.fluid_particles)) " particles of "
+            (with_unit(self.scene.d_m, units::length(self.scene.d_m)))
+            " for " (three_digits(self.simulated_s)) " s, on " (self.device.name) "."
+            @if self.lost_particles == 0 && self.nan_particles == 0 {
+                " None was lost."
             }
         }
     }
@@ -106,21 +119,32 @@ impl Report {
 
     fn film(&self) -> Markup {
         html! {
-            @if let Some(film) = &self.film {
+            @if self.film.is_some() {
                 section {
                     h2 { "Film" }
-                    @for film in self.film.iter().chain(&self.film_temperature) {
-                        figure.film {
-                            figcaption { (caption(&film.colour)) }
-                            video src=(film.path) controls loop muted playsinline
-                                width=(film.width) height=(film.height) {}
-                        }
-                    }
-                    p.note {
-                        (film.width) " × " (film.height) ", " (film.fps) " Hz, "
-                        (grouped(film.frames))
-                        " frames. A click into a plot below goes to that moment."
-                    }
+                    (self.films())
+                }
+            }
+        }
+    }
+
+    /// The film, and that of temperature.
+    pub(super) fn films(&self) -> Markup {
+        html! {
+            @for film in self.film.iter().chain(&self.film_temperature) {
+                figure.film {
+                    figcaption { (caption(&film.colour)) }
+                    video src=(film.path) controls loop playsinline
+                        width=(film.width) height=(film.height) {}
+                }
+            }
+            @if let Some(film) = &self.film {
+                p.note {
+                    (film.width) " × " (film.height) ", " (film.fps) " Hz, "
+                    (grouped(film.frames))
+                    " frames. "
+                    @if self.attempts.is_empty() { "A click into a plot below goes to that moment." }
+                    @else { "A time beside the words goes to that moment, as does a click into a plot." }
                 }
             }
         }
@@ -238,6 +262,9 @@ impl Report {
                     h2 { "Counted" }
                     table { tbody {
                         (row("Substeps", &grouped(self.counters.substeps)))
+                        @if self.counters.flasks_broken > 0 {
+                            (row("Flasks that broke", &grouped(self.counters.flasks_broken)))
+                        }
                         @if self.counters.solver_changes > 0 {
                             (row("Changes of substeps and iterations", &grouped(self.counters.solver_changes)))
                         }
@@ -270,7 +297,11 @@ impl Report {
                 pre { code { (self.command) } }
                 @if let Some(recording) = &self.recording { p { (recording.text()) } }
                 p { "Hash of the final state " code { (self.state_hash) } ". All numbers: "
-                    a href=(REPORT_JSON) { (REPORT_JSON) } "." }
+                    a href=(REPORT_JSON) { (REPORT_JSON) } "."
+                    @if !self.attempts.is_empty() {
+                        " What went wrong, as a table: " a href=(INCIDENTS_CSV) { (INCIDENTS_CSV) } "."
+                    }
+                }
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The report of a run: `report.json` for programs, `report.html` for people.
 
 mod curves;
+mod happened;
 mod html;
 mod model;
 mod plot;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
+use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_sim::scene::Scene;
 
 /// How a run stands to the recording that it replays.
@@ -20,6 +21,9 @@ pub struct RecordingStatement {
     pub state_hash: Option<String>,
     /// Whether the run ended in that state, to the bit.
     pub same_state: Option<bool>,
+    /// Whether the run found what the session did, to the bit; `None` of a recording that says nothing of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub same_events: Option<bool>,
     /// In what the run is known to differ; its bits may differ then.
     pub differs: Vec<String>,
 }
@@ -41,6 +45,11 @@ impl RecordingStatement {
             in_a_line(&self.program_version),
             in_a_line(device)
         );
+        text += match self.same_events {
+            Some(true) => ", and so is all that happened",
+            Some(false) => "; what happened is not what was recorded",
+            None => "",
+        };
         if !self.differs.is_empty() {
             text += &format!("\nbits may differ: {}", self.differs.join("; "));
         }
@@ -114,6 +123,12 @@ pub struct Report {
     /// Scenes that the run brought up before the one that `series` is of.
     #[serde(default)]
     pub scenes_before: u32,
+    /// What its student did, by attempt. Empty where nobody looked for it, and in reports of older versions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attempts: Vec<Attempt>,
+    /// The score of each of `attempts`, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub score: Vec<Score>,
     /// The run over time. Empty in what `vitriol replay --json` prints, whole
     /// in `report.json`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -129,6 +144,9 @@ pub struct AskedStatement {
     pub solver: Option<[u32; 2]>,
     /// Simulated time, s.
     pub seconds: Option<f64>,
+    /// Glass that breaks.
+    #[serde(default)]
+    pub breakable: bool,
     /// What is whole of a track.
     pub accept_truncated: bool,
 }
@@ -238,6 +256,12 @@ impl Report {
             required.push("layout".into());
         }
         schema
+    }
+
+    /// Scores its attempts.
+    pub fn judge(&mut self, rubric: &Rubric, texts: &Texts) {
+        let attempts = self.attempts.iter();
+        self.score = attempts.map(|it| Score::of(it, rubric, texts)).collect();
     }
 
     /// The report without its time series, as `vitriol replay --json` prints

@@ -1,10 +1,14 @@
-// Ties the plots to the films: a line marks in each plot the moment of the film
-// that moved last, a click into a plot goes there in all. Without a film the
-// plots simply stand.
+// Ties words and plots to the films: a link such as #t=3.2 goes to that second in
+// all of them, also as the address's end. A line marks in each plot the moment of
+// the film that moved last, a click into a plot goes there. Without a film they
+// simply stand.
 (() => {
   const films = [...document.querySelectorAll("video")];
   if (!films.length) return;
   let film = films[0];
+  const seek = (t) => {
+    for (const each of films) each.currentTime = t;
+  };
   const marks = [...document.querySelectorAll(".canvas")].map((canvas) => {
     const svg = canvas.querySelector("svg");
     const { left, right, from, to } = canvas.dataset;
@@ -18,7 +22,7 @@
       const box = svg.getBoundingClientRect();
       const x = ((event.clientX - box.left) / box.width) * svg.viewBox.baseVal.width;
       const share = Math.min(1, Math.max(0, (x - left) / (right - left)));
-      for (const each of films) each.currentTime = Number(from) + share * (to - from);
+      seek(Number(from) + share * (to - from));
     });
     return { line, left: Number(left), right: Number(right), from: Number(from), to: Number(to) };
   });
@@ -37,4 +41,16 @@
         show();
       });
   show();
+  const goTo = (fragment) => {
+    const [, t] = fragment.match(/^#t=(\d+(?:\.\d+)?)$/) ?? [];
+    if (t === undefined) return;
+    seek(Number(t));
+    // On a narrow page the film is far above the words.
+    films[0].scrollIntoView({ block: "nearest" });
+  };
+  // A second click on the same link changes no address.
+  for (const link of document.querySelectorAll("a.moment"))
+    link.addEventListener("click", () => goTo(link.hash));
+  addEventListener("hashchange", () => goTo(location.hash));
+  goTo(location.hash);
 })();

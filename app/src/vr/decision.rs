@@ -9,6 +9,8 @@ pub enum Decision {
     Start,
     /// The bench before the user.
     Recentre,
+    /// What happened, or the panel as it was.
+    Summary,
     /// The session's end.
     End,
     /// The same, if it is asked for twice: a key is soon pressed by mistake.

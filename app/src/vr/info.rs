@@ -1,5 +1,7 @@
 //! What a session says of itself, on the panel and in the mirror window's title.
 
+use vitriol_lesson::Tone;
+
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
@@ -9,6 +11,14 @@ pub struct Info {
     pub flasks: Vec<FlaskLine>,
     /// Whether there is acid, whose tint is explained.
     pub acid: bool,
+    /// What lies beside the flasks.
+    pub spilt: Lying,
+    /// Whether acid has touched the left hand, the right hand, the face.
+    pub burns: [bool; 3],
+    /// What can be heard, in words.
+    pub heard: Option<String>,
+    /// Whether the device was lost a short time ago, and all is on another one.
+    pub device_lost: bool,
     /// Speed of simulated time in per cent of real time; `None` at full speed.
     pub slow: Option<u32>,
     /// Seconds that are recorded; `None` without a recording.
@@ -27,6 +37,68 @@ pub struct Info {
     pub holding: Option<u32>,
     /// The end was asked for once.
     pub ends: bool,
+    /// What happened in the attempt, for who asks.
+    pub happened: Option<Happened>,
+}
+
+/// What happened in an attempt, as far as it fits the panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Happened {
+    /// What it is.
+    pub title: String,
+    /// Points, of how many; `None` where nothing could be judged.
+    pub points: Option<String>,
+    /// Sentences.
+    pub said: Vec<(Tone, String)>,
+    /// That some do not fit.
+    pub more: Option<String>,
+    /// Of the button that ends it.
+    pub back: String,
+}
+
+/// Liquid beside the flasks, in tenths of a mL: as much as is said of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lying {
+    bench: u32,
+    floor: u32,
+}
+
+impl Lying {
+    /// Of so many mL.
+    pub fn of(bench: f64, floor: f64) -> Self {
+        let tenths = |millilitres: f64| (10.0 * millilitres).round() as u32;
+        Self {
+            bench: tenths(bench),
+            floor: tenths(floor),
+        }
+    }
+
+    /// In a sentence; `None` where all is in its place.
+    pub fn text(&self) -> Option<String> {
+        let places = [(self.bench, "on the bench"), (self.floor, "on the floor")];
+        let said = places.into_iter().filter(|(tenths, _)| *tenths > 0);
+        let parts: Vec<_> = said
+            .map(|(tenths, place)| match tenths {
+                // A drop has some 0.05 mL.
+                ..10 => format!("0.{tenths} mL {place}"),
+                _ => format!("{} mL {place}", (tenths + 5) / 10),
+            })
+            .collect();
+        (!parts.is_empty()).then(|| format!("spilt: {}", parts.join(", ")))
+    }
+}
+
+/// Where acid has touched the user, in a sentence, of left hand, right hand and face; `None` where nowhere.
+pub fn burns_text(burns: [bool; 3]) -> Option<String> {
+    let places = ["the left glove", "the right glove", "your face"];
+    let touched: Vec<_> = (places.into_iter().zip(burns))
+        .filter_map(|(place, touched)| touched.then_some(place))
+        .collect();
+    match touched.split_last() {
+        None => None,
+        Some((last, [])) => Some(format!("acid on {last}")),
+        Some((last, rest)) => Some(format!("acid on {} and {last}", rest.join(", "))),
+    }
 }
 
 /// A flask's line.
@@ -34,6 +106,8 @@ pub struct Info {
 pub struct FlaskLine {
     /// Its name.
     pub name: String,
+    /// Whether it has broken.
+    pub broken: bool,
     /// Mean temperature of its liquid, whole °C; `None` where heat is not modelled or it is empty.
     pub temperature: Option<i32>,
     /// Acid by mass, whole per cent.
@@ -78,5 +152,32 @@ impl Effort {
         }
         let how = if self.finer { "finer again" } else { "coarser" };
         format!("{how}: {}", parts.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_spilt_is_said_to_the_drop_and_then_to_the_millilitre() {
+        let text = |bench, floor| Lying::of(bench, floor).text();
+        assert_eq!(text(0.0, 0.04), None);
+        assert_eq!(
+            text(0.31, 0.0).as_deref(),
+            Some("spilt: 0.3 mL on the bench")
+        );
+        let both = Some("spilt: 12 mL on the bench, 2 mL on the floor");
+        assert_eq!(text(12.4, 1.5).as_deref(), both);
+    }
+
+    #[test]
+    fn where_acid_is_is_said() {
+        assert_eq!(burns_text([false; 3]), None);
+        let one = burns_text([false, false, true]);
+        assert_eq!(one.as_deref(), Some("acid on your face"));
+        let all = burns_text([true; 3]);
+        let said = "acid on the left glove, the right glove and your face";
+        assert_eq!(all.as_deref(), Some(said));
     }
 }

@@ -27,6 +27,8 @@ pub const CHOICES: [Choice; 6] = [
 pub const START: char = 'b';
 /// Key of [`Decision::Recentre`].
 pub const RECENTRE: char = 'a';
+/// Key of [`Decision::Summary`].
+pub const SUMMARY: char = 's';
 /// Key of [`Decision::AskEnd`].
 pub const END: char = 'q';
 
@@ -40,6 +42,7 @@ pub fn decision(key: char) -> Option<Decision> {
     match key {
         START => Some(Decision::Start),
         RECENTRE => Some(Decision::Recentre),
+        SUMMARY => Some(Decision::Summary),
         END => Some(Decision::AskEnd),
         _ => {
             let chosen = CHOICES.iter().find(|choice| choice.key == key);
@@ -55,7 +58,7 @@ pub fn lines() -> String {
         text += &format!("\n  {key}  {title}");
     }
     text + &format!(
-        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {END}  end, pressed twice"
+        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened\n  {END}  end, pressed twice"
     )
 }
 
@@ -73,6 +76,7 @@ mod tests {
             assert_eq!(decided, Decision::Scene(choice.scene.into()));
         }
         assert_eq!(decision('B'), Some(Decision::Start));
+        assert_eq!(decision('s'), Some(Decision::Summary));
         assert_eq!(decision('x'), None);
     }
 }

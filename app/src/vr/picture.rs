@@ -2,18 +2,20 @@
 
 use glam::Affine3A;
 use vitriol_experiment::hands::{Gloves, Joints};
-use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of};
+use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of, shards};
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Buffer, CopyRegion, Gpu, QueueKind, Recorder, Ticket};
+use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
 use vitriol_render::{
-    Bone, ColourBy, Fov, FrameDesc, LiquidDesc, RenderDesc, RenderError, Renderer, SteamSource,
-    View,
+    Bone, ColourBy, Fov, FrameDesc, LiquidDesc, Panel, RenderDesc, RenderError, Renderer,
+    SteamSource, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, PoseFrame, Targets};
+
+use super::panel::{SIZE, scene_from_panel};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
 /// poses that it draws with older by then.
@@ -76,6 +78,14 @@ pub struct Sight<'a> {
     pub views: [View; 2],
     /// The bones of the hands.
     pub hands: [&'a [Bone]; 2],
+    /// The panel.
+    pub panel: Option<Panel<'a>>,
+    /// A sign.
+    pub sign: Option<Panel<'a>>,
+    /// How much acid is on the user's goggles, 0 to 1.
+    pub goggles: f32,
+    /// Share of the light that is shown, 0 to 1.
+    pub shown: f32,
 }
 
 impl Picture {
@@ -162,8 +172,8 @@ impl Picture {
         gpu.submit_after(rec, before.as_slice()).other()
     }
 
-    /// Submits the rest of the picture behind its `shapes`, and its copy to `targets`; `also` records what else is to be
-    /// done behind it.
+    /// Submits the rest of the picture behind its `shapes`, and its copy to `targets`; `before` records what is to be done
+    /// before it.
     ///
     /// # Errors
     /// What the device says.
@@ -173,10 +183,11 @@ impl Picture {
         shapes: &Ticket,
         sight: &Sight<'_>,
         targets: &Targets,
-        also: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
+        before: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
     ) -> Result<Ticket, Failure> {
         let (gpu, slot) = (world.gpu(), self.drawn % 2);
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
+        before(&mut rec)?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_picture(&mut rec, frame, slot);
         self.with_frame(world, Some(sight), record)?;
         rec.copy_image(self.renderer.image(), &targets.colour)
@@ -184,7 +195,6 @@ impl Picture {
         if let Some(depth) = &targets.depth {
             rec.copy_to_image(self.renderer.depth(), depth).other()?;
         }
-        also(&mut rec)?;
         let picture = gpu.submit_after(rec, &[shapes]).other()?;
         self.drawn += 1;
         self.under_way.push(picture.clone());
@@ -215,7 +225,7 @@ impl Picture {
     }
 
     /// The colour image, a layer an eye.
-    pub fn image(&self) -> &vitriol_gpu::Image {
+    pub fn image(&self) -> &Image {
         self.renderer.image()
     }
 
@@ -235,6 +245,7 @@ impl Picture {
             extent: sight.map(|sight| sight.extent),
             views: &sight.map_or([nowhere; 2], |sight| sight.views),
             vessels: &vessels,
+            shards: &shards(world),
             particles: None,
             hands: sight.map_or([&[]; 2], |sight| sight.hands),
             liquid: Some(liquid_of(world)),
@@ -242,6 +253,10 @@ impl Picture {
                 puffs: &puffs[self.drawn % 2],
                 count: PUFFS,
             }),
+            panel: sight.and_then(|sight| sight.panel),
+            sign: sight.and_then(|sight| sight.sign),
+            shown: sight.map_or(1.0, |sight| sight.shown),
+            goggles: sight.map_or(0.0, |sight| sight.goggles),
             colour_by: ColourBy::Acid,
             length_scale: scale,
         };
@@ -249,14 +264,25 @@ impl Picture {
     }
 }
 
+/// A pose as the renderer takes it.
+fn affine_of(pose: &Pose) -> Affine3A {
+    Affine3A::from_rotation_translation(pose.orientation.normalize(), pose.position)
+}
+
+/// The panel as the renderer takes it, in the scene's stage.
+pub fn panel(image: &Image) -> Panel<'_> {
+    Panel {
+        image,
+        stage_from_panel: affine_of(&scene_from_panel()),
+        size: SIZE,
+    }
+}
+
 /// An eye as the renderer takes it, in the scene's stage.
 pub fn eye(view: &vitriol_xr::View, stage_from_scene: &Pose) -> View {
     let scene_from_eye = stage_from_scene.inverse().compose(&view.stage_from_eye);
     View {
-        stage_from_eye: Affine3A::from_rotation_translation(
-            scene_from_eye.orientation.normalize(),
-            scene_from_eye.position,
-        ),
+        stage_from_eye: affine_of(&scene_from_eye),
         fov: Fov {
             left: view.fov.left,
             right: view.fov.right,

@@ -3,7 +3,7 @@
 //! A scene has its own stage, with the table's top at 0.75 m and a user at the origin who looks along
 //! −Z. It is laid into the headset's stage, `stage_from_scene`, so that the table's top lies as far
 //! below the eyes as it does for a grown person who sits or stands at a bench, and turned to where
-//! she looks. Bodies, liquid, picture and recording are in the scene's stage: a recording holds what the steps
+//! she looks. A handle at its edge changes its height (`handle`), and recentring keeps that. Bodies, liquid, picture and recording are in the scene's stage: a recording holds what the steps
 //! consumed, and a replay needs no placement. The track keeps it as a switch all the same, so that one can tell
 //! where in the room the bench was.
 
@@ -13,18 +13,20 @@ use glam::{EulerRot, Quat, Vec3};
 use vitriol_experiment::switches::SWITCH_PLACEMENT;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
+use super::handle::DROPS;
+
 /// Height of the eyes above a table at which one sits, m: a seated grown person's eyes are some
 /// 1.20 m above the floor (0.79 m above a seat of 0.42 m: NASA-STD-3000, eye height, sitting), a
 /// table is 0.75 m high.
-const SEATED: f32 = 0.45;
+pub const SEATED: f32 = 0.45;
 /// Height of the eyes above a bench at which one stands, m: eyes at 1.58 m (mean of men and women:
 /// NASA-STD-3000, eye height, standing), a laboratory bench at 0.90 m.
-const STANDING: f32 = 0.68;
+pub const STANDING: f32 = 0.68;
 /// Height of the eyes above the floor from which on the user is taken to stand, m: between tall people who sit and
 /// small ones who stand.
 const STANDS: f32 = 1.38;
 /// Height of the table's top in a scene, real metres.
-const SCENE_TABLE: f32 = 0.75;
+pub const SCENE_TABLE: f32 = 0.75;
 /// How far a head may have gone while no frame was shown, m and rad, for the bench to stay: as far as one leans and looks
 /// round. Farther off, someone else wears the headset, or the runtime has moved the stage.
 const LEANT: f32 = 0.7;
@@ -46,6 +48,8 @@ pub enum Posture {
 #[derive(Clone, Debug)]
 pub struct Placement {
     posture: Posture,
+    /// Height of the eyes above the table's top, m, where the user has chosen it by a handle.
+    chosen: Option<f32>,
     /// `None` until the user has been seen.
     stage_from_scene: Option<Pose>,
     /// The last frame in the headset's stage, where this one's steps begin; `None` where that would be
@@ -60,6 +64,7 @@ impl Placement {
     pub fn new(posture: Posture) -> Self {
         Self {
             posture,
+            chosen: None,
             stage_from_scene: None,
             last: None,
             interrupted: None,
@@ -90,15 +95,35 @@ impl Placement {
         let interrupted = self.interrupted.take();
         let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
         if asked || elsewhere || !self.is_known() {
-            self.stage_from_scene = Some(before(&now.stage_from_view, self.posture));
+            self.stage_from_scene = Some(before(&now.stage_from_view, self.posture, self.chosen));
         } else if interrupted.is_none() {
             return None;
         }
         self.last = None;
-        Some(Switch {
+        Some(self.switch())
+    }
+
+    /// Moves the bench up by so much (m), as far as the table's top stays as far below the eyes as it may; further off
+    /// than that it only comes nearer. `Some` where it moves: seen from the bench, the hands leap by as much in the next step.
+    pub fn raise(&mut self, now: &PoseFrame, by: f32) -> Option<Switch> {
+        let placed = self.stage_from_scene.as_mut()?;
+        let eyes = now.stage_from_view.position.y;
+        let drop = eyes - placed.position.y - SCENE_TABLE;
+        let [least, most] = [DROPS[0].min(drop), DROPS[1].max(drop)];
+        let wanted = (drop - by).clamp(least, most);
+        if !wanted.is_finite() || wanted == drop {
+            return None;
+        }
+        placed.position.y = eyes - wanted - SCENE_TABLE;
+        self.chosen = Some(wanted);
+        Some(self.switch())
+    }
+
+    fn switch(&self) -> Switch {
+        Switch {
             key: SWITCH_PLACEMENT.into(),
             value: as_text(&self.stage_from_scene()),
-        })
+        }
     }
 
     /// The last frame, in the scene's stage.
@@ -128,14 +153,15 @@ fn yaw_of(stage_from_view: &Pose) -> f32 {
 }
 
 /// `stage_from_scene` for a user whose head is there.
-fn before(stage_from_view: &Pose, posture: Posture) -> Pose {
+fn before(stage_from_view: &Pose, posture: Posture, chosen: Option<f32>) -> Pose {
     let head = stage_from_view.position;
     let stands = match posture {
         Posture::Auto => head.y > STANDS,
         Posture::Seated => false,
         Posture::Standing => true,
     };
-    let drop = if stands { STANDING } else { SEATED };
+    let usual = if stands { STANDING } else { SEATED };
+    let drop = chosen.unwrap_or(usual);
     Pose::new(
         Vec3::new(head.x, head.y - drop - SCENE_TABLE, head.z),
         Quat::from_rotation_y(yaw_of(stage_from_view)),
@@ -196,7 +222,7 @@ mod tests {
             (0.0, Posture::Auto, -0.45),
         ] {
             for (yaw, pitch) in [(0.0, 0.0), (0.7, -0.6), (-2.5, 0.4), (3.0, -1.57)] {
-                let placed = before(&head(y, yaw, pitch), posture);
+                let placed = before(&head(y, yaw, pitch), posture, None);
                 let table = placed.transform_point(Vec3::new(0.0, SCENE_TABLE, -0.4));
                 assert!((table.y - top).abs() < 1e-5, "{y} {posture:?}: {table}");
                 let ahead = Quat::from_rotation_y(yaw) * Vec3::NEG_Z * 0.4;
@@ -252,9 +278,38 @@ mod tests {
         }
     }
 
+    /// By as much as the hand moves, within its limits, and from beyond them only towards them. Recentring keeps it.
+    #[test]
+    fn the_bench_is_raised_within_reach() {
+        let sits = |y: f32| seen(Pose::new(Vec3::Y * y, Quat::IDENTITY));
+        let mut placement = Placement::new(Posture::Seated);
+        assert!(placement.raise(&sits(1.2), 0.1).is_none(), "no bench yet");
+        placement.place(&sits(1.2), false);
+        placement.last = Some(sits(1.2));
+        let mut raise = |eyes: f32, by: f32| {
+            let leaps = placement.raise(&sits(eyes), by).is_some();
+            assert!(placement.last.is_some(), "steps go on");
+            let table = placement.stage_from_scene().position.y + SCENE_TABLE;
+            (leaps, (1000.0 * (eyes - table)).round())
+        };
+        assert_eq!(raise(1.2, 0.1), (true, 350.0));
+        assert_eq!(raise(1.2, 0.1), (true, 300.0));
+        assert_eq!(raise(1.2, 0.1), (false, 300.0));
+        assert_eq!(raise(1.2, f32::NAN), (false, 300.0));
+        assert_eq!(raise(1.2, -2.0), (true, 800.0));
+        // She gets up, and stoops.
+        assert_eq!(raise(1.6, -0.1), (false, 1200.0));
+        assert_eq!(raise(1.6, 0.1), (true, 1100.0));
+        assert_eq!(raise(0.7, 0.1), (false, 200.0));
+        assert_eq!(raise(0.7, -0.2), (true, 400.0));
+        placement.place(&sits(1.1), true);
+        let table = placement.stage_from_scene().position.y + SCENE_TABLE;
+        assert!((table - 0.7).abs() < 1e-5, "{table}");
+    }
+
     #[test]
     fn the_scene_sees_what_the_stage_sees() {
-        let placed = before(&head(1.3, 1.0, 0.0), Posture::Auto);
+        let placed = before(&head(1.3, 1.0, 0.0), Posture::Auto, None);
         let hand = Hand {
             stage_from_grip: Pose::new(Vec3::new(0.1, 0.9, -0.5), Quat::from_rotation_z(0.4)),
             ..Hand::default()

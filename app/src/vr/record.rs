@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use serde::Serialize;
 use vitriol_experiment::track::BROKEN_OFF;
-use vitriol_xr::track::{Existing, TrackError, TrackMetadata, TrackWriter};
+use vitriol_lesson::Event;
+use vitriol_xr::track::{Annex, Existing, TrackError, TrackMetadata, TrackWriter};
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
 /// Steps that may wait for the disk: those of some five seconds, which is how long a disk that sleeps takes to wake.
@@ -21,9 +22,14 @@ const BETWEEN_TRIES: Duration = Duration::from_millis(500);
 
 const BROKE_DOWN: &str = "the recorder broke down; report it";
 
-/// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
-/// end, which is no step.
-type Entry = (PoseFrame, Option<Vec<Pose>>);
+/// What waits to be written.
+enum Entry {
+    /// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
+    /// end, which is no step.
+    Step(Box<PoseFrame>, Option<Vec<Pose>>),
+    /// Something that was found: time of the track (ns), and an object as JSON.
+    Event(i64, String),
+}
 
 /// Where steps are written to.
 pub trait Sink: Send {
@@ -32,6 +38,12 @@ pub trait Sink: Send {
     /// # Errors
     /// As for [`TrackWriter::write`]: after [`TrackError::Io`] it waits for the disk, else it was not taken.
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError>;
+
+    /// Takes something that was found at that time of the track (ns), an object as JSON.
+    ///
+    /// # Errors
+    /// As for [`Sink::write`].
+    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError>;
 
     /// Frames that are in the file.
     fn written(&self) -> u64;
@@ -49,6 +61,12 @@ pub type Said = BTreeMap<String, String>;
 impl Sink for TrackWriter {
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError> {
         Self::write(self, frame, flasks)
+    }
+
+    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError> {
+        static SCHEMA: LazyLock<String> = LazyLock::new(Event::schema);
+        let schema = &SCHEMA;
+        Self::add(self, time_ns, &Annex::Event { json, schema })
     }
 
     fn written(&self) -> u64 {
@@ -95,6 +113,8 @@ pub struct TrackRecording {
     outcome: Arc<Mutex<Said>>,
     /// Switches of steps for which the queue was full. They go with the next step that is queued.
     switches: Vec<Switch>,
+    /// Likewise what was found meanwhile.
+    events: Vec<(i64, String)>,
     /// The last step, for the frame that marks the end.
     last: Option<PoseFrame>,
 }
@@ -123,6 +143,7 @@ impl TrackRecording {
             done,
             outcome,
             switches: Vec::new(),
+            events: Vec::new(),
             last: None,
         }
     }
@@ -137,13 +158,37 @@ impl TrackRecording {
         let Some(queue) = &self.queue else {
             return;
         };
-        let (frame, cause) = match queue.try_send((frame, Some(flasks))) {
-            Ok(()) => return,
-            Err(TrySendError::Full((frame, _))) => (frame, "the disk did not keep up"),
-            Err(TrySendError::Disconnected((frame, _))) => (frame, BROKE_DOWN),
+        let (entry, cause) = match queue.try_send(Entry::Step(Box::new(frame), Some(flasks))) {
+            Ok(()) => return self.queue_events(),
+            Err(TrySendError::Full(entry)) => (entry, "the disk did not keep up"),
+            Err(TrySendError::Disconnected(entry)) => (entry, BROKE_DOWN),
         };
-        self.switches = frame.scenario;
+        if let Entry::Step(frame, _) = entry {
+            self.switches = frame.scenario;
+        }
         lock(&self.done).lose(cause.into());
+    }
+
+    /// Queues something that was found at that time of the track (ns), an object as JSON; where the queue is full, it goes with the next
+    /// step that is queued. Does not wait.
+    pub fn found(&mut self, time_ns: i64, json: String) {
+        self.events.push((time_ns, json));
+        self.queue_events();
+    }
+
+    fn queue_events(&mut self) {
+        let Some(queue) = &self.queue else {
+            return;
+        };
+        let mut events = std::mem::take(&mut self.events).into_iter();
+        for (time_ns, json) in events.by_ref() {
+            let sent = queue.try_send(Entry::Event(time_ns, json));
+            if let Err(TrySendError::Full(Entry::Event(time_ns, json))) = sent {
+                self.events.push((time_ns, json));
+                break;
+            }
+        }
+        self.events.extend(events);
     }
 
     /// How it stands.
@@ -164,7 +209,10 @@ impl TrackRecording {
                 ..last
             };
             // No frame is open any more, so it may wait. A thread that has ended has said why.
-            let _ = queue.send((end, None));
+            let _ = queue.send(Entry::Step(Box::new(end), None));
+            for (time_ns, json) in std::mem::take(&mut self.events) {
+                let _ = queue.send(Entry::Event(time_ns, json));
+            }
         }
         self.close();
         lock(&self.done).clone()
@@ -218,8 +266,11 @@ impl<'a> Recorder<'a> {
     }
 
     fn run(mut self, entries: &Receiver<Entry>, outcome: &Mutex<Said>) {
-        for (frame, flasks) in entries {
-            self.take(frame, flasks);
+        for entry in entries {
+            match entry {
+                Entry::Step(frame, flasks) => self.take(*frame, flasks),
+                Entry::Event(time_ns, json) => self.add(time_ns, &json),
+            }
             self.count();
         }
         let mut outcome = outcome
@@ -277,6 +328,15 @@ impl<'a> Recorder<'a> {
                     done.lose(chain(&error));
                 }
             }
+        }
+    }
+
+    fn add(&mut self, time_ns: i64, json: &str) {
+        match self.sink.add(time_ns, json) {
+            Ok(()) => {}
+            Err(error @ TrackError::Io { .. }) => self.wait(&error),
+            // A replay finds it again.
+            Err(error) => tracing::warn!("not recorded: {json}: {}", chain(&error)),
         }
     }
 

@@ -6,10 +6,16 @@ mod choices;
 mod counts;
 mod ended;
 mod frame;
+mod hints;
+mod keeper;
+mod losses;
 mod pacing;
 mod readings;
 mod repaint;
+mod sounds;
+mod spills;
 mod steps;
+mod summary;
 mod track;
 
 use std::path::PathBuf;
@@ -18,31 +24,47 @@ use std::time::Instant;
 
 use vitriol_experiment::device::statement;
 use vitriol_experiment::hands::Joints;
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
+use vitriol_experiment::{Blame, Failure, Looks};
 use vitriol_gpu::Timestamps;
-use vitriol_xr::{Headset, Pause, Turn};
+use vitriol_lesson::Attempt;
+use vitriol_render::Bone;
+use vitriol_sound::Device;
+use vitriol_xr::{Headset, Pause, Switch, Turn};
 
 use super::blame::blame;
 use super::decision::Decision;
+use super::fade::Fade;
+use super::first_minute::FirstMinuteReport;
+use super::handle::Handles;
 use super::latch::{Grip, Latches};
 use super::mirror::{Mirror, Window};
 use super::panel::Panel;
 use super::placement::{Placement, Posture};
 use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
+use super::texts::Texts;
 use super::workbench::{Plan, Workbench};
 
 use benches::Benches;
 use choices::Choices;
 use counts::Counts;
 use ended::NoFrameOpen;
+use hints::Hints;
+use keeper::Keeper;
+use losses::Losses;
 use pacing::Pacing;
 use readings::Readings;
+use sounds::Sounds;
+use spills::Spills;
 use steps::Steps;
-use track::SessionTrack;
+use summary::Summary;
+use track::{Finished, SessionTrack};
 
 pub use counts::WARM_UP;
 pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_RESOLUTION};
+pub use sounds::SoundReport;
+pub use spills::{Contacts, Spilt, Touched};
 
 /// What a session is to be.
 #[derive(Clone, Debug)]
@@ -57,8 +79,12 @@ pub struct Options {
     pub frames: Option<u64>,
     /// The track to be made.
     pub record: Option<PathBuf>,
+    /// Where sound is played.
+    pub sound: Device,
     /// Whether a governor gives solver and picture less to do where frames would not fit the display's period.
     pub governed: bool,
+    /// Whether signs show a first user what to do.
+    pub hints: bool,
 }
 
 /// A session as it ends.
@@ -77,14 +103,28 @@ pub struct SessionOutcome {
     pub skipped: u64,
     /// Times that a session was found again.
     pub renewals: u64,
+    /// Times that a device was lost, and the bench was brought back on another.
+    pub devices_lost: u32,
     /// Times of the frames that count.
     pub tally: Tally,
     /// What the governor did in the frames that count.
     pub governor: GovernorReport,
     /// What the process held when counting began, and at the end.
     pub holdings: [Option<Holdings>; 2],
+    /// What became of the sound.
+    pub sound: SoundReport,
+    /// What lies beside the flasks, and acid that touched the user.
+    pub spilt: Spilt,
+    /// See [`Contacts`].
+    pub contacts: Contacts,
+    /// Flasks that broke.
+    pub broken: u32,
+    /// What was done of a first minute; `None` without hints.
+    pub first_minute: Option<FirstMinuteReport>,
     /// What became of the recording, if there was one.
     pub recorded: Option<RecordingStatus>,
+    /// What was done and what went wrong, from each start of a scene on.
+    pub attempts: Vec<Attempt>,
 }
 
 /// See the module. Each part keeps one thing and knows no other part but those that it is handed.
@@ -95,16 +135,34 @@ pub struct Session {
     choices: Choices,
     /// Where the bench stands, and the last frame's poses.
     placement: Placement,
+    /// How much of the light is shown.
+    fade: Fade,
+    /// The table's handles.
+    handles: Handles,
     /// Where one press grips and the next lets go.
     latches: Option<Latches>,
     /// Joints of the hands that are bare in the last frame, in the scene's stage.
     joints: [Option<Joints>; 2],
     /// Steps that are due.
     steps: Steps,
+    /// Looks at the bench before, of which some are under way.
+    ending: Option<Looks>,
     /// The recording, with simulated time and the switches of the next step.
     track: SessionTrack,
     /// What the panel says of the flasks.
     readings: Readings,
+    /// What the bench is brought back from where the device is lost.
+    keeper: Keeper,
+    /// What was spilt, and on whom.
+    spills: Spills,
+    /// What the user hears.
+    sounds: Sounds,
+    /// What a first user is shown.
+    hints: Hints,
+    /// What happened, for who asks.
+    summary: Summary,
+    /// The bones of the hands as they were drawn last, in the scene's stage, real metres.
+    gloves: [Vec<Bone>; 2],
     /// The panel.
     panel: Panel,
     /// The window on the computer, if there is one.
@@ -116,6 +174,11 @@ pub struct Session {
     /// Frames after which it ends, those of the warm-up included.
     most: Option<u64>,
     renewals: u64,
+    losses: Losses,
+    /// What is said, in the user's language.
+    texts: Texts,
+    /// Flasks that broke.
+    broken: u32,
 }
 
 impl Session {
@@ -136,25 +199,48 @@ impl Session {
         let timed = gpu.options().timestamps != Timestamps::None;
         let tally = Tally::new(counts, timed && (counts || pacing.report.on));
         let panel = Panel::new(gpu, &benches.library)?;
+        let toggles = options.grip == Grip::Toggle;
+        let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
         let mut track =
             SessionTrack::new(options.record.as_deref(), &options.plan, &statement(gpu))?;
+        if options.plan.breakable {
+            track.switch(Switch {
+                key: SWITCH_GLASS.into(),
+                value: GLASS[1].into(),
+            });
+        }
         pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
+        let scene = benches.current.world.scene();
+        let steps = Steps::new(&benches.current.plan.scene, scene);
+        let sounds = Sounds::new(options.sound, scene, options.plan.seed);
         Ok(Self {
             benches,
             choices: Choices::new(decisions),
             placement: Placement::new(options.posture),
-            latches: (options.grip == Grip::Toggle).then(Latches::default),
+            fade: Fade::default(),
+            handles: Handles::default(),
+            latches: toggles.then(Latches::default),
             joints: [None; 2],
-            steps: Steps::new(),
+            steps,
+            ending: None,
             track,
             readings: Readings::default(),
+            sounds,
+            hints,
+            summary: Summary::new()?,
+            keeper: Keeper::default(),
+            spills: Spills::default(),
+            gloves: [const { Vec::new() }; 2],
             panel,
             mirror: None,
             pacing,
             counts: Counts::new(tally),
             most: options.frames.map(|frames| WARM_UP + frames),
             renewals: 0,
+            losses: Losses::default(),
+            texts: Texts::english()?,
+            broken: 0,
         })
     }
 
@@ -179,9 +265,18 @@ impl Session {
             if self.choices.hear(Instant::now()) {
                 headset.request_exit().map_err(blame)?;
             }
-            match headset.next().map_err(blame)? {
+            let turn = match headset.next() {
+                Ok(turn) => turn,
+                Err(error) => {
+                    self.bear(headset, blame(error))?;
+                    continue;
+                }
+            };
+            match turn {
                 Turn::Frame(frame) => {
-                    self.frame(headset, &frame)?;
+                    if let Err(failure) = self.frame(headset, &frame) {
+                        self.bear(headset, failure)?;
+                    }
                     if self.most.is_some_and(|most| self.counts.frames >= most) {
                         headset.request_exit().map_err(blame)?;
                     }
@@ -198,11 +293,23 @@ impl Session {
                 }
                 Turn::Renewed => {
                     lost = false;
-                    self.renew(headset)?;
+                    if let Err(failure) = self.renew(headset) {
+                        self.bear(headset, failure)?;
+                    }
                 }
                 Turn::Ended => return self.finish(),
             }
         }
+    }
+
+    /// A device that is lost is no end: the headset gets another one, and the bench is brought back on it.
+    fn bear(&mut self, headset: &mut dyn Headset, failure: Failure) -> Result<(), Failure> {
+        if !headset.gpu().is_lost() || !self.losses.may_go_on(self.counts.frames) {
+            return Err(failure);
+        }
+        tracing::warn!("{failure}; another device is opened");
+        headset.lose_device();
+        Ok(())
     }
 
     /// The headset shows nothing, for this reason: time stands still.
@@ -214,17 +321,28 @@ impl Session {
         self.steps.clock.pause();
         self.placement.interrupt();
         self.counts.pause();
-        self.catch_up(&NoFrameOpen::in_a_turn_without())
+        match self.catch_up(&NoFrameOpen::in_a_turn_without()) {
+            // Nothing comes from it any more; what is due is taken on the next one.
+            Err(_) if self.benches.current.world.gpu().is_lost() => Ok(()),
+            caught_up => caught_up,
+        }
     }
 
     /// Moves everything to the headset's new device.
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
         self.pause("the headset was lost")?;
         self.renewals += 1;
+        if !self.benches.current.world.gpu().is_lost() {
+            self.take_looks(1e-9 * self.shown_at() as f64, true)?;
+        }
         let gpu = headset.gpu();
-        self.benches.move_to(headset)?;
+        if self.benches.move_to(headset)? {
+            self.losses.brought_back(self.counts.frames);
+        }
+        self.keeper.forget();
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
         self.panel = Panel::new(gpu, library)?;
+        self.hints.move_to(gpu, library)?;
         if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;
         }
@@ -233,17 +351,31 @@ impl Session {
         self.pacing.forget_rates();
         self.counts.tally.restart();
         self.steps.submitted();
-        self.readings.under_way = None;
+        self.steps.looks.forget();
+        if let Some(looks) = &mut self.ending {
+            looks.forget();
+        }
+        // What a lost device has left due belongs to the hands as they were before.
+        let no_frame = NoFrameOpen::in_a_turn_without();
+        let world = &mut self.benches.current.world;
+        self.steps.take_rest(world, &mut self.track, &no_frame)?;
+        self.steps.submitted();
         Ok(())
     }
 
     fn finish(mut self) -> Result<SessionOutcome, Failure> {
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
+        self.take_looks(1e-9 * self.shown_at() as f64, true)?;
+        self.track.found(self.steps.looks.end());
         self.benches.current.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
         let world = &self.benches.current.world;
         let hash = || Ok(world.snapshot().other()?.solver.hash());
-        let (time, recorded) = self.track.finish(hash)?;
+        let Finished {
+            time,
+            events,
+            recorded,
+        } = self.track.finish(hash)?;
         Ok(SessionOutcome {
             bench: self.benches.current,
             steps: time.steps(),
@@ -252,10 +384,17 @@ impl Session {
             frames: self.counts.frames,
             skipped: self.counts.skipped,
             renewals: self.renewals,
+            devices_lost: self.losses.count,
             tally: self.counts.tally,
             governor: self.pacing.report,
+            sound: self.sounds.report(),
+            spilt: self.spills.spilt,
+            contacts: self.spills.contacts,
+            broken: self.broken,
+            first_minute: self.hints.report(),
             holdings: [self.counts.began_with, Holdings::now()],
             recorded,
+            attempts: Attempt::all(events),
         })
     }
 }

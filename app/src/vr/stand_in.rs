@@ -85,7 +85,14 @@ pub struct StandIn {
     pub felt: [f32; 2],
     compositor: Option<Compositor>,
     name: String,
+    /// Opens another device where the present one is lost.
+    reopens: Option<Reopens>,
+    /// Whether it is.
+    lost: bool,
 }
+
+/// Opens a device.
+type Reopens = Box<dyn FnMut() -> Result<Gpu, GpuError>>;
 
 /// Waits for pictures on a thread of its own, since the frame loop must not.
 struct Compositor {
@@ -123,7 +130,15 @@ impl StandIn {
                 gpu.info().name
             ),
             spec,
+            reopens: None,
+            lost: false,
         })
+    }
+
+    /// The same, which goes on with what `reopens` opens where its device is lost.
+    pub fn reopening(mut self, reopens: impl FnMut() -> Result<Gpu, GpuError> + 'static) -> Self {
+        self.reopens = Some(Box::new(reopens));
+        self
     }
 
     /// Goes on with another device, as after a loss.
@@ -237,12 +252,20 @@ impl Headset for StandIn {
         if self.leaving {
             return Ok(Turn::Ended);
         }
+        if std::mem::take(&mut self.lost) {
+            let reopens = self.reopens.as_mut();
+            let lost = GpuError::DeviceLost { last_pass: None };
+            let gpu = reopens.ok_or(lost).and_then(|reopens| reopens())?;
+            self.move_to(&gpu)?;
+            return Ok(Turn::Renewed);
+        }
         self.pace();
         let frame = HeadsetFrame {
             index: self.index,
             poses: self.poses()?,
             should_render: true,
             recentred: false,
+            lost: false,
             joints: [None, None],
         };
         self.index += 1;
@@ -285,6 +308,10 @@ impl Headset for StandIn {
         Ok(())
     }
 
+    fn lose_device(&mut self) {
+        self.lost = true;
+    }
+
     fn rates(&self) -> &[f32] {
         &self.rates
     }
@@ -307,9 +334,9 @@ impl Compositor {
         let writes = Arc::clone(&seen);
         let thread = std::thread::spawn(move || {
             for (index, begin, ticket) in queue {
-                // The frame loop reports a lost device.
+                // The frame loop reports a lost device, and goes on with another.
                 if ticket.wait().is_err() {
-                    return;
+                    continue;
                 }
                 let after = begin.elapsed();
                 let mut seen = writes.lock().unwrap_or_else(PoisonError::into_inner);

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use serde::Serialize;
-use vitriol_gpu::Ticket;
+use vitriol_gpu::{LockWaits, Ticket, Waits};
 
 use vitriol_experiment::{Blame, Failure, Ranks};
 
@@ -38,11 +38,17 @@ impl Spread {
 pub struct Tally {
     /// Processor time from a frame's begin to its end, ms.
     pub cpu_ms: Vec<f64>,
+    /// Of these, frames with nothing beside them.
+    pub alone: Frames,
+    /// Frames while a bench or a picture was built on another thread.
+    pub building: Frames,
     /// From the eyes' location to the submission of the picture, ms.
     pub pose_age_ms: Vec<f64>,
     /// From the time of the hands' poses that the flasks in the picture follow to the picture's display time,
     /// simulation steps.
     pub delay_steps: Vec<f64>,
+    /// The same, display periods.
+    pub delay_frames: Vec<f64>,
     /// A frame's work on the device on the solver's queue, ms: its steps and the picture's part that
     /// reads them.
     pub solve_ms: Vec<f64>,
@@ -54,6 +60,61 @@ pub struct Tally {
     timed: bool,
     pending: VecDeque<Submitted>,
     loads: Vec<FrameLoad>,
+}
+
+/// Frames of one kind: with something beside them, or alone.
+#[derive(Clone, Debug, Default)]
+pub struct Frames {
+    /// Processor time from begin to end of each, ms.
+    pub cpu_ms: Vec<f64>,
+    /// What all of them waited for other threads between begin and end.
+    pub waits: LockWaits,
+}
+
+/// The same as `vitriol vr --json` prints it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FramesReport {
+    /// How many.
+    pub frames: u64,
+    /// Processor time from begin to end, ms.
+    pub cpu_ms: Spread,
+    /// Waits for a queue that another thread was submitting to.
+    pub queue_lock: WaitsReport,
+    /// Waits for device memory that another thread was allocating or freeing.
+    pub memory_lock: WaitsReport,
+}
+
+/// Waits of a frame's thread for others.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WaitsReport {
+    /// How many in all frames.
+    pub waits: u64,
+    /// All of them, ms.
+    pub total_ms: f64,
+    /// The longest, ms.
+    pub longest_ms: f64,
+}
+
+impl Frames {
+    /// What is reported of them; `None` where there were none.
+    pub fn report(&self) -> Option<FramesReport> {
+        Some(FramesReport {
+            frames: self.cpu_ms.len() as u64,
+            cpu_ms: Spread::of(&self.cpu_ms)?,
+            queue_lock: WaitsReport::of(&self.waits.queue),
+            memory_lock: WaitsReport::of(&self.waits.memory),
+        })
+    }
+}
+
+impl WaitsReport {
+    fn of(waits: &Waits) -> Self {
+        Self {
+            waits: waits.count,
+            total_ms: 1e3 * waits.total.as_secs_f64(),
+            longest_ms: 1e3 * waits.longest.as_secs_f64(),
+        }
+    }
 }
 
 /// A frame's submissions.
@@ -92,18 +153,27 @@ impl Tally {
         }
     }
 
-    /// Takes a frame's processor time, ms.
-    pub fn frame(&mut self, cpu_ms: f64) {
+    /// Takes a frame's processor time (ms) and what it waited for other threads, while something was `built` by one of
+    /// them or not.
+    pub fn frame(&mut self, cpu_ms: f64, waits: &LockWaits, built: bool) {
         if self.counts {
             self.cpu_ms.push(cpu_ms);
+            let frames = if built {
+                &mut self.building
+            } else {
+                &mut self.alone
+            };
+            frames.cpu_ms.push(cpu_ms);
+            frames.waits.add(waits);
         }
     }
 
-    /// Takes a picture's age of the eyes' pose (ms) and delay of the flasks (steps).
-    pub fn picture(&mut self, pose_age_ms: f64, delay_steps: f64) {
+    /// Takes a picture's age of the eyes' pose (ms) and delay of the flasks (steps), of which a display period has so many.
+    pub fn picture(&mut self, pose_age_ms: f64, delay_steps: f64, steps_a_frame: f64) {
         if self.counts {
             self.pose_age_ms.push(pose_age_ms);
             self.delay_steps.push(delay_steps);
+            self.delay_frames.push(delay_steps / steps_a_frame);
         }
     }
 

@@ -26,6 +26,8 @@ pub struct Plan {
     pub solver: Option<[u32; 2]>,
     /// Filter of the liquid's surface in place of the scene's, if the governor has changed it.
     pub filter: Option<PictureFilter>,
+    /// Whether glass breaks.
+    pub breakable: bool,
     /// Seed of the initial jitter.
     pub seed: u64,
 }
@@ -57,10 +59,14 @@ impl Workbench {
         scene = scene.with_effort(plan.solver.unwrap_or(of_preset));
         let ladder = Ladder::of(&scene, budget::balanced(&loaded));
         scene.picture.filter = plan.filter.unwrap_or(scene.picture.filter);
-        let world = World::new(gpu, library, &scene, plan.seed).map_err(|error| match error {
-            WorldError::Fill(_) => Failure::Input(format!("{}: {error}", plan.scene).into()),
-            _ => Failure::Other(error.into()),
-        })?;
+        let mut world =
+            World::new(gpu, library, &scene, plan.seed).map_err(|error| match error {
+                WorldError::Fill(_) => Failure::Input(format!("{}: {error}", plan.scene).into()),
+                _ => Failure::Other(error.into()),
+            })?;
+        world.set_breakable(plan.breakable);
+        // A session outlives its device.
+        world.follow();
         Ok(Self {
             plan: plan.clone(),
             ladder,

@@ -17,6 +17,7 @@ use vitriol::vr::workbench::Plan;
 use vitriol_experiment::Scenes;
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::Preset;
+use vitriol_sound::Device;
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::track::{Keyframes, Track};
 use vitriol_xr::{Headset, HeadsetError, HeadsetFrame, Pose, Shown, Side, Targets, Turn, View};
@@ -76,6 +77,10 @@ pub trait Trouble {
     }
     /// In a frame that has begun, after so many before it.
     fn frame(&mut self, _frame: &mut HeadsetFrame, _after: u64) {}
+    /// In a frame after its steps, and behind its end.
+    fn acquires(&mut self, _after: u64) {}
+    /// See [`Trouble::acquires`].
+    fn ends(&mut self, _after: u64) {}
     /// Whether something has still to come after so many frames: until it does, frames do not count.
     fn awaits(&self, _after: u64) -> bool {
         false
@@ -104,8 +109,18 @@ pub struct Worn<T> {
 
 impl<T: Trouble> Worn<T> {
     pub fn new(gpu: &Gpu, track: Track, rate_hz: f64, frames: u64, trouble: T) -> Self {
+        Self::of_extent(gpu, track, [96, 64], (rate_hz, frames), trouble)
+    }
+    /// The same with larger pictures, for so many frames a second and altogether.
+    pub fn of_extent(
+        gpu: &Gpu,
+        track: Track,
+        extent: [u32; 2],
+        (rate_hz, frames): (f64, u64),
+        trouble: T,
+    ) -> Self {
         let spec = StandInSpec {
-            extent: [96, 64],
+            extent,
             rate_hz,
             timing: Timing::Free,
         };
@@ -160,6 +175,7 @@ impl<T: Trouble> Headset for Worn<T> {
         Ok(turn)
     }
     fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        self.trouble.acquires(self.after - 1);
         self.inner.acquire(panel)
     }
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
@@ -168,10 +184,15 @@ impl<T: Trouble> Headset for Worn<T> {
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
         self.felt.push(self.inner.felt);
-        self.inner.end(shown)
+        let ended = self.inner.end(shown);
+        self.trouble.ends(self.after - 1);
+        ended
     }
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
         self.inner.vibrate(side, amplitude)
+    }
+    fn lose_device(&mut self) {
+        self.inner.lose_device();
     }
     fn rates(&self) -> &[f32] {
         self.inner.rates()
@@ -197,6 +218,7 @@ pub fn options(folder: &Path) -> Options {
             scene: scenes.open(scene(folder).to_str().unwrap()).unwrap(),
             scenes,
             preset: Preset::Balanced,
+            breakable: false,
             seed: 3,
             solver: None,
             filter: None,
@@ -207,6 +229,9 @@ pub fn options(folder: &Path) -> Options {
         record: Some(folder.join("session.mcap")),
         // What a software driver takes is no matter to most.
         governed: false,
+        sound: Device::Silent,
+        // Most look at other things.
+        hints: false,
     }
 }
 

@@ -1,15 +1,23 @@
 //! Sessions on the stand-in, with the validation layer on, and what their recordings replay to.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod breaks;
 mod common;
+mod contention;
+mod fade;
+mod first_minute;
+mod handle;
 mod hands;
 mod leap;
 mod loss;
 #[cfg(target_os = "linux")]
 mod mirror;
+mod one_hand;
 mod pace;
 mod panel;
 mod pour;
 mod recording;
 mod rules;
+mod seen;
+mod spills;
 mod switches;

@@ -5,18 +5,20 @@ use std::sync::mpsc::channel;
 use crate::common::{Trouble, Worn, heard, pour, session};
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
-use vitriol::vr::info::{Effort, FlaskLine, Info};
+use vitriol::vr::info::{Effort, FlaskLine, Happened, Info, Lying};
 use vitriol::vr::menu::CHOICES;
 use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_lesson::Tone;
 use vitriol_shaders::Library;
 use vitriol_tests::gpu;
 use vitriol_xr::{Hand, HeadsetFrame, Pose};
 
 fn info() -> Info {
     let flask = |name: &str, temperature, acid| FlaskLine {
+        broken: false,
         name: name.into(),
         temperature,
         acid,
@@ -28,6 +30,10 @@ fn info() -> Info {
             flask("target", Some(117), Some(71)),
         ],
         acid: true,
+        spilt: Lying::of(12.3, 0.4),
+        burns: [true, false, true],
+        device_lost: true,
+        heard: Some("[pouring, simmering: bubbles collapse]".into()),
         slow: Some(60),
         recording: Some(75),
         waits_for_disk: true,
@@ -44,6 +50,7 @@ fn info() -> Info {
         coming: Some("acid-into-water".into()),
         holding: Some(65),
         ends: true,
+        happened: None,
     }
 }
 
@@ -57,6 +64,12 @@ fn picture(gpu: &Gpu, panel: &mut Panel) -> Vec<u8> {
 
 /// A hand half a metre before the panel that points at a pixel of it.
 fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
+    let from = scene_from_panel().transform_point(Vec3::new(0.1, -0.2, 0.5));
+    pointing_from(from, [x, y], trigger)
+}
+
+/// The same of a hand at a place of the scene's stage.
+fn pointing_from(from: Vec3, [x, y]: [f32; 2], trigger: f32) -> Hand {
     let metres = WIDTH / PANEL[0] as f32;
     let at = Vec3::new(
         (x - 0.5 * PANEL[0] as f32) * metres,
@@ -64,7 +77,6 @@ fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
         0.0,
     );
     let target = scene_from_panel().transform_point(at);
-    let from = scene_from_panel().transform_point(Vec3::new(0.1, -0.2, 0.5));
     let turn = Quat::from_rotation_arc(Vec3::NEG_Z, (target - from).normalize());
     Hand {
         active: true,
@@ -76,7 +88,13 @@ fn pointing(x: f32, y: f32, trigger: f32) -> Hand {
 }
 
 /// Points somewhere, pulls the trigger for so long (s) and lets it go; what that decided.
-fn press(panel: &mut Panel, [x, y]: [f32; 2], seconds: f64) -> Option<Decision> {
+fn press(panel: &mut Panel, at: [f32; 2], seconds: f64) -> Option<Decision> {
+    let from = scene_from_panel().transform_point(Vec3::new(0.1, -0.2, 0.5));
+    press_from(panel, from, at, seconds)
+}
+
+/// The same of a hand at a place of the scene's stage.
+pub fn press_from(panel: &mut Panel, from: Vec3, at: [f32; 2], seconds: f64) -> Option<Decision> {
     let mut decided = None;
     // Ten frames a second.
     let pulled = (10.0 * seconds) as i64;
@@ -86,7 +104,7 @@ fn press(panel: &mut Panel, [x, y]: [f32; 2], seconds: f64) -> Option<Decision> 
         } else {
             0.0
         };
-        let hand = pointing(x, y, trigger);
+        let hand = pointing_from(from, at, trigger);
         let now = 100_000_000 * frame;
         let said = panel.update([None, Some(&hand)], &info(), now);
         assert!(decided.is_none() || said.is_none(), "pressed twice");
@@ -116,9 +134,11 @@ fn each_choice_can_be_pressed() {
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     // What would lose the user's work takes a second.
     let scenes = CHOICES.map(|choice| Decision::Scene(choice.scene.into()));
-    let all = [&scenes[..], &[Decision::Start, Decision::Recentre]].concat();
+    let others = [Decision::Start, Decision::Recentre, Decision::Summary];
+    let all = [&scenes[..], &others].concat();
     assert_eq!(down_the_buttons(&mut panel, 1.2), all);
-    assert_eq!(down_the_buttons(&mut panel, 0.8), [Decision::Recentre]);
+    let at_once = [Decision::Recentre, Decision::Summary];
+    assert_eq!(down_the_buttons(&mut panel, 0.8), at_once);
     // A trigger that is pulled before the hand comes in presses nothing.
     for (now, x) in (0..).zip([2000.0, 768.0, 768.0]) {
         let hand = pointing(x, 60.0, 1.0);
@@ -189,6 +209,75 @@ fn the_last_trigger_decides_whose_hand_points() {
     assert_eq!(decided, []);
 }
 
+fn keep(name: &str, picture: &[u8]) {
+    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
+        let file = std::path::Path::new(&keep).join(format!("{name}.png"));
+        let [width, height] = PANEL;
+        image::save_buffer(file, picture, width, height, image::ColorType::Rgba8).unwrap();
+    }
+}
+
+/// As much as is ever said fits, the button that ends it is under it and can be pressed, and nothing else can.
+#[test]
+fn what_happened_fits_the_panel() {
+    let gpu = gpu::device();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
+    let sentence =
+        "Water was poured into 98 % acid, the wrong order: 20 mL in 0.53 s, at most 40 mL/s.";
+    let tones = [Tone::Bad, Tone::Good, Tone::Plain];
+    let mut said: Vec<_> = (0..7)
+        .map(|n| (tones[n % 3], sentence.to_owned()))
+        .collect();
+    said.push((Tone::Plain, "At the end: 178 mL, at 56 °C.".into()));
+    let info = Info {
+        happened: Some(Happened {
+            title: "What happened".into(),
+            points: Some("45 of 100 points".into()),
+            said,
+            more: Some("3 more in the report".into()),
+            back: "Back".into(),
+        }),
+        holding: None,
+        ..info()
+    };
+    let mut pressed = Vec::new();
+    let [width, height] = PANEL;
+    for y in (0..height).step_by(16) {
+        for (n, trigger) in (0..).zip([0.0, 0.0, 1.0, 0.0]) {
+            let hand = pointing(0.2 * width as f32, y as f32, trigger);
+            let now = i64::from(y) * 1_000_000_000 + 100_000_000 * n;
+            pressed.extend(
+                panel
+                    .update([None, Some(&hand)], &info, now)
+                    .map(|it| (y, it)),
+            );
+        }
+        panel.update(
+            [None, None],
+            &info,
+            i64::from(y) * 1_000_000_000 + 900_000_000,
+        );
+    }
+    let rows: Vec<u32> = pressed.iter().map(|(y, _)| *y).collect();
+    assert!(
+        pressed.iter().all(|(_, it)| *it == Decision::Summary),
+        "{pressed:?}"
+    );
+    // All of the button is on the panel: 46 pixels, and a margin of 22.
+    assert!(
+        rows.len() >= 2 && rows.iter().all(|y| *y < height - 22),
+        "{rows:?}"
+    );
+    let shown = picture(&gpu, &mut panel);
+    keep("what-happened", &shown);
+    // Nothing runs over the margin.
+    let ground = &shown[..4];
+    for row in shown.chunks_exact(4 * width as usize) {
+        let margin = row[4 * (width as usize - 20)..].chunks_exact(4);
+        assert!(margin.into_iter().all(|pixel| pixel == ground));
+    }
+}
+
 #[test]
 fn the_panel_is_legible() {
     let gpu = gpu::device();
@@ -196,11 +285,7 @@ fn the_panel_is_legible() {
     let hand = pointing(700.0, 150.0, 0.0);
     panel.update([None, Some(&hand)], &info(), 0);
     let shown = picture(&gpu, &mut panel);
-    if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-        let file = std::path::Path::new(&keep).join("panel.png");
-        let [width, height] = PANEL;
-        image::save_buffer(file, &shown, width, height, image::ColorType::Rgba8).unwrap();
-    }
+    keep("panel", &shown);
     let luminance = |pixel: &[u8]| {
         let linear = |byte: u8| (f32::from(byte) / 255.0).powf(2.2);
         0.2126 * linear(pixel[0]) + 0.7152 * linear(pixel[1]) + 0.0722 * linear(pixel[2])
@@ -215,6 +300,17 @@ fn the_panel_is_legible() {
     let before = shown;
     panel.update([None, Some(&hand)], &info(), 0);
     assert_eq!(picture(&gpu, &mut panel), before);
+}
+
+/// A place within the button that decides this, pixels, found by pressing.
+pub fn place_of(gpu: &Gpu, decision: &Decision) -> [f32; 2] {
+    let mut panel = Panel::new(gpu, &Library::embedded()).unwrap();
+    panel.update([None, None], &info(), 0);
+    let x = 0.75 * PANEL[0] as f32;
+    let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);
+    let y = rows.find(|&y| press(&mut panel, [x, y], 1.2).as_ref() == Some(decision));
+    // Not at its edge.
+    [x, y.unwrap() + 15.0]
 }
 
 /// Points at a button of the panel, and presses it.
@@ -238,15 +334,8 @@ impl Trouble for Points {
 #[test]
 fn a_hand_presses_the_panel_in_a_session() {
     let gpu = gpu::device();
-    // Where the button is, found as above.
-    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    panel.update([None, None], &info(), 0);
-    let x = 0.75 * PANEL[0] as f32;
-    let mut rows = (30..PANEL[1]).step_by(6).map(|y| y as f32);
-    let y = rows.find(|&y| press(&mut panel, [x, y], 1.2) == Some(Decision::Start));
     let trouble = Points {
-        // Within the button, not at its edge.
-        at: [x, y.unwrap() + 15.0],
+        at: place_of(&gpu, &Decision::Start),
     };
     let folder = tempfile::tempdir().unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 120, trouble);

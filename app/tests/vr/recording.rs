@@ -15,6 +15,7 @@ struct Disk {
     asked: Sender<()>,
     allowed: Receiver<()>,
     written: Arc<Mutex<Vec<PoseFrame>>>,
+    found: Arc<Mutex<Vec<(i64, String)>>>,
     full_after: usize,
 }
 
@@ -35,6 +36,11 @@ impl Sink for Disk {
         Ok(())
     }
 
+    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError> {
+        self.found.lock().unwrap().push((time_ns, json.to_owned()));
+        Ok(())
+    }
+
     fn written(&self) -> u64 {
         self.written.lock().unwrap().len() as u64
     }
@@ -48,16 +54,19 @@ impl Sink for Disk {
 fn disk(full_after: usize) -> (Box<Disk>, Hold) {
     let ((ask, asked), (allow, allowed)) = (channel(), channel());
     let written = Arc::<Mutex<Vec<PoseFrame>>>::default();
+    let found = Arc::<Mutex<Vec<(i64, String)>>>::default();
     let disk = Disk {
         asked: ask,
         allowed,
         written: Arc::clone(&written),
+        found: Arc::clone(&found),
         full_after,
     };
     let hold = Hold {
         asked,
         allow,
         written,
+        found,
     };
     (Box::new(disk), hold)
 }
@@ -66,6 +75,7 @@ struct Hold {
     asked: Receiver<()>,
     allow: Sender<()>,
     written: Arc<Mutex<Vec<PoseFrame>>>,
+    found: Arc<Mutex<Vec<(i64, String)>>>,
 }
 
 fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
@@ -95,20 +105,25 @@ fn a_full_queue_delays_nobody_and_is_counted() {
     let ((), took) = own_time(|| {
         for step in 1..20 {
             recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
+            recording.found(step as i64, format!("{{\"n\":{step}}}"));
         }
     });
     assert!(took < Duration::from_secs(1), "it took {took:?}");
     let state = recording.state();
-    assert_eq!((state.steps, state.unwritten), (0, 15));
+    // Two of the four places are taken by what was found.
+    assert_eq!((state.steps, state.unwritten), (0, 17));
     assert!(state.cause.unwrap().contains("did not keep up"));
     drop(hold.allow);
     let state = recording.finish(20, 20, Said::new());
-    assert_eq!((state.steps, state.unwritten), (5, 15));
+    assert_eq!((state.steps, state.unwritten), (3, 17));
     let written = hold.written.lock().unwrap();
     let steps: Vec<u64> = written.iter().map(|frame| frame.step).collect();
-    assert_eq!(steps, [0, 1, 2, 3, 4, 20]);
+    assert_eq!(steps, [0, 1, 2, 20]);
     // What was switched in a step that is missing is not: a replay would be another scene's.
-    assert_eq!(written[5].scenario[0].value, "x");
+    assert_eq!(written[3].scenario[0].value, "x");
+    // Nothing that was found is missing.
+    let found: Vec<i64> = hold.found.lock().unwrap().iter().map(|it| it.0).collect();
+    assert_eq!(found, (1..20).collect::<Vec<_>>());
 }
 
 /// What a recorder cannot take leaves a file that says so, without the hash of a state that it does not lead to; what
@@ -139,6 +154,10 @@ struct FullAtTheEnd(u32);
 
 impl Sink for FullAtTheEnd {
     fn write(&mut self, _: &PoseFrame, _: &[Pose]) -> Result<(), TrackError> {
+        Ok(())
+    }
+
+    fn add(&mut self, _: i64, _: &str) -> Result<(), TrackError> {
         Ok(())
     }
 

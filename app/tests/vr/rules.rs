@@ -5,9 +5,9 @@
 use std::sync::mpsc::{Sender, channel};
 
 use crate::common::{Calm, Trouble, Worn, heard, nobody, pour, session};
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use vitriol::vr::decision::Decision;
-use vitriol::vr::panel::scene_from_panel;
+use vitriol::vr::panel::{PANEL, WIDTH, scene_from_panel};
 use vitriol::vr::stand_in::StandIn;
 use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::SWITCH_START;
@@ -114,6 +114,9 @@ impl<T: Trouble> Headset for Strict<T> {
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
         self.inner.vibrate(side, amplitude)
     }
+    fn lose_device(&mut self) {
+        self.inner.lose_device();
+    }
     fn rates(&self) -> &[f32] {
         self.inner.rates()
     }
@@ -175,10 +178,16 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
             (p[axis] - room.min[axis]).abs() < NEAR || (p[axis] - room.max[axis]).abs() < NEAR
         })
     };
+    // The panel is in the picture too.
+    let on_panel = |p: Vec3| {
+        let p = scene_from_panel().inverse().transform_point(p);
+        let half = 0.5 * Vec2::new(WIDTH, WIDTH * PANEL[1] as f32 / PANEL[0] as f32);
+        p.z.abs() < 2e-3 && p.x.abs() < half.x && p.y.abs() < half.y
+    };
     let [width, height] = headset.extent().map(|side| side as usize);
     for (eye, view) in shown.views.iter().enumerate() {
         let scene_from_eye = stage_from_scene.inverse().compose(&view.stage_from_eye);
-        let mut on = [0; 3];
+        let (mut on, mut panel) = ([0; 3], 0);
         for (index, reversed) in depth
             .chunks(width * height)
             .nth(eye)
@@ -196,12 +205,16 @@ fn a_picture_is_submitted_with_the_pose_that_it_was_drawn_with() {
             let point = scene_from_eye.transform_point(way * Vec3::new(x, y, -1.0));
             if let Some(axis) = face(point) {
                 on[axis] += 1;
+            } else if on_panel(point) {
+                panel += 1;
             }
         }
         // The table's edges, and what stands on it, are the rest. Of each direction there is enough
         // to be seen that a shift along it is.
         let all = width * height;
-        assert!(on.iter().sum::<usize>() > all * 9 / 10, "eye {eye}: {on:?}");
+        let seen = panel + on.iter().sum::<usize>();
+        assert!(seen > all * 9 / 10, "eye {eye}: {on:?} {panel}");
+        assert!(panel > all / 40, "eye {eye}: {panel}");
         assert!(on.iter().all(|on| *on > all / 20), "eye {eye}: {on:?}");
     }
 }

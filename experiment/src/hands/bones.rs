@@ -1,7 +1,7 @@
 //! From a hand's joints to a glove's bones.
 
 use glam::Vec3;
-use vitriol_render::Bone;
+use vitriol_render::{Bone, Finish};
 
 /// Joints of a hand.
 pub const JOINTS: usize = 26;
@@ -39,7 +39,8 @@ pub fn bones_of(joints: &Joints) -> Vec<Bone> {
     let bone = |ends: [Vec3; 2], radii: [f32; 2]| Bone {
         ends,
         radii,
-        cuff: false,
+        finish: Finish::Glove,
+        stain: 0.0,
     };
     let between = |a: usize, b: usize| bone([at(a), at(b)], [radius(a), radius(b)]);
 
@@ -71,7 +72,8 @@ pub(super) fn web(root: Vec3, end: Vec3, index: [Vec3; 2]) -> Bone {
     Bone {
         ends: [root.lerp(end, 0.35), index[0].lerp(index[1], 0.42)],
         radii: [WEB; 2],
-        cuff: false,
+        finish: Finish::Glove,
+        stain: 0.0,
     }
 }
 
@@ -84,7 +86,8 @@ fn cuff(wrist: Vec3, knuckle: Vec3, across: Vec3) -> [Bone; 2] {
         Bone {
             ends: [start, start + CUFF * along],
             radii: [WRIST_RADIUS, WRIST_RADIUS + FLARE],
-            cuff: true,
+            finish: Finish::Cuff,
+            stain: 0.0,
         }
     })
 }

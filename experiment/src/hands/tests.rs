@@ -4,7 +4,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{EulerRot, Quat, Vec2, Vec3};
-use vitriol_render::{Bone, MOST_BONES};
+use vitriol_render::{Bone, Finish, MOST_BONES};
 use vitriol_sim::flask::glass::find;
 use vitriol_xr::{Pose, Side};
 
@@ -62,7 +62,7 @@ fn by_finger(bones: &[Bone]) -> [&[Bone]; 5] {
         &bones[16..19],
     ]
     .map(|bones| {
-        assert!(bones.iter().all(|bone| !bone.cuff));
+        assert!(bones.iter().all(|bone| bone.finish == Finish::Glove));
         bones
     })
 }
@@ -160,7 +160,7 @@ fn bones_join_the_joints_that_openxr_names() {
     let numbers = |bone: &Bone| bone.ends.map(|end| (end.x * 1000.0).round() as usize);
     let chains: Vec<_> = bones
         .iter()
-        .filter(|bone| !bone.cuff)
+        .filter(|bone| bone.finish == Finish::Glove)
         .map(numbers)
         .collect();
     let mut expected = vec![[2, 3], [3, 4], [4, 5]];
@@ -174,7 +174,10 @@ fn bones_join_the_joints_that_openxr_names() {
     }
     // Palm alone is no bone's end, and the wrist is the cuff's.
     assert!(chains.iter().flatten().all(|&joint| joint > 1));
-    let cuffs: Vec<_> = bones.iter().filter(|bone| bone.cuff).collect();
+    let cuffs: Vec<_> = bones
+        .iter()
+        .filter(|bone| bone.finish == Finish::Cuff)
+        .collect();
     assert_eq!(cuffs.len(), 2);
     assert!(
         cuffs

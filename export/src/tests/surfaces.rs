@@ -203,3 +203,19 @@ fn liquid_over_the_rim_is_whole() {
         .filter(|at| at.x.hypot(at.z + 0.4) < d && (at.y - rim).abs() < 5.0 * d);
     assert_eq!(inner.count(), 0);
 }
+
+/// Its glass is nowhere, and its liquid is whole in the air.
+#[test]
+fn of_a_broken_beaker_the_liquid_is_left() {
+    let pose = Pose::new(Vec3::new(0.0, 0.75, -0.4), Quat::IDENTITY);
+    let (scene, pose, mut liquid) = beaker(0.002, 0.016, pose);
+    liquid.members.fill(None);
+    let filled: f64 = liquid.volumes.iter().sum();
+    let nowhere = Pose::from_position(vitriol_sim::bodies::NOWHERE);
+    let surfaces = Surfaces::around(&scene, &[nowhere], liquid);
+    assert!(surfaces.air_glass.triangles.is_empty());
+    assert!(surfaces.glass_liquid.triangles.is_empty());
+    let off = volume(&surfaces, pose.position.as_dvec3()) / filled - 1.0;
+    // A fifth of a spacing of 2 mm all round is a tenth of it.
+    assert!(off.abs() < 0.1, "{off}");
+}

@@ -9,6 +9,7 @@ use gpu_allocator::vulkan::Allocator;
 use super::cache::Kept;
 use super::info::DeviceInfo;
 use super::validation::Messages;
+use crate::memory::Spares;
 
 /// The open device without its queues: what buffers, images, samplers and
 /// pipelines are made from. A [`Gpu`](crate::Gpu) dereferences to it.
@@ -24,6 +25,8 @@ pub struct Core {
     pub(crate) messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     pub(crate) messages: Messages,
     pub(crate) allocator: Mutex<ManuallyDrop<Allocator>>,
+    /// Readback buffers for the next ones.
+    pub(crate) spares: Spares,
     pub(crate) pipeline_cache: vk::PipelineCache,
     /// Where its pipelines are kept.
     pub(super) kept: Option<Kept>,
@@ -64,6 +67,9 @@ impl Drop for Core {
             // SAFETY: the cache is this device's; what is not given is not kept.
             let data = unsafe { self.device.get_pipeline_cache_data(self.pipeline_cache) };
             kept.write(&data.unwrap_or_default());
+        }
+        for spare in self.spares.take_all() {
+            spare.destroy(self);
         }
         // SAFETY: every resource holds this core, so none is left; `Gpu` waited
         // for the device before it let go. The allocator frees its blocks

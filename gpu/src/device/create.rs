@@ -20,12 +20,13 @@ pub(crate) fn instance_extensions(entry: &ash::Entry, layer: Option<&CStr>) -> V
         .collect()
 }
 
-fn has_validation_layer(entry: &ash::Entry) -> bool {
+/// Version of Vulkan that the validation layer knows; `None` without one.
+pub(crate) fn validation_layer(entry: &ash::Entry) -> Option<u32> {
     // SAFETY: the loader is alive.
-    unsafe { entry.enumerate_instance_layer_properties() }
-        .unwrap_or_default()
-        .iter()
-        .any(|layer| layer.layer_name_as_c_str() == Ok(validation::LAYER))
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }.unwrap_or_default();
+    let mut layers = layers.iter();
+    let ours = layers.find(|layer| layer.layer_name_as_c_str() == Ok(validation::LAYER));
+    ours.map(|layer| layer.spec_version)
 }
 
 pub(crate) fn instance_request(
@@ -45,7 +46,7 @@ pub(crate) fn instance_request(
             .push(ash::ext::debug_utils::NAME.to_owned());
     }
     if options.validation {
-        if !has_validation_layer(entry) {
+        if validation_layer(entry).is_none() {
             return Err(GpuError::NoValidationLayer);
         }
         request.layers.push(validation::LAYER.to_owned());
@@ -112,8 +113,12 @@ pub(crate) fn device_request(
     properties: &Properties,
     queues: Vec<QueueRequest>,
 ) -> DeviceRequest {
+    let mut extensions = vec![ash::khr::push_descriptor::NAME.to_owned()];
+    if properties.features.maximal_reconvergence {
+        extensions.push(ash::khr::shader_maximal_reconvergence::NAME.to_owned());
+    }
     let mut request = DeviceRequest {
-        extensions: vec![ash::khr::push_descriptor::NAME.to_owned()],
+        extensions,
         features: properties.features,
         queues,
     };
@@ -148,12 +153,17 @@ pub(crate) fn create_device(
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default()
         .dynamic_rendering(true)
         .synchronization2(true);
-    let create = vk::DeviceCreateInfo::default()
+    let mut reconvergence = vk::PhysicalDeviceShaderMaximalReconvergenceFeaturesKHR::default()
+        .shader_maximal_reconvergence(true);
+    let mut create = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_extension_names(&extensions)
         .push_next(&mut v11)
         .push_next(&mut v12)
         .push_next(&mut v13);
+    if on.maximal_reconvergence {
+        create = create.push_next(&mut reconvergence);
+    }
     provider.create_device(instance, physical, &create)
 }
 

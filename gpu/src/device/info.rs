@@ -58,6 +58,8 @@ pub struct EnabledFeatures {
     pub memory_model: bool,
     /// Subgroup operations in compute (arithmetic, ballot and shuffle).
     pub subgroups: bool,
+    /// Lanes that part in a loop meet again behind it for certain, see `Compiled::reconverging`.
+    pub maximal_reconvergence: bool,
 }
 
 /// The driver's own words and numbers about one physical device.
@@ -166,10 +168,15 @@ fn query_features(
     let mut v11 = vk::PhysicalDeviceVulkan11Features::default();
     let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
+    let mut reconvergence = vk::PhysicalDeviceShaderMaximalReconvergenceFeaturesKHR::default();
     let mut features = vk::PhysicalDeviceFeatures2::default()
         .push_next(&mut v11)
         .push_next(&mut v12)
         .push_next(&mut v13);
+    let may_reconverge = has(extensions, ash::khr::shader_maximal_reconvergence::NAME);
+    if may_reconverge {
+        features = features.push_next(&mut reconvergence);
+    }
     // SAFETY: as for the properties in `query`.
     unsafe { instance.get_physical_device_features2(physical, &mut features) };
 
@@ -199,6 +206,8 @@ fn query_features(
             && v11_properties
                 .subgroup_supported_stages
                 .contains(vk::ShaderStageFlags::COMPUTE),
+        maximal_reconvergence: may_reconverge
+            && reconvergence.shader_maximal_reconvergence == vk::TRUE,
     };
     (enabled, missing)
 }

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::info::{Properties, version_text};
+use super::info::{EnabledFeatures, Properties, version_text};
 use super::provider::load_entry;
 use super::select::ranked;
 use crate::GpuError;
@@ -20,6 +20,10 @@ pub struct DeviceSummary {
     pub api: String,
     /// Discrete, integrated, CPU and so on.
     pub kind: vk::PhysicalDeviceType,
+    /// Invocations of the smallest subgroup that the driver may choose, and per subgroup as a rule.
+    pub subgroup_sizes: [u32; 2],
+    /// Optional features that it has.
+    pub features: EnabledFeatures,
     /// Names of its extensions.
     pub extensions: Vec<String>,
     /// Required things that it lacks; empty when it can be used.
@@ -59,6 +63,10 @@ fn summary(index: usize, properties: Properties) -> DeviceSummary {
     }
     if !properties.features.subgroups {
         missing_optional.push("subgroup operations in compute".to_owned());
+    } else if !properties.features.maximal_reconvergence {
+        let what =
+            "maximal reconvergence (lanes that part in a loop meet again as the driver likes)";
+        missing_optional.push(what.to_owned());
     }
     DeviceSummary {
         index,
@@ -66,6 +74,8 @@ fn summary(index: usize, properties: Properties) -> DeviceSummary {
         driver: properties.driver,
         api: version_text(properties.api_version),
         kind: properties.kind,
+        subgroup_sizes: [properties.least_subgroup_size, properties.subgroup_size],
+        features: properties.features,
         extensions: properties
             .extensions
             .iter()

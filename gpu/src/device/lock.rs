@@ -1,8 +1,97 @@
-//! A mutex's value, whoever panicked with it.
+//! A mutex's value, whoever panicked with it; and how long threads wait for those that they share.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::cell::Cell;
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::{Duration, Instant};
+
+/// Waits for one kind of lock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Waits {
+    /// Times that another thread held it.
+    pub count: u64,
+    /// All of them together.
+    pub total: Duration,
+    /// The longest.
+    pub longest: Duration,
+}
+
+impl Waits {
+    const NONE: Self = Self {
+        count: 0,
+        total: Duration::ZERO,
+        longest: Duration::ZERO,
+    };
+
+    /// Adds others.
+    pub fn add(&mut self, others: &Self) {
+        self.count += others.count;
+        self.total += others.total;
+        self.longest = self.longest.max(others.longest);
+    }
+}
+
+/// How long a thread waited for other threads of this program that use the same device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LockWaits {
+    /// For a queue: to submit, and to take up what the device has finished with.
+    pub queue: Waits,
+    /// For the device's memory: to allocate and to free.
+    pub memory: Waits,
+}
+
+impl LockWaits {
+    /// What the calling thread has waited since it last asked.
+    pub fn take() -> Self {
+        WAITED.replace(Self {
+            queue: Waits::NONE,
+            memory: Waits::NONE,
+        })
+    }
+
+    /// Adds others.
+    pub fn add(&mut self, others: &Self) {
+        self.queue.add(&others.queue);
+        self.memory.add(&others.memory);
+    }
+}
+
+thread_local! {
+    static WAITED: Cell<LockWaits> = const {
+        Cell::new(LockWaits { queue: Waits::NONE, memory: Waits::NONE })
+    };
+}
 
 /// Locks, ignoring poison: every guarded value is valid between statements.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// As [`lock`], for a queue's state.
+pub(crate) fn lock_queue<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    counted(mutex, |waits| &mut waits.queue)
+}
+
+/// As [`lock`], for the allocator.
+pub(crate) fn lock_memory<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    counted(mutex, |waits| &mut waits.memory)
+}
+
+/// Counts and times only where another thread holds it: the clock is not read else.
+fn counted<T>(mutex: &Mutex<T>, of: fn(&mut LockWaits) -> &mut Waits) -> MutexGuard<'_, T> {
+    match mutex.try_lock() {
+        Ok(guard) => return guard,
+        Err(TryLockError::Poisoned(poisoned)) => return poisoned.into_inner(),
+        Err(TryLockError::WouldBlock) => {}
+    }
+    let begun = Instant::now();
+    let guard = lock(mutex);
+    let waited = begun.elapsed();
+    let mut all = WAITED.get();
+    of(&mut all).add(&Waits {
+        count: 1,
+        total: waited,
+        longest: waited,
+    });
+    WAITED.set(all);
+    guard
 }

@@ -10,7 +10,7 @@ use super::cache::Kept;
 use super::core::Core;
 use super::create::{
     create_device, create_instance, create_messenger, device_request, instance_extensions,
-    instance_request,
+    instance_request, validation_layer,
 };
 use super::info::{self, DeviceInfo, EnabledFeatures, Properties, has, version_text};
 use super::options::Options;
@@ -19,6 +19,10 @@ use super::provider::Provider;
 use super::select::{self, Candidate};
 use super::validation::Messages;
 use crate::GpuError;
+use crate::memory::Spares;
+
+/// Version from which on a validation layer knows VK_KHR_shader_maximal_reconvergence for certain; it came in January 2024.
+const RECONVERGES: u32 = vk::make_api_version(0, 1, 3, 280);
 
 /// Opens a device through `provider`, with the queues of the plan.
 pub(crate) fn open(
@@ -47,7 +51,11 @@ pub(crate) fn open(
         })
         .collect();
     let physical = provider.choose(instance, &candidates, options.device.as_deref())?;
-    let properties = info::query(instance, physical);
+    let mut properties = info::query(instance, physical);
+    if options.validation && validation_layer(&entry).is_some_and(|knows| knows < RECONVERGES) {
+        // It would take the extension for an error of ours.
+        properties.features.maximal_reconvergence = false;
+    }
     if !properties.missing.is_empty() {
         return Err(GpuError::Unsuitable {
             device: properties.name,
@@ -104,6 +112,7 @@ pub(crate) fn open(
         messenger: opening.messenger.take(),
         messages,
         allocator: Mutex::new(ManuallyDrop::new(allocator)),
+        spares: Spares::default(),
         pipeline_cache,
         kept,
         info: device_info(properties, request.features, &plan),

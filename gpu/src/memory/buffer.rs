@@ -8,7 +8,7 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
 use vitriol_shaders::{TexelFormat, TexelKind};
 
-use super::{allocate, free, next_id};
+use super::{Spare, allocate, free, next_id};
 use crate::GpuError;
 use crate::device::{Core, lock};
 
@@ -34,6 +34,8 @@ pub(crate) struct BufferInner {
     /// Views as texels, each made when it is first asked for.
     views: Mutex<Vec<(TexelFormat, vk::BufferView)>>,
     allocation: Allocation,
+    /// Whether it is kept for the next one of its size.
+    is_kept: bool,
     core: Arc<Core>,
 }
 
@@ -101,13 +103,12 @@ impl Buffer {
     /// # Errors
     /// [`GpuError::OutOfMemory`].
     pub fn readback(core: &Arc<Core>, label: &str, bytes: u64) -> Result<Self, GpuError> {
-        Self::new(
-            core,
-            label,
-            bytes,
-            vk::BufferUsageFlags::empty(),
-            MemoryLocation::GpuToCpu,
-        )
+        let location = MemoryLocation::GpuToCpu;
+        let usage = vk::BufferUsageFlags::empty();
+        match core.spares.take(rounded(bytes)) {
+            Some(spare) => Ok(Self::of(core, label, spare, copied(usage), location)),
+            None => Self::new(core, label, bytes, usage, location),
+        }
     }
 
     fn checked(
@@ -134,8 +135,7 @@ impl Buffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<Self, GpuError> {
-        let bytes = bytes.next_multiple_of(4).max(16);
-        let usage = usage | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        let (bytes, usage) = (rounded(bytes), copied(usage));
         let (sharing, families) = core.sharing();
         let create = vk::BufferCreateInfo::default()
             .size(bytes)
@@ -161,20 +161,37 @@ impl Buffer {
             .and_then(bind)
             // SAFETY: nothing uses the buffer.
             .inspect_err(|_| unsafe { core.device.destroy_buffer(handle, None) })?;
-        core.name(handle, label);
-        Ok(Self {
+        let made = Spare {
+            handle,
+            allocation,
+            bytes,
+        };
+        Ok(Self::of(core, label, made, usage, location))
+    }
+
+    /// Of what was made for it.
+    fn of(
+        core: &Arc<Core>,
+        label: &str,
+        made: Spare,
+        usage: vk::BufferUsageFlags,
+        location: MemoryLocation,
+    ) -> Self {
+        core.name(made.handle, label);
+        Self {
             inner: Arc::new(BufferInner {
                 id: next_id(),
-                handle,
+                handle: made.handle,
                 label: label.to_owned(),
-                bytes,
+                bytes: made.bytes,
                 usage,
                 is_host: location != MemoryLocation::GpuOnly,
                 views: Mutex::default(),
-                allocation,
+                allocation: made.allocation,
+                is_kept: location == MemoryLocation::GpuToCpu,
                 core: core.clone(),
             }),
-        })
+        }
     }
 
     /// Size in bytes, as rounded up at its making.
@@ -332,16 +349,41 @@ impl BufferInner {
 impl Drop for BufferInner {
     fn drop(&mut self) {
         let views = self.views.get_mut().unwrap_or_else(PoisonError::into_inner);
-        // SAFETY: recorders and submissions hold clones until the device has
-        // finished; this was the last.
-        unsafe {
-            for (_, view) in views.drain(..) {
-                self.core.device.destroy_buffer_view(view, None);
-            }
-            self.core.device.destroy_buffer(self.handle, None);
+        for (_, view) in views.drain(..) {
+            // SAFETY: recorders and submissions hold clones until the device has
+            // finished; this was the last.
+            unsafe { self.core.device.destroy_buffer_view(view, None) };
         }
-        free(&self.core, &mut self.allocation);
+        let own = Spare {
+            handle: self.handle,
+            allocation: std::mem::take(&mut self.allocation),
+            bytes: self.bytes,
+        };
+        let gone = match self.is_kept {
+            true => self.core.spares.put(own),
+            false => vec![own],
+        };
+        gone.into_iter().for_each(|spare| spare.destroy(&self.core));
     }
+}
+
+impl Spare {
+    /// Gives handle and memory back to the device.
+    pub(crate) fn destroy(mut self, core: &Core) {
+        // SAFETY: nobody holds the buffer any more, and the device has finished what used it.
+        unsafe { core.device.destroy_buffer(self.handle, None) };
+        free(core, &mut self.allocation);
+    }
+}
+
+/// Bytes as a buffer has them.
+fn rounded(bytes: u64) -> u64 {
+    bytes.next_multiple_of(4).max(16)
+}
+
+/// This use, and copies.
+fn copied(usage: vk::BufferUsageFlags) -> vk::BufferUsageFlags {
+    usage | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST
 }
 
 fn texel_format(format: TexelFormat) -> vk::Format {

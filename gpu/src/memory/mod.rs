@@ -3,6 +3,7 @@
 mod buffer;
 mod image;
 mod sampler;
+mod spares;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -14,9 +15,10 @@ pub use buffer::{Buffer, bytes_of_elements};
 pub(crate) use image::ImageInner;
 pub use image::{Image, ImageDesc};
 pub use sampler::Sampler;
+pub(crate) use spares::{Spare, Spares};
 
 use crate::GpuError;
-use crate::device::{Core, lock};
+use crate::device::{Core, lock_memory};
 
 /// A number that no other resource of this process has.
 fn next_id() -> u64 {
@@ -31,7 +33,7 @@ fn allocate(
     location: MemoryLocation,
     linear: bool,
 ) -> Result<Allocation, GpuError> {
-    lock(&core.allocator)
+    lock_memory(&core.allocator)
         .allocate(&AllocationCreateDesc {
             name: label,
             requirements,
@@ -47,7 +49,7 @@ fn allocate(
 }
 
 fn free(core: &Core, allocation: &mut Allocation) {
-    if let Err(error) = lock(&core.allocator).free(std::mem::take(allocation)) {
+    if let Err(error) = lock_memory(&core.allocator).free(std::mem::take(allocation)) {
         tracing::error!("device memory could not be freed: {error}");
     }
 }

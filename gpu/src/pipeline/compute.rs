@@ -1,10 +1,11 @@
 //! Compute pipelines.
 
+use std::borrow::Cow;
 use std::ffi::CString;
 use std::sync::Arc;
 
 use ash::vk;
-use vitriol_shaders::{Compiled, Stage};
+use vitriol_shaders::{Compiled, ShaderError, Stage};
 
 use super::{Layout, Module, c_string, wrong_stage};
 use crate::GpuError;
@@ -32,14 +33,10 @@ impl ComputePipeline {
         if compiled.stage != Stage::Compute {
             return Err(wrong_stage(compiled, "compute"));
         }
-        let compiled = if core.info.fetches_texels {
-            &compiled.with_texels().map_err(|error| GpuError::Shader {
-                shader: compiled.label.clone(),
-                cause: error.to_string(),
-            })?
-        } else {
-            compiled
-        };
+        let compiled = &for_device(core, compiled).map_err(|error| GpuError::Shader {
+            shader: compiled.label.clone(),
+            cause: error.to_string(),
+        })?;
         let layout = Layout::new(core, vk::PipelineBindPoint::COMPUTE, &[compiled])?;
         let module = Module::new(core, compiled)?;
         let entry = c_string(&compiled.entry);
@@ -86,6 +83,18 @@ impl ComputePipeline {
             .iter()
             .map(|slot| slot.name.as_str())
     }
+}
+
+/// The shader with what this device has better ways for.
+fn for_device<'a>(core: &Core, compiled: &'a Compiled) -> Result<Cow<'a, Compiled>, ShaderError> {
+    let mut compiled = Cow::Borrowed(compiled);
+    if core.info.fetches_texels {
+        compiled = Cow::Owned(compiled.with_texels()?);
+    }
+    if core.info.features.maximal_reconvergence {
+        compiled = Cow::Owned(compiled.reconverging()?);
+    }
+    Ok(compiled)
 }
 
 impl Drop for ComputeInner {

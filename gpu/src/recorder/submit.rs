@@ -14,11 +14,18 @@ impl Gpu {
     pub fn recorder(&self, kind: QueueKind) -> Result<Recorder, GpuError> {
         let inner = &self.inner;
         let index = inner.queues.index(kind);
-        inner.collect(index)?;
         let queue = inner.queues.at(index);
         let mut storage = match queue.recycled() {
             Some(storage) => storage,
-            None => Box::new(Storage::new(&inner.core, queue.family, &inner.options)?),
+            // Only then: what others used is not let go in a frame that needs none of it.
+            None => {
+                inner.collect(index)?;
+                let finished = queue.recycled();
+                finished.map_or_else(
+                    || Storage::new(&inner.core, queue.family, &inner.options).map(Box::new),
+                    Ok,
+                )?
+            }
         };
         storage.begin(Submission::new(index))?;
         Ok(Recorder {
@@ -43,6 +50,7 @@ impl Gpu {
     /// # Errors
     /// As [`Gpu::submit`].
     pub fn submit_after(&self, rec: Recorder, after: &[&Ticket]) -> Result<Ticket, GpuError> {
+        self.inner.check()?;
         let (index, mut storage) = (rec.queue, rec.storage);
         storage.end()?;
         let queues = &self.inner.queues;

@@ -204,11 +204,18 @@ impl Storage {
     /// The device has finished: reads the times, lets everything go, and makes
     /// ready for the next recording.
     pub(crate) fn recycle(&mut self, timestamp_mask: u64) -> Result<(), GpuError> {
-        if let Some(queries) = &mut self.queries {
-            let timings = queries.read(&self.core, &self.names, timestamp_mask)?;
-            // Set already only where they were read before, and then they are the same.
-            let _ = self.submission.timings.set(timings);
-        }
+        let read = match &mut self.queries {
+            Some(queries) => queries.read(&self.core, &self.names, timestamp_mask),
+            None => Ok(Vec::new()),
+        };
+        let (timings, read) = match read {
+            Ok(timings) => (timings, Ok(())),
+            Err(error) => (Vec::new(), Err(error)),
+        };
+        // Whatever came of it: a thread that asks for them waits for this one. Set already only where they were read
+        // before, and then they are the same.
+        let _ = self.submission.timings.set(timings);
+        read?;
         if let Some(markers) = &mut self.markers {
             markers.clear(self.names.len())?;
         }

@@ -144,3 +144,31 @@ fn what_is_in_use_outlives_its_handles() {
     assert_eq!(gpu.read::<u32>(&last).unwrap()[0], 7);
     assert_silent(&gpu);
 }
+
+/// What one readback has left in its memory is not what the next of its size says.
+#[test]
+fn readbacks_share_memory_and_not_what_is_in_it() {
+    let gpu = open();
+    let [one, two] = ["one", "two"].map(|label| Buffer::storage(&gpu, label, 4096).unwrap());
+    gpu.write(&one, &[1_u32; 1024]).unwrap();
+    gpu.write(&two, &[2_u32; 1024]).unwrap();
+    for round in 0..20 {
+        // Some at once, which are let go of in another order than they came.
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        let mut copies: Vec<_> = (0..round % 4 + 1)
+            .map(|n| if n % 2 == 0 { (&one, 1) } else { (&two, 2) })
+            .map(|(buffer, value)| (rec.read_back(buffer).unwrap(), value))
+            .collect();
+        let ticket = gpu.submit(rec).unwrap();
+        if round % 3 == 0 {
+            // Before the device is done with it.
+            copies.remove(0);
+        }
+        ticket.wait().unwrap();
+        copies.rotate_left(round % 2);
+        for (copy, value) in copies {
+            assert_eq!(copy.get::<u32>().unwrap(), [value; 1024], "round {round}");
+        }
+    }
+    assert_silent(&gpu);
+}

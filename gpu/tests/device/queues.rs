@@ -1,6 +1,9 @@
 //! The second queue, or the main one in its place.
 
-use vitriol_gpu::{Buffer, ComputePipeline, Image, ImageDesc, QueueKind, vk};
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use vitriol_gpu::{Buffer, ComputePipeline, Image, ImageDesc, LockWaits, QueueKind, vk};
 
 use crate::common::{DOUBLE, assert_silent, compile, open};
 
@@ -69,5 +72,47 @@ fn recorders_of_several_threads() {
             });
         }
     });
+    assert_silent(&gpu);
+}
+
+/// What a thread waits for others is counted on that thread, by the lock; what nobody holds is not waited for.
+#[test]
+fn waits_for_other_threads_are_counted() {
+    let gpu = open();
+    let buffer = Buffer::storage(&gpu, "a", 256).unwrap();
+    LockWaits::take();
+    gpu.write(&buffer, &[1_u32; 64]).unwrap();
+    gpu.wait_idle().unwrap();
+    assert_eq!(LockWaits::take(), LockWaits::default());
+    // The other thread holds the queue until a little after this one is about to submit. A busy machine may stop this
+    // one in between, so it is tried until it had to wait.
+    let pause = Duration::from_millis(20);
+    let try_once = |_| {
+        let (held, holds) = channel();
+        let (let_go, may_go) = channel::<()>();
+        std::thread::scope(|scope| {
+            let gpu = &gpu;
+            scope.spawn(move || {
+                gpu.with_queue(QueueKind::Main, |_| {
+                    held.send(()).unwrap();
+                    may_go.recv().unwrap();
+                    std::thread::sleep(pause);
+                });
+                // Nobody else held it.
+                assert_eq!(LockWaits::take(), LockWaits::default());
+            });
+            holds.recv().unwrap();
+            let_go.send(()).unwrap();
+            gpu.submit(gpu.recorder(QueueKind::Main).unwrap()).unwrap();
+        });
+        let waited = LockWaits::take();
+        (waited != LockWaits::default()).then_some(waited)
+    };
+    let waited = (0..1000).find_map(try_once).unwrap();
+    assert_eq!(waited.queue.count, 1);
+    assert_eq!(waited.queue.total, waited.queue.longest);
+    assert!(!waited.queue.total.is_zero());
+    assert_eq!(waited.memory.count, 0);
+    assert_eq!(LockWaits::take(), LockWaits::default());
     assert_silent(&gpu);
 }

@@ -143,3 +143,36 @@ fn recording_a_frame_is_cheap() {
     }
     assert!(best < 0.3e-3, "{best} s");
 }
+
+/// Whichever thread takes up what the device has finished, each thread that asks has its times.
+#[test]
+fn times_are_whole_while_another_thread_reads_them() {
+    let gpu = open_with(|options| options.timestamps = Timestamps::Whole);
+    if gpu.info().timestamp_period == 0.0 {
+        eprintln!("this device has no timestamps");
+        return;
+    }
+    let double = ComputePipeline::new(&gpu, &compile(DOUBLE)).unwrap();
+    let submit = |a: &Buffer, b: &Buffer| {
+        let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+        let pass = rec.pass(&double).read("source", a).write("target_", b);
+        pass.invocations(64).unwrap();
+        gpu.submit(rec).unwrap()
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let [a, b] = ["a", "b"].map(|l| Buffer::storage(&gpu, l, 256).unwrap());
+                gpu.write(&a, &[1_u32; 64]).unwrap();
+                for _ in 0..100 {
+                    let ticket = submit(&a, &b);
+                    ticket.wait().unwrap();
+                    let timings = ticket.timings().unwrap();
+                    assert_eq!(timings.len(), 1);
+                    assert_eq!(timings[0].label, "total");
+                }
+            });
+        }
+    });
+    assert_silent(&gpu);
+}

@@ -9,7 +9,7 @@ use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_ele
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
-use crate::desc::LiquidDesc;
+use crate::desc::{Lanes, LiquidDesc};
 use crate::frame::FrameDesc;
 use crate::lanes::workgroups;
 use crate::scene::MOST_VESSELS;
@@ -47,6 +47,7 @@ impl Fluid {
         desc: LiquidDesc,
         extent: [u32; 2],
         views: u32,
+        lanes: Lanes,
     ) -> Result<Self, RenderError> {
         let pixels = |[width, height]: [u32; 2]| (views * width * height) as usize;
         let floats =
@@ -57,7 +58,7 @@ impl Fluid {
             desc,
             extent,
             views,
-            passes: Passes::new(gpu, library, desc.filter)?,
+            passes: Passes::new(gpu, library, desc.filter, lanes)?,
             ellipsoids: [
                 Buffer::storage(gpu, "ellipsoids", ellipsoids)?,
                 Buffer::storage(gpu, "other ellipsoids", ellipsoids)?,

@@ -1,22 +1,16 @@
 //! Pipelines of the liquid surface.
 
-use vitriol_gpu::{ComputePipeline, Gpu, vk};
+use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId, fluid};
 
 use crate::RenderError;
 use crate::compute::compute;
-use crate::desc::SurfaceFilter;
+use crate::desc::{Lanes, SurfaceFilter};
+use crate::lanes;
 use crate::tiles::Class;
-
-/// Invocations that share a particle's neighbours on a GPU: the latency of
-/// fetching a list is what a few ten thousand particles cost there.
-const SHARED_BY: u32 = 4;
 
 /// Steps of curvature flow, for which its shader chooses the time step.
 const FLOW_STEPS: u32 = 40;
-
-/// Invocations that share an ellipsoid's pixels: a warp on a GPU, eight lanes of a vector on a CPU.
-const SPLATTED_BY: [u32; 2] = [32, 8];
 
 /// One of each, and the filter's in their order.
 pub(super) struct Passes {
@@ -35,15 +29,10 @@ impl Passes {
         gpu: &Gpu,
         library: &Library,
         filter: SurfaceFilter,
+        asked: Lanes,
     ) -> Result<Self, RenderError> {
-        let info = gpu.info();
-        let is_cpu = info.kind == vk::PhysicalDeviceType::CPU;
-        let lanes = if !is_cpu && info.features.subgroups {
-            SHARED_BY
-        } else {
-            1
-        };
-        let splat_lanes = SPLATTED_BY[usize::from(is_cpu)];
+        let lanes = lanes::of_neighbours(gpu.info(), asked.neighbours)?;
+        let splat_lanes = lanes::of_splats(gpu.info(), asked.pixels)?;
         let compute = |shader, constants: &[_]| compute(gpu, library, shader, constants);
         let splat = |shader| compute(shader, &[("LANES", splat_lanes.into())]);
         Ok(Self {

@@ -1,17 +1,25 @@
 //! Ellipsoids against known neighbourhoods, and against the same mathematics
 //! in f64 with an eigen-solve by Jacobi's rotations.
 
-use crate::liquid::{Liquid, SPACING, SUPPORT, draw, ellipsoids, frame, lattice, rig};
+use crate::lanes::of_neighbours;
+use crate::liquid::{
+    Liquid, SPACING, SUPPORT, draw, ellipsoids, frame, lattice, rig, rig_of_lanes,
+};
 use glam::{DMat3, DVec3, Mat3, Vec3};
-use vitriol_render::{SurfaceFilter, View};
+use vitriol_render::{Lanes, SurfaceFilter, View};
 use vitriol_shaders::layout::Ellipsoid;
+use vitriol_tests::gpu;
 
 const D: f64 = SPACING as f64;
 /// Radius of a sphere of the volume d³.
 const LONE: f64 = 0.6204 * D;
 
 fn shapes(positions: &[Vec3]) -> Vec<Ellipsoid> {
-    let rig = rig([64, 36], 1, SurfaceFilter::NarrowRange);
+    shapes_of_lanes(positions, Lanes::CHOSEN)
+}
+
+fn shapes_of_lanes(positions: &[Vec3], lanes: Lanes) -> Vec<Ellipsoid> {
+    let rig = rig_of_lanes([64, 36], 1, SurfaceFilter::NarrowRange, lanes);
     let liquid = Liquid::new(&rig, positions, |_| 0.0);
     let views = [View::bench(16.0 / 9.0)];
     draw(&rig, &frame(&views, &[], &liquid));
@@ -110,18 +118,28 @@ fn as_in_double_precision() {
     let positions = lattice(3, 0.3, |x| {
         x.length() < 2.6 || (x.y.abs() < 1.0 && x.x > 0.0)
     });
-    let all = shapes(&positions);
-    let mut compared = 0;
-    for (i, e) in all.iter().enumerate() {
-        let (centre, shape) = reference(&positions, i);
-        let off = differ(matrix(e), shape) / D;
-        // f32 in sums of some thirty terms, and in the formula of the eigenvalues,
-        // which loses half of its digits where two of them meet.
-        assert!(off < 2e-3, "particle {i}: {off} d");
-        assert!((Vec3::from(e.centre).as_dvec3() - centre).length() < 1e-4 * D);
-        compared += 1;
+    let truth: Vec<_> = (0..positions.len())
+        .map(|i| reference(&positions, i))
+        .collect();
+    assert!(truth.len() > 100);
+    for lanes in of_neighbours(&gpu::device()) {
+        let neighbours = Some(lanes);
+        let all = shapes_of_lanes(
+            &positions,
+            Lanes {
+                neighbours,
+                ..Lanes::CHOSEN
+            },
+        );
+        for (i, (e, (centre, shape))) in all.iter().zip(&truth).enumerate() {
+            let off = differ(matrix(e), *shape) / D;
+            // f32 in sums of some thirty terms, and in the formula of the eigenvalues,
+            // which loses half of its digits where two of them meet.
+            assert!(off < 2e-3, "{lanes} lanes, particle {i}: {off} d");
+            let off = (Vec3::from(e.centre).as_dvec3() - *centre).length();
+            assert!(off < 1e-4 * D, "{lanes} lanes, particle {i}: {off} m");
+        }
     }
-    assert!(compared > 100);
 }
 
 /// Centre and M of a particle far from all walls.

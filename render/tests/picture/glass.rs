@@ -10,11 +10,12 @@ const HEIGHT: f64 = 0.05;
 /// Pixels from an outline within which smoothing moves it: half the way that it looks along one.
 const SMOOTHED: i32 = 4;
 
-fn beaker() -> VesselDesc {
-    let (radius, floor) = (RADIUS - 0.002, 0.002);
+/// A cylinder of glass of 2 mm, so broad and high (m).
+pub fn beaker(radius: f64, height: f64) -> VesselDesc {
+    let (within, floor) = (radius - 0.002, 0.002);
     VesselDesc {
-        inner: vec![[0.0, floor], [radius, floor], [radius, HEIGHT]],
-        outer: vec![[0.0, 0.0], [RADIUS, 0.0], [RADIUS, HEIGHT]],
+        inner: vec![[0.0, floor], [within, floor], [within, height]],
+        outer: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
         marks: Vec::new(),
     }
 }
@@ -46,7 +47,7 @@ fn meets(origin: DVec3, along: DVec3) -> bool {
 fn glass_is_where_its_cylinder_is() {
     let mut rig = Rig::new(EXTENT, 1);
     rig.set_scene(&SceneDesc {
-        vessels: vec![beaker()],
+        vessels: vec![beaker(RADIUS, HEIGHT)],
         ..SceneDesc::default()
     });
     let foot = Vec3::new(0.1, 0.75, -0.4);

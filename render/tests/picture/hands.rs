@@ -3,7 +3,9 @@
 use crate::rig::{Picture, Reference, Rig, ray, without_particles};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
 use vitriol_render::camera::NEAR;
-use vitriol_render::{Bone, Fov, FrameDesc, JOINED, MOST_BONES, ParticleSource, RenderError, View};
+use vitriol_render::{
+    Bone, Finish, Fov, FrameDesc, JOINED, MOST_BONES, ParticleSource, RenderError, View,
+};
 
 const EXTENT: [u32; 2] = [320, 240];
 
@@ -35,7 +37,8 @@ fn hand(view: &View, place: Vec3, turn: f32) -> Vec<Bone> {
             view.stage_from_eye.transform_point3(end)
         }),
         radii: radii.map(|radius| 0.001 * radius),
-        cuff,
+        finish: if cuff { Finish::Cuff } else { Finish::Glove },
+        stain: 0.0,
     };
     let mut bones = vec![
         bone([-14.0, 0.0, 0.0], [-20.0, 70.0, 0.0], [14.0, 12.0], false),
@@ -191,6 +194,69 @@ fn gloves_lie_where_the_surface_is() {
     }
 }
 
+/// Palm, thumb, first finger bones and cuff of an open glove, in a hand's frame (x to the fingers, y out of the palm, z to the thumb, mm), with
+/// radii: as `experiment/src/hands/bones.rs` makes them, so that up to eight are close to one place.
+const PALM: [([i8; 3], [i8; 3], [f32; 2]); 18] = [
+    ([-34, -10, 22], [-1, 7, 51], [15.0, 12.5]),
+    ([-1, 7, 51], [24, 27, 70], [12.5, 10.8]),
+    ([24, 27, 70], [36, 41, 79], [10.8, 8.5]),
+    ([-36, -16, 14], [34, -12, 30], [14.0, 11.8]),
+    ([34, -12, 30], [79, -3, 33], [11.8, 9.6]),
+    ([-38, -17, 4], [37, -14, 8], [14.3, 12.0]),
+    ([37, -14, 8], [85, -1, 9], [12.0, 9.8]),
+    ([-37, -16, -6], [30, -13, -12], [13.4, 11.3]),
+    ([30, -13, -12], [73, 1, -14], [11.3, 9.2]),
+    ([-34, -15, -15], [20, -12, -30], [12.0, 10.1]),
+    ([20, -12, -30], [56, 1, -35], [10.1, 8.3]),
+    ([-37, -16, 9], [36, -13, 19], [14.1, 11.9]),
+    ([-38, -16, -1], [34, -13, -2], [13.9, 11.7]),
+    ([-36, -16, -10], [25, -13, -21], [12.7, 10.7]),
+    ([-22, -4, 32], [-7, -15, 21], [8.5, 8.5]),
+    ([34, -12, 30], [20, -12, -30], [10.0, 10.0]),
+    ([-47, -16, -5], [-102, -18, -9], [22.0, 25.0]),
+    ([-49, -16, 9], [-103, -18, 5], [22.0, 25.0]),
+];
+
+/// A palm half a metre away, a pixel of which is 0.8 mm: flat, from its edge, and along the wrist, so that rays pass closely by several
+/// bones and end in the creases between others.
+#[test]
+fn no_ray_goes_through_a_palm() {
+    const EXTENT: [u32; 2] = [128, 128];
+    /// What f32 makes of a depth: some ten roundings of half of 2⁻²³ in the ray, the way and the ratio.
+    const ROUNDED: f64 = 1e-6;
+    let rig = Rig::new(EXTENT, 1);
+    let view = View {
+        fov: Fov::symmetric(0.2, 1.0),
+        ..turned_eye()
+    };
+    for (y, x) in [(0.2, 0.3), (1.4, 0.4), (-0.5, 1.3), (2.3, -0.6)] {
+        let turn = Quat::from_euler(EulerRot::YXZ, y, x, 0.0);
+        let bone = |(a, b, radii): ([i8; 3], [i8; 3], [f32; 2])| Bone {
+            ends: [a, b].map(|end| {
+                let end = 0.001 * Vec3::from(end.map(f32::from));
+                let place = Vec3::new(0.0, 0.0, -0.5) + turn * end;
+                view.stage_from_eye.transform_point3(place)
+            }),
+            radii: radii.map(|radius| 0.001 * radius),
+            finish: Finish::Glove,
+            stain: 0.0,
+        };
+        let bones = PALM.map(bone);
+        let depth = &draw(&rig, &[view], [&bones, &[]]).depth[0];
+        let seen = reference(&view, EXTENT, [&bones, &[]]);
+        let pixel = 2.0 * f64::from(0.1_f32.tan()) / f64::from(EXTENT[0]);
+        let count = seen.compare(depth, EXTENT, CLOSE * pixel / FLATTEST + ROUNDED);
+        assert!(count > 4_000, "{count} pixels");
+        // The march goes no further than there is room, at edges too.
+        for (index, (&wanted, &got)) in seen.depth.iter().zip(depth).enumerate() {
+            assert!(
+                f64::from(got) >= wanted * (1.0 - ROUNDED),
+                "pixel {index}: depth {got}, expected {wanted}"
+            );
+        }
+    }
+}
+
 /// Two eyes, 64 mm apart, with mirrored frusta.
 #[test]
 fn each_eye_sees_its_own_gloves() {
@@ -243,7 +309,8 @@ fn where_there_is_no_hand_there_is_nothing() {
     let nowhere = [f32::NAN, f32::INFINITY, 1e30].map(|x| Bone {
         ends: [Vec3::splat(x), Vec3::Y],
         radii: [0.01; 2],
-        cuff: false,
+        finish: Finish::Glove,
+        stain: 0.0,
     });
     let picture = draw(&rig, &[view], [&behind, &nowhere]);
     assert!(picture.depth == empty.depth && picture.colour == empty.colour);
@@ -251,7 +318,8 @@ fn where_there_is_no_hand_there_is_nothing() {
     let about = Bone {
         ends: [Vec3::from(view.stage_from_eye.translation); 2],
         radii: [0.05; 2],
-        cuff: false,
+        finish: Finish::Glove,
+        stain: 0.0,
     };
     let picture = draw(&rig, &[view], [&[], &[about]]);
     assert!(picture.depth == empty.depth && picture.colour == empty.colour);
@@ -269,6 +337,57 @@ fn the_order_of_bones_changes_no_bit() {
         let picture = draw(&rig, &[view], [&bones, &[]]);
         assert!(picture.depth == first.depth && picture.colour == first.colour);
     }
+}
+
+/// One of two balls is charred: its blue is gone (CHARRED reflects four times as much red as blue, the glove a third), its shape
+/// is not, and the other, which it does not touch, has the same bits.
+#[test]
+fn acid_blackens_the_bone_that_it_came_to() {
+    let rig = Rig::new(EXTENT, 1);
+    let view = turned_eye();
+    let mut balls = hand(&view, Vec3::new(0.0, 0.0, -0.3), 0.0);
+    balls.truncate(2);
+    for (ball, x) in balls.iter_mut().zip([-0.04, 0.04]) {
+        let at = view
+            .stage_from_eye
+            .transform_point3(Vec3::new(x, 0.0, -0.3));
+        (ball.ends, ball.radii) = ([at; 2], [0.02; 2]);
+    }
+    let clean = draw(&rig, &[view], [&balls, &[]]);
+    balls[0].stain = 1.0;
+    let charred = draw(&rig, &[view], [&balls, &[]]);
+    assert!(clean.depth == charred.depth);
+    // The first eye's left half has the charred one; the middle of the picture is between them.
+    let [width, height] = EXTENT.map(|side| side as usize);
+    let [left, right] = [0.94_f64, 0.70].map(f64::tan);
+    let middle = (left / (left + right) * width as f64) as usize;
+    let mut counts = [0, 0];
+    let mut sums = [[0; 3]; 2];
+    for index in 0..width * height {
+        if clean.depth[0][index] == 0.0 {
+            continue;
+        }
+        let pixel = |picture: &Picture| -> [u8; 3] {
+            std::array::from_fn(|n| picture.colour[0][4 * index + n])
+        };
+        let (before, after) = (pixel(&clean), pixel(&charred));
+        let is_charred = index % width < middle;
+        counts[usize::from(is_charred)] += 1;
+        if is_charred {
+            for (sum, pixel) in sums.iter_mut().zip([before, after]) {
+                sum.iter_mut()
+                    .zip(pixel)
+                    .for_each(|(sum, channel)| *sum += u32::from(channel));
+            }
+        } else {
+            assert_eq!(before, after);
+        }
+    }
+    assert!(counts.into_iter().all(|count| count > 150), "{counts:?}");
+    // Highlights stay: what is reflected at the surface has the lamp's colour.
+    let [[red, _, blue], [charred_red, _, charred_blue]] = sums;
+    assert!(blue > red && charred_red > charred_blue, "{sums:?}");
+    assert!(2 * charred_blue < blue, "{sums:?}");
 }
 
 /// Hands among coloured spheres: each pixel has what is nearer.

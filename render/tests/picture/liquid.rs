@@ -4,7 +4,7 @@ use crate::rig::{Picture, Rig, without_particles};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::{
-    BoxDesc, FrameDesc, LiquidDesc, LiquidSource, Neighbours, RenderDesc, Renderer, Surface,
+    BoxDesc, FrameDesc, Lanes, LiquidDesc, LiquidSource, Neighbours, RenderDesc, Renderer, Surface,
     SurfaceFilter, View,
 };
 use vitriol_shaders::{Library, layout};
@@ -89,6 +89,11 @@ impl Liquid {
 
 /// A renderer of liquid.
 pub fn rig(extent: [u32; 2], views: u32, filter: SurfaceFilter) -> Rig {
+    rig_of_lanes(extent, views, filter, Lanes::CHOSEN)
+}
+
+/// The same, whose invocations share particles like that.
+pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: Lanes) -> Rig {
     let gpu = gpu::device();
     let desc = RenderDesc {
         views,
@@ -96,6 +101,7 @@ pub fn rig(extent: [u32; 2], views: u32, filter: SurfaceFilter) -> Rig {
             filter,
             ..LiquidDesc::new(20_000)
         }),
+        lanes,
         ..RenderDesc::film(extent)
     };
     let renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();

@@ -4,11 +4,16 @@
 mod ellipsoids;
 mod extent;
 mod glass;
+mod goggles;
 mod golden;
 mod hands;
+mod lanes;
 mod liquid;
+mod panel;
 mod rig;
 mod scene;
+mod shards;
+mod sign;
 mod spheres;
 mod steam;
 mod surface;

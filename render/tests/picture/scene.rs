@@ -4,7 +4,7 @@ use crate::rig::{Rig, ray, without_particles};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::QueueKind;
 use vitriol_render::{
-    Bone, ColourBy, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
+    Bone, ColourBy, Finish, FrameDesc, ParticleSource, RenderError, SceneDesc, VesselDesc, View,
 };
 
 const EXTENT: [u32; 2] = [320, 180];
@@ -203,14 +203,20 @@ fn another_length_scale_gives_the_same_picture() {
         let finger = Bone {
             ends: [Vec3::new(0.05, 0.80, -0.38), Vec3::new(0.08, 0.84, -0.40)],
             radii: [0.012, 0.009],
-            cuff: false,
+            finish: Finish::Glove,
+            stain: 0.0,
         };
         rig.draw(&FrameDesc {
             extent: None,
             views: &views,
             vessels: &vessels,
+            shards: &[],
             liquid: None,
             steam: None,
+            panel: None,
+            sign: None,
+            shown: 1.0,
+            goggles: 0.0,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,

@@ -18,22 +18,28 @@ const FAINTEST = 0.03;
 /// Longest way along an edge, pixels.
 const SPAN = 8.0;
 
-/// Green alone stands for brightness.
-fn brightness(pixel: vec2<i32>, eye: u32) -> f32 {
-    return textureLoad(drawn, within_picture(pixel), eye, 0).g;
+/// Green alone stands for brightness (x); and alpha.
+fn brightness(pixel: vec2<i32>, eye: u32) -> vec2<f32> {
+    return textureLoad(drawn, within_picture(pixel), eye, 0).ga;
 }
 
-fn tap(place: vec2<f32>, eye: u32) -> vec3<f32> {
+fn tap(place: vec2<f32>, eye: u32) -> vec4<f32> {
     let within = clamp(place, vec2<f32>(0.5), frame.extent - 0.5);
-    return textureSampleLevel(drawn, between, within / frame.held, eye, 0.0).rgb;
+    return textureSampleLevel(drawn, between, within / frame.held, eye, 0.0);
 }
 
-fn smoothed(pixel: vec2<i32>, eye: u32) -> vec3<f32> {
-    let here = textureLoad(drawn, pixel, eye, 0).rgb;
-    let a = brightness(pixel + vec2<i32>(-1, -1), eye);
-    let b = brightness(pixel + vec2<i32>(1, -1), eye);
-    let c = brightness(pixel + vec2<i32>(-1, 1), eye);
-    let d = brightness(pixel + vec2<i32>(1, 1), eye);
+fn smoothed(pixel: vec2<i32>, eye: u32) -> vec4<f32> {
+    let here = textureLoad(drawn, pixel, eye, 0);
+    let at_a = brightness(pixel + vec2<i32>(-1, -1), eye);
+    let at_b = brightness(pixel + vec2<i32>(1, -1), eye);
+    let at_c = brightness(pixel + vec2<i32>(-1, 1), eye);
+    let at_d = brightness(pixel + vec2<i32>(1, 1), eye);
+    // Within the panel edges are those of its text.
+    if (here.a + at_a.y + at_b.y + at_c.y + at_d.y == 0.0) { return here; }
+    let a = at_a.x;
+    let b = at_b.x;
+    let c = at_c.x;
+    let d = at_d.x;
     let least = min(here.g, min(min(a, b), min(c, d)));
     let most = max(here.g, max(max(a, b), max(c, d)));
     if most - least < FAINTEST {
@@ -56,7 +62,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     var colour = smoothed(place.pixel, place.eye);
     if (STEAM) {
         let steam = steam_over(place.pixel, place.eye, place.tile);
-        colour = encoded(steam.rgb + steam.a * decoded(colour)) + dither(vec2<f32>(place.pixel) + 0.5);
+        let light = frame.shown * steam.rgb + steam.a * decoded(colour.rgb);
+        // Behind steam the panel is the picture's.
+        let alpha = select(1.0, colour.a, steam.a == 1.0);
+        colour = vec4<f32>(encoded(light) + dither(vec2<f32>(place.pixel) + 0.5), alpha);
     }
-    textureStore(finished, place.pixel, place.eye, vec4<f32>(colour, 1.0));
+    textureStore(finished, place.pixel, place.eye, colour);
 }

@@ -1,13 +1,17 @@
 //! The picture without smooth edges: what of the room, the liquid, the hands and the coloured particles is nearest at
 //! each pixel, in its light, and the glass over it.
 //!
-//! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are.
+//! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are. Alpha is 0 where nothing is
+//! before the panel (`common/picture/panel.wgsl`).
 
 //!include common/picture/encode.wgsl
 //!include common/picture/glass_light.wgsl
+//!include common/picture/goggles.wgsl
 //!include common/picture/hidden_area.wgsl
 //!include common/picture/liquid_light.wgsl
 //!include common/picture/packed_light.wgsl
+//!include common/picture/panel.wgsl
+//!include common/picture/sign.wgsl
 //!include common/picture/tile_pixels.wgsl
 
 /// Whether the class's tiles have glass, and liquid.
@@ -43,6 +47,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     let near = frame.views[eye].near;
     var colour = vec3<f32>(0.0);
     var reversed = 1.0;
+    var alpha = 1.0;
     if (!is_hidden(place.pixel, eye)) {
         // Of view depth 1, so that ways along it are depths.
         var origin = frame.views[eye].eye;
@@ -71,23 +76,53 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         if (met.way == 0.0) { light = ambient_light(direction.y); }
         colour = display(kept * light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
+        if (wet) {
+            let behind = meets_panel(origin, direction);
+            var end = select(met.way, 1e9, met.way == 0.0);
+            if (behind.way < end && is_on_panel(behind.at, 1.0)) {
+                colour = kept * panel_light(behind.at) + display(mirrored);
+                end = behind.way;
+            }
+            if (has_sign()) {
+                let sign = meets_sign(origin, direction);
+                if (sign.way < end && is_on_sign(sign.at)) { colour = kept * sign_light(sign.at) + display(mirrored); }
+            }
+        } else {
+            let panel = panel_seen(eye, at, near / max(reversed, 1e-9));
+            if (panel.share > 0.0) {
+                colour = mix(colour, panel.light, panel.share);
+                reversed = near / panel.depth;
+                alpha = select(1.0, 0.0, panel.see_through);
+            }
+        }
+        let sign = sign_seen(eye, at, near / max(reversed, 1e-9));
+        if (sign.share > 0.0) {
+            colour = mix(colour, sign.light, sign.share);
+            reversed = near / sign.depth;
+            alpha = 1.0;
+        }
         if ((tiles[place.tile] & (MARK_SPHERES | MARK_HANDS)) != 0u) {
             let index = pixel_index(place.pixel, eye);
             let solid = solid_depths[index];
             if (solid > reversed) {
                 reversed = solid;
                 colour = unpacked(solid_light[index]);
+                alpha = 1.0;
             }
         }
         if (GLASS) {
             let end = select(BEHIND_GLASS * near / reversed, 1e9, reversed == 0.0);
             let cover = glass_over(tiles[place.tile], eye, at, end);
             colour = cover.colour + cover.open * colour;
+            if (cover.open < 1.0) { alpha = 1.0; }
         }
         // What has no slow gradient needs no noise.
-        colour = encoded(colour) + select(0.0, dither(at), room);
+        let goggles = through_goggles(eye, at);
+        // What is behind the picture would be seen as if they were clean.
+        if (any(goggles < vec3<f32>(1.0))) { alpha = 1.0; }
+        colour = encoded(frame.shown * goggles * colour) + select(0.0, dither(at), room);
     }
     depths[pixel_index(place.pixel, eye)] = reversed;
-    textureStore(drawn, place.pixel, eye, vec4<f32>(colour, 1.0));
-    textureStore(finished, place.pixel, eye, vec4<f32>(colour, 1.0));
+    textureStore(drawn, place.pixel, eye, vec4<f32>(colour, alpha));
+    textureStore(finished, place.pixel, eye, vec4<f32>(colour, alpha));
 }

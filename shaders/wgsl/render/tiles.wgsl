@@ -97,7 +97,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let e = ellipsoids[id.x];
             if (e.visible > 0.0) { mark_particle(eye, e); }
         }
-        if (id.x < frame.blocker_count) { mark_vessel(eye, id.x); }
+        if (id.x < frame.glass_count) { mark_vessel(eye, id.x); }
         if (id.x < 128u) { mark_table(eye, id.x); }
     }
 }

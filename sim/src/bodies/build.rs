@@ -198,6 +198,6 @@ fn table_top(table: Table, units: Units) -> ColliderBuilder {
         .translation(surface_centre - Vec3::Y * half_thickness)
 }
 
-fn surface(collider: ColliderBuilder) -> ColliderBuilder {
+pub(super) fn surface(collider: ColliderBuilder) -> ColliderBuilder {
     collider.friction(FRICTION).restitution(RESTITUTION)
 }

@@ -53,6 +53,11 @@ impl GripState {
     pub(super) fn has_just_taken(&self) -> bool {
         self.took
     }
+
+    /// That flask is no more: a hand that held it holds nothing, and must open before it takes hold again.
+    pub(super) fn lose(&mut self, flask: usize) {
+        self.held = self.held.filter(|held| held.flask != flask);
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -13,9 +13,11 @@ mod coupling;
 mod grip;
 mod reach;
 mod rolling;
+mod shards;
 mod shell;
 mod solid;
 mod spec;
+mod strikes;
 mod units;
 mod world;
 
@@ -23,5 +25,7 @@ mod world;
 mod tests;
 
 pub use grip::{GRIP_CLOSES, GRIP_OPENS, GRIP_REACH, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
-pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Table};
-pub use world::{Bodies, Leap, Velocity};
+pub use shards::{BASE_SHARE, BREAKS_AT, Break, NOWHERE, SHARDS, Shard, is_nowhere};
+pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Table, Velocity};
+pub use strikes::Strike;
+pub use world::{Bodies, Leap};

@@ -1,4 +1,4 @@
-//! What the caller hands in: the world, its flasks, and each step's inputs.
+//! What the caller hands in, the world, its flasks, and each step's inputs, and how flasks move.
 
 use glam::{Vec2, Vec3};
 use thiserror::Error;
@@ -89,6 +89,15 @@ pub struct Load {
     pub liquid_mass: f32,
     /// Centre of mass of that liquid (m), flask frame. Not read where the mass is zero.
     pub liquid_centre: Vec3,
+}
+
+/// How a flask moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Velocity {
+    /// Of the flask's origin, the centre of its base (m/s), stage axes.
+    pub linear: Vec3,
+    /// Angular velocity (rad/s), stage axes.
+    pub angular: Vec3,
 }
 
 /// Why a world of bodies could not be made or restored.

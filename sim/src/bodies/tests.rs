@@ -6,6 +6,8 @@ mod coupled;
 mod free;
 mod held;
 mod setup;
+mod shards;
+mod strikes;
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -60,6 +62,23 @@ fn world(flasks: Vec<BodySpec>) -> Bodies {
         }),
         floor: 0.0,
         flasks,
+    })
+    .unwrap()
+}
+
+/// A world twenty times as large, in which a beaker begins so high (m, at real size) over the floor: masses go with the third power of
+/// length, speeds with the first.
+fn twenty_times(height: f32) -> Bodies {
+    let mut flask = beaker(Pose::from_position(Vec3::Y * (20.0 * height)));
+    (flask.outline.iter_mut().flatten()).for_each(|it| *it *= 20.0);
+    flask.glass_mass *= 8000.0;
+    Bodies::new(&BodiesSpec {
+        gravity: Vec3::new(0.0, -20.0 * G, 0.0),
+        step: STEP,
+        length_scale: 20.0,
+        table: None,
+        floor: 0.0,
+        flasks: vec![flask],
     })
     .unwrap()
 }

@@ -29,6 +29,11 @@ impl Units {
         }
     }
 
+    /// As [`BodiesSpec::length_scale`](super::BodiesSpec).
+    pub fn length_scale(self) -> f32 {
+        self.unit / UNIT
+    }
+
     pub fn length(self, metres: f32) -> f32 {
         metres / self.unit
     }

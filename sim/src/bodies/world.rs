@@ -9,7 +9,9 @@ use super::coupling::{self, PastPoses};
 use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 use super::reach;
 use super::rolling;
-use super::spec::{BodiesError, BodiesSpec, Hand, Load};
+use super::shards::{BREAKS_AT, Break, Breakage, NOWHERE, Shard};
+use super::spec::{BodiesError, BodiesSpec, Hand, Load, Velocity};
+use super::strikes::{Memory, Strike, Strikes};
 use super::units::Units;
 use crate::pose::Pose;
 
@@ -26,20 +28,14 @@ pub struct Leap {
     pub after_from_before: Pose,
 }
 
-/// How a flask moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Velocity {
-    /// Of the flask's origin, the centre of its base (m/s), stage axes.
-    pub linear: Vec3,
-    /// Angular velocity (rad/s), stage axes.
-    pub angular: Vec3,
-}
-
 /// What of the world changes and is not rapier's.
 #[derive(Clone, Serialize, Deserialize)]
 struct State {
     grips: [GripState; 2],
     past: Vec<PastPoses>,
+    /// Whether the hands leap before the next step.
+    hands_leap: bool,
+    glass: Breakage,
 }
 
 /// Flasks, table and floor under rapier, and the hands that grip the flasks.
@@ -53,8 +49,9 @@ pub struct Bodies {
     flasks: Vec<Flask>,
     state: State,
     poses: Vec<Pose>,
-    hands_leap: bool,
     leaps: Vec<Leap>,
+    breaks: Vec<Break>,
+    strikes: Strikes,
     gravity: Vec3,
     step: f32,
     units: Units,
@@ -79,10 +76,13 @@ impl Bodies {
             state: State {
                 grips: [GripState::default(); 2],
                 past: poses.iter().map(|&pose| [pose; 4]).collect(),
+                hands_leap: false,
+                glass: Breakage::of(spec.flasks.len()),
             },
             poses,
-            hands_leap: false,
             leaps: Vec::new(),
+            breaks: Vec::new(),
+            strikes: Strikes::new(spec),
             gravity: spec.gravity,
             step: spec.step,
             units: Units::new(spec.length_scale),
@@ -97,22 +97,32 @@ impl Bodies {
     /// this step already falls in it.
     pub fn step(&mut self, hands: &[Hand; 2], loads: &[Load]) {
         let reach = GRIP_REACH * self.length_scale;
+        self.take_breaks();
         let grips = &mut self.state.grips;
         grip::advance(grips, hands, &self.flasks, &self.poses, reach);
+        self.strikes.begin();
         self.take_leaps();
         for index in 0..self.flasks.len() {
             let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
             if self.holder(index).is_some() {
                 self.hold(index);
-            } else if !self.flasks[index].fixed {
+            } else if !self.flasks[index].fixed && !self.is_broken(index) {
                 self.free(index, &load);
             }
         }
         for substep in 1..=SUBSTEPS {
             self.move_held(substep as f32 / SUBSTEPS as f32);
             self.rapier.step();
+            self.strikes.take(&self.rapier, &self.flasks, self.units);
         }
         self.read_poses();
+        if self.state.glass.on {
+            let least = BREAKS_AT * self.length_scale;
+            let hard = self.strikes.found.iter().filter(|it| it.speed >= least);
+            let struck = hard.flat_map(|it| [Some(it.flask), it.other]).flatten();
+            let breaks = struck.filter(|&flask| !self.flasks[flask].fixed);
+            self.state.glass.struck.extend(breaks);
+        }
     }
 
     /// `stage_from_flask` of every flask after the last step.
@@ -123,7 +133,7 @@ impl Bodies {
     /// Between the last step and the next the hands do not come to where they are by moving: what they hold leaps. So
     /// does, unasked, what a hand holds that was absent, and that goes faster than hands do.
     pub fn hands_leap(&mut self) {
-        self.hands_leap = true;
+        self.state.hands_leap = true;
     }
 
     /// Held flasks that leapt in the last step.
@@ -131,9 +141,45 @@ impl Bodies {
         &self.leaps
     }
 
+    /// Blows of the last step.
+    pub fn strikes(&self) -> &[Strike] {
+        &self.strikes.found
+    }
+
+    /// Whether flasks break by blows of [`BREAKS_AT`] and more from the next step on; they do not from the start.
+    pub fn set_breakable(&mut self, on: bool) {
+        self.state.glass.on = on;
+        if !on {
+            self.state.glass.struck.clear();
+        }
+    }
+
+    /// Whether flasks break.
+    pub fn is_breakable(&self) -> bool {
+        self.state.glass.on
+    }
+
+    /// Flasks that broke in the last step. Their poses are [`NOWHERE`] from then on, and no hand holds them.
+    pub fn breaks(&self) -> &[Break] {
+        &self.breaks
+    }
+
+    /// Whether a flask has broken.
+    pub fn is_broken(&self, flask: usize) -> bool {
+        self.state.glass.broken.get(flask) == Some(&true)
+    }
+
+    /// What is left of those that have.
+    pub fn shards(&self) -> Vec<Shard> {
+        self.state.glass.shards(&self.rapier, self.units)
+    }
+
     /// The velocity of a flask: of a held one by its last two poses. `None` where there
-    /// is no such flask.
+    /// is no such flask, and of one that is broken.
     pub fn velocity(&self, flask: usize) -> Option<Velocity> {
+        if self.is_broken(flask) {
+            return None;
+        }
         let body = self.rapier.bodies.get(self.flasks.get(flask)?.body)?;
         if self.holder(flask).is_some() {
             let past = &self.state.past[flask];
@@ -152,9 +198,12 @@ impl Bodies {
     }
 
     /// Distance (m) of a point of the stage from a flask's outer surface, which is closed at the rim; negative within. `None` of
-    /// a flask that nobody can grip, or that is not there.
+    /// a flask that nobody can grip, that is broken or not there.
     pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
         let shape = self.flasks.get(flask).filter(|shape| !shape.fixed)?;
+        if self.is_broken(flask) {
+            return None;
+        }
         let flask_from_stage = self.poses.get(flask)?.inverse();
         let point = flask_from_stage.transform_point(point);
         Some(reach::signed_distance(&shape.outline, point))
@@ -165,7 +214,7 @@ impl Bodies {
     /// # Errors
     /// [`BodiesError::Snapshot`] where memory does not suffice.
     pub fn snapshot(&self) -> Result<Vec<u8>, BodiesError> {
-        postcard::to_allocvec(&(&self.rapier, &self.state))
+        postcard::to_allocvec(&(&self.rapier, &self.state, &self.strikes.memory))
             .map_err(|error| BodiesError::Snapshot(error.to_string()))
     }
 
@@ -176,9 +225,13 @@ impl Bodies {
     /// # Errors
     /// [`BodiesError::Snapshot`] or [`BodiesError::OtherWorld`]; the world is then as before.
     pub fn restore(&mut self, snapshot: &[u8]) -> Result<(), BodiesError> {
-        let (rapier, state): (PhysicsWorld, State) = postcard::from_bytes(snapshot)
-            .map_err(|error| BodiesError::Snapshot(error.to_string()))?;
-        let same = state.past.len() == self.flasks.len()
+        let (rapier, state, strikes): (PhysicsWorld, State, Memory) =
+            postcard::from_bytes(snapshot)
+                .map_err(|error| BodiesError::Snapshot(error.to_string()))?;
+        let count = self.flasks.len();
+        let same = state.past.len() == count
+            && state.glass.is_of(count)
+            && strikes.is_of(count)
             && self
                 .flasks
                 .iter()
@@ -192,6 +245,11 @@ impl Bodies {
         self.poses = state.past.iter().map(|past| past[0]).collect();
         self.rapier = rapier;
         self.state = state;
+        self.strikes.memory = strikes;
+        // Those were of steps of the state before.
+        self.strikes.begin();
+        self.leaps.clear();
+        self.breaks.clear();
         Ok(())
     }
 
@@ -255,10 +313,35 @@ impl Bodies {
         }
     }
 
+    /// Breaks what was struck too hard in the last step.
+    fn take_breaks(&mut self) {
+        self.breaks.clear();
+        for index in std::mem::take(&mut self.state.glass.struck) {
+            if self.is_broken(index) {
+                continue;
+            }
+            let pose = self.poses[index];
+            let velocity = self.velocity(index).unwrap_or_default();
+            let (flask, units) = (&self.flasks[index], self.units);
+            let glass = &mut self.state.glass;
+            glass.shatter(&mut self.rapier, index, flask, (pose, velocity), units);
+            for grip in &mut self.state.grips {
+                grip.lose(index);
+            }
+            let nowhere = Pose::from_position(NOWHERE * self.length_scale);
+            (self.poses[index], self.state.past[index]) = (nowhere, [nowhere; 4]);
+            self.strikes.forget_held(index);
+            self.breaks.push(Break {
+                flask: index,
+                stage_from_flask: pose,
+            });
+        }
+    }
+
     /// Puts the held flasks that leap where their hands have them, as if they had always been there: a leap ends a step
     /// before the hand, at the velocity that the flask has had.
     fn take_leaps(&mut self) {
-        let all = std::mem::take(&mut self.hands_leap);
+        let all = std::mem::take(&mut self.state.hands_leap);
         self.leaps.clear();
         for (index, flask) in self.flasks.iter().enumerate() {
             let Some((hand, target)) = grip::holder(&self.state.grips, index) else {
@@ -285,6 +368,7 @@ impl Bodies {
             if let Some(body) = self.rapier.bodies.get_mut(flask.body) {
                 body.set_position(self.units.pose(past[0]), true);
             }
+            self.strikes.forget_held(index);
             self.leaps.push(Leap {
                 flask: index,
                 after_from_before,
@@ -308,8 +392,12 @@ impl Bodies {
 
     fn read_poses(&mut self) {
         for (index, flask) in self.flasks.iter().enumerate() {
+            if self.state.glass.broken[index] {
+                continue;
+            }
             // A held flask is exactly where the hand has it, whatever rapier rounds it to.
             let held = grip::holder(&self.state.grips, index).map(|(_, pose)| pose);
+            self.strikes.take_held(index, flask, held, self.step);
             let pose = held.or_else(|| {
                 let body = self.rapier.bodies.get(flask.body)?;
                 (!flask.fixed).then(|| self.units.pose_to_si(body.translation(), *body.rotation()))

@@ -1,5 +1,6 @@
 //! What has left which flask, and what flies above its rim.
 
+use crate::bodies::is_nowhere;
 use crate::pose::Pose;
 use crate::scene::Flask;
 use crate::solver::SolverState;
@@ -57,7 +58,9 @@ impl Departures {
                 }
                 let [x, y, z, _] = state.positions[slot];
                 let local = flask_from_stage[flask].transform_point(Vec3::new(x, y, z));
-                if now.is_none() && f64::from(local.y) > flasks[flask].profile.rim_height() {
+                let is_over = f64::from(local.y) > flasks[flask].profile.rim_height();
+                // A broken flask has no rim any more.
+                if now.is_none() && is_over && !is_nowhere(&poses[flask]) {
                     above_rim[flask] += particle_mass * state.mass_of(slot);
                 }
             }

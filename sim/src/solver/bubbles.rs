@@ -2,7 +2,7 @@
 
 use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS, Buffers};
 use super::spray::SprayState;
-use super::transfer::{read, write};
+use super::transfer::write;
 use super::{Solver, SolverError};
 use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::table::steam_enthalpy;
@@ -137,18 +137,6 @@ impl BubbleState {
             }
         }
         account
-    }
-
-    pub(super) fn read(gpu: &Gpu, b: &Buffers, start: &Self) -> Result<Self, SolverError> {
-        Ok(Self {
-            bubbles: read(gpu, &b.bubbles, start.bubbles.len())?,
-            bubbled: read(gpu, &b.bubbled, start.bubbled.len())?,
-            gas: read(gpu, &b.gas, start.gas.len())?,
-            merging: read(gpu, &b.merging, start.merging.len())?,
-            falls: read(gpu, &b.falls, start.falls.len())?,
-            cell_starts: read(gpu, &b.cell_starts, start.cell_starts.len())?,
-            block_sums: read(gpu, &b.block_sums, start.block_sums.len())?,
-        })
     }
 
     pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {

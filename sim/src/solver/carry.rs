@@ -1,9 +1,13 @@
-//! What is in a flask goes with it where it leaps, before Algorithm 1 begins.
+//! What is in a flask goes with it where it leaps, and is nobody's where it breaks, before Algorithm 1 begins.
 
 use super::{Solver, SolverError};
 use crate::bodies::Leap;
+use crate::pose::Pose;
 use vitriol_gpu::Recorder;
 use vitriol_shaders::layout::Carry;
+
+/// Membership of what is in no flask, as in `common/liquid/particle.wgsl`.
+const NOBODYS: u32 = 0;
 
 impl Solver {
     /// Records the rigid motion of all that is in the flask.
@@ -11,6 +15,28 @@ impl Solver {
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
     pub fn carry(&self, rec: &mut Recorder, leap: &Leap) -> Result<(), SolverError> {
+        let membership = leap.flask as u32 + 1;
+        self.move_contents(rec, leap, membership)
+    }
+
+    /// Records that all that is in the flask is nobody's from now on: it stays where it is, and finds no glass there.
+    ///
+    /// # Errors
+    /// As for [`Solver::carry`].
+    pub fn release(&self, rec: &mut Recorder, flask: usize) -> Result<(), SolverError> {
+        let stays = Leap {
+            flask,
+            after_from_before: Pose::IDENTITY,
+        };
+        self.move_contents(rec, &stays, NOBODYS)
+    }
+
+    fn move_contents(
+        &self,
+        rec: &mut Recorder,
+        leap: &Leap,
+        becomes: u32,
+    ) -> Result<(), SolverError> {
         let Some(pass) = &self.pipelines.carry else {
             return Ok(());
         };
@@ -25,6 +51,7 @@ impl Solver {
             position: motion.position.extend(0.0).to_array(),
             orientation: motion.orientation.to_array(),
             membership: leap.flask as u32 + 1,
+            becomes,
             ..Carry::default()
         };
         self.pass(rec, pass)

@@ -13,6 +13,7 @@
 mod bubbles;
 mod buffers;
 mod carry;
+mod census;
 mod colour;
 mod counters;
 mod error;
@@ -21,7 +22,6 @@ mod glass;
 mod lanes;
 mod matter;
 mod pipelines;
-mod reading;
 mod search;
 mod snapshot;
 mod solids;
@@ -32,10 +32,14 @@ mod steam;
 mod transfer;
 mod vessels;
 
+pub use census::{
+    Bubbles, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, LooksMemory, MOST_LIMBS,
+    Moved, Place, SCALDS, Skin, SkinPart, Touching,
+};
 pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
-pub use reading::{FlaskReading, ReadingRecord};
+pub(crate) use snapshot::SolverStateRecord;
 pub use spec::{Ground, Particle, SolverSpec};
 pub use state::SolverState;
 pub use steam::PUFFS;
@@ -43,6 +47,7 @@ pub use steam::PUFFS;
 use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;
 use buffers::Buffers;
+use census::Looks;
 use pipelines::{Constants, Grid, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
 use steam::Steam;
@@ -66,6 +71,7 @@ pub struct Solver {
     vessels: Vessels,
     pipelines: Pipelines,
     steam: Option<Steam>,
+    looks: Looks,
 }
 
 impl Solver {
@@ -87,6 +93,15 @@ impl Solver {
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
         let steam = Steam::new(gpu, library, &spec.parameters, count, &constants, &buffers)?;
+        let sizes = [count as usize, spec.flasks.len()];
+        let looks = Looks::new(
+            gpu,
+            library,
+            &spec.parameters,
+            sizes,
+            spec.ground.scale,
+            (&constants, &buffers),
+        )?;
         let solver = Self {
             gpu: gpu.clone(),
             coefficients: spec
@@ -104,6 +119,7 @@ impl Solver {
             vessels,
             pipelines,
             steam,
+            looks,
         };
         solver.restore(&SolverState::start(
             spec.particles,

@@ -1,14 +1,53 @@
 //! The solver's state, taken from a device and put on one again.
 
-use super::bubbles::BubbleState;
 use super::buffers::NO_PLACES;
 use super::glass;
-use super::spray::SprayState;
-use super::steam::{Steam, SteamState};
+use super::steam::Steam;
 use super::transfer::{read, write};
 use super::{Counters, Solver, SolverError, SolverState};
 use crate::chemistry::Chemistry;
+use bytemuck::AnyBitPattern;
 use std::sync::atomic::Ordering;
+use vitriol_gpu::{Buffer, GpuError, QueueKind, Recorder};
+
+/// Puts the first elements of a buffer's copy into the state.
+type Fill = Box<dyn FnOnce(&mut SolverState) -> Result<(), GpuError> + Send>;
+
+/// A state on its way to the host.
+pub(crate) struct SolverStateRecord(Vec<Fill>);
+
+impl SolverStateRecord {
+    /// The state.
+    ///
+    /// # Errors
+    /// [`GpuError::NotDone`] before the submission has finished.
+    pub(crate) fn get(self) -> Result<SolverState, GpuError> {
+        let mut state = SolverState::default();
+        for fill in self.0 {
+            fill(&mut state)?;
+        }
+        Ok(state)
+    }
+
+    /// Copies the first `count` elements of `buffer` into `field`; buffers are a few bytes longer where a scene is empty.
+    fn copy<T: AnyBitPattern>(
+        &mut self,
+        rec: &mut Recorder,
+        (buffer, count): (&Buffer, usize),
+        field: fn(&mut SolverState) -> &mut Vec<T>,
+    ) -> Result<(), GpuError> {
+        if count > 0 {
+            let readback = rec.read_back(buffer)?;
+            self.0.push(Box::new(move |state| {
+                let mut all = readback.get()?;
+                all.truncate(count);
+                *field(state) = all;
+                Ok(())
+            }));
+        }
+        Ok(())
+    }
+}
 
 impl Solver {
     /// Reads the state to the host; waits for the device.
@@ -16,31 +55,63 @@ impl Solver {
     /// # Errors
     /// [`SolverError::Gpu`] where the device fails.
     pub fn snapshot(&self) -> Result<SolverState, SolverError> {
-        let (b, gpu) = (&self.buffers, &self.gpu);
+        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let record = self.record_state(&mut rec)?;
+        self.gpu.submit(rec)?.wait()?;
+        Ok(record.get()?)
+    }
+
+    /// Records the copies of which a state is made, behind a frame.
+    pub(crate) fn record_state(&self, rec: &mut Recorder) -> Result<SolverStateRecord, GpuError> {
+        let b = &self.buffers;
         let n = self.count as usize;
         let [heat, matter] = self.lengths();
-        Ok(SolverState {
-            positions: read(gpu, &b.position, n)?,
-            velocities: read(gpu, &b.velocity, n)?,
-            tags: read(gpu, &b.tags, n)?,
-            heat: read(gpu, &b.heat, heat)?,
-            matter: read(gpu, &b.matter, matter)?,
-            ledger: read(gpu, &b.ledger, matter)?,
-            bulk: read(gpu, &b.bulk, matter)?,
-            eddies: read(gpu, &b.eddies, matter)?,
-            glass: read(gpu, &b.glass, self.rings())?,
-            steam: match &self.steam {
-                Some(steam) => steam.snapshot(gpu, n)?,
-                None => SteamState::default(),
-            },
-            bubbles: BubbleState::read(gpu, b, &self.bubbles_at_start())?,
-            spray: SprayState::read(gpu, b, &self.spray_at_start())?,
-            held: read(gpu, &b.held, self.sticking())?,
-            list_origin: read(gpu, &b.list_origin, n)?,
-            list_counts: read(gpu, &b.list_counts, n)?,
-            list: read(gpu, &b.list, n * self.grid.list_capacity as usize)?,
-            counters: read(gpu, &b.counters, size_of::<Counters>() / 4)?,
-        })
+        let (bubbles, spray) = (self.bubbles_at_start(), self.spray_at_start());
+        let mut to = SolverStateRecord(Vec::new());
+        to.copy(rec, (&b.position, n), |it| &mut it.positions)?;
+        to.copy(rec, (&b.velocity, n), |it| &mut it.velocities)?;
+        to.copy(rec, (&b.tags, n), |it| &mut it.tags)?;
+        to.copy(rec, (&b.heat, heat), |it| &mut it.heat)?;
+        to.copy(rec, (&b.matter, matter), |it| &mut it.matter)?;
+        to.copy(rec, (&b.ledger, matter), |it| &mut it.ledger)?;
+        to.copy(rec, (&b.bulk, matter), |it| &mut it.bulk)?;
+        to.copy(rec, (&b.eddies, matter), |it| &mut it.eddies)?;
+        to.copy(rec, (&b.glass, self.rings()), |it| &mut it.glass)?;
+        if let Some(steam) = &self.steam {
+            let [puffs, vented, made] = steam.state(n);
+            to.copy(rec, puffs, |it| &mut it.steam.puffs)?;
+            to.copy(rec, vented, |it| &mut it.steam.vented)?;
+            to.copy(rec, made, |it| &mut it.steam.made)?;
+        }
+        let count = (&b.bubbles, bubbles.bubbles.len());
+        to.copy(rec, count, |it| &mut it.bubbles.bubbles)?;
+        let count = (&b.bubbled, bubbles.bubbled.len());
+        to.copy(rec, count, |it| &mut it.bubbles.bubbled)?;
+        to.copy(rec, (&b.gas, bubbles.gas.len()), |it| &mut it.bubbles.gas)?;
+        let count = (&b.merging, bubbles.merging.len());
+        to.copy(rec, count, |it| &mut it.bubbles.merging)?;
+        to.copy(rec, (&b.falls, bubbles.falls.len()), |it| {
+            &mut it.bubbles.falls
+        })?;
+        let count = (&b.cell_starts, bubbles.cell_starts.len());
+        to.copy(rec, count, |it| &mut it.bubbles.cell_starts)?;
+        let count = (&b.block_sums, bubbles.block_sums.len());
+        to.copy(rec, count, |it| &mut it.bubbles.block_sums)?;
+        to.copy(rec, (&b.drops, spray.drops.len()), |it| &mut it.spray.drops)?;
+        to.copy(rec, (&b.sprayed, spray.sprayed.len()), |it| {
+            &mut it.spray.sprayed
+        })?;
+        to.copy(rec, (&b.spray_left, spray.left.len()), |it| {
+            &mut it.spray.left
+        })?;
+        to.copy(rec, (&b.held, self.sticking()), |it| &mut it.held)?;
+        to.copy(rec, (&b.list_origin, n), |it| &mut it.list_origin)?;
+        to.copy(rec, (&b.list_counts, n), |it| &mut it.list_counts)?;
+        let listed = n * self.grid.list_capacity as usize;
+        to.copy(rec, (&b.list, listed), |it| &mut it.list)?;
+        let words = size_of::<Counters>() / 4;
+        to.copy(rec, (&b.counters, words), |it| &mut it.counters)?;
+        Ok(to)
     }
 
     /// Puts a state on this device, a new one perhaps; what follows has the
@@ -106,6 +177,7 @@ impl Solver {
         }
         let any = state.list_counts.iter().any(|&count| count > 0);
         self.listed.store(any, Ordering::Relaxed);
+        self.looks.begin_anew();
         let (b, gpu) = (&self.buffers, &self.gpu);
         write(gpu, &b.position, &state.positions)?;
         write(gpu, &b.velocity, &state.velocities)?;
@@ -126,7 +198,7 @@ impl Solver {
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
         write(gpu, &b.counters, &state.counters)?;
-        let mut rec = gpu.recorder(vitriol_gpu::QueueKind::Main)?;
+        let mut rec = gpu.recorder(QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
         if self.pipelines.bubbles.is_some() {
             // At a frame's end nothing is to be born.

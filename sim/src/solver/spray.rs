@@ -1,8 +1,7 @@
 //! Drops that bubbles throw up when they burst: their part of the state.
 
-use super::SolverError;
 use super::buffers::{Buffers, DROPS_WORDS, SPRAYED_WORDS};
-use super::transfer::{read, write};
+use super::transfer::write;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Gpu, GpuError};
@@ -35,6 +34,11 @@ pub(crate) struct SprayAccount {
     pub(crate) fallen: Liquid,
     /// On its way to particles; negative where it is on its way from them.
     pub(crate) pending: Liquid,
+}
+
+/// A flask's quanta as mass over V0·ρ0.
+pub(super) fn spray_left(quanta: Option<&u32>) -> f64 {
+    f64::from(quanta.copied().unwrap_or_default()) * LEFT_QUANTUM
 }
 
 impl SprayState {
@@ -81,16 +85,7 @@ impl SprayState {
 
     /// Mass that came to rest elsewhere than in the flask that it came from, over V0·ρ0.
     pub(super) fn left(&self, flask: usize) -> f64 {
-        let quanta = self.left.get(flask).copied().unwrap_or_default();
-        f64::from(quanta) * LEFT_QUANTUM
-    }
-
-    pub(super) fn read(gpu: &Gpu, b: &Buffers, start: &Self) -> Result<Self, SolverError> {
-        Ok(Self {
-            drops: read(gpu, &b.drops, start.drops.len())?,
-            sprayed: read(gpu, &b.sprayed, start.sprayed.len())?,
-            left: read(gpu, &b.spray_left, start.left.len())?,
-        })
+        spray_left(self.left.get(flask))
     }
 
     pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {

@@ -3,7 +3,7 @@
 use super::buffers::Buffers;
 use super::error::SolverError;
 use super::pipelines::{Constants, SolverPass};
-use super::transfer::{read, write};
+use super::transfer::write;
 use crate::chemistry::puff::Room;
 use crate::chemistry::{Chemistry, Physical};
 use crate::parameters::Parameters;
@@ -108,13 +108,14 @@ impl Steam {
         &self.own[0]
     }
 
-    pub(super) fn snapshot(&self, gpu: &Gpu, count: usize) -> Result<SteamState, SolverError> {
+    /// What a state has of it, with `count` particles: buffers and their elements.
+    pub(super) fn state(&self, count: usize) -> [(&Buffer, usize); 3] {
         let [puffs, vented, made] = &self.own;
-        Ok(SteamState {
-            puffs: read(gpu, puffs, PUFFS as usize)?,
-            vented: read(gpu, vented, count)?,
-            made: read(gpu, made, VENTS as usize)?,
-        })
+        [
+            (puffs, PUFFS as usize),
+            (vented, count),
+            (made, VENTS as usize),
+        ]
     }
 
     pub(super) fn restore(&self, gpu: &Gpu, state: &SteamState) -> Result<(), GpuError> {

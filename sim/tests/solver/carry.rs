@@ -126,6 +126,36 @@ fn all_that_is_in_the_flask_moves_and_nothing_else() {
             assert_eq!((x.position, x.velocity), (y.position, y.velocity), "{slot}");
         }
     }
+
+    // Where that flask breaks, all that is in it is nobody's, stays where it is, and nothing else changes.
+    let mut rec = device.recorder(QueueKind::Main).unwrap();
+    solver.release(&mut rec, 1).unwrap();
+    device.submit(rec).unwrap().wait().unwrap();
+    let free = solver.snapshot().unwrap();
+    assert_eq!(free.positions, after.positions);
+    assert_eq!(free.velocities, after.velocities);
+    let is_free = |tag: u32| if tag == 2 { 0 } else { tag };
+    for (was, is) in after.tags.iter().zip(&free.tags) {
+        assert_eq!(*is, [is_free(was[0]), was[1]]);
+    }
+    for (slot, (was, is)) in after.bubbles().iter().zip(free.bubbles()).enumerate() {
+        let expected = if slot == 3 { 0 } else { was.membership };
+        assert_eq!(
+            (is.membership, is.position),
+            (expected, was.position),
+            "{slot}"
+        );
+    }
+    let slots = after.drops().iter().zip(free.drops()).enumerate();
+    for (slot, (was, is)) in slots {
+        // From the first flask's liquid, in none.
+        let expected = if slot == 8 { 1 } else { was.memberships };
+        assert_eq!(
+            (is.memberships, is.position),
+            (expected, was.position),
+            "{slot}"
+        );
+    }
 }
 
 /// A beaker in the hand, recentred, and one that is not. Physics knows neither place nor direction on a level floor, so that

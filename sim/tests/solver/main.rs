@@ -4,14 +4,17 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod against_reference;
+mod breaks;
 mod brink;
 mod carry;
+mod census;
 mod chaos;
 mod chemistry;
 mod common;
 mod effort;
 mod forces;
 mod leaning_glass;
+mod lifeline;
 mod limits;
 mod lip;
 mod loads;

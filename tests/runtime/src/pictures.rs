@@ -27,6 +27,9 @@ pub(crate) struct Picture {
     memory: vk::DeviceMemory,
     /// The commands that look at it.
     look: vk::CommandBuffer,
+    /// Signalled where no look is under way. A runtime waits for its own work before it destroys an image: the application
+    /// can not.
+    looked: vk::Fence,
 }
 
 /// Vulkan's usage of OpenXR's.
@@ -112,7 +115,7 @@ impl Device {
         // SAFETY: while a swapchain is made, nothing else is submitted to the queue (as Monado asks of its
         // clients too). What was begun is waited for: the application need not.
         unsafe {
-            self.submit(begin)?;
+            self.submit(begin, vk::Fence::null())?;
             self.device.queue_wait_idle(self.queue)
         }
     }
@@ -166,10 +169,17 @@ impl Device {
                         .inspect_err(|_| self.device.free_memory(memory, None))
                 });
             let memory = memory.inspect_err(|_| self.device.destroy_image(image, None))?;
+            let signalled = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);
+            let looked = self.device.create_fence(&signalled, None);
+            let looked = looked.inspect_err(|_| {
+                self.device.destroy_image(image, None);
+                self.device.free_memory(memory, None);
+            })?;
             Ok(Picture {
                 image,
                 memory,
                 look: vk::CommandBuffer::null(),
+                looked,
             })
         }
     }
@@ -230,20 +240,27 @@ impl Device {
 
     /// # Safety
     /// The commands are of this device and of the queue's family; nobody else uses the queue meanwhile.
-    unsafe fn submit(&self, commands: vk::CommandBuffer) -> Result<(), vk::Result> {
+    unsafe fn submit(
+        &self,
+        commands: vk::CommandBuffer,
+        done: vk::Fence,
+    ) -> Result<(), vk::Result> {
         let commands = [commands];
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         // SAFETY: by this function's own contract.
-        unsafe {
-            self.device
-                .queue_submit(self.queue, &[submit], vk::Fence::null())
-        }
+        unsafe { self.device.queue_submit(self.queue, &[submit], done) }
     }
 
     /// Looks at an image that is released.
     pub(crate) fn look(&self, picture: &Picture) -> Result<(), R> {
         // SAFETY: XR_KHR_vulkan_enable2 has the application leave the queue alone meanwhile.
-        let submitted = unsafe { self.submit(picture.look) };
+        // The fence is this image's own, and signalled once its last look is over.
+        let submitted = unsafe {
+            self.device
+                .wait_for_fences(&[picture.looked], true, u64::MAX)
+                .and_then(|()| self.device.reset_fences(&[picture.looked]))
+                .and_then(|()| self.submit(picture.look, picture.looked))
+        };
         submitted.map_err(|_| R::ERROR_RUNTIME_FAILURE)
     }
 
@@ -252,8 +269,14 @@ impl Device {
         // SAFETY: all of it was made of this device, and OpenXR asks of its callers that the device is done
         // with a swapchain's images before it is destroyed.
         unsafe {
+            let looks: Vec<_> = pictures.all.iter().map(|picture| picture.looked).collect();
+            if !looks.is_empty() {
+                // It fails where the device is lost, which looks at nothing any more.
+                let _ = self.device.wait_for_fences(&looks, true, u64::MAX);
+            }
             self.device.destroy_command_pool(pictures.pool, None);
             for picture in &pictures.all {
+                self.device.destroy_fence(picture.looked, None);
                 self.device.destroy_image(picture.image, None);
                 self.device.free_memory(picture.memory, None);
             }

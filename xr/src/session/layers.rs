@@ -1,4 +1,9 @@
 //! The end of a frame: what is shown, layer by layer.
+//!
+//! The panel has a layer of its own under the picture, and the picture's alpha is 0 where the panel is seen with nothing before it.
+//! So its text is sampled once, from its own pixels, however coarse the picture is at the time, and a hand before it is seen before
+//! it. A layer over the picture would cover the hand. The picture has the panel as well, so where a runtime takes no such layer it
+//! is shown without alpha, and the mirror shows it, and nothing is multiplied with alpha beforehand.
 
 use openxr as xr;
 use vitriol_gpu::QueueKind;
@@ -91,17 +96,25 @@ impl Live {
             // has ended.
             unsafe { xr::CompositionLayerProjectionView::from_raw(raw) }
         });
-        let world = xr::CompositionLayerProjection::new()
-            .space(&self.stage.space)
-            .views(&views);
         // A swapchain whose image was never released has nothing to show.
         let panel = shown
             .panel
             .filter(|_| extras.panel && images.panel.has_shown());
         let panel = panel.map(|(at, width)| quad(&self.stage, &images.panel, &at, width));
+        let flags = match panel {
+            Some(_) => {
+                xr::CompositionLayerFlags::BLEND_TEXTURE_SOURCE_ALPHA
+                    | xr::CompositionLayerFlags::UNPREMULTIPLIED_ALPHA
+            }
+            None => xr::CompositionLayerFlags::EMPTY,
+        };
+        let world = xr::CompositionLayerProjection::new()
+            .layer_flags(flags)
+            .space(&self.stage.space)
+            .views(&views);
         let mut layers: Vec<&xr::CompositionLayerBase<'_, xr::Vulkan>> = vec![&world];
         if let Some(panel) = &panel {
-            layers.push(panel);
+            layers.insert(0, panel);
         }
         let (stream, blend) = (&mut self.stream, self.blend);
         self.gpu
@@ -118,7 +131,6 @@ fn quad<'a>(
 ) -> xr::CompositionLayerQuad<'a, xr::Vulkan> {
     let [across, down] = panel.extent();
     xr::CompositionLayerQuad::new()
-        .layer_flags(xr::CompositionLayerFlags::BLEND_TEXTURE_SOURCE_ALPHA)
         .space(&stage.space)
         .eye_visibility(xr::EyeVisibility::BOTH)
         .sub_image(panel.part(0))

@@ -57,6 +57,9 @@ pub(super) struct Live {
     pub moves_at: Option<xr::Time>,
     /// The head has been seen in this session.
     pub seen: bool,
+    /// The head's place has been known in this session, and is not known in this frame.
+    pub placed: bool,
+    pub lost: bool,
     /// Frames in which nothing but its orientation was.
     pub turning: u32,
     /// How much less than all there is a frame is shown with beside its picture (`layers`).
@@ -134,6 +137,8 @@ impl Live {
             present: true,
             moves_at: None,
             seen: false,
+            placed: false,
+            lost: false,
             turning: 0,
             rung: 0,
             refusals: Refusals::default(),

@@ -36,6 +36,9 @@ use crate::{FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionStat
 /// Longest that a turn without a frame waits.
 const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
 
+/// Tries at another device after one was lost: with their waits half a minute.
+const TRIES: u32 = 10;
+
 /// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and what else the runtime
 /// offers of local_floor, composition_layer_depth, visibility_mask, display_refresh_rate,
 /// hand_interaction, hand_tracking, user_presence and Pico's controllers.
@@ -50,6 +53,8 @@ pub struct OpenXr {
     leaving: bool,
     /// Why the session was lost in the middle of a frame.
     lost: Option<String>,
+    /// How often to look for a device again that there is none of: a driver that lost one may need a while.
+    patience: u32,
     // Readable without a session too.
     gpu: Gpu,
     extent: [u32; 2],
@@ -102,6 +107,7 @@ impl OpenXr {
             seek: Seek::begin(),
             leaving: false,
             lost: None,
+            patience: 0,
             index: 0,
             head: Pose::IDENTITY,
             eyes: Eyes::default(),
@@ -125,14 +131,19 @@ impl OpenXr {
                 self.extent = live.extent;
                 self.name = live.name.clone();
                 self.live = Some(live);
+                self.patience = 0;
                 Ok(Turn::Renewed)
             }
-            Err(CallFailure::Fatal(error @ HeadsetError::Gpu(_))) => Err(error),
+            Err(CallFailure::Fatal(error @ HeadsetError::Gpu(_))) if self.patience == 0 => {
+                Err(error)
+            }
             Err(CallFailure::Lost(cause)) => {
                 tracing::debug!(cause, "no runtime yet");
                 again(cause)
             }
             Err(CallFailure::Fatal(error)) => {
+                let without_device = matches!(error, HeadsetError::Gpu(_));
+                self.patience = self.patience.saturating_sub(without_device.into());
                 tracing::debug!(%error, "no runtime yet");
                 again(error.to_string())
             }
@@ -208,6 +219,7 @@ impl OpenXr {
             },
             should_render: begun.should_render,
             recentred,
+            lost: live.lost,
             joints: joints.unwrap_or_default(),
         };
         self.index += 1;
@@ -334,6 +346,12 @@ impl Headset for OpenXr {
         self.settle(vibrated).map(|_| ())
     }
 
+    fn lose_device(&mut self) {
+        self.lost
+            .get_or_insert_with(|| "the Vulkan device was lost".to_owned());
+        self.patience = TRIES;
+    }
+
     fn rates(&self) -> &[f32] {
         self.live.as_ref().map_or(&[], |live| &live.rates)
     }
@@ -376,6 +394,8 @@ fn find_head(live: &mut Live, begun: Begun, head: &mut Pose) -> Result<bool, Cal
     let (position, orientation) = parts(&found);
     head.orientation = orientation.unwrap_or(head.orientation);
     head.position = position.unwrap_or(head.position);
+    live.placed |= position.is_some();
+    live.lost = live.placed && position.is_none();
     live.turning += u32::from(orientation.is_some());
     live.seen |= orientation.is_some() && (position.is_some() || live.turning > TURNS);
     Ok(live.seen)

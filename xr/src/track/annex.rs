@@ -1,5 +1,5 @@
 //! What a track's file may hold beside the track, for viewers: points, a film, measurements. A reader of tracks passes over
-//! it.
+//! it, but for what was found in a session.
 
 use std::collections::BTreeMap;
 
@@ -35,6 +35,13 @@ pub enum Annex<'a> {
         /// Its JSON schema.
         schema: &'a str,
     },
+    /// Something that was found in the session, on `/events`: see [`Track::events`](super::Track::events).
+    Event {
+        /// An object, as JSON.
+        json: &'a str,
+        /// Its JSON schema.
+        schema: &'a str,
+    },
 }
 
 /// A topic's name, schema and encoding.
@@ -63,7 +70,13 @@ impl Annex<'_> {
             Self::Measurement { schema, .. } => Topic {
                 name: names::MEASUREMENTS,
                 schema: "vitriol.Sample",
-                encodings: ["jsonschema", "json"],
+                encodings: names::JSON,
+                schema_bytes: schema.as_bytes().into(),
+            },
+            Self::Event { schema, .. } => Topic {
+                name: names::EVENTS,
+                schema: names::EVENT,
+                encodings: names::JSON,
                 schema_bytes: schema.as_bytes().into(),
             },
         }
@@ -79,7 +92,7 @@ impl Annex<'_> {
                 format: "h264".into(),
             }
             .encode_to_vec(),
-            Self::Measurement { json, .. } => json.as_bytes().to_vec(),
+            Self::Measurement { json, .. } | Self::Event { json, .. } => json.as_bytes().to_vec(),
         }
     }
 }

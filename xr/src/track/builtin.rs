@@ -6,11 +6,12 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 5] = [
+pub const NAMES: [&str; 6] = [
     "two-flasks",
     "shake",
     "three-flasks",
     "slow-pour",
+    "dropped",
     "hands-off",
 ];
 
@@ -21,6 +22,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "shake" => Some(include_str!("../../tracks/shake.toml")),
         "three-flasks" => Some(include_str!("../../tracks/three-flasks.toml")),
         "slow-pour" => Some(include_str!("../../tracks/slow-pour.toml")),
+        "dropped" => Some(include_str!("../../tracks/dropped.toml")),
         "hands-off" => Some(include_str!("../../tracks/hands-off.toml")),
         _ => None,
     }

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use super::{Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
+use super::{Annex, Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
+
+/// JSON schema of what was found in a session, where a track is written again: its reader alone knows more.
+const ANY_OBJECT: &str = r#"{"type":"object"}"#;
 
 /// The track of that name: a built-in one, else a file, keyframes where its name ends in
 /// `.toml` and MCAP otherwise.
@@ -46,6 +49,10 @@ pub fn save(track: &Track, output: &Path, existing: Existing) -> Result<Written,
 fn fill(mut writer: TrackWriter, track: &Track) -> Result<Written, TrackError> {
     for (frame, flasks) in track.frames.iter().zip(&track.stage_from_flasks) {
         writer.write(frame, flasks)?;
+    }
+    for (time_ns, json) in &track.events {
+        let schema = ANY_OBJECT;
+        writer.add(*time_ns, &Annex::Event { json, schema })?;
     }
     writer.conclude(&track.outcome)?;
     writer.finish()

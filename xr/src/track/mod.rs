@@ -52,6 +52,9 @@ pub struct Track {
     pub recovered: bool,
     /// What its recorder said at the end, such as the final state's hash; empty where it said nothing.
     pub outcome: BTreeMap<String, String>,
+    /// What was found in the session, in the order in which it was said: time of the track (ns), and an object as JSON. Not what
+    /// was done, so a replay does not read it.
+    pub events: Vec<(i64, String)>,
 }
 
 /// Steps that a recording lacks: those between two of its frames.
@@ -87,8 +90,10 @@ impl Track {
         if let Some(Hole { index, .. }) = first {
             self.frames.truncate(index + 1);
             self.stage_from_flasks.truncate(index + 1);
-            // What was said of the end is not true of this one.
+            // What was said of the end is not true of this one, and what was found later is not of it.
             self.outcome.clear();
+            let end = self.frames.last().map_or(0, |frame| frame.time_ns);
+            self.events.retain(|(time_ns, _)| *time_ns <= end);
         }
         self
     }
@@ -141,6 +146,10 @@ mod names {
     pub const FILM: &str = "/film";
     pub const MEASUREMENTS: &str = "/measurements";
     pub const CAMERA: &str = "camera";
+    pub const EVENTS: &str = "/events";
+    pub const EVENT: &str = "vitriol.Event";
+    /// Encodings of a schema and of messages.
+    pub const JSON: [&str; 2] = ["jsonschema", "json"];
 }
 
 /// Nanoseconds to seconds.

@@ -21,6 +21,9 @@ use super::metadata::{carried, check_scenes, metadata, short};
 use super::{Track, TrackError, TrackMetadata, descriptor, lengths, limits, names, seconds};
 use crate::files;
 
+/// Encodings of a schema and of messages.
+const PROTOBUF: [&str; 2] = ["protobuf"; 2];
+
 /// Longest record and longest chunk accepted, B. Half a second of track is some 50 kB; a
 /// length with a flipped bit must not become an allocation of exabytes.
 const RECORD_LIMIT: usize = 64 << 20;
@@ -84,6 +87,7 @@ impl<'a> Reading<'a> {
                 stage_from_flasks: Vec::new(),
                 recovered: false,
                 outcome: BTreeMap::new(),
+                events: Vec::new(),
             },
         }
     }
@@ -163,6 +167,7 @@ impl<'a> Reading<'a> {
             }
             Record::Message { header, data } => match self.channels.get(&header.channel_id) {
                 None | Some(&names::TF_STATIC) => Ok(()),
+                Some(&names::EVENTS) => self.event(header.log_time, &data),
                 Some(&topic) => self.message(topic, header.sequence, header.log_time, &data),
             },
             _ => Ok(()),
@@ -171,21 +176,22 @@ impl<'a> Reading<'a> {
 
     fn channel(&mut self, channel: &mcap::records::Channel) -> Result<(), TrackError> {
         let ours = [
-            (names::TF, descriptor::FRAME_TRANSFORMS),
-            (names::TF_STATIC, descriptor::FRAME_TRANSFORMS),
-            (names::FRAME, descriptor::FRAME),
-            (names::INPUT[0], descriptor::INPUT),
-            (names::INPUT[1], descriptor::INPUT),
-            (names::SCENARIO, descriptor::SWITCH),
+            (names::TF, descriptor::FRAME_TRANSFORMS, PROTOBUF),
+            (names::TF_STATIC, descriptor::FRAME_TRANSFORMS, PROTOBUF),
+            (names::FRAME, descriptor::FRAME, PROTOBUF),
+            (names::INPUT[0], descriptor::INPUT, PROTOBUF),
+            (names::INPUT[1], descriptor::INPUT, PROTOBUF),
+            (names::SCENARIO, descriptor::SWITCH, PROTOBUF),
+            (names::EVENTS, names::EVENT, names::JSON),
         ];
-        let Some(&(topic, expected)) = ours.iter().find(|(topic, _)| *topic == channel.topic)
-        else {
+        let found = ours.iter().find(|(topic, ..)| *topic == channel.topic);
+        let Some(&(topic, expected, encodings)) = found else {
             // Other programs may add topics of their own to a track.
             return Ok(());
         };
         let schema = self.schemas.get(&channel.schema_id);
         let fits = schema.is_some_and(|(name, encoding)| {
-            name == expected && encoding == "protobuf" && channel.message_encoding == "protobuf"
+            name == expected && [encoding, channel.message_encoding.as_str()] == encodings
         });
         if !fits {
             let found = schema.map_or("no schema".into(), |(name, _)| {
@@ -199,6 +205,20 @@ impl<'a> Reading<'a> {
             });
         }
         self.channels.insert(channel.id, topic);
+        Ok(())
+    }
+
+    /// Something that was found in the session.
+    fn event(&mut self, log_time: u64, data: &[u8]) -> Result<(), TrackError> {
+        if data.len() > limits::MESSAGE || self.track.events.len() >= limits::EVENTS {
+            let (most, longest) = (limits::EVENTS, limits::MESSAGE);
+            return Err(self.damaged(format!(
+                "{} holds more than {most} messages, or one longer than {longest} bytes",
+                names::EVENTS
+            )));
+        }
+        let json = std::str::from_utf8(data).map_err(|error| self.damaged(error))?;
+        self.track.events.push((log_time as i64, json.to_owned()));
         Ok(())
     }
 

@@ -53,6 +53,7 @@ impl Keyframes {
             })
             .collect();
         Track {
+            events: Vec::new(),
             metadata: TrackMetadata {
                 scene: self.scene.clone(),
                 seed: self.seed,

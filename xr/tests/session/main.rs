@@ -7,6 +7,7 @@ mod client;
 mod hands;
 mod life;
 mod loss;
+mod lost_device;
 mod mock;
 mod recentring;
 mod refused;

@@ -40,8 +40,8 @@ fn frames_are_shown_to_both_eyes() {
     let (_, ended) = mock.frames().pop().unwrap();
     assert_eq!(ended.time, frame.poses.info.xr_time);
     let [
-        Layer::Projection { space, views, .. },
         Layer::Quad { pose, size, .. },
+        Layer::Projection { space, views, .. },
     ] = &ended.layers[..]
     else {
         panic!("{ended:?}");

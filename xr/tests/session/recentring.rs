@@ -41,7 +41,7 @@ fn poses_leap_as_it_is_told() {
     let mut client = Client::open();
     client.focus();
     let (_, ended) = mock.frames().pop().unwrap();
-    let [mock::Layer::Projection { space, .. }, ..] = &ended.layers[..] else {
+    let [.., mock::Layer::Projection { space, .. }] = &ended.layers[..] else {
         panic!("{ended:?}");
     };
     assert_eq!(*space, Some(SpaceKind::LocalFloor));

@@ -10,6 +10,10 @@ use crate::client::Client;
 const VALIDATION_FAILURE: i32 = -1;
 const FORMAT_UNSUPPORTED: i32 = -26;
 
+/// XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT and XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT
+const BLEND_TEXTURE_SOURCE_ALPHA: u64 = 2;
+const UNPREMULTIPLIED_ALPHA: u64 = 4;
+
 /// That call always, where `when` holds.
 fn refuse(call: &str, answer: i32, when: Option<&str>) -> Change {
     Change::Refuse {
@@ -31,12 +35,15 @@ struct Last {
 impl Last {
     fn of(mock: &Mock) -> Self {
         let (_, ended) = mock.frames().pop().unwrap();
-        let [Layer::Projection { views, .. }, rest @ ..] = &ended.layers[..] else {
+        let [rest @ .., Layer::Projection { views, flags, .. }] = &ended.layers[..] else {
             panic!("{ended:?}");
         };
         let apart = views[0].image.swapchain != views[1].image.swapchain;
         assert_eq!(views[1].image.layer, u32::from(!apart));
         assert!(rest.iter().all(|layer| matches!(layer, Layer::Quad { .. })));
+        // The picture is seen through where there is something under it, and there alone.
+        let alpha = BLEND_TEXTURE_SOURCE_ALPHA | UNPREMULTIPLIED_ALPHA;
+        assert_eq!(*flags, if rest.is_empty() { 0 } else { alpha });
         Self {
             depths: [views[0].depth, views[1].depth],
             panels: rest.len(),

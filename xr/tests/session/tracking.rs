@@ -51,10 +51,11 @@ fn nothing_is_shown_before_the_head_is_seen() {
     assert_eq!(*last, 2);
 }
 
-/// Eyes and head in a frame that is drawn.
-fn seen(client: &mut Client) -> ([View; 2], Pose) {
+/// Eyes and head in a frame that is drawn, of a head whose place is `lost` or not.
+fn seen(client: &mut Client, lost: bool) -> ([View; 2], Pose) {
     let (frame, others) = client.frame();
     assert!(others.is_empty(), "{others:?}");
+    assert_eq!(frame.lost, lost);
     let views = client.xr.locate_views().unwrap();
     client.draw();
     (views, frame.poses.stage_from_view)
@@ -70,7 +71,7 @@ fn a_head_whose_place_is_lost_goes_on_turning() {
     client.focus();
     let place = Vec3::new(0.2, 1.5, 0.1);
     mock.say(head(place, 0.0, Known::TRACKED));
-    seen(&mut client);
+    seen(&mut client, false);
     // The runtime has rubbish for a position from now on, and other fields of view.
     let fov = |left: f32| Fov {
         left,
@@ -85,7 +86,7 @@ fn a_head_whose_place_is_lost_goes_on_turning() {
     for n in 1..=5 {
         let yaw = 0.3 * n as f32;
         mock.say(head(place, yaw, Known::TURNED));
-        let (views, head) = seen(&mut client);
+        let (views, head) = seen(&mut client, true);
         assert!(head.position == place && is_turned(&head, yaw), "{head:?}");
         for (view, side) in views.iter().zip([-1.0, 1.0]) {
             // 63 mm apart, in the head as it is turned.
@@ -98,7 +99,7 @@ fn a_head_whose_place_is_lost_goes_on_turning() {
     }
     // With nothing known all stays, and the picture goes on.
     mock.say(head(place, 9.0, Known::NOTHING));
-    let (views, head) = seen(&mut client);
+    let (views, head) = seen(&mut client, true);
     assert!(head.position == place && is_turned(&head, 1.5), "{head:?}");
     assert!(is_turned(&views[0].stage_from_eye, 1.5));
     client.assert_silent();
@@ -117,6 +118,7 @@ fn a_headset_that_only_turns_serves_after_a_while() {
     assert!(others.len() > 100, "{}", others.len());
     let head = frame.poses.stage_from_view;
     assert!(head.position.length() < 10.0 && is_turned(&head, 0.7));
+    assert!(!frame.lost, "it never had a place");
     client.draw();
     client.assert_silent();
     assert_eq!(*layers(&mock).last().unwrap(), 2);

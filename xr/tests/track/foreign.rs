@@ -141,6 +141,7 @@ fn what_is_said_is_within_the_limits() {
     for (parameters, said, fits) in [(253, 256, true), (254, 1, false), (1, 257, false)] {
         let file = dir.path().join(format!("{parameters}-{said}.mcap"));
         let track = Track {
+            events: Vec::new(),
             metadata: TrackMetadata {
                 parameters: entries(parameters),
                 ..super::metadata()

@@ -106,6 +106,7 @@ pub fn track(frames: u64) -> Track {
         pose
     };
     Track {
+        events: Vec::new(),
         metadata: metadata(),
         stage_from_flasks: frames
             .iter()

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use vitriol_xr::track::{Existing, Track, TrackError, TrackMetadata, TrackWriter};
+use vitriol_xr::track::{Existing, Track, TrackError, TrackMetadata, TrackWriter, save};
 use vitriol_xr::{Fov, FrameInfo, Hand, Pose, PoseFrame, SessionState, Switch};
 
 #[test]
@@ -167,11 +167,46 @@ proptest! {
         }
         let (frames, stage_from_flasks) = frames.into_iter().unzip();
         let metadata = TrackMetadata { scene, seed, ..super::metadata() };
-        let track = Track { metadata, frames, stage_from_flasks, recovered: false, outcome: Default::default() };
+        let track = Track { metadata, frames, stage_from_flasks, recovered: false, outcome: Default::default(), events: Vec::new() };
         let read = Track::parse(&super::bytes(&track), Path::new("x.mcap")).unwrap();
         prop_assert_eq!(&read, &track);
         for (a, b) in read.frames.iter().zip(&track.frames) {
             prop_assert_eq!(super::bits(a), super::bits(b));
         }
     }
+}
+
+/// What was found in a session is read in its order, goes with a track that is saved again, and is left out where the track is cut
+/// before it; what no reader could take is refused.
+#[test]
+fn what_was_found_goes_with_the_track() {
+    let dir = tempfile::tempdir().unwrap();
+    let [file, again] = ["x.mcap", "again.mcap"].map(|name| dir.path().join(name));
+    let mut track = super::track(4);
+    let [early, late] = [0, 3].map(|frame| track.frames[frame].time_ns);
+    track.events = [
+        (early, "{\"a\":1}"),
+        (late, "{\"b\":2}"),
+        (late, "{\"c\":3}"),
+    ]
+    .map(|(at, json)| (at, json.to_owned()))
+    .to_vec();
+    save(&track, &file, Existing::Refuse).unwrap();
+    let read = Track::open(&file).unwrap();
+    assert_eq!(read, track);
+    save(&read, &again, Existing::Refuse).unwrap();
+    assert_eq!(Track::open(&again).unwrap(), track);
+    let mut holed = track.clone();
+    holed.frames.remove(2);
+    holed.stage_from_flasks.remove(2);
+    let cut = holed.up_to_the_first_hole();
+    assert_eq!(cut.events, track.events[..1]);
+    track.events[1].1 = format!("\"{}\"", "x".repeat(70_000));
+    let long = dir.path().join("long.mcap");
+    save(&track, &long, Existing::Refuse).unwrap();
+    let error = Track::open(&long).unwrap_err().to_string();
+    assert!(
+        error.contains("/events") && error.contains("65536"),
+        "{error}"
+    );
 }

@@ -1,31 +1,40 @@
 //! The panel behind the bench: temperatures, state, and buttons that a hand presses by pointing.
+//!
+//! It is drawn in the scene, and shown by a headset in a layer of its own under the picture (`xr/src/session/layers.rs`). A hand
+//! that points at it has a ray.
 
-mod draw;
 mod view;
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
 use glam::{Quat, Vec3};
-use vitriol_experiment::Failure;
+use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, Image, Recorder};
+use vitriol_render::{Bone, Finish};
 use vitriol_shaders::Library;
-use vitriol_xr::{Hand, Pose};
+use vitriol_xr::{Hand, Pose, Side};
 
 use super::decision::Decision;
 use super::hold::Hold;
 use super::info::Info;
-use draw::Painter;
+use super::painter::{self, Painter};
 
 /// Width and height of the panel, pixels.
-pub const PANEL: [u32; 2] = [1024, 640];
+pub const PANEL: [u32; 2] = [1024, 864];
 
 /// Width of the panel, m.
-pub const WIDTH: f32 = 0.60;
+pub const WIDTH: f32 = 0.72;
+
+/// Width and height of the panel, m.
+pub const SIZE: [f32; 2] = [WIDTH, WIDTH * PANEL[1] as f32 / PANEL[0] as f32];
 
 /// Where it stands in the scene's stage: behind the vessels, over the table's far edge, leaning back a little. So it is
 /// read from 0.8 m, sitting or standing, and a flask that is held up does not hide it.
 pub fn scene_from_panel() -> Pose {
     Pose::new(Vec3::new(0.0, 1.16, -0.80), Quat::from_rotation_x(-0.12))
 }
+
+/// Radius of the ray from a hand that points here, m: at 0.7 m a quarter of a degree across.
+const RAY: f32 = 0.0015;
 
 /// The trigger presses from this value on, and releases below half of it.
 const PRESSES: f32 = 0.6;
@@ -36,8 +45,12 @@ pub struct Panel {
     painter: Painter,
     /// Its picture.
     pub image: Image,
+    /// Its picture has not been handed to the headset.
+    kept_back: bool,
     /// Where a hand points, pixels.
     pointer: Option<Pos2>,
+    /// The hand that points, and from where to where in the scene's stage.
+    ray: Option<(Side, [Vec3; 2])>,
     pressed: bool,
     /// Whether the pointing hand has had its trigger released while it pointed here.
     armed: bool,
@@ -73,9 +86,11 @@ impl Panel {
         view::style(&context);
         Ok(Self {
             context,
-            painter: Painter::new(gpu, library)?,
-            image: draw::image(gpu, PANEL)?,
+            painter: Painter::new(gpu, library, "panel")?,
+            image: painter::image(gpu, "panel", PANEL)?,
+            kept_back: true,
             pointer: None,
+            ray: None,
             pressed: false,
             armed: false,
             holds: None,
@@ -147,11 +162,29 @@ impl Panel {
             }
             self.pulled[side] = pulls;
         }
-        [self.side, 1 - self.side].into_iter().find_map(|side| {
-            let hand = hands[side]?;
-            let at = pointed_at(&hand.stage_from_aim, PANEL)?;
-            Some((at, hand.trigger))
-        })
+        let sides = [Side::BOTH[self.side], Side::BOTH[1 - self.side]];
+        let found = sides.into_iter().find_map(|side| {
+            let hand = hands[side as usize]?;
+            let (at, hit) = pointed_at(&hand.stage_from_aim, PANEL)?;
+            Some((
+                at,
+                hand.trigger,
+                (side, [hand.stage_from_aim.position, hit]),
+            ))
+        });
+        self.ray = found.map(|(_, _, ray)| ray);
+        found.map(|(at, trigger, _)| (at, trigger))
+    }
+
+    /// The ray of the hand that points here, in the scene's stage.
+    pub fn ray(&self) -> Option<(Side, Bone)> {
+        let bone = |ends| Bone {
+            ends,
+            radii: [RAY; 2],
+            finish: Finish::Ray,
+            stain: 0.0,
+        };
+        self.ray.map(|(side, ends)| (side, bone(ends)))
     }
 
     fn show(&mut self, shown: &Shown, events: Vec<Event>) -> view::Seen {
@@ -171,9 +204,9 @@ impl Panel {
         seen
     }
 
-    /// Whether its picture has changed since it was recorded last.
+    /// Whether its picture has changed since the headset took it.
     pub fn has_changed(&self) -> bool {
-        self.painter.changed
+        self.painter.changed || self.kept_back
     }
 
     /// Records the picture, if it has changed since it was recorded last.
@@ -181,7 +214,18 @@ impl Panel {
     /// # Errors
     /// What the device says.
     pub fn record(&mut self, rec: &mut Recorder) -> Result<(), Failure> {
+        self.kept_back |= self.painter.changed;
         self.painter.record(rec, &self.image)
+    }
+
+    /// Records the picture's copy to what the headset shows.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn hand_over(&mut self, rec: &mut Recorder, target: &Image) -> Result<(), Failure> {
+        rec.copy_image(&self.image, target).other()?;
+        self.kept_back = false;
+        Ok(())
     }
 }
 
@@ -194,8 +238,8 @@ fn button(at: Pos2, pressed: bool) -> Event {
     }
 }
 
-/// The pixel that a ray along −Z meets, if it meets the panel's face.
-fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<Pos2> {
+/// The pixel that a ray along −Z meets, if it meets the panel's face, and where in the scene's stage that is.
+fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<(Pos2, Vec3)> {
     let panel_from_scene = scene_from_panel().inverse();
     let from = panel_from_scene.transform_point(scene_from_aim.position);
     let along = panel_from_scene.orientation * scene_from_aim.orientation * Vec3::NEG_Z;
@@ -209,7 +253,7 @@ fn pointed_at(scene_from_aim: &Pose, [width, height]: [u32; 2]) -> Option<Pos2> 
         0.5 * height as f32 - pixels * at.y,
     );
     let inside = (0.0..width as f32).contains(&x) && (0.0..height as f32).contains(&y);
-    inside.then_some(Pos2::new(x, y))
+    inside.then(|| (Pos2::new(x, y), scene_from_panel().transform_point(at)))
 }
 
 #[cfg(test)]
@@ -227,7 +271,8 @@ mod tests {
             let target = scene_from_panel().transform_point(on_panel);
             let hand = Vec3::new(0.2, 0.9, -0.2);
             let turn = Quat::from_rotation_arc(Vec3::NEG_Z, (target - hand).normalize());
-            let at = pointed_at(&Pose::new(hand, turn), extent).unwrap();
+            let (at, hit) = pointed_at(&Pose::new(hand, turn), extent).unwrap();
+            assert!((hit - target).length() < 1e-4, "{hit}");
             assert!((at - Pos2::new(x, y)).length() < 0.1, "{at:?}");
         }
         // Past its edge, away from it, and from behind.

@@ -1,25 +1,31 @@
 //! The panel's layout.
 
 use egui::{
-    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Layout,
-    Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Label,
+    Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, Ui, Vec2, pos2,
+    vec2,
 };
 use std::f32::consts::TAU;
+use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
 use crate::vr::decision::Decision;
-use crate::vr::info::{FlaskLine, Info};
+use crate::vr::info::{Effort, FlaskLine, Happened, Info, burns_text};
 use crate::vr::menu::{self, CHOICES};
 
-/// Least height of text on the panel, pixels: 13 mm, which at 0.8 m are 0.9°, twice what print at arm's length has.
-const TEXT: f32 = 23.0;
-const HEADING: f32 = 30.0;
+/// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
+/// on the panel (`lines_are_seen_at_one_degree_and_a_fifth`): three times what print at arm's length has.
+const TEXT: f32 = 30.0;
+const HEADING: f32 = 34.0;
 
 const WHITE: Color32 = Color32::from_gray(235);
 const FAINT: Color32 = Color32::from_gray(165);
 const WARNING: Color32 = Color32::from_rgb(255, 176, 60);
-const RECORDING: Color32 = Color32::from_rgb(240, 70, 60);
+const RECORDING: Color32 = Color32::from_rgb(255, 132, 122);
+const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
 const COLD: Color32 = Color32::from_rgb(80, 150, 230);
+/// Ground of the scene's button that is shown; egui's own is too bright for white text.
+const CHOSEN: Color32 = Color32::from_rgb(0, 72, 104);
 const HOT: Color32 = Color32::from_rgb(235, 90, 40);
 
 /// Where a thermometer's column ends, °C.
@@ -35,6 +41,7 @@ pub fn style(context: &Context) {
             .text_styles
             .insert(TextStyle::Heading, FontId::proportional(HEADING));
         style.visuals.override_text_color = Some(WHITE);
+        style.visuals.selection.bg_fill = CHOSEN;
         style.spacing.item_spacing = vec2(12.0, 9.0);
         // No animations: the panel is drawn anew for each of their frames.
         style.animation_time = 0.0;
@@ -55,10 +62,13 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
     let mut seen = Seen::default();
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
-        ui.columns(2, |columns| {
-            readings(&mut columns[0], info);
-            buttons(&mut columns[1], info, &mut seen);
-        });
+        match &info.happened {
+            Some(happened) => summary(ui, info, happened, &mut seen),
+            None => ui.columns(2, |columns| {
+                readings(&mut columns[0], info);
+                buttons(&mut columns[1], info, &mut seen);
+            }),
+        }
         let painter = ui.painter();
         if let Some(at) = pointer {
             painter.circle_filled(at, 9.0, Color32::from_rgba_premultiplied(120, 110, 40, 120));
@@ -70,8 +80,8 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
         if let Some(per_cent) = info.holding {
             let middle = ui.max_rect().center();
             let ground = Color32::from_rgba_unmultiplied(10, 12, 16, 225);
-            painter.circle_filled(middle, 130.0, ground);
-            filling(painter, middle, 112.0, per_cent as f32 / 100.0);
+            painter.circle_filled(middle, 152.0, ground);
+            filling(painter, middle, 134.0, per_cent as f32 / 100.0);
             let font = FontId::proportional(HEADING);
             painter.text(middle, Align2::CENTER_CENTER, "from the start", font, WHITE);
         }
@@ -93,6 +103,44 @@ fn filling(painter: &Painter, middle: Pos2, radius: f32, share: f32) {
     }
 }
 
+/// What happened, over the whole panel.
+fn summary(ui: &mut Ui, info: &Info, happened: &Happened, seen: &mut Seen) {
+    ui.horizontal(|ui| {
+        ui.heading(&happened.title);
+        if let Some(points) = &happened.points {
+            ui.add_space(24.0);
+            ui.heading(RichText::new(points).strong());
+        }
+    });
+    ui.add_space(6.0);
+    for (tone, text) in &happened.said {
+        ui.horizontal_top(|ui| {
+            // By its shape as well as by its colour.
+            let (mark, colour) = match tone {
+                Tone::Good => ("✔", GOOD),
+                Tone::Bad => ("⚠", WARNING),
+                Tone::Plain => ("•", FAINT),
+            };
+            let size = vec2(34.0, TEXT);
+            let mark = Label::new(RichText::new(mark).color(colour));
+            ui.allocate_ui_with_layout(size, Layout::top_down(Align::Center), |ui| ui.add(mark));
+            let rest = vec2(ui.available_width(), TEXT);
+            let text = Label::new(RichText::new(text).color(WHITE)).wrap();
+            ui.allocate_ui_with_layout(rest, Layout::top_down(Align::Min), |ui| ui.add(text));
+        });
+    }
+    lines(ui, [happened.more.clone()], FAINT);
+    ui.add_space(8.0);
+    let ends = (info.ends).then(|| format!("{} again ends the session", menu::END));
+    lines(ui, [ends], WARNING);
+    let size = vec2(0.5 * ui.available_width(), 46.0);
+    let key = menu::SUMMARY.to_ascii_uppercase();
+    let text = format!("{key}   {}", happened.back);
+    if ui.add(Button::new(text).min_size(size)).clicked() {
+        seen.clicked = Some(Decision::Summary);
+    }
+}
+
 fn readings(ui: &mut Ui, info: &Info) {
     ui.heading(&info.scene);
     ui.add_space(6.0);
@@ -104,36 +152,48 @@ fn readings(ui: &mut Ui, info: &Info) {
         legend(ui);
     }
     ui.add_space(8.0);
-    if let Some(per_cent) = info.slow {
-        let text = format!("slow motion: {per_cent} % of real time");
-        ui.label(RichText::new(text).color(WARNING));
-    }
-    if let Some(effort) = &info.effort {
-        // It may have two lines, and a column would justify the first.
-        ui.with_layout(Layout::top_down(Align::Min), |ui| {
-            ui.label(RichText::new(effort.text()).color(WARNING));
-        });
-    }
-    if let Some(seconds) = info.recording {
-        let text = format!("recording, {} min {:02} s", seconds / 60, seconds % 60);
-        ui.label(RichText::new(text).color(RECORDING));
-    }
-    if info.waits_for_disk {
-        let text = "the recording waits: make room on the disk";
-        ui.label(RichText::new(text).color(WARNING));
-    }
-    if info.unwritten > 0 {
-        let text = format!("{} steps not recorded", info.unwritten);
-        ui.label(RichText::new(text).color(WARNING));
-    }
-    if info.ends {
-        let text = format!("{} again ends the session", menu::END);
-        ui.label(RichText::new(text).color(WARNING));
-    }
-    if info.missed > 0 {
-        let text = format!("{} pictures missed", info.missed);
-        ui.label(RichText::new(text).color(FAINT));
-    }
+    let slow = info.slow;
+    let notes = [
+        info.spilt.text(),
+        burns_text(info.burns),
+        (info.device_lost).then(|| "the graphics card failed; nothing was lost".into()),
+        slow.map(|per_cent| format!("slow motion: {per_cent} % of real time")),
+        info.effort.as_ref().map(Effort::text),
+    ];
+    lines(ui, notes, WARNING);
+    let missed = (info.missed > 0).then(|| format!("{} pictures missed", info.missed));
+    lines(ui, [missed], FAINT);
+}
+
+/// Those that are there, each as many lines as it takes; a column alone would justify all but the last.
+fn lines<const N: usize>(ui: &mut Ui, texts: [Option<String>; N], colour: Color32) {
+    ui.with_layout(Layout::top_down(Align::Min), |ui| {
+        for text in texts.into_iter().flatten() {
+            ui.label(RichText::new(text).color(colour));
+        }
+    });
+}
+
+/// What the session does beside the bench.
+fn state(ui: &mut Ui, info: &Info) {
+    let coming = info.coming.as_ref();
+    let ends = info.ends;
+    let before = [
+        coming.map(|coming| format!("setting up {coming} …")),
+        ends.then(|| format!("{} again ends the session", menu::END)),
+    ];
+    lines(ui, before, WARNING);
+    lines(ui, [info.heard.clone()], WHITE);
+    let seconds = info.recording;
+    let recording =
+        seconds.map(|seconds| format!("recording, {} min {:02} s", seconds / 60, seconds % 60));
+    lines(ui, [recording], RECORDING);
+    let unwritten = info.unwritten;
+    let trouble = [
+        (info.waits_for_disk).then(|| "the recording waits: make room on the disk".into()),
+        (unwritten > 0).then(|| format!("{unwritten} steps not recorded")),
+    ];
+    lines(ui, trouble, WARNING);
 }
 
 fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
@@ -141,7 +201,7 @@ fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
     let wide = ui.available_width();
     let (rect, _) = ui.allocate_exact_size(vec2(wide, 34.0), Sense::hover());
     let painter = ui.painter();
-    let tube = Rect::from_min_size(rect.min, vec2(0.52 * wide, 22.0));
+    let tube = Rect::from_min_size(rect.min, vec2(0.47 * wide, 22.0));
     let round = CornerRadius::same(11);
     painter.rect_filled(tube, round, Color32::from_gray(48));
     let share = |celsius: f32| ((celsius - RANGE[0]) / (RANGE[1] - RANGE[0])).clamp(0.0, 1.0);
@@ -159,7 +219,11 @@ fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
         painter.line_segment(ends, Stroke::new(2.0, FAINT));
     }
     let celsius = flask.temperature;
-    let text = celsius.map_or("–".to_owned(), |celsius| format!("{celsius} °C"));
+    let text = match celsius {
+        _ if flask.broken => "broken".to_owned(),
+        None => "–".to_owned(),
+        Some(celsius) => format!("{celsius} °C"),
+    };
     let at = pos2(tube.max.x + 14.0, tube.center().y);
     let font = FontId::proportional(TEXT + 3.0);
     painter.text(at, Align2::LEFT_CENTER, text, font, WHITE);
@@ -210,7 +274,90 @@ fn buttons(ui: &mut Ui, info: &Info, seen: &mut Seen) {
     ui.add_space(10.0);
     let recentre = format!("{}   Bench before me", key(menu::RECENTRE));
     button(ui, recentre, false, Decision::Recentre);
-    if let Some(coming) = &info.coming {
-        ui.label(RichText::new(format!("setting up {coming} …")).color(WARNING));
+    let summary = format!("{}   What happened", key(menu::SUMMARY));
+    button(ui, summary, false, Decision::Summary);
+    state(ui, info);
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::vr::painter::GROUND;
+    use crate::vr::panel::{PANEL, SIZE, WIDTH, scene_from_panel};
+    use crate::vr::placement::{SCENE_TABLE, SEATED, STANDING};
+    use glam::Vec3;
+
+    /// Degrees that a line of text has to have, from its ascenders to its descenders.
+    const LINE: f32 = 1.2;
+    /// WCAG 2.1, success criterion 1.4.6 (AAA).
+    const CONTRAST: f32 = 7.0;
+
+    /// As an eye over the scene's origin sees it, in each corner of the panel and in its middle.
+    #[test]
+    fn lines_are_seen_at_one_degree_and_a_fifth() {
+        let context = Context::default();
+        style(&context);
+        let _ = context.run(egui::RawInput::default(), |_| {});
+        let font = FontId::proportional(TEXT);
+        let pixels = context.fonts_mut(|fonts| fonts.row_height(&font));
+        let line = pixels * WIDTH / PANEL[0] as f32;
+        let half = SIZE.map(|side| 0.5 * side);
+        for drop in [SEATED, STANDING] {
+            let eye = Vec3::Y * (SCENE_TABLE + drop);
+            for x in [-1.0, 0.0, 1.0] {
+                for y in [-1.0, 0.0, 1.0] {
+                    let seen = |up: f32| {
+                        let at = Vec3::new(half[0] * x, half[1] * y + up, 0.0);
+                        scene_from_panel().transform_point(at) - eye
+                    };
+                    let ends = [-0.5, 0.5].map(|share| seen(share * line));
+                    let angle = ends[0].angle_between(ends[1]).to_degrees();
+                    assert!(
+                        angle >= LINE,
+                        "{angle}° at {x}, {y}, {drop} m over the table"
+                    );
+                }
+            }
+        }
+    }
+
+    /// Relative luminance, as WCAG 2.1 defines it.
+    fn luminance(colour: Color32) -> f32 {
+        let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(|level| {
+            let share = f32::from(level) / 255.0;
+            match share <= 0.03928 {
+                true => share / 12.92,
+                false => ((share + 0.055) / 1.055).powf(2.4),
+            }
+        });
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    #[test]
+    fn text_stands_out_from_its_ground() {
+        let context = Context::default();
+        style(&context);
+        let visuals = context.style().visuals.clone();
+        let [r, g, b, _] = GROUND.map(|share| (255.0 * share).round() as u8);
+        let ground = Color32::from_rgb(r, g, b);
+        let mut pairs = [WHITE, FAINT, WARNING, RECORDING, GOOD]
+            .map(|text| (text, ground))
+            .to_vec();
+        // What buttons are drawn on, at rest, pointed at, pressed and chosen.
+        let widgets = &visuals.widgets;
+        let faces = [
+            &widgets.inactive,
+            &widgets.hovered,
+            &widgets.active,
+            &widgets.open,
+        ];
+        pairs.extend(faces.map(|face| (WHITE, face.weak_bg_fill)));
+        pairs.push((WHITE, visuals.selection.bg_fill));
+        for (text, ground) in pairs {
+            let [bright, dark] = [text, ground].map(luminance);
+            let contrast = (bright + 0.05) / (dark + 0.05);
+            assert!(contrast >= CONTRAST, "{contrast} of {text:?} on {ground:?}");
+        }
     }
 }

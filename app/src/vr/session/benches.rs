@@ -22,6 +22,10 @@ pub(super) struct Benches {
     /// The bench in use.
     pub current: Workbench,
     coming: Option<Coming>,
+    /// What was to come, and was on a device that was lost meanwhile.
+    again: Option<(Plan, Switch)>,
+    /// The bench before it, until a frame's end.
+    gone: Option<Workbench>,
 }
 
 /// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
@@ -43,6 +47,8 @@ impl Benches {
             library,
             eyes,
             coming: None,
+            again: None,
+            gone: None,
         })
     }
 
@@ -61,6 +67,7 @@ impl Benches {
             // `--solver` and `--budget-ms` are for the session's first scene; others have their preset.
             (plan.solver, plan.filter) = (None, None);
         }
+        self.again = None;
         self.start(gpu, plan, switch);
     }
 
@@ -81,6 +88,12 @@ impl Benches {
         coming.map(|coming| coming.switch.value.as_str())
     }
 
+    /// Whether a bench is ready to follow the one in use.
+    pub fn is_built(&self) -> bool {
+        let coming = self.coming.as_ref();
+        coming.is_some_and(|coming| coming.thread.is_finished())
+    }
+
     /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a
     /// failure; does not wait. Its switch is for the recording.
     pub fn replace_if_built(&mut self) -> Option<Switch> {
@@ -88,18 +101,28 @@ impl Benches {
         let made = coming.thread.join();
         match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
             Ok(bench) => {
-                self.current = bench;
+                self.gone = Some(std::mem::replace(&mut self.current, bench));
                 // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
                 // these.
                 self.eyes = coming.eyes;
                 tracing::info!(target: TAKEN_UP, "set up: {}", coming.switch.value);
                 Some(coming.switch)
             }
+            Err(_) if self.current.world.gpu().is_lost() => {
+                self.again = Some((coming.plan, coming.switch));
+                None
+            }
             Err(failure) => {
                 tracing::warn!("the bench stays as it is: {failure}");
                 None
             }
         }
+    }
+
+    /// Lets the bench go in whose place another one came: giving back its memory and its passes takes as long as a
+    /// frame's other work.
+    pub fn let_go(&mut self, _: &NoFrameOpen) {
+        self.gone = None;
     }
 
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
@@ -114,18 +137,33 @@ impl Benches {
     }
 
     /// Moves the bench to the headset's new device, every particle where it was, and begins the one that was being
-    /// built anew.
-    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
+    /// built anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of
+    /// it; whether it was.
+    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<bool, Failure> {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset);
-        let state = self.current.world.snapshot().other()?;
-        let effort = self.current.world.effort();
-        self.current = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
-        self.current.world.set_effort(effort).other()?;
-        self.current.world.restore(&state).other()?;
-        if let Some(coming) = self.coming.take() {
-            self.start(gpu, coming.plan, coming.switch);
+        let before = &self.current.world;
+        let mut bench = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
+        let state = before.snapshot();
+        let lost = before.gpu().is_lost();
+        match before.lifeline().filter(|_| lost) {
+            Some(lifeline) => {
+                bench.world.revive(lifeline).other()?;
+                tracing::info!("brought back, {} steps taken again", lifeline.steps());
+            }
+            None => {
+                bench.world.set_effort(before.effort()).other()?;
+                bench.world.restore(&state.other()?).other()?;
+                let memory = before.looks_memory().other()?;
+                bench.world.remember_looks(&memory).other()?;
+            }
         }
-        Ok(())
+        self.current = bench;
+        let coming = self.coming.take();
+        let coming = coming.map(|coming| (coming.plan, coming.switch));
+        if let Some((plan, switch)) = coming.or(self.again.take()) {
+            self.start(gpu, plan, switch);
+        }
+        Ok(lost)
     }
 }

@@ -29,6 +29,8 @@ pub(super) struct Chosen {
     pub scene: Option<String>,
     /// The bench before the user.
     pub recentre: bool,
+    /// What happened is asked for, or enough of it.
+    pub summary: bool,
 }
 
 impl Choices {
@@ -79,12 +81,14 @@ impl Choices {
         let mut chosen = Chosen {
             scene: pressed.start.then(|| present.to_owned()),
             recentre: pressed.recentre,
+            summary: false,
         };
         for decision in std::mem::take(&mut self.wanted) {
             match decision {
                 Decision::Scene(name) => chosen.scene = Some(name),
                 Decision::Start => chosen.scene = Some(present.to_owned()),
                 Decision::Recentre => chosen.recentre = true,
+                Decision::Summary => chosen.summary ^= true,
                 // `hear` has taken them.
                 Decision::End | Decision::AskEnd => {}
             }
@@ -117,6 +121,7 @@ mod tests {
         let expected = Chosen {
             scene,
             recentre: true,
+            summary: false,
         };
         assert_eq!(chosen, expected);
         assert_eq!(choices.take(&hands, 0, "present"), Chosen::default());

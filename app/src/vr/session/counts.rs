@@ -63,6 +63,8 @@ impl Counts {
 
 #[cfg(test)]
 mod tests {
+    use vitriol_gpu::LockWaits;
+
     use super::*;
 
     /// A display of 90 Hz, rounded to nanoseconds.
@@ -106,7 +108,7 @@ mod tests {
         for frame in 1..=WARM_UP as i64 {
             counts.begin(&at(2 * frame));
             assert!(!counts.is_first());
-            counts.tally.frame(1.0);
+            counts.tally.frame(1.0, &LockWaits::default(), false);
         }
         assert_eq!(counts.skipped, WARM_UP - 1);
         assert!(!counts.begin(&at(2 * WARM_UP as i64 + 1)));

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use vitriol_experiment::scenery::has_acid;
 use vitriol_experiment::switches::SWITCH_START;
-use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::Ticket;
+use vitriol_experiment::{Failure, Looks};
+use vitriol_gpu::{LockWaits, Ticket};
 use vitriol_render::camera::NEAR;
+use vitriol_sim::solver::Skin;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
 
@@ -15,11 +16,12 @@ use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
 use crate::vr::closing;
 use crate::vr::haptics;
-use crate::vr::info::Info;
+use crate::vr::info::{Info, Lying};
 use crate::vr::inputs::sound;
 use crate::vr::ladder::Setting;
 use crate::vr::panel;
-use crate::vr::picture::{Sight, eye};
+use crate::vr::picture::{self, Sight, eye};
+use crate::vr::sign::{Drawn, Sign};
 use crate::vr::tally::Submitted;
 use crate::vr::workbench::Workbench;
 
@@ -35,6 +37,9 @@ impl Session {
         frame: &HeadsetFrame,
     ) -> Result<(), Failure> {
         let begun = Instant::now();
+        // What was waited for before belongs to no frame.
+        LockWaits::take();
+        let was_building = self.is_building();
         let info = frame.poses.info;
         if self.counts.begin(&info) {
             self.pacing.missed = true;
@@ -48,7 +53,11 @@ impl Session {
         // 2. What the user decided, and a bench that was built meanwhile.
         let mut now = sound(&frame.poses, self.placement.last.as_ref());
         self.decide(headset, frame.recentred, &now);
-        self.replace_bench()?;
+        self.fade
+            .advance(info.xr_time, frame.lost, self.benches.is_built());
+        if self.fade.shown() == 0.0 || !frame.should_render {
+            self.replace_bench()?;
+        }
         let (world, placed) = (&self.benches.current.world, &self.placement);
         let (last, stage_from_scene) = (placed.last.as_ref(), placed.stage_from_scene());
         closing::close(&mut now, &frame.joints, last, world, &stage_from_scene);
@@ -58,11 +67,12 @@ impl Session {
                 .into_iter()
                 .filter(|side| frame.joints[*side as usize].is_none())
             {
-                let holds = held_by(world, side).next().is_some();
+                let holds = held_by(world, side).next().is_some() || self.handles.is_held_by(side);
                 latches.apply(side, &mut now.hands[side as usize], holds);
             }
         }
-        let scene_from_stage = stage_from_scene.inverse();
+        self.move_bench(&now);
+        let scene_from_stage = self.placement.stage_from_scene().inverse();
         self.joints = frame.joints.each_ref().map(|joints| {
             let joints = joints.as_ref()?.0;
             Some(joints.map(|(at, radius)| (scene_from_stage.transform_point(at), radius)))
@@ -72,8 +82,9 @@ impl Session {
         // 4. What the hands feel.
         self.vibrate(headset)?;
         let shown = if frame.should_render {
-            // 5. The panel, and which button of it a hand points at.
+            // 5. The panel, and which button of it a hand points at; what a first user is to do.
             self.show_panel();
+            self.hint();
             // 6. The images, and the liquid's ellipsoids behind the steps.
             match self.acquire(headset)? {
                 // 7. The eyes, as late as can be, and the picture for them.
@@ -94,7 +105,9 @@ impl Session {
             let picture = self.benches.current.picture.image();
             mirror.take(picture, shown.extent, info.xr_time)?;
         }
-        self.counts.tally.frame(1e3 * begun.elapsed().as_secs_f64());
+        let built = was_building || self.is_building();
+        let cpu_ms = 1e3 * begun.elapsed().as_secs_f64();
+        self.counts.tally.frame(cpu_ms, &LockWaits::take(), built);
         self.catch_up(&no_frame)?;
         // 10. What the next frames are solved and drawn with.
         let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
@@ -109,30 +122,66 @@ impl Session {
         self.benches.take_mask(headset, &no_frame)
     }
 
+    /// Whether another thread makes a bench or a picture.
+    fn is_building(&self) -> bool {
+        self.benches.coming().is_some() || self.pacing.is_repainting()
+    }
+
     /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
     fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
         let present = &self.benches.current.plan.scene;
         let chosen = self.choices.take(&now.hands, now.info.xr_time, present);
+        if chosen.summary {
+            self.summary.toggle();
+        }
         if let Some(scene) = chosen.scene {
             self.benches.build(headset.gpu(), scene);
         }
         if let Some(switch) = self.placement.place(now, chosen.recentre || recentred) {
             self.track.switch(switch);
             self.benches.current.world.hands_leap();
+            self.handles.leap();
             self.steps.clock.pause();
         }
     }
 
-    /// Goes on with the bench that was built meanwhile, if one was.
+    /// Moves the bench with the hand that holds a handle of it. Steps go on: between the last frame and this one each hand
+    /// moves as it did in the room, and leaps by what the bench has moved.
+    fn move_bench(&mut self, now: &PoseFrame) {
+        let placed = self.placement.stage_from_scene();
+        let world = &mut self.benches.current.world;
+        let Some(by) = self.handles.update(now, &placed, world) else {
+            return;
+        };
+        if let Some(switch) = self.placement.raise(now, by) {
+            self.track.switch(switch);
+            world.hands_leap();
+        }
+        self.handles.settle(now, &self.placement.stage_from_scene());
+    }
+
+    /// Goes on with the bench that was built meanwhile, if one was. The picture is dark.
     fn replace_bench(&mut self) -> Result<(), Failure> {
         let resolution = self.pacing.setting(&self.benches.current).resolution;
         if let Some(switch) = self.benches.replace_if_built() {
             let same = switch.key == SWITCH_START;
+            self.fade.close();
             // Before the switches of its settings: a replay brings up the scene first.
             self.track.switch(switch);
             let (bench, track) = (&mut self.benches.current, &mut self.track);
             self.pacing.begin(same, resolution, bench, track)?;
             self.readings.clear();
+            let (name, scene) = (
+                &self.benches.current.plan.scene,
+                self.benches.current.world.scene(),
+            );
+            let looks = std::mem::replace(&mut self.steps.looks, Looks::of(name, scene));
+            self.ending = Some(looks);
+            self.sounds.begin(self.benches.current.world.scene());
+            self.keeper.forget();
+            self.spills.clean();
+            self.hints.begin();
+            self.summary.begin();
         }
         Ok(())
     }
@@ -145,14 +194,14 @@ impl Session {
         self.steps.take_ready(world, &mut self.track)
     }
 
-    /// Lets each hand feel what stirs in the flask that it holds.
+    /// Lets each hand feel what stirs in the flask that it holds, and acid that touches it.
     fn vibrate(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
         let world = &self.benches.current.world;
         let scale = world.scene().scale.length_scale;
         for side in Side::BOTH {
             let felt = held_by(world, side)
                 .map(|flask| haptics::amplitude(world.stirring(flask), scale))
-                .fold(0.0, f32::max);
+                .fold(self.spills.felt(side, self.shown_at()), f32::max);
             headset.vibrate(side, felt).map_err(blame)?;
         }
         Ok(())
@@ -164,7 +213,7 @@ impl Session {
         let seen = self.placement.seen();
         let pointing = |side: Side| -> Option<&Hand> {
             let hand = seen.as_ref()?.hand(side);
-            let holds = held_by(world, side).next().is_some();
+            let holds = held_by(world, side).next().is_some() || self.handles.is_held_by(side);
             (hand.active && hand.valid && !holds).then_some(hand)
         };
         let hands = Side::BOTH.map(pointing);
@@ -176,6 +225,14 @@ impl Session {
         }
     }
 
+    /// Shows a first user what to do next.
+    fn hint(&mut self) {
+        let (seen, time) = (self.placement.seen(), 1e-9 * self.shown_at() as f64);
+        let bare = self.joints.each_ref().map(Option::is_some);
+        let world = &self.benches.current.world;
+        self.hints.update(world, seen.as_ref(), bare, time);
+    }
+
     /// Acquires the headset's images, and submits the picture's part that reads the particles behind the steps, on
     /// the solver's queue. `None` where the headset gives no images.
     fn acquire(&mut self, headset: &mut dyn Headset) -> Result<Option<(Targets, Ticket)>, Failure> {
@@ -184,16 +241,13 @@ impl Session {
             return Ok(None);
         };
         let Workbench { world, picture, .. } = &self.benches.current;
-        let is_due = self.readings.is_due(self.counts.frames);
-        let mut reading = None;
+        let mut state = None;
         let shapes = picture.shapes(world.gpu(), world, |rec| {
-            if is_due {
-                reading = world.solver().record_reading(rec).other()?;
-            }
+            state = self.keeper.record(world, rec)?;
             Ok(())
         })?;
-        if let Some(reading) = reading {
-            self.readings.under_way = Some((reading, shapes.clone()));
+        if let Some(state) = state {
+            self.keeper.submitted(state, shapes.clone());
         }
         Ok(Some((targets, shapes)))
     }
@@ -211,29 +265,51 @@ impl Session {
         let setting = self.pacing.setting(&self.benches.current);
         let extent = scaled(self.benches.eyes.extent, &setting);
         let Workbench { world, picture, .. } = &mut self.benches.current;
-        let gloves = picture.gloves(world, seen.as_ref(), &self.joints);
+        self.gloves = picture.gloves(world, seen.as_ref(), &self.joints);
+        for side in Side::BOTH {
+            self.spills.mark(side, &mut self.gloves[side as usize]);
+        }
+        // Neither is of the user's skin.
+        let mut drawn = self.gloves.clone();
+        if let Some((side, ray)) = self.panel.ray() {
+            drawn[side as usize].push(ray);
+        }
+        for (bones, handle) in drawn.iter_mut().zip(self.handles.bones(world.scene())) {
+            bones.extend(handle);
+        }
+
+        let (image, shown) = (self.panel.image.clone(), self.fade.shown());
+        let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {
             extent,
             views: views.each_ref().map(|view| eye(view, &placed)),
-            hands: gloves.each_ref().map(Vec::as_slice),
+            hands: drawn.each_ref().map(Vec::as_slice),
+            panel: Some(picture::panel(&image)),
+            sign: sign.as_ref().map(Drawn::panel),
+            shown,
+            goggles: self.spills.goggles(),
         };
-        let panel = &mut self.panel;
+        let (panel, signs) = (&mut self.panel, &mut self.hints.sign);
         let picture = picture.draw(world, &shapes, &sight, targets, |rec| {
+            panel.record(rec)?;
+            if let Some(sign) = signs {
+                sign.record(rec)?;
+            }
             match &targets.panel {
-                Some(target) => {
-                    panel.record(rec)?;
-                    rec.copy_image(&panel.image, target).other()
-                }
+                Some(target) => panel.hand_over(rec, target),
                 None => Ok(()),
             }
         })?;
         let age_ms = 1e3 * located.elapsed().as_secs_f64();
 
-        let behind = self.steps.behind(world.scene().scale.frame_time);
-        self.counts.tally.picture(age_ms, behind);
+        let frame_time = world.scene().scale.frame_time;
+        let behind = self.steps.behind(frame_time);
+        let period = self.placement.last.as_ref().map(|last| last.info.period_ns);
+        let per_frame = period.map_or(1.0, |period| 1e-9 * period as f64 / frame_time);
+        self.counts.tally.picture(age_ms, behind, per_frame);
         self.counts.tally.submitted(Submitted {
             steps: self.steps.submitted(),
             shapes,
@@ -245,25 +321,70 @@ impl Session {
             views,
             extent,
             near: NEAR,
-            panel: Some((placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
+            // What fades is the picture.
+            panel: (shown == 1.0)
+                .then(|| (placed.compose(&panel::scene_from_panel()), panel::WIDTH)),
         })
     }
 
-    /// Does what may wait for the device: takes the steps that are left over, waits for the picture before the last,
+    /// Does what may wait for the device or takes long: lets go of the bench before, takes the steps that are left over, waits for the picture before the last,
     /// and collects pictures, readings and times that have come.
     pub(super) fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
+        self.benches.let_go(no_frame);
         let Workbench { world, picture, .. } = &mut self.benches.current;
         self.steps.take_rest(world, &mut self.track, no_frame)?;
         picture.keep_up()?;
         if let Some(mirror) = &mut self.mirror {
             mirror.hand_over()?;
         }
-        self.readings.collect()?;
+        let now = self.shown_at();
+        let time = 1e-9 * now as f64;
+        let world = &self.benches.current.world;
+        let blows = self.steps.blows();
+        self.broken += blows.1.len() as u32;
+        self.sounds.struck(world, &blows, time);
+        self.take_looks(time, false)?;
+        let seen = self.placement.seen();
+        self.sounds
+            .hear(seen.as_ref().map(|it| &it.stage_from_view));
+        self.keeper.collect(&mut self.benches.current.world)?;
         self.counts.tally.collect()
     }
 
+    /// Takes in the looks that have come, in the frame that is shown at `time` (s); or all, where `wait`.
+    pub(super) fn take_looks(&mut self, time: f64, wait: bool) -> Result<(), Failure> {
+        // Of the bench before: what is found there is said before what is found here.
+        if let Some(mut looks) = self.ending.take() {
+            while let Some(looked) = looks.wait()? {
+                self.track.found(looked.events);
+            }
+            self.track.found(looks.end());
+        }
+        loop {
+            let looks = &mut self.steps.looks;
+            let looked = if wait {
+                looks.wait()?
+            } else {
+                looks.collect()?
+            };
+            let Some(looked) = looked else {
+                return Ok(());
+            };
+            let world = &self.benches.current.world;
+            let scale = world.scene().scale.length_scale;
+            let hands = looked.hands.each_ref().map(Vec::as_slice);
+            self.readings.take(&looked.census);
+            let burnt = self
+                .spills
+                .take(&looked.census, scale, hands, self.shown_at());
+            self.sounds.looked(world, &looked, &burnt, time);
+            self.hints.looked(world, &looked.census, time);
+            self.track.found(looked.events);
+        }
+    }
+
     /// Display time of the last frame, ns.
-    fn shown_at(&self) -> i64 {
+    pub(super) fn shown_at(&self) -> i64 {
         self.placement
             .last
             .as_ref()
@@ -271,14 +392,23 @@ impl Session {
     }
 
     /// What panel and window title say.
-    pub(super) fn info(&self) -> Info {
+    pub(super) fn info(&mut self) -> Info {
+        let ends = self.choices.asks_to_end(Instant::now());
+        let happened = {
+            let words = &self.texts.summary;
+            (self.summary).shown(words, &self.track.events, &self.steps.looks, ends)
+        };
         let bench = &self.benches.current;
         let scene = bench.world.scene();
         let recorded = self.track.state();
         Info {
             scene: bench.plan.scene.clone(),
-            flasks: self.readings.lines(scene),
+            flasks: (self.readings).lines(scene, |flask| bench.world.is_broken(flask)),
             acid: has_acid(scene),
+            spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
+            heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
+            device_lost: self.losses.is_said(self.counts.frames),
+            burns: Skin::ALL.map(|skin| self.spills.touched(skin)),
             slow: self.steps.slow_motion(),
             recording: recorded.as_ref().map(|(seconds, _)| *seconds as u64),
             waits_for_disk: recorded.as_ref().is_some_and(|(_, state)| state.refused),
@@ -288,7 +418,8 @@ impl Session {
             coming: self.benches.coming().map(Into::into),
             holding: (self.choices.holding(self.shown_at()))
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
-            ends: self.choices.asks_to_end(Instant::now()),
+            ends,
+            happened,
         }
     }
 }

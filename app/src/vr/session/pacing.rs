@@ -101,6 +101,11 @@ impl Pacing {
         }
     }
 
+    /// Whether another picture is in the making, on a thread of its own.
+    pub fn is_repainting(&self) -> bool {
+        self.repainter.is_busy()
+    }
+
     /// Counts a frame that is shown with `setting`.
     pub fn shown(&mut self, setting: Setting) {
         let mut counted = self.report.settings.iter_mut();

@@ -2,40 +2,30 @@
 
 use glam::Vec3;
 use vitriol_experiment::scenery::has_acid;
-use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::Ticket;
 use vitriol_sim::scene::{Flask, Scene};
-use vitriol_sim::solver::{FlaskReading, ReadingRecord};
+use vitriol_sim::solver::{Census, Held};
 
 use crate::vr::info::FlaskLine;
 
-/// Frames between two readings: ten a second at 90 Hz.
+/// Looks between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
 const EVERY: u64 = 9;
 
-/// The last reading, and the next one where it is under way.
+/// The last reading.
 #[derive(Default)]
 pub(super) struct Readings {
-    /// With the submission that it is in; on a device that is gone it never comes.
-    pub under_way: Option<(ReadingRecord, Ticket)>,
-    /// By flask; empty before the first.
-    last: Vec<FlaskReading>,
+    /// What the panel says, by flask; empty before the first.
+    last: Vec<Held>,
+    /// Looks so far.
+    looks: u64,
 }
 
 impl Readings {
-    /// Whether that frame is to begin a reading.
-    pub fn is_due(&self, frame: u64) -> bool {
-        self.under_way.is_none() && frame.is_multiple_of(EVERY)
-    }
-
-    /// Takes a reading that has come; does not wait.
-    pub fn collect(&mut self) -> Result<(), Failure> {
-        if let Some((reading, ticket)) = &self.under_way
-            && ticket.is_done().other()?
-        {
-            self.last = reading.get().other()?;
-            self.under_way = None;
+    /// Takes in a look.
+    pub fn take(&mut self, census: &Census) {
+        if self.looks.is_multiple_of(EVERY) {
+            self.last.clone_from(&census.flasks);
         }
-        Ok(())
+        self.looks += 1;
     }
 
     /// Forgets readings of another bench.
@@ -45,13 +35,17 @@ impl Readings {
 
     /// The panel's lines for a scene's flasks. One that hangs upside down, a funnel, has none: it holds nothing
     /// for long.
-    pub fn lines(&self, scene: &Scene) -> Vec<FlaskLine> {
+    pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
         let acid = has_acid(scene);
         let line = |(index, flask): (usize, &Flask)| {
-            let reading = self.last.get(index).filter(|reading| reading.particles > 0);
+            let reading = self.last.get(index);
+            let reading = reading.filter(|reading| reading.temperature.is_some());
             FlaskLine {
                 name: flask.name.clone(),
-                temperature: reading.map(|reading| reading.temperature.round() as i32),
+                broken: is_broken(index),
+                temperature: reading
+                    .and_then(|reading| reading.temperature)
+                    .map(|celsius| celsius.round() as i32),
                 acid: reading
                     .filter(|_| acid)
                     .map(|reading| (100.0 * reading.acid).round() as i32),
@@ -72,11 +66,12 @@ mod tests {
     use super::*;
     use glam::Quat;
 
-    fn reading(particles: u32, temperature: f32, acid: f32) -> FlaskReading {
-        FlaskReading {
+    fn reading(particles: u32, temperature: f32, acid: f32) -> Held {
+        Held {
             particles,
-            temperature,
+            temperature: (particles > 0).then_some(temperature),
             acid,
+            ..Held::default()
         }
     }
 
@@ -85,18 +80,18 @@ mod tests {
         let mut scene = Scene::builtin("water-into-acid").unwrap();
         let names: Vec<_> = scene.flasks.iter().map(|it| it.name.clone()).collect();
         let mut readings = Readings::default();
-        let lines = readings.lines(&scene);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!(lines.len(), names.len());
         assert_eq!((lines[0].temperature, lines[0].acid), (None, None));
         // An empty flask has no temperature.
         readings.last = vec![reading(7, 99.6, 0.956), reading(0, 0.0, 0.0)];
-        let lines = readings.lines(&scene);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!((lines[0].temperature, lines[0].acid), (Some(100), Some(96)));
         assert_eq!((lines[1].temperature, lines[1].acid), (None, None));
         // Without the first, the second's line is still the second's.
         scene.flasks[0].stage_from_flask.orientation = Quat::from_rotation_x(3.0);
         readings.last[1] = reading(7, 20.4, 0.0);
-        let lines = readings.lines(&scene);
+        let lines = readings.lines(&scene, |_| false);
         assert_eq!(
             (&lines[0].name, lines[0].temperature),
             (&names[1], Some(20))
@@ -106,6 +101,7 @@ mod tests {
         for liquid in &mut scene.liquids {
             liquid.acid_fraction = 0.0;
         }
-        assert_eq!(readings.lines(&scene)[0].acid, None);
+        let lines = readings.lines(&scene, |flask| flask == 1);
+        assert_eq!((lines[0].acid, lines[0].broken), (None, true));
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
 use vitriol_experiment::{DeviceStatement, Failure, SimulatedTime, track};
+use vitriol_lesson::Event;
 use vitriol_xr::track::TrackMetadata;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
@@ -19,6 +20,8 @@ pub(super) struct SessionTrack {
     /// Switches since the last step. They go with the next one, before which a replay does them.
     switches: Vec<Switch>,
     time: SimulatedTime,
+    /// What was found so far.
+    pub events: Vec<Event>,
 }
 
 impl SessionTrack {
@@ -54,29 +57,59 @@ impl SessionTrack {
         self.time.advance(frame_time);
     }
 
+    /// Simulated time at the end of the last step, s.
+    pub fn seconds(&self) -> f64 {
+        self.time.seconds()
+    }
+
+    /// Something was found, which goes into the recording where there is one.
+    pub fn found(&mut self, events: Vec<Event>) {
+        if let Some(recording) = &mut self.recording {
+            for event in &events {
+                // A struct of numbers and texts has a JSON; what is not finite becomes null.
+                let json = serde_json::to_string(event).unwrap_or_default();
+                recording.found(nanoseconds(&self.time), json);
+            }
+        }
+        self.events.extend(events);
+    }
+
     /// Seconds that were recorded, and how the recording stands; `None` without one.
     pub fn state(&self) -> Option<(f64, RecordingStatus)> {
         let recording = self.recording.as_ref()?;
         Some((self.time.seconds(), recording.state()))
     }
 
-    /// Marks the recording's end in the state of `hash`, and waits for its file; the time at the end, and what became
-    /// of the recording.
+    /// Marks the recording's end in the state of `hash`, and waits for its file.
     ///
     /// # Errors
     /// What `hash` returns, which is asked for where there is a recording.
-    pub fn finish(
-        self,
-        hash: impl FnOnce() -> Result<u64, Failure>,
-    ) -> Result<(SimulatedTime, Option<RecordingStatus>), Failure> {
+    pub fn finish(self, hash: impl FnOnce() -> Result<u64, Failure>) -> Result<Finished, Failure> {
         let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
         let Some(recording) = self.recording else {
-            return Ok((self.time, None));
+            return Ok(Finished {
+                time: self.time,
+                events: self.events,
+                recorded: None,
+            });
         };
         let outcome = [(STATE_HASH.to_owned(), format!("{:016x}", hash()?))].into();
         let recorded = recording.finish(steps, end_ns, outcome);
-        Ok((self.time, Some(recorded)))
+        Ok(Finished {
+            time: self.time,
+            events: self.events,
+            recorded: Some(recorded),
+        })
     }
+}
+
+/// A session's track at its end.
+pub(super) struct Finished {
+    pub time: SimulatedTime,
+    /// What was found.
+    pub events: Vec<Event>,
+    /// What became of the recording, if there was one.
+    pub recorded: Option<RecordingStatus>,
 }
 
 /// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
@@ -125,6 +158,7 @@ mod tests {
             preset: Preset::Fast,
             solver: None,
             filter: None,
+            breakable: false,
             seed: 7,
         }
     }
@@ -168,7 +202,7 @@ mod tests {
         track.switch(switch("c"));
         // A scene with another step.
         track.step(poses(), 0.02, Vec::new);
-        let (time, recorded) = track.finish(|| Ok(0xabc)).unwrap();
+        let Finished { time, recorded, .. } = track.finish(|| Ok(0xabc)).unwrap();
         assert_eq!((time.steps(), recorded.unwrap().steps), (3, 3));
         assert!((time.seconds() - 0.04).abs() < 1e-12);
 

@@ -1,8 +1,8 @@
-//! Gloves as bones: round cones, each the convex hull of two spheres; and where one is seen.
+//! Gloves, and what hands point with and hold on to, as bones: round cones, each the convex hull of two spheres; and where one is seen.
 
 //!include common/picture/frame.wgsl
 
-/// One bone of a glove.
+/// One bone.
 struct Bone {
     /// One end's middle, in the stage, in the scene's unit.
     a: vec3<f32>,
@@ -12,8 +12,10 @@ struct Bone {
     b: vec3<f32>,
     /// Radius there.
     radius_b: f32,
-    /// 1 for the cuff, 0 for the glove.
-    cuff: f32,
+    /// Reflectance of red, green and blue.
+    tint: vec3<f32>,
+    /// How much it shines by itself instead, 0 to 1.
+    glow: f32,
 }
 
 struct HandsRun {
@@ -23,12 +25,14 @@ struct HandsRun {
     joined: f32,
     /// Whether coloured spheres were drawn before.
     over: u32,
+    /// The least radius of all bones.
+    thinnest: f32,
 }
 
 var<immediate> run: HandsRun;
 
 /// Most bones of a hand; the right one's begin behind so many.
-const BONES = 28u;
+const BONES = 32u;
 
 /// The left hand's bones, then the right one's.
 @group(0) @binding(2) var<storage, read> bones: array<Bone>;

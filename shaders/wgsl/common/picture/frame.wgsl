@@ -52,6 +52,10 @@ struct Vessel {
     segments: vec2<u32>,
     /// Likewise its graduation marks.
     marks: vec2<u32>,
+    /// 0 of a whole vessel; of a shard one more than its number, see `common/picture/shard.wgsl`.
+    piece: u32,
+    /// Height up to which the base of a broken vessel goes.
+    base: f32,
 }
 
 /// The uniforms of one frame.
@@ -62,8 +66,8 @@ struct Frame {
     colour_map: array<vec4<f32>, 17>,
     /// The first `blocker_count` count.
     blockers: array<Blocker, 8>,
-    /// As many as there are blockers, in the same order.
-    vessels: array<Vessel, 8>,
+    /// Whole ones, as many as there are blockers and in the same order, and then shards: `glass_count` in all.
+    vessels: array<Vessel, 24>,
     /// Low corner of the table; its high corner is no higher where there is none.
     table_min: vec3<f32>,
     /// How many blockers there are.
@@ -86,6 +90,8 @@ struct Frame {
     held: vec2<f32>,
     /// Rows of tiles of a view.
     tile_rows: u32,
+    /// How many vessels and shards there are.
+    glass_count: u32,
     /// How many eyes there are.
     view_count: u32,
     /// Whether the lenses hide a part of the picture.
@@ -94,6 +100,15 @@ struct Frame {
     water: vec3<f32>,
     /// The same of pure acid.
     acid: vec3<f32>,
+    /// Share of the light that is shown: less where the picture fades.
+    shown: f32,
+    /// How much acid is on the user's goggles, 0 to 1.
+    goggles: f32,
+    /// To the panel's frame: right, up and out of its face, over half its width and height and in the scene's unit; 0 where there
+    /// is none.
+    panel_from_stage: mat4x4<f32>,
+    /// The same of a sign.
+    sign_from_stage: mat4x4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -4,6 +4,7 @@
 
 //!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
+//!include common/picture/shard.wgsl
 //!include common/picture/tile_marks.wgsl
 
 /// Two a segment of an outline: (r, y) of its ends, and the outward normals (r, y) there. A closed outline goes
@@ -16,6 +17,10 @@ const GLASS_REFLECTANCE = 0.036;
 const WALL_ABSORPTION = 0.05;
 /// Light that the wall's inside scatters to the eye: the greenish edge of clear glass.
 const EDGE_LIGHT = vec3<f32>(0.06, 0.095, 0.09);
+/// Share of a broken edge that is seen over what is behind: as bright as glass a palm thick, through which one looks along the wall.
+const EDGE_OPACITY = 0.75;
+/// What it sends to the eye.
+const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
 /// Reflectance of white enamel.
 const ENAMEL = 0.8;
 
@@ -209,6 +214,8 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let way = met.ways[0].x;
             let segment = u32(met.segments[0].x);
             let p = ray.origin + way * direction;
+            let within = within_shard(index, p);
+            if (within < 0.0) { continue; }
             let r = max(length(p.xz), 1e-9);
             let ends = outlines[segment];
             let normals = outlines[segment + 1u];
@@ -227,6 +234,9 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
             let stage = (*view).eye + depth * seen;
             layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
+            if (within < frame.vessels[index].wall) {
+                layer = over(Cover(EDGE_OPACITY * display(BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);
+            }
             if (cosine > 0.0) { far = over(layer, far); } else { near = over(layer, near); }
         }
     }

@@ -122,8 +122,8 @@ fn millilitres(mass: f64) -> f64 {
 fn a_stream_takes_down_as_much_air_as_bin_says() {
     let device = gpu::device();
     for (spacing, length, speed, aside, until) in [
-        (D, 0.07, 1.0, 0.0, 60),
-        (D, 0.07, 2.0, 0.0, 60),
+        (D, 0.07, 1.0, 0.0, 40),
+        (D, 0.07, 2.0, 0.0, 40),
         (D, 0.07, 2.0, 0.02, 16),
         (0.6 * D, 0.11, 1.5, 0.0, 16),
     ] {

@@ -1,5 +1,5 @@
-//! Draws egui's triangles with three buffers and a shader. A ready-made renderer would need the device's command
-//! buffers, which `vitriol_gpu` keeps to itself.
+//! Draws egui's triangles, those of the panel and of the signs, with three buffers and a shader. A ready-made renderer would need
+//! the device's command buffers, which `vitriol_gpu` keeps to itself.
 
 use std::sync::Arc;
 
@@ -12,18 +12,21 @@ use vitriol_experiment::{Blame, Failure};
 
 /// The picture's format: bytes are sRGB-encoded and blended as they are, as egui expects.
 const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
-/// Background, sRGB: dark, so that the panel does not outshine the bench.
-const GROUND: [f32; 4] = [0.075, 0.085, 0.10, 1.0];
+/// Background, sRGB: dark, so that panel and signs do not outshine the bench.
+pub const GROUND: [f32; 4] = [0.075, 0.085, 0.10, 1.0];
 
-/// The panel's picture.
-pub fn image(gpu: &Gpu, extent: [u32; 2]) -> Result<Image, Failure> {
+/// A picture to be painted.
+///
+/// # Errors
+/// What the device says.
+pub fn image(gpu: &Gpu, label: &str, extent: [u32; 2]) -> Result<Image, Failure> {
     let desc = ImageDesc {
         extent,
         layers: 1,
         format: FORMAT,
         usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
     };
-    Image::new(gpu, "panel", desc).other()
+    Image::new(gpu, label, desc).other()
 }
 
 /// Triangles within a rectangle.
@@ -32,8 +35,11 @@ struct Part {
     indices: u32,
 }
 
+/// See the module.
 pub struct Painter {
     gpu: Gpu,
+    /// What it paints, for who measures.
+    label: &'static str,
     pipeline: RasterPipeline,
     texture: Texture,
     vertices: Vec<u32>,
@@ -61,12 +67,17 @@ struct Texture {
 }
 
 impl Painter {
-    pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
+    /// A painter of what is called `label`.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(gpu: &Gpu, library: &Library, label: &'static str) -> Result<Self, Failure> {
         let compile = |entry| library.compile(&panel::PANEL, entry, &[]).other();
         let (vertex, fragment) = (compile("vertex")?, compile("fragment")?);
         let pipeline = RasterPipeline::new(gpu, &vertex, &fragment, FORMAT);
         Ok(Self {
             gpu: gpu.clone(),
+            label,
             pipeline: pipeline.other()?,
             texture: Texture::default(),
             vertices: Vec::new(),
@@ -113,6 +124,9 @@ impl Painter {
     }
 
     /// Records the picture, if there is a new one.
+    ///
+    /// # Errors
+    /// What the device says.
     pub fn record(&mut self, rec: &mut Recorder, image: &Image) -> Result<(), Failure> {
         if !std::mem::take(&mut self.changed) {
             return Ok(());
@@ -129,7 +143,7 @@ impl Painter {
             rec.upload(buffer, indices).other()?;
         }
         let [width, height] = image.desc().extent;
-        rec.raster("panel", image, GROUND, |raster| {
+        rec.raster(self.label, image, GROUND, |raster| {
             for (part, indices) in self.parts.iter().zip(&buffers.indices) {
                 let Rect { min, max } = part.clip;
                 raster
@@ -168,10 +182,10 @@ impl Painter {
         };
         let indices = self.indices.iter();
         self.buffers = Some(Buffers {
-            vertices: room("panel's vertices", self.vertices.len())?,
-            texture: room("panel's texture", self.texture.texels.len())?,
+            vertices: room("painter's vertices", self.vertices.len())?,
+            texture: room("painter's texture", self.texture.texels.len())?,
             indices: indices
-                .map(|indices| room("panel's indices", indices.len()))
+                .map(|indices| room("painter's indices", indices.len()))
                 .collect::<Result<_, _>>()?,
         });
         Ok(())

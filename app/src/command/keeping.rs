@@ -1,0 +1,172 @@
+//! Keeps what a student did: in the class's file, as statements, and in a Learning Record Store where one is named.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_lesson::{Attempt, Rubric, Score, Texts};
+use vitriol_record::lrs::{Lrs, Patience, Token};
+use vitriol_record::store::{Store, default_path};
+use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
+
+use crate::cli::KeepArgs;
+
+/// What came of it.
+#[derive(Debug, Serialize)]
+pub struct Kept {
+    /// The class's file.
+    pub class: String,
+    /// Attempts that were not kept before.
+    pub new: usize,
+    /// Attempts that were.
+    pub before: usize,
+    /// The file of statements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statements: Option<String>,
+    /// What came of sending.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sent: Option<Delivered>,
+}
+
+/// What came of sending.
+#[derive(Debug, Serialize)]
+pub struct Delivered {
+    /// Statements that the store has since.
+    pub delivered: u64,
+    /// Statements that wait for the next time.
+    pub waiting: u64,
+    /// What it refused, and why.
+    pub refused: Vec<String>,
+    /// Why it went no further.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
+}
+
+/// Where attempts come from.
+pub struct Sitting<'a> {
+    /// The sitting.
+    pub session: Session,
+    /// The recording.
+    pub source: Option<&'a Path>,
+    /// The folder for statements.
+    pub out: Option<&'a Path>,
+}
+
+/// What is needed to keep attempts, found before anything is simulated.
+#[derive(Debug, Default)]
+pub struct Keeper {
+    class: Option<PathBuf>,
+    lrs: Option<Lrs>,
+}
+
+/// Opens the class's file and reads the token's, so that a mistake in them costs nobody a session.
+///
+/// # Errors
+/// [`Failure::Input`] for files that are none, or a token that others may read.
+pub fn keeper(args: &KeepArgs) -> Result<Keeper, Failure> {
+    if args.pseudonym.is_none() {
+        return Ok(Keeper::default());
+    }
+    let class = args.class.clone().or_else(default_path);
+    let class =
+        class.ok_or("this system tells no folder for data: name the class's file with --class");
+    let class = class.input()?;
+    if let Some(folder) = class.parent().filter(|_| args.class.is_none()) {
+        std::fs::create_dir_all(folder).other()?;
+    }
+    Store::open(&class).input()?;
+    let lrs = match (&args.lrs, &args.lrs_token) {
+        (Some(endpoint), Some(file)) => Some(Lrs {
+            endpoint: endpoint.clone(),
+            token: Token::read(file).input()?,
+            patience: Patience::default(),
+        }),
+        _ => None,
+    };
+    Ok(Keeper {
+        class: Some(class),
+        lrs,
+    })
+}
+
+/// Keeps them under the pseudonym that was given; `None` where none was.
+///
+/// # Errors
+/// [`Failure::Input`] where the class's file is none; [`Failure::Other`] where something cannot be written.
+pub fn keep_under(
+    args: &KeepArgs,
+    keeper: &Keeper,
+    sitting: &Sitting<'_>,
+    attempts: &[Attempt],
+) -> Result<Option<Kept>, Failure> {
+    let (Some(pseudonym), Some(class)) = (&args.pseudonym, &keeper.class) else {
+        return Ok(None);
+    };
+    let texts = Texts::english().other()?;
+    let attempts: Vec<Scored> = attempts.iter().map(|it| scored(it, &texts)).collect();
+    let kept = keep(&Keeping {
+        class,
+        pseudonym,
+        session: sitting.session,
+        lesson: None,
+        source: sitting.source,
+        attempts: &attempts,
+        out: sitting.out,
+        lrs: keeper.lrs.as_ref(),
+    });
+    let kept = kept.map_err(|error| match error {
+        KeepError::Write { .. } => Failure::Other(error.into()),
+        _ => Failure::Input(error.into()),
+    })?;
+    Ok(Some(Kept {
+        class: class.display().to_string(),
+        new: kept.new,
+        before: kept.before,
+        statements: kept.statements.map(|file| file.display().to_string()),
+        sent: kept.sent.map(|sent| Delivered {
+            delivered: sent.delivered,
+            waiting: sent.waiting,
+            refused: sent.refused.into_iter().map(|it| it.why).collect(),
+            stopped: sent.stopped,
+        }),
+    }))
+}
+
+fn scored(attempt: &Attempt, texts: &Texts) -> Scored {
+    let score = Score::of(attempt, &Rubric::default(), texts);
+    let [points, of] = [score.points, score.of].map(f64::from);
+    // Where nothing could be judged there is none.
+    let mut kept = vitriol_record::Score::new(points, of).ok();
+    if let Some(kept) = &mut kept {
+        let lines = score.lines.iter();
+        kept.points = lines
+            .map(|line| Points {
+                criterion: line.criterion.name(texts),
+                raw: line.points.into(),
+                max: line.of.into(),
+            })
+            .collect();
+    }
+    Scored {
+        attempt: attempt.clone(),
+        score: kept,
+    }
+}
+
+impl Kept {
+    /// In lines.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("kept    {} new in {}", self.new, self.class)];
+        lines.extend(self.statements.iter().map(|file| format!("xAPI    {file}")));
+        let Some(sent) = &self.sent else {
+            return lines;
+        };
+        lines.push(format!(
+            "sent    {} statements, {} wait",
+            sent.delivered, sent.waiting
+        ));
+        lines.extend(sent.refused.iter().map(|why| format!("refused {why}")));
+        lines.extend(sent.stopped.iter().map(|why| format!("stopped {why}")));
+        lines
+    }
+}

@@ -1,0 +1,176 @@
+//! The first screen: what happened, in words and points, each with its moment of the film.
+
+use maud::{Markup, html};
+use vitriol_lesson::{Attempt, Score, ScoreLine, Sentence, Texts, Tone, sentences};
+
+use super::model::Report;
+
+impl Report {
+    /// Words and points of each attempt, beside the film.
+    pub(super) fn happened(&self, texts: &Texts) -> Markup {
+        let film = self.film.is_some();
+        let several = self.attempts.len() > 1;
+        let attempts = || (1..).zip(self.attempts.iter().zip(&self.score));
+        html! {
+            section.happened.beside[film] {
+                @if film { div.films { (self.films()) } }
+                div {
+                    h2 { "What happened" }
+                    @for (number, (attempt, score)) in attempts() {
+                        article.attempt {
+                            (heading(number, several, attempt, score))
+                            (told(&sentences(attempt, score, texts), film))
+                        }
+                    }
+                }
+            }
+            @for (number, (attempt, score)) in attempts() {
+                section id=(format!("score-{number}")) {
+                    h2 {
+                        "Score"
+                        @if several { " of attempt " (number) ", " (attempt.scene) }
+                    }
+                    (points(score, texts, film))
+                }
+            }
+        }
+    }
+}
+
+/// An attempt's name and points.
+fn heading(number: usize, several: bool, attempt: &Attempt, score: &Score) -> Markup {
+    html! {
+        header {
+            @if several {
+                h3 { "Attempt " (number) ", " (attempt.scene) }
+            }
+            @if score.of > 0 {
+                p.total {
+                    a href=(format!("#score-{number}")) { strong { (score.points) } " of " (score.of) " points" }
+                    (bar(score.points, score.of))
+                }
+            } @else {
+                p.total { "No points: nothing was done that could be judged." }
+            }
+        }
+    }
+}
+
+/// The sentences by tone: what went wrong first, since that is what one learns from.
+fn told(sentences: &[Sentence], film: bool) -> Markup {
+    let groups = [
+        (Tone::Bad, "bad", "✗", "What went wrong"),
+        (Tone::Good, "good", "✓", "What went well"),
+        (Tone::Plain, "plain", "·", "What else there was"),
+    ];
+    html! {
+        @for (tone, class, sign, title) in groups {
+            @let of_tone = || sentences.iter().filter(move |it| it.tone == tone);
+            @if of_tone().next().is_some() {
+                h4 class=(class) { span.sign aria-hidden="true" { (sign) } (title) }
+                ul.said {
+                    @for sentence in of_tone() {
+                        li {
+                            (moment(sentence.t_s, film))
+                            div {
+                                p { (sentence.text) }
+                                @if let Some(more) = &sentence.more { p.note { (more) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A score's lines, each with what it was given or withheld for.
+fn points(score: &Score, texts: &Texts, film: bool) -> Markup {
+    html! {
+        table.score {
+            thead { tr { th { "For" } th { "Points" } th { "Evidence" } } }
+            tbody {
+                @for line in &score.lines { (row(line, texts, film)) }
+                @for left_out in &score.left_out {
+                    tr {
+                        th scope="row" { (left_out.criterion.name(texts)) }
+                        td { "not judged" }
+                        td { (left_out.why) }
+                    }
+                }
+            }
+            tfoot {
+                tr { th scope="row" { "All that was judged" } td { (score.points) " of " (score.of) } td {} }
+            }
+        }
+        p.note { "Between full points and none they fall in a straight line, rounded down." }
+    }
+}
+
+fn row(line: &ScoreLine, texts: &Texts, film: bool) -> Markup {
+    html! {
+        tr {
+            th scope="row" { (line.criterion.name(texts)) p.note { (line.rule) } }
+            td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
+            td {
+                ul.said {
+                    @for evidence in &line.evidence {
+                        li { (moment(evidence.t_s, film)) p { (evidence.text) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A moment: a link into the film, where there is one.
+fn moment(t_s: Option<f64>, film: bool) -> Markup {
+    html! {
+        @if let Some(t_s) = t_s {
+            @let text = clock(t_s);
+            @if film {
+                a.moment href=(format!("#t={t_s:.3}")) title="Show it in the film" { (text) }
+            } @else {
+                span.moment { (text) }
+            }
+        } @else {
+            span {}
+        }
+    }
+}
+
+/// Seconds, or minutes and seconds as a film's player has them.
+fn clock(t_s: f64) -> String {
+    let tenths = (t_s * 10.0).round();
+    if tenths < 600.0 {
+        format!("{:.1}\u{a0}s", tenths / 10.0)
+    } else {
+        format!(
+            "{}:{:04.1}",
+            (tenths / 600.0).floor(),
+            (tenths % 600.0) / 10.0
+        )
+    }
+}
+
+/// Points in a picture; the words beside it say the same.
+fn bar(points: u32, of: u32) -> Markup {
+    let share = 100.0 * f64::from(points) / f64::from(of.max(1));
+    html! {
+        span.points aria-hidden="true" { span style=(format!("width:{share:.1}%")) {} }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clock;
+
+    #[test]
+    fn moments_are_as_a_player_says_them() {
+        let said = [0.0, 1.94, 59.96, 61.0, 119.97, 754.3].map(clock);
+        assert_eq!(
+            said.map(|it| it.replace('\u{a0}', " ")),
+            ["0.0 s", "1.9 s", "1:00.0", "1:01.0", "2:00.0", "12:34.3"]
+        );
+    }
+}

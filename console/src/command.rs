@@ -1,0 +1,86 @@
+//! What an instructor can ask of a student's program.
+
+use serde::{Deserialize, Serialize};
+
+use crate::bounded::Text;
+use crate::student::Student;
+
+/// Characters of a message to a student. Our choice: what a panel shows in a few lines.
+pub const MESSAGE: usize = 200;
+
+/// The slowest motion, simulated seconds a second. Our choice: a drop still falls within seconds.
+pub const SLOWEST: f64 = 0.05;
+
+/// A wish of the instructor's. It has no path and no name of anything: a scene is one of those that the student's
+/// program offers, by its place among them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Command {
+    /// Bring up a scene from its start.
+    Scene {
+        /// Its place in [`Student::choices`].
+        choice: u8,
+    },
+    /// Set the boiling's coefficient k_v.
+    KV {
+        /// Within [`Student::k_v`].
+        value: f64,
+    },
+    /// The present scene from its start. (With braces, since serde lets other fields pass in a variant without.)
+    Reset {},
+    /// Hold simulated time, or let it go on.
+    Pause {
+        /// Whether to hold it.
+        on: bool,
+    },
+    /// How fast simulated time goes.
+    SlowMotion {
+        /// Simulated seconds a second, [`SLOWEST`] to 1.
+        rate: f64,
+    },
+    /// Spare the student: mute the boiling.
+    Spare {
+        /// Whether to mute it.
+        on: bool,
+    },
+    /// Show the student a message.
+    Message {
+        /// What; an empty one takes it away.
+        text: Text<MESSAGE>,
+    },
+    /// End the session.
+    End {},
+}
+
+impl Command {
+    /// Whether `student` can do that at all.
+    ///
+    /// # Errors
+    /// Why not, for the instructor.
+    pub fn check(&self, student: &Student) -> Result<(), &'static str> {
+        match self {
+            Self::Scene { choice } if usize::from(*choice) >= student.choices.len() => {
+                Err("there is no such scene: reload the page")
+            }
+            Self::KV { value } => match student.k_v {
+                Some(range) if (range.least..=range.most).contains(value) => Ok(()),
+                Some(_) => Err("k_v is out of its range"),
+                None => Err("this program has no k_v to set"),
+            },
+            Self::SlowMotion { rate } if !(SLOWEST..=1.0).contains(rate) => {
+                Err("the speed is out of its range")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A command on its way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Order {
+    /// The hub's number of it. A state that shows what it did names it in [`State::done`](crate::State::done).
+    pub number: u64,
+    /// What to do.
+    pub command: Command,
+}

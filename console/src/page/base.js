@@ -1,0 +1,133 @@
+// The document, and the socket to the hub.
+const $ = (id) => document.getElementById(id);
+const make = (tag, text = "", mark = "") => {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  if (mark) made.className = mark;
+  return made;
+};
+// Writes only what has changed, so that a screen reader does not read it again.
+const write = (at, text) => { if (at.textContent !== text) at.textContent = text; };
+const known = (value) => typeof value === "number";
+const digits = (value, count) => known(value) ? value.toFixed(count) : "–";
+const seconds = (value) => known(value) ? value.toFixed(1) + " s" : "–";
+
+const page = {
+  socket: null,      // the open socket
+  students: [],      // the class, as the hub tells it
+  opened: null,      // number of the student that is open
+  is: null,          // what that student's program is
+  state: null,       // its last state
+  codec: null,       // "h264" or "jpeg"
+  hides: sessionStorage.getItem("hides") === "yes",
+};
+
+function say(message) {
+  if (page.socket?.readyState !== WebSocket.OPEN) return false;
+  page.socket.send(JSON.stringify(message));
+  return true;
+}
+
+function show(id) {
+  for (const main of document.querySelectorAll("main")) main.hidden = main.id !== id;
+  $("session").hidden = id === "entry";
+  $("to-class").hidden = id !== "student";
+  const focused = document.activeElement;
+  if (!focused || focused === document.body || focused.closest("[hidden]")) $(id).querySelector("h2").focus();
+}
+
+// Waits longer each time, up to five seconds.
+let patience = 250;
+function again() {
+  write($("link"), "No connection to the hub; trying again …");
+  setTimeout(connect, patience);
+  patience = Math.min(2 * patience, 5000);
+}
+
+async function connect() {
+  try {
+    // A socket that is refused does not say why.
+    const session = await fetch("session", { cache: "no-store" });
+    if (session.status === 401) return ask();
+    if (!session.ok) return again();
+  } catch {
+    return again();
+  }
+  const socket = new WebSocket(location.origin.replace("http", "ws") + "/socket");
+  socket.binaryType = "arraybuffer";
+  socket.onopen = () => {
+    patience = 250;
+    page.socket = socket;
+    write($("link"), "Connected");
+    tellPictures();
+    if (page.opened === null) show("class"); else say({ say: "open", student: page.opened });
+  };
+  socket.onmessage = ({ data }) => typeof data === "string" ? hear(JSON.parse(data)) : receivePicture(data);
+  socket.onclose = () => {
+    page.socket = null;
+    loseOrders();
+    again();
+  };
+}
+
+function hear(message) {
+  switch (message.say) {
+    case "class": return showClass(message.students);
+    case "opened": return showOpened(message.student, message.is);
+    case "state": return message.student === page.opened && showState(message.state);
+    case "ordered": return ordered(message.echo, message.number);
+    case "refused": return refused(message.echo, message.why);
+    case "invited": return showInvitation(message);
+  }
+}
+
+// The way in: the code of the address's fragment, which leaves the address at once, or one that is typed.
+function ask(said = "") {
+  write($("link"), "");
+  write($("entry-said"), said);
+  show("entry");
+  $("code").focus();
+}
+
+async function enter(code) {
+  let answer;
+  try {
+    answer = await fetch("enter", { method: "POST", body: code });
+  } catch {
+    return ask("The hub does not answer. Is its program still running?");
+  }
+  if (answer.ok) { $("code").value = ""; return connect(); }
+  if (answer.status === 429) return ask(`Too many wrong codes: wait ${answer.headers.get("retry-after")} seconds.`);
+  ask("This code is wrong, or was used before. Ask for a new one.");
+}
+
+$("enter").onsubmit = (event) => {
+  event.preventDefault();
+  enter($("code").value);
+};
+$("leave").onclick = async () => {
+  try { await fetch("leave", { method: "POST" }); } catch { /* The hub is gone, and the session with it. */ }
+  location.reload();
+};
+$("invite").onclick = () => say({ say: "invite" });
+$("invitation-close").onclick = () => $("invitation").close();
+
+function showInvitation({ address, code, rows }) {
+  const canvas = $("qr");
+  canvas.width = canvas.height = rows.length;
+  const pen = canvas.getContext("2d");
+  pen.fillStyle = "#fff";
+  pen.fillRect(0, 0, rows.length, rows.length);
+  pen.fillStyle = "#000";
+  rows.forEach((row, y) => [...row].forEach((mark, x) => { if (mark === "#") pen.fillRect(x, y, 1, 1); }));
+  write($("invitation-address"), address);
+  write($("invitation-code"), code);
+  $("invitation").showModal();
+}
+
+function begin() {
+  const code = decodeURIComponent(location.hash.slice(1));
+  if (!code) return connect();
+  history.replaceState(null, "", location.pathname);
+  enter(code);
+}

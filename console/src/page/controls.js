@@ -1,0 +1,132 @@
+// What an instructor can ask for. A control shows what the student's program says, not what was pressed; while an order is
+// under way it has three dots.
+let echoes = 0;
+const waiting = new Map();   // by the page's number: control, words, the hub's number
+
+function order(command, words, control) {
+  if (page.opened === null) return;
+  echoes += 1;
+  if (!say({ say: "order", echo: echoes, student: page.opened, command })) {
+    return write($("said"), `${words}: not sent, there is no connection.`);
+  }
+  waiting.set(echoes, { control, words, number: null });
+  control.dataset.waits = "";
+  write($("said"), `${words} …`);
+}
+
+function done(echo, end) {
+  const order = waiting.get(echo);
+  if (!order) return;
+  waiting.delete(echo);
+  if (![...waiting.values()].some((other) => other.control === order.control)) delete order.control.dataset.waits;
+  write($("said"), order.words + end);
+}
+
+function ordered(echo, number) {
+  const order = waiting.get(echo);
+  if (order) order.number = number;
+}
+
+function refused(echo, why) {
+  if (echo === null) return write($("said"), why[0].toUpperCase() + why.slice(1) + ".");
+  done(echo, `: refused, ${why}.`);
+}
+
+function loseOrders() {
+  for (const echo of [...waiting.keys()]) done(echo, ": the connection was lost; see below whether it was done.");
+}
+
+const KINDS = { correct: "✓ ", incorrect: "✗ ", other: "" };
+function showScenes() {
+  const legend = $("scenes").querySelector("legend");
+  $("scenes").replaceChildren(legend, ...page.is.choices.map(({ title, kind }, choice) => {
+    const button = make("button", KINDS[kind] + title);
+    button.type = "button";
+    button.onclick = () => order({ do: "scene", choice }, title, button);
+    return button;
+  }));
+  const range = page.is.k_v;
+  if (range) Object.assign($("k-v"), { min: range.least, max: range.most });
+}
+
+const toggle = (id, command, words) => {
+  $(id).onclick = () => {
+    const on = $(id).getAttribute("aria-pressed") !== "true";
+    order({ do: command, on }, words[Number(on)], $(id));
+  };
+};
+toggle("pause", "pause", ["Go on", "Pause"]);
+toggle("spare", "spare", ["Boiling heard again", "Boiling muted"]);
+$("reset").onclick = () => order({ do: "reset" }, "From the start", $("reset"));
+$("speed").onchange = () => {
+  const rate = Number($("speed").value);
+  order({ do: "slow-motion", rate }, `Speed ${$("speed").selectedOptions[0].textContent}`, $("speed"));
+};
+$("set-k-v").onsubmit = (event) => {
+  event.preventDefault();
+  order({ do: "k-v", value: $("k-v").valueAsNumber }, `k_v ${$("k-v").value}`, event.submitter ?? $("k-v"));
+};
+$("send").onsubmit = (event) => {
+  event.preventDefault();
+  order({ do: "message", text: $("message").value }, "Message", event.submitter ?? $("message"));
+  $("message").value = "";
+};
+$("unsay").onclick = () => order({ do: "message", text: "" }, "Message taken away", $("unsay"));
+$("end").onclick = () => $("sure").showModal();
+$("end-not").onclick = () => $("sure").close();
+$("end-now").onclick = () => {
+  $("sure").close();
+  order({ do: "end" }, "End", $("end"));
+};
+
+function showControls(state) {
+  const controls = state.controls;
+  for (const [echo, order] of waiting) {
+    if (order.number !== null && order.number <= state.done) done(echo, ": done.");
+  }
+  [...$("scenes").querySelectorAll("button")].forEach((button, choice) => {
+    button.setAttribute("aria-pressed", choice === state.choice);
+  });
+  $("pause").setAttribute("aria-pressed", controls.paused);
+  $("spare").setAttribute("aria-pressed", controls.spared);
+  const speed = $("speed");
+  if (document.activeElement !== speed && !("waits" in speed.dataset)) {
+    const options = [...speed.options];
+    // A program that is too slow for its scene has speeds of its own.
+    speed.value = options.find((option) => Math.abs(option.value - controls.rate) < 0.005)?.value ?? "";
+  }
+  const boils = known(controls.k_v) && page.is.k_v !== null;
+  for (const part of $("set-k-v").querySelectorAll("input, button")) part.disabled = !boils;
+  write($("k-v-now"), boils ? String(Number(controls.k_v.toPrecision(4))) : "–, this scene has none");
+  write($("shown"), controls.message || "nothing");
+  for (const part of $("controls").querySelectorAll("button, input, select")) {
+    if (!part.closest("#set-k-v")) part.disabled = controls.ended;
+  }
+  if (controls.ended) write($("said"), "The session is over.");
+}
+
+function entries(list, said, mark = () => "") {
+  const key = JSON.stringify(said);
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  list.replaceChildren(...said.map((one) => {
+    const item = make("li", "", mark(one));
+    item.append(make("time", seconds(one.t_s)), " " + (one.grave ? "⚠ " : "") + one.text);
+    return item;
+  }));
+}
+
+function showState(state) {
+  page.state = state;
+  showControls(state);
+  const { step, hints, incidents } = state;
+  write($("step"), step ? `Step ${step.number} of ${step.of}: ${step.title}` : "This scene has no procedure.");
+  $("progress").hidden = !step;
+  if (step) Object.assign($("progress"), { max: Math.max(step.of, 1), value: Math.max(step.number - 1, 0) });
+  entries($("hints"), hints);
+  entries($("incident-list"), incidents, (incident) => incident.grave ? "grave" : "");
+  write($("incident-count"), String(state.incidents_so_far));
+  write($("scene"), state.scene);
+  write($("time"), seconds(state.time_s));
+  addPoints(state);
+}

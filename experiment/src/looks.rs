@@ -1,0 +1,170 @@
+//! Looks at the liquid, one behind each step, and what is found in them.
+//!
+//! A look is made with what its step was taken with and with nothing that a recording does not keep, so a replay sees what the session saw.
+
+use std::collections::VecDeque;
+
+use vitriol_gpu::{QueueKind, Ticket};
+use vitriol_lesson::{Event, Finder, Limits, Seen};
+use vitriol_render::Bone;
+use vitriol_sim::bodies::{Break, Strike};
+use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::Census;
+use vitriol_sim::world::{Look, World};
+use vitriol_xr::PoseFrame;
+
+use crate::failure::{Blame, Failure};
+use crate::hands::Gloves;
+use crate::skin::skin;
+
+/// A look that is under way, and what was done in its step.
+struct UnderWay {
+    look: Look,
+    t: f64,
+    poses: Vec<Pose>,
+    held: Vec<bool>,
+    strikes: Vec<Strike>,
+    breaks: Vec<Break>,
+    hands: [Vec<Bone>; 2],
+}
+
+/// What a look saw.
+pub struct Looked {
+    /// Where the liquid is, and what went where.
+    pub census: Census,
+    /// The run's time, s.
+    pub t: f64,
+    /// Simulated time since the look before, s.
+    pub elapsed: f64,
+    /// stage_from_flask at that step, in the world.
+    pub poses: Vec<Pose>,
+    /// The bones of the gloves that it was made with, real metres.
+    pub hands: [Vec<Bone>; 2],
+    /// What is over with it.
+    pub events: Vec<Event>,
+}
+
+/// See the module.
+pub struct Looks {
+    gloves: Gloves,
+    finder: Finder,
+    under_way: VecDeque<UnderWay>,
+}
+
+impl Looks {
+    /// At a scene at its start, which is called `name`.
+    pub fn of(name: &str, scene: &Scene) -> Self {
+        Self {
+            gloves: Gloves::of(scene),
+            finder: Finder::new(name, scene, Limits::default()),
+            under_way: VecDeque::new(),
+        }
+    }
+
+    /// Looks at `world` behind the step that was taken with `frame` (in the frame of the scene's file) on that queue, after which the run's
+    /// time is `t` (s). Does not wait; gives the submission that it is in.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn look(
+        &mut self,
+        world: &mut World,
+        queue: QueueKind,
+        frame: &PoseFrame,
+        t: f64,
+    ) -> Result<Ticket, Failure> {
+        let scale = world.scene().scale.length_scale;
+        let origin = (scale * world.scene().origin).as_vec3();
+        let mut hands = frame.hands.clone();
+        for hand in &mut hands {
+            hand.stage_from_grip.position -= origin;
+        }
+        let mut head = frame.stage_from_view;
+        head.position -= origin;
+        // Tracked fingers are not recorded, so they are as a controller's would be.
+        let hands = self.gloves.worn(world, &hands, &[None, None]);
+        let parts = skin(hands.each_ref().map(Vec::as_slice), &head, scale);
+        let look = world.look_on(queue, &parts).other()?;
+        let ticket = look.ticket().clone();
+        let flasks = 0..world.scene().flasks.len();
+        self.under_way.push_back(UnderWay {
+            look,
+            t,
+            poses: world.poses().to_vec(),
+            held: flasks.map(|flask| world.holder(flask).is_some()).collect(),
+            strikes: world.strikes().to_vec(),
+            breaks: world.breaks().to_vec(),
+            hands,
+        });
+        Ok(ticket)
+    }
+
+    /// The oldest look that was not collected yet, if it has come; does not wait.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
+        let come = match self.under_way.front() {
+            Some(oldest) => oldest.look.try_get().other()?,
+            None => None,
+        };
+        let Some(census) = come else {
+            return Ok(None);
+        };
+        Ok(self.under_way.pop_front().map(|it| self.seen(it, census)))
+    }
+
+    /// The oldest look that was not collected yet, if there is one; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn wait(&mut self) -> Result<Option<Looked>, Failure> {
+        let Some(oldest) = self.under_way.pop_front() else {
+            return Ok(None);
+        };
+        let census = oldest.look.get().other()?;
+        Ok(Some(self.seen(oldest, census)))
+    }
+
+    /// Looks that are not collected yet.
+    pub fn under_way(&self) -> usize {
+        self.under_way.len()
+    }
+
+    /// Forgets looks on a device that is gone: they will not come.
+    pub fn forget(&mut self) {
+        self.under_way.clear();
+    }
+
+    /// The attempt is over: what is to be said of it. What is under way is not waited for.
+    pub fn end(&mut self) -> Vec<Event> {
+        self.finder.end()
+    }
+
+    /// What [`Looks::end`] would say now.
+    pub fn so_far(&self) -> Vec<Event> {
+        self.finder.clone().end()
+    }
+
+    fn seen(&mut self, of: UnderWay, census: Census) -> Looked {
+        let elapsed = of.look.elapsed;
+        let events = self.finder.looked(&Seen {
+            t: of.t,
+            elapsed,
+            census: &census,
+            poses: &of.poses,
+            held: &of.held,
+            strikes: &of.strikes,
+            breaks: &of.breaks,
+        });
+        Looked {
+            census,
+            t: of.t,
+            elapsed,
+            poses: of.poses,
+            hands: of.hands,
+            events,
+        }
+    }
+}

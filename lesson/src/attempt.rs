@@ -1,0 +1,63 @@
+//! What the events of an attempt add up to.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::event::{Contents, Ending, Event, Incident, Pour};
+
+/// What a student did from the start of a scene to its end, or to the next start.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
+pub struct Attempt {
+    /// When it began, simulated time of the run, s.
+    pub begun_s: f64,
+    /// The scene.
+    pub scene: String,
+    /// What each flask held at the start.
+    pub contents: Contents,
+    /// What was poured, in the order of its arrival.
+    pub pours: Vec<Pour>,
+    /// What went wrong, in the order of its beginning.
+    pub incidents: Vec<Incident>,
+    /// How it ended; `None` of an attempt whose recording breaks off.
+    pub ending: Option<Ending>,
+}
+
+impl Attempt {
+    /// The attempts that these events are of, in their order. What comes before the first beginning is of none.
+    pub fn all(events: impl IntoIterator<Item = Event>) -> Vec<Self> {
+        let mut attempts: Vec<Self> = Vec::new();
+        for event in events {
+            if let Event::Begun {
+                t_s,
+                scene,
+                contents,
+            } = event
+            {
+                attempts.push(Self {
+                    begun_s: t_s,
+                    scene,
+                    contents,
+                    pours: Vec::new(),
+                    incidents: Vec::new(),
+                    ending: None,
+                });
+                continue;
+            }
+            let Some(attempt) = attempts.last_mut() else {
+                continue;
+            };
+            match event {
+                Event::Poured(pour) => attempt.pours.push(pour),
+                Event::Incident(incident) => attempt.incidents.push(incident),
+                Event::Ended(ending) => attempt.ending = Some(ending),
+                Event::Begun { .. } => {}
+            }
+        }
+        for attempt in &mut attempts {
+            // Each is said when it is over, so a long one comes after a short one that began later.
+            attempt.pours.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+            attempt.incidents.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        }
+        attempts
+    }
+}

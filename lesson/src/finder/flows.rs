@@ -1,0 +1,219 @@
+//! What is poured from where to where, how fast, and whether acid and water meet in the wrong order or too fast.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use vitriol_sim::solver::{Moved, Place};
+
+use super::amount::{Amount, Bit};
+use super::leaving::{Leavings, Mode};
+use super::{Bench, PAUSE, Seen};
+use crate::event::{Cause, Content, Event, Incident, Pour, What};
+
+/// Over what time a rate is taken, s: a stream of particles is uneven, and a tenth of a second would hold some dozen.
+const WINDOW: f64 = 0.5;
+/// Acid fractions that differ by less do not mix: no heat to speak of. Our choice.
+const ALIKE: f64 = 0.1;
+/// After a pour that long ago heat is still of it, s. Our choice.
+const WARMS: f64 = 10.0;
+
+/// What comes from one flask to one place.
+#[derive(Clone, Debug)]
+struct Flow {
+    amount: Amount,
+    met: Option<Content>,
+    window: VecDeque<(f64, f64)>,
+    fastest: f64,
+    /// What came while it was mostly water into concentrated acid, and the fraction that the first of it met.
+    wrong: Option<(Amount, f64)>,
+    /// From when to when acid and water came together too fast, s, and the fastest then, m³/s.
+    too_fast: Option<[f64; 3]>,
+}
+
+/// From which flask to which, `None` beside all.
+type Way = (usize, Option<usize>);
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Flows {
+    open: BTreeMap<Way, Flow>,
+    /// By way, when the last of it came that mixed, s.
+    last: BTreeMap<Way, f64>,
+    /// What each flask held at the look before.
+    before: Vec<Option<Content>>,
+}
+
+impl Flows {
+    pub fn looked(
+        &mut self,
+        bench: &Bench,
+        seen: &Seen<'_>,
+        leavings: &Leavings,
+        said: &mut Vec<Event>,
+    ) {
+        let flasks = bench.names.len();
+        for from in 0..flasks {
+            let beside = [Place::Table, Place::Floor].map(|it| seen.census.moved(it, from));
+            let into = (0..flasks).filter(|into| *into != from).map(|into| {
+                let moved = seen.census.moved(Place::Flask(into), from);
+                (Some(into), vec![moved])
+            });
+            for (into, moved) in into.chain([(None, beside.to_vec())]) {
+                self.come(
+                    bench,
+                    seen,
+                    (from, into),
+                    &moved,
+                    leavings.mode(from, seen.t),
+                );
+            }
+        }
+        self.close(bench, seen.t, said);
+        let held = seen.census.flasks.iter();
+        self.before = held
+            .map(|held| (held.particles > 0).then(|| bench.content(held)))
+            .collect();
+    }
+
+    fn come(&mut self, bench: &Bench, seen: &Seen<'_>, way: Way, moved: &[Moved], mode: Mode) {
+        let came = moved.iter().any(|it| it.particles > 0);
+        if !came || (mode != Mode::Pouring && !self.open.contains_key(&way)) {
+            return;
+        }
+        let t = seen.t;
+        let into = way.1.and_then(|into| seen.census.flasks.get(into));
+        let place = into.map_or(seen.census.table.came.position, |it| it.came.position);
+        let before = way
+            .1
+            .and_then(|into| self.before.get(into).copied().flatten());
+        let flow = self.open.entry(way).or_insert_with(|| Flow {
+            // What came in the step before this look began in it.
+            amount: Amount::at(t - seen.elapsed),
+            met: before,
+            window: VecDeque::new(),
+            fastest: 0.0,
+            wrong: None,
+            too_fast: None,
+        });
+        for moved in moved.iter().filter(|it| it.particles > 0) {
+            let bit = Bit {
+                volume: bench.volume(moved.volume),
+                acid: moved.acid,
+                place,
+                temperature: None,
+            };
+            flow.amount.add(t, &bit);
+            flow.window.push_back((t, bit.volume));
+            let concentrated = bench.limits.concentrated;
+            if let Some(met) = before
+                && met.acid >= concentrated
+                && bit.acid < concentrated
+            {
+                let (wrong, _) = flow
+                    .wrong
+                    .get_or_insert_with(|| (Amount::at(t - seen.elapsed), met.acid));
+                wrong.add(t, &bit);
+            }
+        }
+        // Half a step, since times are sums of steps and rounded.
+        let oldest = t - WINDOW + 0.5 * seen.elapsed;
+        while flow.window.front().is_some_and(|(at, _)| *at < oldest) {
+            flow.window.pop_front();
+        }
+        let rate = flow.window.iter().map(|(_, volume)| volume).sum::<f64>() / WINDOW;
+        flow.fastest = flow.fastest.max(rate);
+        let mixes = before.is_some_and(|met| (met.acid - flow.amount.acid()).abs() > ALIKE);
+        if mixes {
+            self.last.insert(way, t);
+            if rate > bench.limits.rate_m3_s {
+                let [_, until, most] = flow.too_fast.get_or_insert([t, t, rate]);
+                (*until, *most) = (t, most.max(rate));
+            }
+        }
+    }
+
+    /// Says what is over at `now`.
+    pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
+        let (over, open) = std::mem::take(&mut self.open)
+            .into_iter()
+            .partition(|(_, flow)| flow.amount.is_over(now, PAUSE));
+        self.open = open;
+        let over: BTreeMap<Way, Flow> = over;
+        for (way, flow) in over {
+            flow.say(bench, way, said);
+        }
+    }
+
+    /// From which flask something that mixes was poured into this one a while ago or less, at `now`.
+    pub fn mixed(&self, into: usize, now: f64) -> Option<usize> {
+        let recent = self
+            .last
+            .iter()
+            .filter(|((_, to), at)| *to == Some(into) && now - **at <= WARMS);
+        recent
+            .max_by(|a, b| a.1.total_cmp(b.1))
+            .map(|((from, _), _)| *from)
+    }
+
+    /// Why that flask's liquid is hot.
+    pub fn why_hot(&self, bench: &Bench, flask: usize, now: f64) -> Cause {
+        let name = bench.name(flask);
+        match self.mixed(flask, now) {
+            Some(_) => Cause::Mixing { flask: name },
+            None if bench.heated.get(flask) == Some(&true) => Cause::Heating { flask: name },
+            None => Cause::Unknown,
+        }
+    }
+}
+
+impl Flow {
+    fn say(self, bench: &Bench, (from, into): Way, said: &mut Vec<Event>) {
+        let amount = &self.amount;
+        if amount.volume < bench.limits.least_pour_m3 {
+            return;
+        }
+        let cause = || Cause::Pouring {
+            from: bench.name(from),
+        };
+        said.push(Event::Poured(Pour {
+            t_s: amount.begun,
+            until_s: amount.last,
+            from: bench.name(from),
+            into: into.map(|into| bench.name(into)),
+            volume_m3: amount.volume,
+            fastest_m3_s: self.fastest,
+            acid: amount.acid(),
+            met: self.met,
+        }));
+        let Some(into) = into else {
+            return;
+        };
+        if let Some((wrong, met_acid)) = self.wrong
+            && wrong.volume >= bench.limits.least_pour_m3
+        {
+            said.push(Event::Incident(Incident {
+                t_s: wrong.begun,
+                until_s: wrong.last,
+                what: What::WaterIntoAcid {
+                    flask: bench.name(into),
+                    met_acid,
+                    volume_m3: wrong.volume,
+                },
+                cause: cause(),
+                place_m: bench.place(wrong.place()),
+            }));
+        }
+        if let Some([t_s, until_s, rate_m3_s]) = self.too_fast {
+            said.push(Event::Incident(Incident {
+                t_s,
+                until_s,
+                what: What::PouredTooFast {
+                    flask: bench.name(into),
+                    rate_m3_s,
+                    limit_m3_s: bench.limits.rate_m3_s,
+                },
+                cause: cause(),
+                place_m: bench.place(amount.place()),
+            }));
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Acid or hot liquid that comes to the user.
+
+use vitriol_sim::solver::{Place, Skin as Part};
+
+use super::amount::{Amount, Bit};
+use super::leaving::Leavings;
+use super::{Bench, PAUSE, Seen};
+use crate::event::{Cause, Event, Incident, Skin, What};
+
+/// By part.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Touches {
+    open: [Option<(Amount, Cause)>; 3],
+}
+
+fn part(skin: Part) -> Skin {
+    match skin {
+        Part::Left => Skin::LeftHand,
+        Part::Right => Skin::RightHand,
+        Part::Face => Skin::Face,
+    }
+}
+
+impl Touches {
+    pub fn looked(
+        &mut self,
+        bench: &Bench,
+        seen: &Seen<'_>,
+        leavings: &Leavings,
+        said: &mut Vec<Event>,
+    ) {
+        let skins = Part::ALL.into_iter().zip(&seen.census.skin);
+        for (open, (skin, touching)) in self.open.iter_mut().zip(skins) {
+            let came = &touching.came;
+            if came.particles == 0 {
+                continue;
+            }
+            let (amount, _) = open.get_or_insert_with(|| {
+                let flasks = 0..bench.names.len();
+                let most = flasks.max_by(|&a, &b| {
+                    let [a, b] = [a, b].map(|it| seen.census.moved(Place::Skin(skin), it).volume);
+                    a.total_cmp(&b)
+                });
+                let from =
+                    most.filter(|&it| seen.census.moved(Place::Skin(skin), it).particles > 0);
+                let cause = from.map(|flask| leavings.cause(bench, flask, seen.t));
+                (Amount::at(seen.t), cause.unwrap_or(Cause::Unknown))
+            });
+            amount.add(
+                seen.t,
+                &Bit {
+                    volume: bench.volume(came.volume),
+                    acid: came.acid,
+                    place: came.position,
+                    temperature: came.temperature,
+                },
+            );
+        }
+        self.close(bench, seen.t, said);
+    }
+
+    /// Says what is over at `now`. However little it is: a drop in an eye is enough.
+    pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
+        for (skin, open) in Part::ALL.into_iter().zip(&mut self.open) {
+            let Some((amount, cause)) = open.take_if(|(it, _)| it.is_over(now, PAUSE)) else {
+                continue;
+            };
+            said.push(Event::Incident(Incident {
+                t_s: amount.begun,
+                until_s: amount.last,
+                what: What::OnSkin {
+                    skin: part(skin),
+                    volume_m3: amount.volume,
+                    acid: amount.acid(),
+                    temperature_c: amount.temperature(),
+                    // Everybody wears gloves and goggles.
+                    protected: true,
+                },
+                cause,
+                place_m: bench.place(amount.place()),
+            }));
+        }
+    }
+}

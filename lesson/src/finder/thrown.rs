@@ -1,0 +1,100 @@
+//! What leaves a flask as it boils: whole particles that come to lie or to fall into another flask, and drops of
+//! bubbles, which are none.
+
+use vitriol_sim::bodies;
+use vitriol_sim::solver::Place;
+
+use super::amount::{Amount, Bit};
+use super::flows::Flows;
+use super::leaving::{Leavings, Mode};
+use super::{Bench, PAUSE, Seen};
+use crate::event::{Cause, Event, Incident, What};
+
+/// By flask.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Thrown {
+    open: Vec<Option<(Amount, Cause)>>,
+    /// What had sprayed out at the look before, m³ of the scene; `None` before the first.
+    sprayed: Option<Vec<f64>>,
+}
+
+impl Thrown {
+    pub fn looked(
+        &mut self,
+        bench: &Bench,
+        seen: &Seen<'_>,
+        (leavings, flows): (&Leavings, &Flows),
+        said: &mut Vec<Event>,
+    ) {
+        let flasks = bench.names.len();
+        self.open.resize(flasks, None);
+        let sprayed = self.sprayed.replace(seen.census.sprayed.clone());
+        for flask in 0..flasks {
+            let rim = match seen.poses.get(flask) {
+                Some(pose) if !bodies::is_nowhere(pose) => bench.rim(pose, flask),
+                _ => continue,
+            };
+            let mut bits = Vec::new();
+            if leavings.mode(flask, seen.t) == Mode::Boiling {
+                let others = (0..flasks).filter(|it| *it != flask).map(Place::Flask);
+                // What comes to somebody comes to lie as well.
+                let all = [Place::Table, Place::Floor].into_iter().chain(others);
+                let moved = all.map(|place| seen.census.moved(place, flask));
+                bits.extend(moved.filter(|it| it.particles > 0).map(|moved| Bit {
+                    volume: bench.volume(moved.volume),
+                    acid: moved.acid,
+                    place: rim,
+                    temperature: None,
+                }));
+            }
+            let now = seen.census.sprayed.get(flask).copied().unwrap_or_default();
+            let before = sprayed.as_ref().and_then(|it| it.get(flask).copied());
+            let more = now - before.unwrap_or(now);
+            // Bubbles of air throw drops too.
+            if more > 0.0 && leavings.boils(flask, seen.t) {
+                bits.push(Bit {
+                    volume: bench.volume(more),
+                    acid: seen
+                        .census
+                        .flasks
+                        .get(flask)
+                        .map_or(0.0, |it| f64::from(it.acid)),
+                    place: rim,
+                    temperature: None,
+                });
+            }
+            for bit in bits {
+                let (amount, _) = self.open[flask].get_or_insert_with(|| {
+                    let cause = flows.why_hot(bench, flask, seen.t);
+                    (Amount::at(seen.t), cause)
+                });
+                amount.add(seen.t, &bit);
+            }
+        }
+        self.close(bench, seen.t, said);
+    }
+
+    /// Says what is over at `now`.
+    pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
+        for (flask, open) in self.open.iter_mut().enumerate() {
+            let Some((amount, cause)) = open.take_if(|(amount, _)| amount.is_over(now, PAUSE))
+            else {
+                continue;
+            };
+            if amount.volume < bench.limits.least_thrown_m3 {
+                continue;
+            }
+            said.push(Event::Incident(Incident {
+                t_s: amount.begun,
+                until_s: amount.last,
+                what: What::BoiledOver {
+                    flask: bench.name(flask),
+                    volume_m3: amount.volume,
+                    acid: amount.acid(),
+                },
+                cause,
+                place_m: bench.place(amount.place()),
+            }));
+        }
+    }
+}

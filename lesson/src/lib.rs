@@ -1,0 +1,29 @@
+//! The lesson: what a student did in an attempt, and what went wrong in it, found in the particles.
+//!
+//! A [`Finder`] looks at the simulation and says [`Event`]s, which a session records as they come; a replay finds the same ones
+//! again. An [`Attempt`] is what they add up to: report, summary, table and score are made of it.
+
+mod attempt;
+mod event;
+mod finder;
+mod limits;
+mod mixing;
+mod rubric;
+mod score;
+pub mod skin;
+mod table;
+mod texts;
+mod units;
+mod words;
+
+pub use attempt::Attempt;
+pub use event::{
+    Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
+};
+pub use finder::{Finder, Seen};
+pub use limits::Limits;
+pub use rubric::{Ramp, Rubric, RubricError};
+pub use score::{Criterion, Evidence, LeftOut, Score, ScoreLine};
+pub use table::{TableError, incidents_csv};
+pub use texts::{Texts, TextsError};
+pub use words::{Sentence, Tone, sentences};

@@ -1,0 +1,87 @@
+//! What of an attempt was a dilution.
+
+use std::collections::BTreeSet;
+
+use crate::skin::CORROSIVE;
+use crate::{Attempt, Incident, Pour, What};
+
+/// Acid mass fractions that differ by less are of the same liquid. Our choice.
+const DIFFERENCE: f64 = 0.1;
+
+/// Whether one of two acid mass fractions is acid, and the other thinner.
+fn dilutes(acid: f64, water: f64) -> bool {
+    acid >= CORROSIVE && acid >= water + DIFFERENCE
+}
+
+impl Pour {
+    /// Whether acid came into water, or into thinner acid.
+    pub(crate) fn is_acid_into_water(&self) -> bool {
+        self.met.is_some_and(|met| dilutes(self.acid, met.acid))
+    }
+
+    /// Whether acid and water came together, in either order.
+    pub(crate) fn mixes(&self) -> bool {
+        self.is_acid_into_water() || self.met.is_some_and(|met| dilutes(met.acid, self.acid))
+    }
+}
+
+impl Attempt {
+    /// Pours in which acid and water came together.
+    pub(crate) fn mixing(&self) -> impl Iterator<Item = &Pour> {
+        self.pours.iter().filter(|pour| pour.mixes())
+    }
+
+    /// Whether the scene has acid and something thinner, in two flasks, or both came together anyhow.
+    pub(crate) fn can_mix(&self) -> bool {
+        let acids = || self.contents.values().map(|content| content.acid);
+        let most = acids().fold(0.0, f64::max);
+        let least = acids().fold(1.0, f64::min);
+        dilutes(most, least) || self.mixing().next().is_some()
+    }
+
+    /// How much was poured, m³.
+    pub(crate) fn poured_m3(&self) -> f64 {
+        self.pours.iter().map(|pour| pour.volume_m3).sum()
+    }
+
+    /// The highest mean temperature of what was mixed, as far as it is known: before each pour that came to it, where it was hot, and at
+    /// the end. (s, °C).
+    pub(crate) fn warmest(&self) -> Option<(f64, f64)> {
+        let into = |pour: &Pour| pour.into.clone();
+        let mixed: BTreeSet<String> = self.mixing().filter_map(into).collect();
+        let first = self.mixing().next()?.t_s;
+        let met = self.pours.iter().filter(|pour| pour.t_s > first);
+        let met = met.filter(|pour| pour.into.as_ref().is_some_and(|it| mixed.contains(it)));
+        let met = met.filter_map(|pour| Some((pour.t_s, pour.met?.temperature_c?)));
+        let end = self.ending.iter().flat_map(|ending| {
+            let held = mixed.iter().filter_map(|flask| ending.contents.get(flask));
+            held.filter_map(|content| Some((ending.t_s, content.temperature_c?)))
+        });
+        let hot = self
+            .incidents
+            .iter()
+            .filter_map(|incident| match &incident.what {
+                What::Hot {
+                    flask,
+                    temperature_c,
+                } => mixed
+                    .contains(flask)
+                    .then_some((incident.t_s, *temperature_c)),
+                _ => None,
+            });
+        met.chain(hot)
+            .chain(end)
+            .reduce(|a, b| if b.1 > a.1 { b } else { a })
+    }
+
+    /// The pour by which water came to acid in that incident.
+    pub(crate) fn pour_of(&self, incident: &Incident) -> Option<&Pour> {
+        let What::WaterIntoAcid { flask, .. } = &incident.what else {
+            return None;
+        };
+        self.pours.iter().find(|pour| {
+            let together = pour.t_s <= incident.until_s && incident.t_s <= pour.until_s;
+            together && !pour.is_acid_into_water() && pour.into.as_ref() == Some(flask)
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! Numbers as people say them: in the units of a laboratory, with two significant digits.
+
+use crate::texts::{Template, Texts};
+
+/// Below this mass fraction liquid is called water: it would be said as 0 %. Our choice.
+const WATER: f64 = 0.005;
+
+impl Texts {
+    /// m³ as mL or L.
+    pub(crate) fn volume(&self, m3: f64) -> String {
+        if m3 < 1e-3 {
+            self.said(&self.unit.millilitres, m3 * 1e6)
+        } else {
+            self.said(&self.unit.litres, m3 * 1e3)
+        }
+    }
+
+    /// m³/s as mL/s.
+    pub(crate) fn rate(&self, m3_s: f64) -> String {
+        self.said(&self.unit.millilitres_a_second, m3_s * 1e6)
+    }
+
+    /// s, or minutes from two on, or hours from two on.
+    pub(crate) fn duration(&self, s: f64) -> String {
+        if s < 120.0 {
+            self.said(&self.unit.seconds, s)
+        } else if s < 7200.0 {
+            self.said(&self.unit.minutes, s / 60.0)
+        } else {
+            self.said(&self.unit.hours, s / 3600.0)
+        }
+    }
+
+    /// Whole °C: 134 °C is not 130 °C to who reads a thermometer.
+    pub(crate) fn temperature(&self, celsius: f64) -> String {
+        // Without the sign of -0.
+        let whole = format!("{:.0}", celsius.round() + 0.0);
+        self.unit.celsius.fill(&[("number", &whole)])
+    }
+
+    /// A mass fraction in per cent.
+    pub(crate) fn fraction(&self, fraction: f64) -> String {
+        self.said(&self.unit.percent, fraction * 100.0)
+    }
+
+    /// m/s.
+    pub(crate) fn speed(&self, m_s: f64) -> String {
+        self.said(&self.unit.metres_a_second, m_s)
+    }
+
+    /// How much of what.
+    pub(crate) fn amount(&self, m3: f64, acid: f64) -> String {
+        let volume = self.volume(m3);
+        if acid < WATER {
+            self.amount.water.fill(&[("volume", &volume)])
+        } else {
+            let acid = self.fraction(acid);
+            self.amount
+                .acid
+                .fill(&[("volume", &volume), ("acid", &acid)])
+        }
+    }
+
+    fn said(&self, unit: &Template, value: f64) -> String {
+        let number = two_digits(value).replace('.', &self.number.decimal.text());
+        unit.fill(&[("number", &number)])
+    }
+}
+
+/// Two significant digits, without exponent.
+fn two_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{}", value + 0.0);
+    }
+    // The exponent after rounding: 9.96 is 10 and not 10.0.
+    let rounded = format!("{value:.1e}");
+    let exponent: Option<i32> = rounded.split_once('e').and_then(|(_, it)| it.parse().ok());
+    let value = rounded.parse().unwrap_or(value);
+    let decimals = (1 - exponent.unwrap_or(0)).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_people_say_them() {
+        let texts = Texts::english().unwrap();
+        // Between number and unit stands a space that no line breaks at.
+        let plain = |text: String| text.replace('\u{a0}', " ");
+        assert_eq!(plain(texts.volume(25.4e-6)), "25 mL");
+        assert_eq!(plain(texts.volume(163e-6)), "160 mL");
+        assert_eq!(plain(texts.volume(1.26e-3)), "1.3 L");
+        assert_eq!(plain(texts.volume(0.0)), "0 mL");
+        assert_eq!(plain(texts.volume(0.0156e-6)), "0.016 mL");
+        assert_eq!(plain(texts.rate(9.96e-6)), "10 mL/s");
+        assert_eq!(plain(texts.duration(3.12)), "3.1 s");
+        assert_eq!(plain(texts.duration(300.0)), "5.0 min");
+        assert_eq!(plain(texts.temperature(133.6)), "134 °C");
+        assert_eq!(plain(texts.temperature(-0.2)), "0 °C");
+        assert_eq!(plain(texts.fraction(0.9642)), "96 %");
+        assert_eq!(plain(texts.amount(3.12e-6, 0.004)), "3.1 mL of water");
+        assert_eq!(plain(texts.amount(3.12e-6, 0.19)), "3.1 mL of 19 % acid");
+    }
+
+    #[test]
+    fn another_language_has_its_own_comma() {
+        let english = include_str!("../texts/en.toml");
+        let texts = english.replace("decimal = \".\"", "decimal = \",\"");
+        let texts = Texts::parse(&texts).unwrap();
+        assert_eq!(texts.duration(3.12), "3,1\u{a0}s");
+    }
+}

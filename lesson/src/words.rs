@@ -1,0 +1,347 @@
+//! An attempt in plain sentences.
+
+use std::collections::BTreeSet;
+
+use crate::skin::{self, Acid, Heat};
+use crate::texts::{Template, Texts};
+use crate::{
+    Attempt, Cause, Content, Criterion, Ending, Incident, Pour, Score, Skin, Surface, What,
+};
+
+/// How a sentence is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Tone {
+    /// It went well.
+    Good,
+    /// It went wrong.
+    Bad,
+    /// It is said for itself.
+    Plain,
+}
+
+/// What is said of a moment, or of the whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sentence {
+    /// The moment, simulated time of the run, s: the film's time. `None` of the whole.
+    pub t_s: Option<f64>,
+    /// How it is meant.
+    pub tone: Tone,
+    /// The fact, in a sentence.
+    pub text: String,
+    /// Why, why it matters, and what to do: sentences for who has room for them.
+    pub more: Option<String>,
+}
+
+/// An attempt in sentences: what has a moment in the order of time, then the whole. `score` is the attempt's own: what it gives
+/// all points for is said to have gone well.
+pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentence> {
+    let mut said = Vec::new();
+    let mut say = |t_s, tone, text, more| {
+        said.push(Sentence {
+            t_s,
+            tone,
+            text,
+            more,
+        });
+    };
+    for pour in attempt.pours.iter().filter(|it| !attempt.says(it)) {
+        let good = pour.is_acid_into_water();
+        let tone = if good { Tone::Good } else { Tone::Plain };
+        say(Some(pour.t_s), tone, texts.pour(pour), None);
+    }
+    if attempt.pours.is_empty() {
+        say(None, Tone::Plain, texts.pour.nothing.text(), None);
+    }
+    let mut dangers = BTreeSet::new();
+    for incident in &attempt.incidents {
+        let more = texts.more(incident, &mut dangers);
+        let text = texts.wrong(attempt, incident);
+        say(Some(incident.t_s), Tone::Bad, text, more);
+    }
+    for line in &score.lines {
+        // The right order is said by the pours themselves.
+        if line.points == line.of && line.criterion != Criterion::RightOrder {
+            for evidence in &line.evidence {
+                say(evidence.t_s, Tone::Good, evidence.text.clone(), None);
+            }
+        }
+    }
+    match &attempt.ending {
+        None => say(None, Tone::Plain, texts.end.broken_off.text(), None),
+        Some(ending) => {
+            for (t_s, text) in texts.ending(attempt, ending) {
+                say(t_s, Tone::Plain, text, None);
+            }
+        }
+    }
+    let moment = |sentence: &Sentence| sentence.t_s.unwrap_or(f64::INFINITY);
+    // Stable: what is of one moment stays in the order of above.
+    said.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
+    said
+}
+
+impl Attempt {
+    /// Whether an incident says what that pour is.
+    fn says(&self, pour: &Pour) -> bool {
+        self.incidents.iter().any(|incident| match &incident.what {
+            What::WaterIntoAcid { .. } => self.pour_of(incident) == Some(pour),
+            What::Spilt { .. } => pour.into.is_none() && incident.cause.flask() == Some(&pour.from),
+            _ => false,
+        })
+    }
+}
+
+impl Cause {
+    /// The flask that it is of.
+    pub(crate) fn flask(&self) -> Option<&String> {
+        match self {
+            Self::Pouring { from: flask }
+            | Self::Boiling { flask }
+            | Self::Breaking { flask }
+            | Self::LettingGo { flask }
+            | Self::Splashing { flask }
+            | Self::Mixing { flask }
+            | Self::Heating { flask } => Some(flask),
+            Self::Unknown => None,
+        }
+    }
+}
+
+impl Texts {
+    /// What was poured.
+    pub(crate) fn pour(&self, pour: &Pour) -> String {
+        let amount = self.amount(pour.volume_m3, pour.acid);
+        let (duration, rate) = (self.duration(pour.lasted_s()), self.rate(pour.fastest_m3_s));
+        let template = match &pour.into {
+            None => &self.pour.beside,
+            Some(_) if pour.is_acid_into_water() => &self.pour.acid_into_water,
+            Some(_) => &self.pour.plain,
+        };
+        template.fill(&[
+            ("amount", &amount),
+            ("duration", &duration),
+            ("rate", &rate),
+            ("from", &pour.from),
+            ("into", pour.into.as_deref().unwrap_or("")),
+        ])
+    }
+
+    /// What went wrong, without why and why it matters.
+    pub(crate) fn wrong(&self, attempt: &Attempt, incident: &Incident) -> String {
+        let wrong = &self.wrong;
+        let with = |template: &Template, holes: &[(&str, &str)]| template.fill(holes);
+        match &incident.what {
+            What::WaterIntoAcid {
+                flask,
+                met_acid,
+                volume_m3,
+            } => {
+                let pour = attempt.pour_of(incident);
+                let rate = pour.map(|it| self.rate(it.fastest_m3_s));
+                let template = if rate.is_some() {
+                    &wrong.water_into_acid_at
+                } else {
+                    &wrong.water_into_acid
+                };
+                template.fill(&[
+                    ("acid", &self.fraction(*met_acid)),
+                    ("volume", &self.volume(*volume_m3)),
+                    ("duration", &self.duration(incident.lasted_s())),
+                    ("rate", rate.as_deref().unwrap_or("")),
+                    ("flask", flask),
+                ])
+            }
+            What::PouredTooFast {
+                flask,
+                rate_m3_s,
+                limit_m3_s,
+            } => wrong.poured_too_fast.fill(&[
+                ("flask", flask),
+                ("rate", &self.rate(*rate_m3_s)),
+                ("limit", &self.rate(*limit_m3_s)),
+            ]),
+            What::BoiledOver {
+                flask,
+                volume_m3,
+                acid,
+            } => {
+                let amount = self.amount(*volume_m3, *acid);
+                with(&wrong.boiled_over, &[("flask", flask), ("amount", &amount)])
+            }
+            What::Hot {
+                flask,
+                temperature_c,
+            } => {
+                let temperature = self.temperature(*temperature_c);
+                with(
+                    &wrong.hot,
+                    &[("flask", flask), ("temperature", &temperature)],
+                )
+            }
+            What::Spilt {
+                surface,
+                volume_m3,
+                acid,
+            } => {
+                let template = match surface {
+                    Surface::Bench => &wrong.spilt_bench,
+                    Surface::Floor => &wrong.spilt_floor,
+                };
+                with(template, &[("amount", &self.amount(*volume_m3, *acid))])
+            }
+            What::OnSkin {
+                skin,
+                volume_m3,
+                acid,
+                protected,
+                ..
+            } => {
+                let template = match (skin, protected) {
+                    (Skin::LeftHand, false) => &wrong.left_hand,
+                    (Skin::RightHand, false) => &wrong.right_hand,
+                    (Skin::Face, false) => &wrong.face,
+                    (Skin::LeftHand, true) => &wrong.left_glove,
+                    (Skin::RightHand, true) => &wrong.right_glove,
+                    (Skin::Face, true) => &wrong.goggles,
+                };
+                with(template, &[("amount", &self.amount(*volume_m3, *acid))])
+            }
+            What::Dropped {
+                flask,
+                speed_m_s,
+                broke,
+            } => {
+                let template = if *broke { &wrong.broke } else { &wrong.dropped };
+                let speed = self.speed(*speed_m_s);
+                with(template, &[("flask", flask), ("speed", &speed)])
+            }
+        }
+    }
+
+    /// Why, why it matters, and what to do. A danger that is in `dangers` was said before, and is not said again.
+    fn more(&self, incident: &Incident, dangers: &mut BTreeSet<String>) -> Option<String> {
+        let news = self.dangers(&incident.what).into_iter();
+        let news = news.filter(|danger| dangers.insert(danger.clone()));
+        let said = self.cause(incident).into_iter().chain(news);
+        said.chain(self.remedy(&incident.what))
+            .reduce(|first, second| {
+                let two = [("first", first.as_str()), ("second", second.as_str())];
+                self.join.two.fill(&two)
+            })
+    }
+
+    /// Why; `None` where what it is says it.
+    fn cause(&self, incident: &Incident) -> Option<String> {
+        let causes = &self.cause;
+        let template = match (&incident.what, &incident.cause) {
+            (What::WaterIntoAcid { .. } | What::PouredTooFast { .. }, Cause::Pouring { .. })
+            | (What::BoiledOver { .. }, Cause::Boiling { .. })
+            | (What::Dropped { .. }, _) => return None,
+            (_, Cause::Pouring { .. }) => &causes.pouring,
+            (_, Cause::Boiling { .. }) => &causes.boiling,
+            (_, Cause::Breaking { .. }) => &causes.breaking,
+            (_, Cause::LettingGo { .. }) => &causes.letting_go,
+            (_, Cause::Splashing { .. }) => &causes.splashing,
+            (_, Cause::Mixing { .. }) => &causes.mixing,
+            (_, Cause::Heating { .. }) => &causes.heating,
+            (_, Cause::Unknown) => &causes.unknown,
+        };
+        let flask = incident.cause.flask().map_or("", String::as_str);
+        Some(template.fill(&[("flask", flask)]))
+    }
+
+    /// Why it matters.
+    fn dangers(&self, what: &What) -> Vec<String> {
+        let effect = &self.effect;
+        let dangers = match what {
+            What::WaterIntoAcid { .. } => [Some(effect.water_into_acid.text()), None],
+            What::PouredTooFast { .. } => [Some(effect.too_fast.text()), None],
+            What::Hot { temperature_c, .. } => [self.heat_does(*temperature_c), None],
+            What::BoiledOver { acid, .. } | What::Spilt { acid, .. } => {
+                [self.acid_does(*acid), None]
+            }
+            What::OnSkin {
+                acid,
+                temperature_c,
+                protected: false,
+                ..
+            } => {
+                let heat = temperature_c.and_then(|it| self.heat_does(it));
+                [self.acid_does(*acid), heat]
+            }
+            What::OnSkin { .. } | What::Dropped { .. } => [None, None],
+        };
+        dangers.into_iter().flatten().collect()
+    }
+
+    /// What to do.
+    fn remedy(&self, what: &What) -> Option<String> {
+        let effect = &self.effect;
+        let remedy = match what {
+            What::Spilt { .. } => &effect.wipe,
+            What::OnSkin {
+                protected: true, ..
+            } => &effect.protected,
+            What::OnSkin { .. } => &effect.rinse,
+            _ => return None,
+        };
+        Some(remedy.text())
+    }
+
+    fn acid_does(&self, acid: f64) -> Option<String> {
+        match skin::acid(acid) {
+            Acid::Harmless => None,
+            Acid::Irritant => Some(self.effect.irritant.text()),
+            Acid::Corrosive => Some(self.effect.corrosive.text()),
+        }
+    }
+
+    fn heat_does(&self, temperature_c: f64) -> Option<String> {
+        match skin::heat(temperature_c) {
+            Heat::Harmless => None,
+            Heat::AtOnce => Some(self.effect.heat_at_once.text()),
+            Heat::Within { time_s } => {
+                let holes = [("duration", &*self.duration(time_s))];
+                Some(self.effect.heat_within.fill(&holes))
+            }
+        }
+    }
+
+    /// The hottest, where no incident says it, and what the flasks hold that were poured from or into.
+    fn ending(&self, attempt: &Attempt, ending: &Ending) -> Vec<(Option<f64>, String)> {
+        let mut said = Vec::new();
+        let hot = |incident: &Incident| matches!(incident.what, What::Hot { .. });
+        if let Some(hottest) = &ending.hottest
+            && !attempt.incidents.iter().any(hot)
+        {
+            let temperature = self.temperature(hottest.temperature_c);
+            let (template, flask) = match &hottest.flask {
+                Some(flask) => (&self.end.hottest, flask.as_str()),
+                None => (&self.end.hottest_outside, ""),
+            };
+            let text = template.fill(&[("temperature", &temperature), ("flask", flask)]);
+            said.push((Some(hottest.t_s), text));
+        }
+        for (flask, content) in &ending.contents {
+            let mut pours = attempt.pours.iter();
+            if pours.any(|pour| pour.from == *flask || pour.into.as_ref() == Some(flask)) {
+                said.push((Some(ending.t_s), self.holds(flask, content)));
+            }
+        }
+        said
+    }
+
+    fn holds(&self, flask: &str, content: &Content) -> String {
+        let amount = self.amount(content.volume_m3, content.acid);
+        let temperature = content.temperature_c.map(|it| self.temperature(it));
+        let template = match temperature {
+            Some(_) => &self.end.holds_at,
+            None => &self.end.holds,
+        };
+        template.fill(&[
+            ("flask", flask),
+            ("amount", &amount),
+            ("temperature", temperature.as_deref().unwrap_or("")),
+        ])
+    }
+}

@@ -1,0 +1,21 @@
+//! The record: what is kept of a student, under a [`Pseudonym`].
+//!
+//! An [`Entry`] is an attempt that is kept. [`xapi`] says it in statements that other programs for learning read, [`store`]
+//! keeps what a class has done in one file, and [`lrs`] tells it to a Learning Record Store. [`keep`] does all of that in one
+//! call. Nothing here names a person, and nothing leaves the machine but by [`lrs::send`].
+
+mod entry;
+#[cfg(test)]
+#[path = "../tests/common/example.rs"]
+mod example;
+mod keep;
+pub mod lrs;
+mod pseudonym;
+pub mod store;
+pub mod xapi;
+
+pub use entry::{Entry, Points, Score, ScoreError, Session};
+pub use jiff::Timestamp;
+pub use keep::{KeepError, Keeping, Kept, Scored, keep};
+pub use pseudonym::{Pseudonym, PseudonymError};
+pub use uuid::Uuid;

@@ -1,0 +1,117 @@
+//! What can go wrong with the class's file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use uuid::Uuid;
+
+/// What can go wrong with the class's file.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// There is none.
+    #[error(
+        "{path}: there is no such file; name the class's file, which the first attempt that is kept makes"
+    )]
+    Missing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It or its folder cannot be made.
+    #[error("{path}: could not be made; is there room and permission?")]
+    Folder {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Another file.
+    #[error("{path}: is not a class's file of Vitriol; name another, which may be new")]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Of a later version.
+    #[error(
+        "{path}: its tables are of version {found}, and this program knows version {known}; update Vitriol"
+    )]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// The version in it.
+        found: i32,
+        /// That of this program.
+        known: i32,
+    },
+    /// Others write for longer than is waited.
+    #[error(
+        "{path}: another program has been writing to it for {seconds} s; close that one, then try again"
+    )]
+    Busy {
+        /// The file.
+        path: PathBuf,
+        /// How long it was waited for.
+        seconds: u64,
+    },
+    /// An identifier is taken.
+    #[error(
+        "{path}: attempt {id} is kept already, and is of another student, scene or time; two attempts have one identifier"
+    )]
+    Taken {
+        /// The file.
+        path: PathBuf,
+        /// The attempt's identifier.
+        id: Uuid,
+    },
+    /// A simulation that went astray.
+    #[error(
+        "attempt {id} has an amount in it that is no number, and is not kept; replay its recording and look for a warning"
+    )]
+    NoNumber {
+        /// The attempt's identifier.
+        id: Uuid,
+    },
+    /// What stands in a row is not what was written.
+    #[error(
+        "{path}: {what} in it cannot be read: something else has changed the file; take its last copy"
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What.
+        what: String,
+    },
+    /// SQLite refused.
+    #[error("{path}: SQLite could not read or write it; is there room and permission?")]
+    Sqlite {
+        /// The file.
+        path: PathBuf,
+        /// What it said.
+        source: rusqlite::Error,
+    },
+}
+
+/// Names the file that an error of SQLite's was met in.
+pub(super) trait In<T> {
+    fn of(self, path: &Path) -> Result<T, StoreError>;
+}
+
+impl<T> In<T> for rusqlite::Result<T> {
+    fn of(self, path: &Path) -> Result<T, StoreError> {
+        use rusqlite::ErrorCode::{DatabaseBusy, DatabaseCorrupt, DatabaseLocked, NotADatabase};
+        self.map_err(|source| {
+            let path = path.to_owned();
+            match source.sqlite_error_code() {
+                Some(DatabaseBusy | DatabaseLocked) => StoreError::Busy {
+                    path,
+                    seconds: super::PATIENCE.as_secs(),
+                },
+                Some(NotADatabase) => StoreError::NotOurs { path },
+                Some(DatabaseCorrupt) => StoreError::Damaged {
+                    path,
+                    what: "a page".into(),
+                },
+                _ => StoreError::Sqlite { path, source },
+            }
+        })
+    }
+}

@@ -1,0 +1,534 @@
+//! Where the liquid is, and what went where since the last look, while the simulation goes on.
+//!
+//! It is made on the device, because to copy all particles to the host in each frame would take longer than the look. A step depends
+//! on nothing of it, so a replay without looks has the same bits.
+
+use super::buffers::Buffers;
+use super::pipelines::{Constants, SolverPass};
+use super::spray::spray_left;
+use super::transfer::write;
+use super::{Solver, SolverError};
+use glam::{DVec3, Vec3};
+use std::sync::atomic::{AtomicBool, Ordering};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Readback, Recorder, bytes_of_elements};
+use vitriol_shaders::layout::{BubbleBefore, CensusRun, Limb};
+use vitriol_shaders::{Library, sim};
+
+use crate::parameters::Parameters;
+
+/// Parts of skin that a look has at most: two hands of 28 bones, and a face.
+pub const MOST_LIMBS: usize = 64;
+
+/// Acid fraction from which on liquid hurts: the least that the EU's CLP Regulation (Annex VI) names for sulfuric acid, as
+/// irritating skin and eyes.
+pub const HARMFUL: f64 = 0.05;
+
+/// Temperature from which on liquid hurts, °C: at 54.4 °C water burns through skin in half a minute (US Consumer Product Safety
+/// Commission, tap water scalds, document 5098), for which a wet sleeve lasts.
+pub const SCALDS: f64 = 55.0;
+
+/// Height up to which liquid lies on table or floor, support radii.
+pub const LYING: f64 = 2.0;
+
+/// As in `census.wgsl`.
+const PLACES: usize = 6;
+const WORDS: usize = 20;
+const MOVED_WORDS: usize = 3;
+const WARMTHS: [f64; 2] = [-50.0, 350.0];
+const VOLUMES: f64 = 8.0;
+const SPEEDS: f64 = 8.0;
+const BUBBLE_RADII: f64 = 1.0 / 256.0;
+
+/// Half of the edge of the cube in which places are told apart, for a scene of real size: a room, m.
+const REACH: f64 = 4.0;
+
+/// Whose skin a part is.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Skin {
+    /// The left hand.
+    Left,
+    /// The right hand.
+    Right,
+    /// The face.
+    Face,
+}
+
+impl Skin {
+    /// In the order of [`Census::skin`].
+    pub const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Face];
+}
+
+/// A part of a user that liquid can come to: the hull of two spheres in the scene's stage, m of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinPart {
+    /// Whose it is.
+    pub whose: Skin,
+    /// The spheres' middles.
+    pub ends: [Vec3; 2],
+    /// Their radii.
+    pub radii: [f32; 2],
+}
+
+/// What is in a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Held {
+    /// Particles in it.
+    pub particles: u32,
+    /// Their volume, m³ of the scene.
+    pub volume: f64,
+    /// Mean temperature over them, °C; `None` of none, and where no heat is modelled.
+    pub temperature: Option<f32>,
+    /// That of the hottest, °C, likewise.
+    pub hottest: Option<f32>,
+    /// Mean acid mass fraction over them.
+    pub acid: f32,
+    /// What came to it from elsewhere since the last look.
+    pub came: Came,
+    /// Its bubbles.
+    pub bubbles: Bubbling,
+}
+
+/// Harmful liquid at somebody's skin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Touching {
+    /// Particles that touch it; thrown drops are none.
+    pub particles: u32,
+    /// What came to it that had not touched it before.
+    pub came: Came,
+}
+
+/// What came to a place since the last look; means are over particles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Came {
+    /// Particles.
+    pub particles: u32,
+    /// Their volume, m³ of the scene.
+    pub volume: f64,
+    /// Mean speed, m/s.
+    pub speed: f64,
+    /// Mean place in the stage, m of the scene.
+    pub position: DVec3,
+    /// Mean acid mass fraction.
+    pub acid: f64,
+    /// Mean temperature, °C; `None` of none, and where no heat is modelled.
+    pub temperature: Option<f64>,
+}
+
+/// A place of a [`Census`].
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Place {
+    /// In a flask.
+    Flask(usize),
+    /// In no flask, and not lying.
+    Air,
+    /// Lying on the table.
+    Table,
+    /// Lying on the floor.
+    Floor,
+    /// At somebody's skin, and harmful.
+    Skin(Skin),
+}
+
+impl Place {
+    /// In the order of the tallies.
+    fn row(self, flasks: usize) -> usize {
+        match self {
+            Self::Flask(flask) => flask,
+            Self::Air => flasks,
+            Self::Table => flasks + 1,
+            Self::Floor => flasks + 2,
+            Self::Skin(skin) => flasks + 3 + skin as usize,
+        }
+    }
+}
+
+/// What came to a place since the last look and had been in one flask last.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moved {
+    /// Particles.
+    pub particles: u32,
+    /// Their volume, m³ of the scene.
+    pub volume: f64,
+    /// Acid mass fraction, mean over that volume.
+    pub acid: f64,
+}
+
+/// Bubbles of a flask, and what became of them since the last look.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bubbling {
+    /// That are there, and their mean radius, m.
+    pub here: Bubbles,
+    /// That came to be.
+    pub born: u32,
+    /// That went out in liquid that is too cold for them, and the mean of their largest radii.
+    pub collapsed: Bubbles,
+    /// That burst at the surface, likewise.
+    pub burst: Bubbles,
+}
+
+/// A number of bubbles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bubbles {
+    /// How many.
+    pub count: u32,
+    /// Their mean radius, m; 0 of none.
+    pub radius: f64,
+}
+
+/// Where all liquid is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Census {
+    /// By flask.
+    pub flasks: Vec<Held>,
+    /// In no flask, and not lying.
+    pub air: Held,
+    /// Lying on the table.
+    pub table: Held,
+    /// Lying on the floor.
+    pub floor: Held,
+    /// By [`Skin::ALL`]: of the liquid of no flask that is harmful ([`HARMFUL`]) how much touches it and what came to it anew.
+    pub skin: [Touching; 3],
+    /// By place and flask, as [`Census::moved`] says; empty where nothing did.
+    pub moves: Vec<Moved>,
+    /// By flask: what drops of its bubbles came to rest elsewhere since the start, m³ of the scene at rest density.
+    pub sprayed: Vec<f64>,
+}
+
+impl Census {
+    /// What came to a place and had been in `flask` last. On table and floor each particle counts once until it is in a flask again, so
+    /// that what bounces or runs off is no more than it is; at skin likewise.
+    pub fn moved(&self, to: Place, flask: usize) -> Moved {
+        let flasks = self.flasks.len();
+        let row = to.row(flasks);
+        match flask < flasks {
+            true => (self.moves.get(row * flasks + flask))
+                .copied()
+                .unwrap_or_default(),
+            false => Moved::default(),
+        }
+    }
+
+    /// The same with what was arranged, for tests of what reads it.
+    #[must_use]
+    pub fn with_moved(mut self, to: Place, flask: usize, moved: Moved) -> Self {
+        let flasks = self.flasks.len();
+        let row = to.row(flasks);
+        self.moves
+            .resize((flasks + PLACES) * flasks, Moved::default());
+        if let Some(held) = self.moves.get_mut(row * flasks + flask) {
+            *held = moved;
+        }
+        self
+    }
+}
+
+/// A look under way.
+pub struct CensusRecord {
+    tallies: Readback,
+    /// Where there is spray.
+    sprayed: Option<Readback>,
+    units: Units,
+}
+
+/// What looks know of the ones before: whence each particle came, and what each bubble was. It goes to another device with the state,
+/// which has none of it.
+#[derive(Clone, Debug)]
+pub struct LooksMemory {
+    places: Vec<u32>,
+    bubbles: Vec<BubbleBefore>,
+    is_first: bool,
+}
+
+/// The pass, and what it keeps.
+pub(super) struct Looks {
+    pass: SolverPass,
+    /// `limbs`, `places_before`, `bubbles_before`, `tallies`.
+    own: [Buffer; 4],
+    units: Units,
+    /// Whether the next look has none before it.
+    is_first: AtomicBool,
+}
+
+/// What the words of a tally are.
+#[derive(Clone, Copy, Debug)]
+struct Units {
+    flasks: usize,
+    heated: bool,
+    /// Of a share of 1.
+    whole: f64,
+    /// V0, m³.
+    volume: f64,
+    centre: DVec3,
+    reach: f64,
+}
+
+impl Looks {
+    pub(super) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        parameters: &Parameters,
+        [count, flasks]: [usize; 2],
+        scale: f64,
+        (constants, buffers): (&Constants, &Buffers),
+    ) -> Result<Self, SolverError> {
+        let whole = (u32::MAX as usize / count.max(1)).min(65_536);
+        let slots = parameters.bubbles().map_or(0, |it| it.slots() as usize);
+        let buffer = |label, bytes| Buffer::storage(gpu, label, bytes);
+        let own = [
+            buffer("limbs", bytes_of_elements::<Limb>(MOST_LIMBS))?,
+            buffer("places_before", bytes_of_elements::<u32>(count))?,
+            buffer("bubbles_before", bytes_of_elements::<BubbleBefore>(slots))?,
+            buffer("tallies", bytes_of_elements::<u32>(words(flasks)))?,
+        ];
+        let all = bound(&own, buffers);
+        let extra = [
+            ("WHOLE", whole as f64),
+            ("LYING", LYING * parameters.support_radius),
+            ("HARMFUL", HARMFUL),
+            ("SCALDS", SCALDS),
+            ("REST_DENSITY", parameters.rest_density),
+            ("TOUCHES", 0.5 * parameters.particle_volume().cbrt()),
+        ];
+        Ok(Self {
+            pass: constants.pass(gpu, library, &all, sim::CENSUS, &extra)?,
+            own,
+            units: Units {
+                flasks,
+                heated: parameters.chemistry.is_some(),
+                whole: whole as f64,
+                volume: parameters.particle_volume(),
+                centre: DVec3::ZERO,
+                reach: REACH * scale,
+            },
+            is_first: AtomicBool::new(true),
+        })
+    }
+
+    /// The state was replaced: what the next look sees did not come there by moving.
+    pub(super) fn begin_anew(&self) {
+        self.is_first.store(true, Ordering::Relaxed);
+    }
+}
+
+/// What the pass binds.
+fn bound<'a>(
+    [limbs, places, bubbles, tallies]: &'a [Buffer; 4],
+    b: &'a Buffers,
+) -> [&'a Buffer; 12] {
+    [
+        limbs,
+        places,
+        bubbles,
+        tallies,
+        &b.position,
+        &b.velocity,
+        &b.tags,
+        &b.heat,
+        &b.bulk,
+        &b.bubbles,
+        &b.drops,
+        &b.solution,
+    ]
+}
+
+/// Words of all tallies: of each place, and of each place and flask.
+fn words(flasks: usize) -> usize {
+    (flasks + PLACES) * (WORDS + flasks * MOVED_WORDS)
+}
+
+impl Solver {
+    /// What looks know so far; waits for the device.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn looks_memory(&self) -> Result<LooksMemory, SolverError> {
+        let [_, places, bubbles, _] = &self.looks.own;
+        Ok(LooksMemory {
+            places: self.gpu.read(places)?,
+            bubbles: self.gpu.read(bubbles)?,
+            is_first: self.looks.is_first.load(Ordering::Relaxed),
+        })
+    }
+
+    /// Takes that of a solver of the same scene in the same state.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn remember_looks(&self, memory: &LooksMemory) -> Result<(), SolverError> {
+        let [_, places, bubbles, _] = &self.looks.own;
+        write(&self.gpu, places, &memory.places)?;
+        write(&self.gpu, bubbles, &memory.bubbles)?;
+        self.looks
+            .is_first
+            .store(memory.is_first, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Records a look, behind a frame; `skin` is that of the user, of which parts beyond [`MOST_LIMBS`] are left out, and `elapsed` the
+    /// time since the last look, s. What came to a place is counted in one look alone, so each is to be read.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] where the device refuses.
+    pub fn record_census(
+        &self,
+        rec: &mut Recorder,
+        skin: &[SkinPart],
+        elapsed: f64,
+    ) -> Result<CensusRecord, SolverError> {
+        let looks = &self.looks;
+        let [limbs, .., tallies] = &looks.own;
+        let parts: Vec<Limb> = skin.iter().take(MOST_LIMBS).map(limb).collect();
+        if !parts.is_empty() {
+            rec.upload(limbs, &parts)?;
+        }
+        rec.fill(tallies, 0)?;
+        let places = self.parameters.bubbles().map_or(0, |it| 2 * it.slots());
+        let count = self.count.max(places);
+        if count > 0 {
+            let units = &looks.units;
+            let run = CensusRun {
+                centre: units.centre.as_vec3().to_array(),
+                reach: units.reach as f32,
+                elapsed: elapsed as f32,
+                limbs: parts.len() as u32,
+                first: looks.is_first.swap(false, Ordering::Relaxed).into(),
+                ..CensusRun::default()
+            };
+            let all = bound(&looks.own, &self.buffers);
+            let pass = looks.pass.begin(rec, &all);
+            pass.constants(&run).invocations(count)?;
+        }
+        Ok(CensusRecord {
+            tallies: rec.read_back(tallies)?,
+            sprayed: match self.parameters.bubbles() {
+                Some(bubbles) if bubbles.places_of_drops() > 0 => {
+                    Some(rec.read_back(&self.buffers.spray_left)?)
+                }
+                _ => None,
+            },
+            units: looks.units,
+        })
+    }
+}
+
+fn limb(part: &SkinPart) -> Limb {
+    let [a, b] = part.ends.map(|end| end.to_array());
+    let [radius_a, radius_b] = part.radii;
+    Limb {
+        a,
+        radius_a,
+        b,
+        radius_b,
+        whose: part.whose as u32,
+        ..Limb::default()
+    }
+}
+
+impl CensusRecord {
+    /// What it saw.
+    ///
+    /// # Errors
+    /// [`SolverError::Gpu`] before the submission is done.
+    pub fn get(&self) -> Result<Census, GpuError> {
+        let tallies = self.tallies.get::<u32>()?;
+        let units = &self.units;
+        let places = WORDS * (units.flasks + PLACES);
+        let (of_places, of_moves) = tallies.split_at(places.min(tallies.len()));
+        let (of_places, _) = of_places.as_chunks::<WORDS>();
+        let (of_moves, _) = of_moves.as_chunks::<MOVED_WORDS>();
+        let mut places = of_places.iter().map(|words| units.held(words));
+        let mut next = || places.next().unwrap_or_default();
+        let quanta = match &self.sprayed {
+            Some(sprayed) => sprayed.get::<u32>()?,
+            None => Vec::new(),
+        };
+        Ok(Census {
+            flasks: (0..units.flasks).map(|_| next()).collect(),
+            air: next(),
+            table: next(),
+            floor: next(),
+            skin: [next(), next(), next()].map(|held| Touching {
+                particles: held.particles,
+                came: held.came,
+            }),
+            moves: of_moves.iter().map(|words| units.moved(words)).collect(),
+            sprayed: (0..units.flasks)
+                .map(|flask| units.volume * spray_left(quanta.get(flask)))
+                .collect(),
+        })
+    }
+}
+
+impl Units {
+    /// In the order of the words' constants in `census.wgsl`.
+    fn moved(&self, &[particles, volume, acid]: &[u32; MOVED_WORDS]) -> Moved {
+        Moved {
+            particles,
+            volume: VOLUMES * self.volume * f64::from(volume) / self.whole,
+            acid: match volume {
+                0 => 0.0,
+                _ => f64::from(acid) / f64::from(volume),
+            },
+        }
+    }
+
+    /// In the order of the words' constants in `census.wgsl`.
+    fn held(&self, words: &[u32; WORDS]) -> Held {
+        let [
+            here,
+            volume,
+            warmth,
+            acid,
+            came,
+            came_volume,
+            came_speed,
+            x,
+            y,
+            z,
+            came_acid,
+            bubbles,
+            radii,
+            born,
+            collapsed,
+            collapsed_radii,
+            burst,
+            burst_radii,
+            came_warmth,
+            hottest,
+        ] = *words;
+        let sum = |word: u32| f64::from(word) / self.whole;
+        let mean = |word: u32, of: u32, [low, high]: [f64; 2]| match of {
+            0 => 0.0,
+            of => low + (high - low) * sum(word) / f64::from(of),
+        };
+        let share = [0.0, 1.0];
+        let sides = [-self.reach, self.reach];
+        let radius = [0.0, BUBBLE_RADII * self.reach];
+        let number = |count: u32, radii: u32| Bubbles {
+            count,
+            radius: mean(radii, count, radius),
+        };
+        let position = [x, y, z].map(|word| mean(word, came, sides));
+        Held {
+            particles: here,
+            volume: VOLUMES * self.volume * sum(volume),
+            temperature: (self.heated && here > 0).then(|| mean(warmth, here, WARMTHS) as f32),
+            hottest: (self.heated && here > 0).then(|| mean(hottest, 1, WARMTHS) as f32),
+            acid: mean(acid, here, share) as f32,
+            came: Came {
+                particles: came,
+                volume: VOLUMES * self.volume * sum(came_volume),
+                speed: mean(came_speed, came, [0.0, SPEEDS * self.reach]),
+                position: self.centre + DVec3::from_array(position),
+                acid: mean(came_acid, came, share),
+                temperature: (self.heated && came > 0).then(|| mean(came_warmth, came, WARMTHS)),
+            },
+            bubbles: Bubbling {
+                here: number(bubbles, radii),
+                born,
+                collapsed: number(collapsed, collapsed_radii),
+                burst: number(burst, burst_radii),
+            },
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! A browser's tab that a test directs: headless Chromium, by its DevTools protocol over a pipe.
+//!
+//! Messages are JSON, each ended by a zero byte (`--remote-debugging-pipe`); the browser reads them from descriptor 3 and
+//! writes them to descriptor 4, which a shell makes of its standard input and output.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::browser::{Look, find_or_say};
+use crate::wait::PATIENCE;
+
+/// Time between two questions to a page.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// A tab. The browser goes when this is dropped.
+pub struct Tab {
+    child: Child,
+    to: ChildStdin,
+    from: Receiver<Value>,
+    session: String,
+    sent: u64,
+    complaints: Vec<String>,
+    // Declared last: the profile may only go after the browser has.
+    _profile: tempfile::TempDir,
+}
+
+impl Tab {
+    /// An empty one; `None` and panics as for [`visit`](crate::browser::visit).
+    ///
+    /// # Panics
+    /// Where the browser fails.
+    #[must_use]
+    pub fn new() -> Option<Self> {
+        let program = find_or_say()?;
+        let profile = tempfile::tempdir().expect("a folder for the browser's profile");
+        let mut child = Command::new("sh")
+            .args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 </dev/null >/dev/null"#])
+            .arg(program)
+            .args(["--headless", "--no-sandbox", "--disable-gpu"])
+            .args(["--no-first-run", "--disable-extensions", "--mute-audio"])
+            .args(["--ignore-certificate-errors", "--remote-debugging-pipe"])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg("about:blank")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the browser starts");
+        let to = child.stdin.take().expect("the browser's descriptor 3");
+        let mut from = BufReader::new(child.stdout.take().expect("the browser's descriptor 4"));
+        let (sender, receiver) = channel();
+        std::thread::spawn(move || {
+            let mut message = Vec::new();
+            while from
+                .read_until(0, &mut message)
+                .is_ok_and(|count| count > 0)
+            {
+                message.pop();
+                let said = serde_json::from_slice(&message).expect("the browser says JSON");
+                message.clear();
+                if sender.send(said).is_err() {
+                    break;
+                }
+            }
+        });
+        let mut tab = Self {
+            child,
+            to,
+            from: receiver,
+            session: String::new(),
+            sent: 0,
+            complaints: Vec::new(),
+            _profile: profile,
+        };
+        tab.attach();
+        Some(tab)
+    }
+
+    fn attach(&mut self) {
+        let begun = Instant::now();
+        let target = loop {
+            let targets = self.call("Target.getTargets", json!({}));
+            let targets = targets["targetInfos"].as_array().expect("targets").iter();
+            let mut pages = targets.filter(|target| target["type"] == "page");
+            if let Some(page) = pages.next() {
+                break page["targetId"].clone();
+            }
+            assert!(begun.elapsed() < PATIENCE, "the browser has no page");
+            std::thread::sleep(PAUSE);
+        };
+        let how = json!({"targetId": target, "flatten": true});
+        let attached = self.call("Target.attachToTarget", how);
+        self.session = attached["sessionId"]
+            .as_str()
+            .expect("a session")
+            .to_owned();
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            self.call(&format!("{domain}.enable"), json!({}));
+        }
+    }
+
+    /// Calls a method of the protocol and gives its result.
+    ///
+    /// # Panics
+    /// Where the browser refuses it, ends, or does not answer within [`PATIENCE`].
+    pub fn call(&mut self, method: &str, params: Value) -> Value {
+        self.sent += 1;
+        let mut message = json!({"id": self.sent, "method": method, "params": params});
+        if !self.session.is_empty() {
+            message["sessionId"] = json!(self.session);
+        }
+        let mut bytes = message.to_string().into_bytes();
+        bytes.push(0);
+        self.to.write_all(&bytes).expect("the browser listens");
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            let left = deadline.saturating_duration_since(Instant::now());
+            let mut said = match self.from.recv_timeout(left) {
+                Ok(said) => said,
+                Err(RecvTimeoutError::Timeout) => panic!("{method} was not answered"),
+                Err(RecvTimeoutError::Disconnected) => panic!("the browser ended at {method}"),
+            };
+            if said["id"] == self.sent {
+                assert!(said["error"].is_null(), "{method}: {}", said["error"]);
+                return said["result"].take();
+            }
+            self.note(&said);
+        }
+    }
+
+    fn note(&mut self, said: &Value) {
+        let params = &said["params"];
+        let complaint = match said["method"].as_str() {
+            Some("Runtime.exceptionThrown") => {
+                params["exceptionDetails"]["exception"]["description"].to_string()
+            }
+            Some("Log.entryAdded") => params["entry"].to_string(),
+            Some("Runtime.consoleAPICalled") => params["args"].to_string(),
+            _ => return,
+        };
+        self.complaints.push(complaint);
+    }
+
+    /// Goes to an address.
+    pub fn go(&mut self, address: &str) {
+        let gone = self.call("Page.navigate", json!({"url": address}));
+        assert!(gone["errorText"].is_null(), "{address}: {gone}");
+    }
+
+    /// What an expression gives, promises waited for.
+    ///
+    /// # Panics
+    /// Where it throws.
+    pub fn eval(&mut self, expression: &str) -> Value {
+        let how = json!({
+            "expression": expression, "awaitPromise": true, "returnByValue": true, "userGesture": true,
+        });
+        let mut given = self.call("Runtime.evaluate", how);
+        let thrown = &given["exceptionDetails"];
+        assert!(thrown.is_null(), "{expression}: {thrown}");
+        given["result"]["value"].take()
+    }
+
+    /// Asks until an expression gives something that is true in JavaScript.
+    ///
+    /// # Panics
+    /// Where it does not within [`PATIENCE`].
+    pub fn until(&mut self, expression: &str) -> Value {
+        let begun = Instant::now();
+        loop {
+            // A page that is being left has no document for a moment.
+            let given = self.eval(&format!("try{{ {expression} }}catch(error){{ null }}"));
+            let is_true = !(given.is_null() || given == false || given == 0 || given == "");
+            if is_true {
+                return given;
+            }
+            if begun.elapsed() > PATIENCE {
+                let shown = self.eval("document.body.innerText");
+                panic!(
+                    "waited in vain: {expression}; the page says {:?} and shows {shown}",
+                    self.complaints
+                );
+            }
+            std::thread::sleep(PAUSE);
+        }
+    }
+
+    /// Presses and lets go of keys, as a keyboard does: `Tab`, `Enter`, a space.
+    pub fn press(&mut self, keys: &[&str]) {
+        for key in keys {
+            let (code, text) = match *key {
+                "Enter" => (13, "\r"),
+                "Tab" => (9, ""),
+                "Escape" => (27, ""),
+                " " => (32, " "),
+                other => panic!("{other} is not known here"),
+            };
+            let down = if text.is_empty() {
+                "rawKeyDown"
+            } else {
+                "keyDown"
+            };
+            for kind in [down, "keyUp"] {
+                let mut event = json!({"type": kind, "key": key, "windowsVirtualKeyCode": code});
+                if kind == "keyDown" {
+                    event["text"] = json!(text);
+                }
+                self.call("Input.dispatchKeyEvent", event);
+            }
+        }
+    }
+
+    /// Types text.
+    pub fn type_in(&mut self, text: &str) {
+        self.call("Input.insertText", json!({"text": text}));
+    }
+
+    /// The window's size, CSS pixels, and the colours that its user prefers.
+    pub fn look(&mut self, [width, height]: [u32; 2], look: Look) {
+        let size = json!({
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600,
+        });
+        self.call("Emulation.setDeviceMetricsOverride", size);
+        let scheme = if look == Look::Dark { "dark" } else { "light" };
+        let features = json!([{"name": "prefers-color-scheme", "value": scheme}]);
+        self.call("Emulation.setEmulatedMedia", json!({"features": features}));
+    }
+
+    /// A PNG of the whole page.
+    pub fn picture(&mut self) -> Vec<u8> {
+        let how = json!({"format": "png", "captureBeyondViewport": true});
+        let taken = self.call("Page.captureScreenshot", how);
+        from_base64(taken["data"].as_str().expect("a picture"))
+    }
+
+    /// What was complained of since the last question: uncaught exceptions, what a policy forbade, what did not load, what
+    /// was written to the console.
+    pub fn complaints(&mut self) -> Vec<String> {
+        // What came before this answer is noted.
+        self.eval("0");
+        std::mem::take(&mut self.complaints)
+    }
+}
+
+impl Drop for Tab {
+    fn drop(&mut self) {
+        // Fails where it has ended by itself, which is as well.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// RFC 4648, 4.
+fn from_base64(text: &str) -> Vec<u8> {
+    let digits = text.bytes().filter_map(|digit| match digit {
+        b'A'..=b'Z' => Some(digit - b'A'),
+        b'a'..=b'z' => Some(digit - b'a' + 26),
+        b'0'..=b'9' => Some(digit - b'0' + 52),
+        b'+' => Some(62),
+        b'/' => Some(63),
+        _ => None,
+    });
+    let digits: Vec<u32> = digits.map(u32::from).collect();
+    let mut bytes = Vec::with_capacity(digits.len() * 3 / 4);
+    for four in digits.chunks(4) {
+        let bits = four.iter().fold(0, |bits, digit| bits << 6 | digit) << (6 * (4 - four.len()));
+        bytes.extend(&(bits << 8).to_be_bytes()[..four.len() - 1]);
+    }
+    bytes
+}
