@@ -6,8 +6,8 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ExportArgs, ForgetArgs, KeepArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs,
-    TrackArgs, VrArgs,
+    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, HubArgs, KeepArgs, PagesArgs, PictureArgs,
+    ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -42,6 +42,8 @@ pub enum Command {
     Picture(PictureArgs),
     /// Pour by hand, in a headset
     Vr(VrArgs),
+    /// Serve the instructor's console for a class, whose programs dial it
+    Hub(HubArgs),
     /// Convert, list or look into pose tracks
     Track(TrackArgs),
     /// List the scenes, each with its scale and what it models

@@ -3,5 +3,6 @@
 mod budget;
 pub mod cli;
 pub mod command;
+pub mod live;
 pub mod report;
 pub mod vr;

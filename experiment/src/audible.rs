@@ -45,6 +45,8 @@ pub struct Audible {
     puddle: f64,
     /// What was in each flask then: its share of the capacity, and its density, kg/m³.
     fills: Vec<[f64; 2]>,
+    /// Whether boiling is not heard.
+    muted: bool,
 }
 
 impl Audible {
@@ -57,7 +59,13 @@ impl Audible {
             properties: Properties::new(),
             puddle: 0.0,
             fills: vec![[0.0, WATER]; scene.flasks.len()],
+            muted: false,
         }
+    }
+
+    /// Whether boiling is heard no more, for who is frightened by it.
+    pub fn mute_boiling(&mut self, on: bool) {
+        self.muted = on;
     }
 
     /// What a look at the liquid lets be heard, `elapsed` (s) after the look before, at `time` (s) of the listener's clock; `poses` are
@@ -95,7 +103,8 @@ impl Audible {
                 let at = (self.scale * held.came.position).as_vec3();
                 events.push(says(POURS, at, Sound::Pour(pour)));
             }
-            if let Some(bubbles) = self.bubbles(held, elapsed, density, share * vessel.height) {
+            let bubbles = self.bubbles(held, elapsed, density, share * vessel.height);
+            if let Some(bubbles) = bubbles.filter(|_| !self.muted) {
                 events.push(says(BOILS, place, Sound::Bubbles(bubbles)));
             }
         }
@@ -194,6 +203,7 @@ impl Audible {
             born,
             collapsed,
             burst,
+            ..
         } = held.bubbles;
         if born + collapsed.count + burst.count == 0 {
             return None;

@@ -10,6 +10,7 @@ use vitriol_xr::PoseFrame;
 
 use crate::device::DeviceStatement;
 use crate::failure::Failure;
+use crate::instruction::Instruction;
 use crate::sample::Sample;
 
 /// What the loop drives: the simulated world, and the picture of it.
@@ -96,6 +97,8 @@ pub struct Outcome {
     pub device: DeviceStatement,
     /// What was found in looks at the liquid, over the whole run.
     pub events: Vec<vitriol_lesson::Event>,
+    /// What an instructor did, each with the run's time, s.
+    pub instructions: Vec<(f64, Instruction)>,
     /// What was counted.
     pub counters: Counters,
 }

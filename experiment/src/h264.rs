@@ -12,8 +12,11 @@ use openh264::encoder::{
 };
 use openh264::formats::{RgbaSliceU8, YUVBuffer};
 
-/// H.264's quantiser, 0 to 51. At 20 a film of 10 s has 2 MB.
-const QUANTISER: u8 = 20;
+/// H.264's quantiser, 0 to 51, of a film. At 20 one of 10 s has 2 MB.
+const FILM: u8 = 20;
+
+/// That of a live view, which has a line to keep within: text stays readable.
+const LIVE: u8 = 28;
 
 /// More bits a second than any film here has (one of 960 × 540 has 1.6 million).
 pub(crate) const MOST_BITS: u32 = 100_000_000;
@@ -43,14 +46,36 @@ impl H264 {
     ///
     /// # Errors
     /// What the encoder says.
-    pub fn new([width, height]: [u32; 2], fps: u32) -> Result<Self, openh264::Error> {
+    pub fn new(size: [u32; 2], fps: u32) -> Result<Self, openh264::Error> {
+        Self::with_quantiser(size, fps, FILM)
+    }
+
+    /// The same for a view that is sent as it comes.
+    ///
+    /// # Errors
+    /// What the encoder says.
+    pub fn live(size: [u32; 2], fps: u32) -> Result<Self, openh264::Error> {
+        Self::with_quantiser(size, fps, LIVE)
+    }
+
+    fn with_quantiser(
+        [width, height]: [u32; 2],
+        fps: u32,
+        quantiser: u8,
+    ) -> Result<Self, openh264::Error> {
         let size = (width as usize, height as usize);
+        let config = config(fps, quantiser);
         Ok(Self {
-            encoder: Encoder::with_api_config(OpenH264API::from_source(), config(fps))?,
+            encoder: Encoder::with_api_config(OpenH264API::from_source(), config)?,
             picture: YUVBuffer::new(size.0, size.1),
             size,
             coded: Vec::new(),
         })
+    }
+
+    /// The next frame is a key frame, whenever the last one was.
+    pub fn begin_anew(&mut self) {
+        self.encoder.force_intra_frame();
     }
 
     /// The next frame, of rows from the top, RGBA; `None` where it has more detail than the stream holds.
@@ -73,7 +98,7 @@ impl H264 {
     }
 }
 
-fn config(fps: u32) -> EncoderConfig {
+fn config(fps: u32, quantiser: u8) -> EncoderConfig {
     EncoderConfig::new()
         .max_frame_rate(FrameRate::from_hz(fps as f32))
         // One quantiser: a file has no line to keep within, so a splash may
@@ -82,7 +107,7 @@ fn config(fps: u32) -> EncoderConfig {
         // behind falls below the quantiser, and stays as dark dots on the
         // wall until the next key frame. This mode heeds the range.
         .rate_control_mode(RateControlMode::Quality)
-        .qp(QpRange::new(QUANTISER, QUANTISER))
+        .qp(QpRange::new(quantiser, quantiser))
         // So high that no frame is skipped for it. With skipping off, the
         // encoder would print a warning.
         .bitrate(BitRate::from_bps(MOST_BITS))

@@ -20,6 +20,7 @@ use crate::clock::SimulatedTime;
 use crate::device;
 use crate::experiment::{Counters, Experiment, Heard, Outcome, Taken};
 use crate::failure::{Blame, Failure};
+use crate::instruction::Instruction;
 use crate::looks::{Looked, Looks};
 use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 use crate::scenes::Scenes;
@@ -131,6 +132,10 @@ pub struct Laboratory {
     heard: Vec<Event>,
     /// What was found so far.
     found: Vec<lesson::Event>,
+    /// What an instructor did, and when, s.
+    instructions: Vec<(f64, Instruction)>,
+    /// Whether boiling is not heard.
+    muted: bool,
 }
 
 impl Laboratory {
@@ -183,6 +188,8 @@ impl Laboratory {
             looks: Looks::of(setup.scene_name, setup.scene),
             heard: Vec::new(),
             found: Vec::new(),
+            instructions: Vec::new(),
+            muted: false,
         })
     }
 
@@ -239,7 +246,7 @@ impl Laboratory {
                 SWITCH_SOLVER => self.change_solver(&switch.value)?,
                 SWITCH_PLACEMENT => self.world.hands_leap(),
                 SWITCH_GLASS => self.change_glass(&switch.value)?,
-                _ => {}
+                _ => self.follow(switch)?,
             }
         }
         Ok(anew)
@@ -267,6 +274,26 @@ impl Laboratory {
         Ok(())
     }
 
+    /// Does what an instructor did, where the switch is of one.
+    fn follow(&mut self, switch: &Switch) -> Result<(), Failure> {
+        let Some(instruction) = Instruction::of(switch) else {
+            return Ok(());
+        };
+        let instruction = instruction.input()?;
+        match &instruction {
+            Instruction::Intensity(value) => self.world.set_intensity(*value).input()?,
+            Instruction::Spare(on) => {
+                self.muted = *on;
+                self.audible.mute_boiling(*on);
+            }
+            // Between two steps, where nothing is simulated.
+            Instruction::Pause(_) | Instruction::Speed(_) | Instruction::Message(_) => {}
+        }
+        let said = (self.time.seconds(), instruction);
+        self.instructions.push(said);
+        Ok(())
+    }
+
     fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
         let scene = self.scenes.get(name)?.with_preset(self.preset);
         let gpu = self.world.gpu().clone();
@@ -276,6 +303,7 @@ impl Laboratory {
         (self.departures, self.start) = (Departures::default(), None);
         self.end_attempt()?;
         self.audible = Audible::of(&scene);
+        self.audible.mute_boiling(self.muted);
         self.looks = Looks::of(name, &scene);
         self.switched = Some(name.to_owned());
         Ok(())
@@ -447,6 +475,7 @@ impl Experiment for Laboratory {
             state_hash: state.solver.hash(),
             device: device::statement(self.world.gpu()),
             events: self.found.clone(),
+            instructions: self.instructions.clone(),
             counters: Counters {
                 substeps: self.substeps,
                 solver_changes: self.solver_changes,

@@ -127,7 +127,7 @@ impl Texts {
     }
 
     /// What went wrong, without why and why it matters.
-    pub(crate) fn wrong(&self, attempt: &Attempt, incident: &Incident) -> String {
+    pub fn wrong(&self, attempt: &Attempt, incident: &Incident) -> String {
         let wrong = &self.wrong;
         let with = |template: &Template, holes: &[(&str, &str)]| template.fill(holes);
         match &incident.what {

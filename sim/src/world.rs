@@ -66,7 +66,13 @@ pub enum WorldError {
         /// Why not, and what to take instead.
         problem: String,
     },
+    /// The boiling cannot be set to that.
+    #[error("{0}")]
+    Intensity(&'static str),
 }
+
+/// The largest k_v that can be set: ten times the paper's. `vitriol extremes` goes to a hundred times.
+pub const MOST_INTENSITY: f64 = 10.0;
 
 /// Everything that the next step depends on.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -267,6 +273,48 @@ impl World {
         self.note(Act::Effort(effort));
         self.effort = Some(effort);
         Ok(())
+    }
+
+    /// Boils from the next step on with this k_v (Eq. 17), dimensionless.
+    ///
+    /// # Errors
+    /// [`WorldError::Intensity`] outside 0 to [`MOST_INTENSITY`], and in a scene without the paper's boiling.
+    pub fn set_intensity(&mut self, intensity: f64) -> Result<(), WorldError> {
+        if !(0.0..=MOST_INTENSITY).contains(&intensity) {
+            return Err(WorldError::Intensity("give a k_v of 0 to 10"));
+        }
+        if self.intensity().is_none() {
+            let problem = "this scene has no k_v: the paper's boiling is not modelled in it";
+            return Err(WorldError::Intensity(problem));
+        }
+        self.note(Act::Intensity(intensity));
+        self.take_intensity(Some(intensity));
+        Ok(())
+    }
+
+    /// k_v of the next step; `None` where the paper's boiling is not modelled.
+    pub fn intensity(&self) -> Option<f64> {
+        self.solver.intensity()
+    }
+
+    /// Solves from the next step on as `other`, a world of the same scene, is solved.
+    ///
+    /// # Errors
+    /// As for [`World::set_effort`].
+    pub fn solve_like(&mut self, other: &Self) -> Result<(), WorldError> {
+        self.set_effort(other.effort())?;
+        self.take_intensity(other.intensity());
+        Ok(())
+    }
+
+    /// Takes a k_v that a world of the same scene has: a scene's own may be larger than what can be set.
+    fn take_intensity(&mut self, intensity: Option<f64>) {
+        if let Some(intensity) = intensity {
+            self.solver.set_intensity(intensity);
+        }
+        if let Some(paper) = &mut self.scene.paper {
+            paper.k_v = intensity.or(paper.k_v);
+        }
     }
 
     /// Substeps a step and iterations a substep of the next step.

@@ -1,10 +1,12 @@
 //! Arguments of what plays and looks: replays, pictures, the headset, tracks,
 //! scenes.
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
+use vitriol_console::HubAddress;
 use vitriol_experiment::Colour;
 use vitriol_experiment::switches::pair;
 use vitriol_record::Pseudonym;
@@ -12,6 +14,7 @@ use vitriol_record::lrs::Endpoint;
 use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_study::parse::{filter, named, positive, preset};
 
+use crate::live::hub_address;
 use crate::vr::latch::Grip;
 use crate::vr::placement::Posture;
 
@@ -260,6 +263,9 @@ pub struct VrArgs {
     /// What is kept of a student
     #[command(flatten)]
     pub keep: KeepArgs,
+    /// Where an instructor directs it from
+    #[command(flatten)]
+    pub console: ConsoleArgs,
     /// Sound output, by its name or description (see `vitriol doctor`), or none; a stand-in
     /// has none without it
     #[arg(long, value_name = "OUTPUT")]
@@ -345,6 +351,32 @@ pub struct KeepArgs {
     /// File with its token, which you alone may read: `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`
     #[arg(long, value_name = "FILE", requires = "lrs")]
     pub lrs_token: Option<PathBuf>,
+}
+
+/// Where the instructor's console is. Without any of these it is a web page that this computer alone can open; its address, good for
+/// one browser, goes to standard error.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ConsoleArgs {
+    /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with_all = ["hub", "no_console"])]
+    pub listen: Option<SocketAddr>,
+    /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
+    #[arg(long, value_name = "HUB", value_parser = hub_address, conflicts_with = "no_console")]
+    pub hub: Option<HubAddress>,
+    /// What the console calls this student; without it the computer's name
+    #[arg(long, value_name = "NAME", conflicts_with = "no_console")]
+    pub name: Option<String>,
+    /// No console
+    #[arg(long)]
+    pub no_console: bool,
+}
+
+/// Arguments of `vitriol hub`.
+#[derive(Debug, Args)]
+pub struct HubArgs {
+    /// Where it listens, by HTTPS; 0.0.0.0:8470 for a class
+    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8470")]
+    pub listen: SocketAddr,
 }
 
 /// Frames a second.

@@ -3,6 +3,7 @@
 pub mod doctor;
 pub mod export;
 pub mod forget;
+pub mod hub;
 mod keeping;
 pub mod pages;
 pub mod picture;
@@ -38,6 +39,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Track(args) => track::run(args, format),
         Command::Scenes(args) => scenes::run(args, format),
         Command::Vr(args) => vr::run(args, format),
+        Command::Hub(args) => hub::run(args, format),
         Command::Study(command) => vitriol_study::command::run(command, format),
         Command::Forget(args) => forget::run(args, format),
         Command::Doctor => doctor::run(format),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use serde::Serialize;
@@ -16,6 +17,7 @@ use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::recorded::whole;
+use crate::live::{self, Serving};
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
 use crate::vr::first_minute::FirstMinuteReport;
@@ -116,7 +118,7 @@ struct SessionReport {
 /// not there or a recording that is; [`Failure::Other`].
 pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     let mut scenes = Scenes::default();
-    let options = Options {
+    let mut options = Options {
         plan: Plan {
             scene: scenes.open(&args.scene)?,
             scenes,
@@ -133,7 +135,15 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         sound: sound(args),
         governed: !args.fixed,
         hints: !args.no_hints,
+        console: None,
     };
+    // Before the headset is waited for, so that who directs the session may come in meanwhile.
+    let told = live::student(args.console.name.as_deref(), true);
+    let serving = Serving::begin(&args.console, told)?.map(Arc::new);
+    if let Some(serving) = &serving {
+        options.console = Some(serving.console().clone());
+        serving.invite(format)?;
+    }
     let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
     // Nobody reads what nobody governs or measures.
     let timestamps = if options.governed || options.frames.is_some() {
@@ -146,7 +156,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     }
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;
-        let outcome = begin(headset, options, !args.no_mirror)?.run(headset)?;
+        let session = begin(headset, options, !args.no_mirror, &serving)?;
+        let outcome = session.run(headset)?;
         Ok((headset.name().to_owned(), outcome))
     };
     let ((name, outcome), stand_in) = match &args.stand_in {
@@ -227,8 +238,13 @@ fn sound(args: &VrArgs) -> Device {
 
 /// A session that hears the computer's keys, and has a window there if it is to be `mirrored` and
 /// there is a screen.
-fn begin(headset: &dyn Headset, options: Options, mirrored: bool) -> Result<Session, Failure> {
-    let (decisions, taken) = keys()?;
+fn begin(
+    headset: &dyn Headset,
+    options: Options,
+    mirrored: bool,
+    serving: &Option<Arc<Serving>>,
+) -> Result<Session, Failure> {
+    let (decisions, taken) = keys(serving.clone())?;
     let session = Session::new(headset, options, taken)?;
     if !mirrored {
         return Ok(session);
@@ -255,7 +271,7 @@ fn with_solver(args: &VrArgs, mut options: Options, gpu: &Gpu) -> Result<Options
 
 /// What is typed into the terminal, a line each; and the end, where the program is asked for it
 /// (Ctrl-C, SIGTERM): the runtime is told, and the recording is whole.
-fn keys() -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
+fn keys(serving: Option<Arc<Serving>>) -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
     let (decisions, taken) = channel();
     let of_window = decisions.clone();
     let asked = decisions.clone();
@@ -267,7 +283,14 @@ fn keys() -> Result<(Sender<Decision>, Receiver<Decision>), Failure> {
     if std::io::stdin().is_terminal() {
         std::thread::spawn(move || {
             for line in std::io::stdin().lines().map_while(Result::ok) {
-                let decided = line.trim().chars().next().and_then(menu::decision);
+                let key = line.trim().chars().next();
+                if key.is_some_and(|key| key.eq_ignore_ascii_case(&menu::INVITE)) {
+                    let invited = serving.as_ref().map(|it| it.invite(Format::Text));
+                    if let Some(Err(failure)) = invited {
+                        tracing::warn!("nobody is let in: {failure}");
+                    }
+                }
+                let decided = key.and_then(menu::decision);
                 if decided.is_some_and(|decided| decisions.send(decided).is_err()) {
                     return;
                 }

@@ -11,14 +11,28 @@
 pub const MOST_STEPS: u32 = 5;
 
 /// Turns display times into steps.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct StepClock {
+    /// Simulated seconds a second of the display, above 0 to 1. The hands' way is spread over fewer steps then, so that seen from the
+    /// bench they are faster.
+    pub rate: f64,
     /// Display time of the last frame, ns.
     last: Option<i64>,
-    /// Time between the end of the last step and the display time, s; less than a step.
+    /// Simulated time between the end of the last step and the display time, s; less than a step.
     pub since: f64,
-    /// Time that the simulation went slower than the display, s.
+    /// Time that the simulation was too slow for, s.
     pub slowed: f64,
+}
+
+impl Default for StepClock {
+    fn default() -> Self {
+        Self {
+            rate: 1.0,
+            last: None,
+            since: 0.0,
+            slowed: 0.0,
+        }
+    }
 }
 
 /// A frame's steps.
@@ -27,7 +41,7 @@ pub struct Due {
     /// For each step the place of its end between the last frame's display time (0) and this
     /// one's (1).
     pub ends: Vec<f32>,
-    /// Time that is not simulated, s; above 0 in slow motion.
+    /// Simulated time that is not simulated, s; above 0 where the machine is too slow.
     pub skipped: f64,
 }
 
@@ -46,7 +60,7 @@ impl StepClock {
         if passed < 1 {
             return due;
         }
-        let passed = 1e-9 * passed as f64;
+        let passed = 1e-9 * self.rate * passed as f64;
         // The display's times are rounded to ns: a step that lacks less than a millionth of itself is due.
         let whole = ((self.since + passed) / frame_time + 1e-6).floor();
         if whole <= f64::from(MOST_STEPS) {
@@ -150,6 +164,21 @@ mod tests {
         assert!((clock.slowed + simulated + clock.since - 4.0).abs() < 1e-9);
         // And nothing is made up for.
         assert_eq!(clock.advance(ns(4.0 + STEP), STEP).ends.len(), 1);
+    }
+
+    /// At a quarter of the speed, steps end where a display that is four times as slow has them.
+    #[test]
+    fn a_slower_clock_has_the_same_steps_later() {
+        let mut clock = StepClock {
+            rate: 0.25,
+            ..StepClock::default()
+        };
+        clock.advance(0, STEP);
+        let counts: Vec<_> = (1..=12)
+            .map(|n| clock.advance(ns(STEP * f64::from(n)), STEP).ends.len())
+            .collect();
+        assert_eq!(counts, [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
+        assert_eq!(clock.slowed, 0.0);
     }
 
     #[test]

@@ -39,6 +39,17 @@ pub struct Info {
     pub ends: bool,
     /// What happened in the attempt, for who asks.
     pub happened: Option<Happened>,
+    /// What the instructor says.
+    pub told: Told,
+}
+
+/// What the instructor says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Told {
+    /// What she did last, or holds up.
+    pub done: Option<String>,
+    /// Her message.
+    pub message: Option<String>,
 }
 
 /// What happened in an attempt, as far as it fits the panel.

@@ -31,6 +31,8 @@ pub const RECENTRE: char = 'a';
 pub const SUMMARY: char = 's';
 /// Key of [`Decision::AskEnd`].
 pub const END: char = 'q';
+/// The terminal's key that lets another browser into the console.
+pub const INVITE: char = 'i';
 
 const fn choice(key: char, scene: &'static str, title: &'static str) -> Choice {
     Choice { key, scene, title }
@@ -58,7 +60,7 @@ pub fn lines() -> String {
         text += &format!("\n  {key}  {title}");
     }
     text + &format!(
-        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened\n  {END}  end, pressed twice"
+        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened\n  {INVITE}  let a browser into the console\n  {END}  end, pressed twice"
     )
 }
 

@@ -31,4 +31,5 @@ pub mod sign;
 pub mod stand_in;
 pub mod tally;
 pub mod texts;
+mod view;
 pub mod workbench;

@@ -7,6 +7,7 @@ mod counts;
 mod ended;
 mod frame;
 mod hints;
+mod instructor;
 mod keeper;
 mod losses;
 mod pacing;
@@ -16,6 +17,7 @@ mod sounds;
 mod spills;
 mod steps;
 mod summary;
+mod telling;
 mod track;
 
 use std::path::PathBuf;
@@ -31,6 +33,8 @@ use vitriol_lesson::Attempt;
 use vitriol_render::Bone;
 use vitriol_sound::Device;
 use vitriol_xr::{Headset, Pause, Switch, Turn};
+
+use crate::live::Console;
 
 use super::blame::blame;
 use super::decision::Decision;
@@ -51,6 +55,7 @@ use choices::Choices;
 use counts::Counts;
 use ended::NoFrameOpen;
 use hints::Hints;
+use instructor::Instructor;
 use keeper::Keeper;
 use losses::Losses;
 use pacing::Pacing;
@@ -85,6 +90,8 @@ pub struct Options {
     pub governed: bool,
     /// Whether signs show a first user what to do.
     pub hints: bool,
+    /// The instructor's console, if there is one.
+    pub console: Option<Console>,
 }
 
 /// A session as it ends.
@@ -165,6 +172,8 @@ pub struct Session {
     gloves: [Vec<Bone>; 2],
     /// The panel.
     panel: Panel,
+    /// Who directs it from elsewhere.
+    instructor: Instructor,
     /// The window on the computer, if there is one.
     mirror: Option<Mirror>,
     /// The governor, and what it has decided.
@@ -233,6 +242,7 @@ impl Session {
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],
             panel,
+            instructor: Instructor::new(options.console)?,
             mirror: None,
             pacing,
             counts: Counts::new(tally),
@@ -262,7 +272,8 @@ impl Session {
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
         loop {
-            if self.choices.hear(Instant::now()) {
+            let ends = self.choices.hear(Instant::now());
+            if self.obey() || ends {
                 headset.request_exit().map_err(blame)?;
             }
             let turn = match headset.next() {
@@ -321,6 +332,7 @@ impl Session {
         self.steps.clock.pause();
         self.placement.interrupt();
         self.counts.pause();
+        self.tell(false);
         match self.catch_up(&NoFrameOpen::in_a_turn_without()) {
             // Nothing comes from it any more; what is due is taken on the next one.
             Err(_) if self.benches.current.world.gpu().is_lost() => Ok(()),
@@ -346,6 +358,7 @@ impl Session {
         if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;
         }
+        self.instructor.move_to(gpu, library, eyes.extent)?;
         // What was under way on the old device will not come, and what it took says nothing of the new one.
         self.pacing.forget();
         self.pacing.forget_rates();
@@ -369,6 +382,7 @@ impl Session {
         self.track.found(self.steps.looks.end());
         self.benches.current.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
+        self.tell(true);
         let world = &self.benches.current.world;
         let hash = || Ok(world.snapshot().other()?.solver.hash());
         let Finished {

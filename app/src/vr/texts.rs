@@ -1,7 +1,8 @@
 //! The string table: what is said to a user, in the user's language.
 
 use serde::Deserialize;
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::units::three_digits;
+use vitriol_experiment::{Blame, Failure, Instruction};
 use vitriol_sound::Caption;
 
 /// The texts of one language: a file of `app/texts`, of which each key is used and none is missing.
@@ -9,8 +10,63 @@ use vitriol_sound::Caption;
 #[serde(deny_unknown_fields)]
 pub struct Texts {
     heard: Heard,
+    /// What an instructor did.
+    pub instructor: InstructorTexts,
     /// Around what is said of an attempt.
     pub summary: SummaryTexts,
+}
+
+/// What an instructor did.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InstructorTexts {
+    scene: String,
+    /// The present scene from its start.
+    pub start: String,
+    /// Time is held.
+    pub held: String,
+    goes_on: String,
+    speed: String,
+    full_speed: String,
+    muted: String,
+    heard: String,
+    intensity: String,
+    message: String,
+    unsaid: String,
+    /// The session is ended.
+    pub end: String,
+}
+
+impl InstructorTexts {
+    /// Another scene of that title is brought up.
+    pub fn scene(&self, title: &str) -> String {
+        self.scene.replace("{scene}", title)
+    }
+
+    /// What the student is told.
+    pub fn message(&self, text: &str) -> String {
+        self.message.replace("{text}", text)
+    }
+
+    /// In words.
+    pub fn instruction(&self, instruction: &Instruction) -> String {
+        match instruction {
+            Instruction::Intensity(value) => {
+                self.intensity.replace("{value}", &three_digits(*value))
+            }
+            Instruction::Pause(true) => self.held.clone(),
+            Instruction::Pause(false) => self.goes_on.clone(),
+            Instruction::Speed(rate) if *rate >= 1.0 => self.full_speed.clone(),
+            Instruction::Speed(rate) => {
+                let per_cent = format!("{:.0}", 100.0 * rate);
+                self.speed.replace("{percent}", &per_cent)
+            }
+            Instruction::Spare(true) => self.muted.clone(),
+            Instruction::Spare(false) => self.heard.clone(),
+            Instruction::Message(text) if text.is_empty() => self.unsaid.clone(),
+            Instruction::Message(text) => self.message(text),
+        }
+    }
 }
 
 /// Around what is said of an attempt, whose sentences are of [`vitriol_lesson::Texts`].

@@ -20,6 +20,8 @@ override SCALDS: f32 = 55.0;
 override REST_DENSITY: f32 = 1000.0;
 /// Half of a particle, m: as near to skin it touches.
 override TOUCHES: f32 = 0.00125;
+/// T_B of the paper, °C; the physical chemistry has one for each composition.
+override PAPERS_BOILING_POINT: f32 = 100.0;
 
 const IN_AIR = 0u;
 const ON_TABLE = 1u;
@@ -28,7 +30,7 @@ const SKIN = 3u;
 const SKINS = 3u;
 
 /// Words of a place: what is there, what came there from elsewhere, and its bubbles.
-const WORDS = 20u;
+const WORDS = 22u;
 const HERE = 0u;
 const VOLUME_HERE = 1u;
 const WARMTH = 2u;
@@ -48,8 +50,10 @@ const COLLAPSED_RADII = 15u;
 const BURST = 16u;
 const BURST_RADII = 17u;
 const CAME_WARMTH = 18u;
-/// The largest share of any particle, not a sum.
+/// The largest shares of any particle, not sums.
 const HOTTEST = 19u;
+const SUPERHEAT = 20u;
+const BUBBLES_VOLUME = 21u;
 
 /// Behind the places, by place and flask: what came there from elsewhere and had been in that flask last.
 const MOVED_WORDS = 3u;
@@ -61,9 +65,14 @@ const MOVED_ACID = 2u;
 /// What a share of 1 stands for: °C from the first to the second; particles' volumes; and in `reach` a speed's seconds
 /// and a radius.
 const WARMTHS = vec2<f32>(-50.0, 350.0);
+/// K above the boiling point.
+const SUPERHEATS = vec2<f32>(-350.0, 150.0);
 const VOLUMES = 8.0;
 const SPEEDS = 8.0;
 const BUBBLE_RADII = 1.0 / 256.0;
+
+/// Volume of a sphere of radius 1.
+const SPHERE = 4.18879;
 
 /// A look.
 struct CensusRun {
@@ -125,7 +134,7 @@ const ORIGIN: u32 = 21u;
 const MOST_ORIGINS: u32 = 2047u;
 /// Places whose sums a workgroup makes by itself; the rest, of scenes with many flasks, go one by one.
 const NEAR_PLACES = 16u;
-var<workgroup> near: array<atomic<u32>, 320>;
+var<workgroup> near: array<atomic<u32>, 352>;
 
 fn tally(place: u32, word: u32, amount: u32) {
     let index = place * WORDS + word;
@@ -136,8 +145,8 @@ fn tally(place: u32, word: u32, amount: u32) {
     }
 }
 
-fn hottest(place: u32, amount: u32) {
-    let index = place * WORDS + HOTTEST;
+fn largest(place: u32, word: u32, amount: u32) {
+    let index = place * WORDS + word;
     if (place < NEAR_PLACES) {
         atomicMax(&near[index], amount);
     } else {
@@ -205,6 +214,12 @@ fn touched_on_way(x: vec3<f32>, v: vec3<f32>, was_free: bool) -> u32 {
     return touched;
 }
 
+/// °C.
+fn boiling_point(acid: f32) -> f32 {
+    if (PHYSICAL) { return row_at(acid).value.boiling_point; }
+    return PAPERS_BOILING_POINT;
+}
+
 fn count_particle(i: u32) {
     let tag = tags[i];
     if (tag.x == REMOVED) { return; }
@@ -223,7 +238,10 @@ fn count_particle(i: u32) {
     tally(place, VOLUME_HERE, share(volume, 0.0, VOLUMES));
     tally(place, WARMTH, share(celsius, WARMTHS.x, WARMTHS.y));
     tally(place, ACID, share(acid, 0.0, 1.0));
-    if (HEAT) { hottest(place, share(celsius, WARMTHS.x, WARMTHS.y)); }
+    if (HEAT) {
+        largest(place, HOTTEST, share(celsius, WARMTHS.x, WARMTHS.y));
+        largest(place, SUPERHEAT, share(celsius - boiling_point(acid), SUPERHEATS.x, SUPERHEATS.y));
+    }
     let before = select(places_before[tag.y], 0u, run.first != 0u);
     var touched = (before >> TOUCHED) & 7u;
     var lain = (before >> LAIN) & 1u;
@@ -271,6 +289,8 @@ fn count_bubble(slot: u32) {
         let place = min(bubble.membership - 1u, FLASKS);
         tally(place, BUBBLES_HERE, 1u);
         tally(place, RADII, share(bubble.radius, 0.0, most));
+        let radius = bubble.radius / (2.0 * TOUCHES);
+        tally(place, BUBBLES_VOLUME, share(SPHERE * radius * radius * radius, 0.0, VOLUMES));
         if (run.first == 0u && !same) { tally(place, BORN, 1u); }
     }
     if (was && !same) {
@@ -314,7 +334,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     for (var n = local; n < places * WORDS; n += 256u) {
         let sum = atomicLoad(&near[n]);
         if (sum == 0u) { continue; }
-        if (n % WORDS == HOTTEST) {
+        if (n % WORDS == HOTTEST || n % WORDS == SUPERHEAT) {
             atomicMax(&tallies[n], sum);
         } else {
             atomicAdd(&tallies[n], sum);

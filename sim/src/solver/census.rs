@@ -14,6 +14,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError, Readback, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::{BubbleBefore, CensusRun, Limb};
 use vitriol_shaders::{Library, sim};
 
+use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;
 
 /// Parts of skin that a look has at most: two hands of 28 bones, and a face.
@@ -32,9 +33,10 @@ pub const LYING: f64 = 2.0;
 
 /// As in `census.wgsl`.
 const PLACES: usize = 6;
-const WORDS: usize = 20;
+const WORDS: usize = 22;
 const MOVED_WORDS: usize = 3;
 const WARMTHS: [f64; 2] = [-50.0, 350.0];
+const SUPERHEATS: [f64; 2] = [-350.0, 150.0];
 const VOLUMES: f64 = 8.0;
 const SPEEDS: f64 = 8.0;
 const BUBBLE_RADII: f64 = 1.0 / 256.0;
@@ -80,6 +82,8 @@ pub struct Held {
     pub temperature: Option<f32>,
     /// That of the hottest, °C, likewise.
     pub hottest: Option<f32>,
+    /// By how much the one that is furthest above its boiling point is above it, K, likewise; most are below.
+    pub superheat: Option<f32>,
     /// Mean acid mass fraction over them.
     pub acid: f32,
     /// What came to it from elsewhere since the last look.
@@ -158,6 +162,8 @@ pub struct Moved {
 pub struct Bubbling {
     /// That are there, and their mean radius, m.
     pub here: Bubbles,
+    /// Their volume, m³ of the scene.
+    pub volume: f64,
     /// That came to be.
     pub born: u32,
     /// That went out in liquid that is too cold for them, and the mean of their largest radii.
@@ -288,6 +294,7 @@ impl Looks {
             ("SCALDS", SCALDS),
             ("REST_DENSITY", parameters.rest_density),
             ("TOUCHES", 0.5 * parameters.particle_volume().cbrt()),
+            ("PAPERS_BOILING_POINT", papers_boiling_point(parameters)),
         ];
         Ok(Self {
             pass: constants.pass(gpu, library, &all, sim::CENSUS, &extra)?,
@@ -329,6 +336,14 @@ fn bound<'a>(
         &b.drops,
         &b.solution,
     ]
+}
+
+/// T_B of the paper's chemistry, °C. Where nothing boils it is water's.
+fn papers_boiling_point(parameters: &Parameters) -> f64 {
+    match &parameters.chemistry {
+        Some(Chemistry::Paper(paper)) => paper.boiling.map_or(100.0, |it| it.boiling_point),
+        _ => 100.0,
+    }
 }
 
 /// Words of all tallies: of each place, and of each place and flask.
@@ -495,6 +510,8 @@ impl Units {
             burst_radii,
             came_warmth,
             hottest,
+            superheat,
+            bubbles_volume,
         ] = *words;
         let sum = |word: u32| f64::from(word) / self.whole;
         let mean = |word: u32, of: u32, [low, high]: [f64; 2]| match of {
@@ -514,6 +531,7 @@ impl Units {
             volume: VOLUMES * self.volume * sum(volume),
             temperature: (self.heated && here > 0).then(|| mean(warmth, here, WARMTHS) as f32),
             hottest: (self.heated && here > 0).then(|| mean(hottest, 1, WARMTHS) as f32),
+            superheat: (self.heated && here > 0).then(|| mean(superheat, 1, SUPERHEATS) as f32),
             acid: mean(acid, here, share) as f32,
             came: Came {
                 particles: came,
@@ -525,6 +543,7 @@ impl Units {
             },
             bubbles: Bubbling {
                 here: number(bubbles, radii),
+                volume: VOLUMES * self.volume * sum(bubbles_volume),
                 born,
                 collapsed: number(collapsed, collapsed_radii),
                 burst: number(burst, burst_radii),

@@ -210,6 +210,7 @@ impl Solver {
             next: (n + 2) * flasks,
             bubbles: bubbles::flags(n, self.parameters.substeps),
             approach: Bubbles::approach(n, self.parameters.substeps) as f32,
+            intensity: self.intensity().unwrap_or(0.0) as f32,
             ..Step::default()
         }
     }

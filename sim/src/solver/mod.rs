@@ -143,6 +143,23 @@ impl Solver {
         Ok(())
     }
 
+    /// k_v of Eq. 17; `None` where the paper's boiling is not modelled.
+    pub(crate) fn intensity(&self) -> Option<f64> {
+        match &self.parameters.chemistry {
+            Some(Chemistry::Paper(paper)) => Some(paper.boiling?.intensity),
+            _ => None,
+        }
+    }
+
+    /// Solves from the next frame on with that k_v, where there is one.
+    pub(crate) fn set_intensity(&mut self, intensity: f64) {
+        if let Some(Chemistry::Paper(paper)) = &mut self.parameters.chemistry
+            && let Some(boiling) = &mut paper.boiling
+        {
+            boiling.intensity = intensity;
+        }
+    }
+
     /// Number of particles, those taken out included.
     pub fn count(&self) -> u32 {
         self.count

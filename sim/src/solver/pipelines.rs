@@ -244,7 +244,6 @@ fn of_paper(paper: &Paper, p: &Parameters) -> Vec<(&'static str, f64)> {
         own.extend([
             ("BOILING", 1.0),
             ("BOILING_POINT", boiling.boiling_point),
-            ("BOILING_INTENSITY", boiling.intensity),
             ("BOILING_POWER", REFERENCE_POWER),
             ("LITERAL_BOILING", flag(boiling.law == Boiling::Literal)),
         ]);

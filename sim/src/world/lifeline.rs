@@ -11,7 +11,16 @@ pub(super) enum Act {
     Step(QueueKind, StepInput),
     Leap,
     Effort([u32; 2]),
+    Intensity(f64),
     Breakable(bool),
+}
+
+/// What a world is solved with, which is in no state.
+#[derive(Clone, Copy, Debug)]
+struct Settings {
+    effort: [u32; 2],
+    /// k_v, where there is one.
+    intensity: Option<f64>,
 }
 
 /// See the module. What is brought back has the same bits on a device of the same kind.
@@ -20,7 +29,7 @@ pub struct Lifeline {
     /// `None` stands for the start.
     state: Option<Arc<WorldState>>,
     /// What it was to be solved with from there on.
-    effort: [u32; 2],
+    settings: Settings,
     since: Vec<Act>,
     /// Acts before those; that another state was taken up is one.
     gone: usize,
@@ -42,7 +51,7 @@ pub struct StateRecord {
     loads: Vec<Arc<PendingLoad>>,
     /// Acts before it, and what it is to be solved with.
     before: usize,
-    effort: [u32; 2],
+    settings: Settings,
 }
 
 impl StateRecord {
@@ -54,7 +63,7 @@ impl StateRecord {
         Ok(self.with_place()?.0)
     }
 
-    fn with_place(self) -> Result<(WorldState, usize, [u32; 2]), WorldError> {
+    fn with_place(self) -> Result<(WorldState, usize, Settings), WorldError> {
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
             Ok::<_, WorldError>(bytemuck::cast_slice(&sums).to_vec())
@@ -65,7 +74,7 @@ impl StateRecord {
             solver: self.solver.get()?,
             bodies: self.bodies,
         };
-        Ok((state, self.before, self.effort))
+        Ok((state, self.before, self.settings))
     }
 
     /// The place from which on a world is brought back; may be read on another thread than the one that steps.
@@ -73,11 +82,11 @@ impl StateRecord {
     /// # Errors
     /// As for [`StateRecord::get`].
     pub fn kept(self) -> Result<Kept, WorldError> {
-        let (state, before, effort) = self.with_place()?;
+        let (state, before, settings) = self.with_place()?;
         Ok(Kept {
             state: Arc::new(state),
             before,
-            effort,
+            settings,
         })
     }
 }
@@ -86,21 +95,26 @@ impl StateRecord {
 pub struct Kept {
     state: Arc<WorldState>,
     before: usize,
-    effort: [u32; 2],
+    settings: Settings,
 }
 
 impl World {
     /// From now on what is done is noted, so that [`World::revive`] can do it again. Each [`World::keep`] lets the notes before it go.
     pub fn follow(&mut self) {
+        let settings = self.settings();
         self.lifeline.get_or_insert_with(|| Lifeline {
             state: None,
-            effort: {
-                let solver = &self.scene.solver;
-                self.effort.unwrap_or([solver.substeps, solver.iterations])
-            },
+            settings,
             since: vec![Act::Breakable(self.bodies.is_breakable())],
             gone: 0,
         });
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            effort: self.effort(),
+            intensity: self.intensity(),
+        }
     }
 
     /// What the world can be brought back from; `None` where nobody follows.
@@ -110,12 +124,12 @@ impl World {
 
     /// The state was replaced: what was done before says nothing of it.
     pub(super) fn begin_anew(&mut self, state: &WorldState) {
-        let effort = self.effort();
+        let settings = self.settings();
         if let Some(lifeline) = &mut self.lifeline {
             // One more, for what was done just now: a state that is on its way and was recorded right before is older than this one.
             lifeline.gone += lifeline.since.len() + 1;
             lifeline.since.clear();
-            (lifeline.state, lifeline.effort) = (Some(Arc::new(state.clone())), effort);
+            (lifeline.state, lifeline.settings) = (Some(Arc::new(state.clone())), settings);
         }
     }
 
@@ -139,7 +153,7 @@ impl World {
                 .lifeline
                 .as_ref()
                 .map_or(0, |it| it.gone + it.since.len()),
-            effort: self.effort(),
+            settings: self.settings(),
         })
     }
 
@@ -152,7 +166,7 @@ impl World {
             let passed = passed.min(lifeline.since.len());
             lifeline.since.drain(..passed);
             lifeline.gone += passed;
-            (lifeline.state, lifeline.effort) = (Some(kept.state), kept.effort);
+            (lifeline.state, lifeline.settings) = (Some(kept.state), kept.settings);
         }
     }
 
@@ -163,7 +177,8 @@ impl World {
     /// [`WorldError`] where the state is another scene's, or the device fails.
     pub fn revive(&mut self, lifeline: &Lifeline) -> Result<(), WorldError> {
         self.lifeline = None;
-        self.set_effort(lifeline.effort)?;
+        self.set_effort(lifeline.settings.effort)?;
+        self.take_intensity(lifeline.settings.intensity);
         if let Some(state) = &lifeline.state {
             self.restore(state)?;
         }
@@ -172,6 +187,7 @@ impl World {
                 Act::Step(queue, input) => self.step_on(*queue, input)?,
                 Act::Leap => self.hands_leap(),
                 Act::Effort(effort) => self.set_effort(*effort)?,
+                Act::Intensity(intensity) => self.set_intensity(*intensity)?,
                 Act::Breakable(on) => self.set_breakable(*on),
             }
         }

@@ -7,6 +7,7 @@ use crate::common::*;
 use glam::{DVec2, DVec3, Quat, Vec3};
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::layout::Drops;
+use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{
@@ -89,6 +90,7 @@ fn it_says_where_the_liquid_is_and_what_came_there() {
         first.iter().map(|it| it.particles).collect::<Vec<_>>(),
         [300, 375, 0, 0]
     );
+    let table = SolutionTable::new();
     let mut came = [0; 4];
     for _ in 0..14 {
         frames(&device, &solver, &[Pose::IDENTITY], 1);
@@ -119,6 +121,11 @@ fn it_says_where_the_liquid_is_and_what_came_there() {
                 let hottest = here.iter().map(|&n| heat(n, 0)).fold(f64::MIN, f64::max);
                 let seen = f64::from(held.hottest.unwrap());
                 assert!((seen - hottest).abs() < 0.01, "{hottest} {held:?}");
+                let above = |n: usize| heat(n, 0) - table.at(heat(n, 1)).boiling_point;
+                let superheat = here.iter().map(|&n| above(n)).fold(f64::MIN, f64::max);
+                let seen = f64::from(held.superheat.unwrap());
+                // A share is 8 mK; the device interpolates its table in f32.
+                assert!((seen - superheat).abs() < 0.02, "{superheat} {held:?}");
             }
             let new: Vec<_> = here
                 .iter()
@@ -431,6 +438,12 @@ fn bubbles_that_collapse_are_told_from_those_that_burst() {
         let bubbles = look(&device, &solver, &[]).flasks[0].bubbles;
         assert_eq!((bubbles.here.count, bubbles.born), (1, 0));
         assert!((bubbles.here.radius - 1.5e-3).abs() < 1e-6, "{bubbles:?}");
+        let sphere = 4.0 / 3.0 * std::f64::consts::PI * 1.5e-3_f64.powi(3);
+        // A share of eight particles in 65,536.
+        assert!(
+            (bubbles.volume - sphere).abs() < 1e-3 * sphere,
+            "{bubbles:?}"
+        );
         let (mut ends, mut radius, mut frames_of_it) = ([0, 0], 0.0, 0);
         for _ in 0..(0.6 / setup.parameters.frame_time) as u32 {
             frames(&device, &solver, &[Pose::IDENTITY], 1);

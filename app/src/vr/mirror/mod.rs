@@ -11,7 +11,7 @@ use vitriol_experiment::Failure;
 use vitriol_gpu::{Gpu, Image};
 use vitriol_shaders::Library;
 
-use self::shrink::Shrink;
+pub use self::shrink::{Shrink, Shrunk};
 use self::window::Say;
 pub use self::window::Window;
 use super::info::Info;
@@ -71,7 +71,7 @@ impl Mirror {
             return Ok(());
         }
         self.due = time.max(self.due.saturating_add(EVERY));
-        self.shrink.begin(picture, drawn, extent)
+        self.shrink.begin(picture, drawn, extent, time)
     }
 
     /// Hands over what the device is done with; does not wait.

@@ -1,5 +1,5 @@
-//! The device's half of the mirror: shrinks the left eye's picture and copies it to where the
-//! window's thread reads it. Nothing here waits.
+//! The device's half of the mirror, and of the console's view: shrinks the left eye's picture and copies it to where another
+//! thread reads it. Nothing here waits.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ pub struct Shrunk {
     pixels: Arc<Buffer>,
     /// Width and height, pixels.
     pub extent: [u32; 2],
+    /// Display time, ns.
+    pub time: i64,
 }
 
 impl Shrunk {
@@ -67,7 +69,7 @@ impl Shrink {
     }
 
     /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size,
-    /// behind what was submitted before. Does nothing where no slot is free.
+    /// behind what was submitted before; they are shown at `time` (ns). Does nothing where no slot is free.
     ///
     /// # Errors
     /// What the device says.
@@ -76,6 +78,7 @@ impl Shrink {
         picture: &Image,
         drawn: [u32; 2],
         window: [u32; 2],
+        time: i64,
     ) -> Result<(), Failure> {
         let mut slots = self.slots.iter_mut();
         let Some(pixels) =
@@ -99,8 +102,12 @@ impl Shrink {
         };
         rec.copy(&self.shrunk, &pixels, &[all]).other()?;
         let ticket = self.gpu.submit(rec).other()?;
-        self.under_way
-            .push_back((ticket, Shrunk { pixels, extent }));
+        let shrunk = Shrunk {
+            pixels,
+            extent,
+            time,
+        };
+        self.under_way.push_back((ticket, shrunk));
         Ok(())
     }
 

@@ -2,15 +2,15 @@
 
 use egui::{
     Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Label,
-    Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, Ui, Vec2, pos2,
-    vec2,
+    Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, TopBottomPanel,
+    Ui, Vec2, pos2, vec2,
 };
 use std::f32::consts::TAU;
 use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
 use crate::vr::decision::Decision;
-use crate::vr::info::{Effort, FlaskLine, Happened, Info, burns_text};
+use crate::vr::info::{Effort, FlaskLine, Happened, Info, Told, burns_text};
 use crate::vr::menu::{self, CHOICES};
 
 /// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
@@ -24,6 +24,8 @@ const WARNING: Color32 = Color32::from_rgb(255, 176, 60);
 const RECORDING: Color32 = Color32::from_rgb(255, 132, 122);
 const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
 const COLD: Color32 = Color32::from_rgb(80, 150, 230);
+/// Ground of what the instructor says.
+const SAID: Color32 = Color32::from_rgb(64, 40, 96);
 /// Ground of the scene's button that is shown; egui's own is too bright for white text.
 const CHOSEN: Color32 = Color32::from_rgb(0, 72, 104);
 const HOT: Color32 = Color32::from_rgb(235, 90, 40);
@@ -60,6 +62,7 @@ pub struct Seen {
 /// Lays the panel out; `ring` is how far a button that is held has come, 0 to 1.
 pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<f32>) -> Seen {
     let mut seen = Seen::default();
+    told(context, &info.told);
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         match &info.happened {
@@ -87,6 +90,22 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
         }
     });
     seen
+}
+
+/// What the instructor says, over all else.
+fn told(context: &Context, told: &Told) {
+    let lines: Vec<&String> = told.message.iter().chain(&told.done).collect();
+    if lines.is_empty() {
+        return;
+    }
+    let margin = Margin::symmetric(22, 10);
+    let frame = Frame::new().inner_margin(margin).fill(SAID);
+    let strip = TopBottomPanel::top("told").frame(frame);
+    strip.show_separator_line(false).show(context, |ui| {
+        for line in lines {
+            ui.label(RichText::new(line).color(WHITE));
+        }
+    });
 }
 
 /// A ring that fills from its top, clockwise.
@@ -354,6 +373,7 @@ mod tests {
         ];
         pairs.extend(faces.map(|face| (WHITE, face.weak_bg_fill)));
         pairs.push((WHITE, visuals.selection.bg_fill));
+        pairs.push((WHITE, SAID));
         for (text, ground) in pairs {
             let [bright, dark] = [text, ground].map(luminance);
             let contrast = (bright + 0.05) / (dark + 0.05);

@@ -152,7 +152,7 @@ impl Benches {
                 tracing::info!("brought back, {} steps taken again", lifeline.steps());
             }
             None => {
-                bench.world.set_effort(before.effort()).other()?;
+                bench.world.solve_like(before).other()?;
                 bench.world.restore(&state.other()?).other()?;
                 let memory = before.looks_memory().other()?;
                 bench.world.remember_looks(&memory).other()?;

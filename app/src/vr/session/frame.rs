@@ -105,9 +105,14 @@ impl Session {
             let picture = self.benches.current.picture.image();
             mirror.take(picture, shown.extent, info.xr_time)?;
         }
+        if let Some(shown) = &shown {
+            self.show_instructor(shown, info.xr_time)?;
+        }
         let built = was_building || self.is_building();
         let cpu_ms = 1e3 * begun.elapsed().as_secs_f64();
         self.counts.tally.frame(cpu_ms, &LockWaits::take(), built);
+        self.instructor.took(1e-3 * cpu_ms);
+        self.tell(false);
         self.catch_up(&no_frame)?;
         // 10. What the next frames are solved and drawn with.
         let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
@@ -177,7 +182,9 @@ impl Session {
             );
             let looks = std::mem::replace(&mut self.steps.looks, Looks::of(name, scene));
             self.ending = Some(looks);
-            self.sounds.begin(self.benches.current.world.scene());
+            let muted = self.instructor.mutes_boiling();
+            self.sounds.begin(self.benches.current.world.scene(), muted);
+            self.instructor.begin();
             self.keeper.forget();
             self.spills.clean();
             self.hints.begin();
@@ -188,6 +195,11 @@ impl Session {
 
     /// Plans the steps that are due and takes those that need not wait for the device.
     fn take_steps(&mut self, now: PoseFrame) -> Result<(), Failure> {
+        if self.instructor.holds_time() {
+            self.steps.clock.pause();
+            self.placement.last = Some(now);
+            return Ok(());
+        }
         let world = &mut self.benches.current.world;
         self.steps.plan(&now, &self.placement, world.scene());
         self.placement.last = Some(now);
@@ -199,9 +211,12 @@ impl Session {
         let world = &self.benches.current.world;
         let scale = world.scene().scale.length_scale;
         for side in Side::BOTH {
-            let felt = held_by(world, side)
+            let now = self.shown_at();
+            let said = self.instructor.felt(now).max(self.spills.felt(side, now));
+            let stirs = held_by(world, side).filter(|_| !self.instructor.mutes_boiling());
+            let felt = stirs
                 .map(|flask| haptics::amplitude(world.stirring(flask), scale))
-                .fold(self.spills.felt(side, self.shown_at()), f32::max);
+                .fold(said, f32::max);
             headset.vibrate(side, felt).map_err(blame)?;
         }
         Ok(())
@@ -337,6 +352,7 @@ impl Session {
         if let Some(mirror) = &mut self.mirror {
             mirror.hand_over()?;
         }
+        self.instructor.hand_over()?;
         let now = self.shown_at();
         let time = 1e-9 * now as f64;
         let world = &self.benches.current.world;
@@ -374,6 +390,7 @@ impl Session {
             let scale = world.scene().scale.length_scale;
             let hands = looked.hands.each_ref().map(Vec::as_slice);
             self.readings.take(&looked.census);
+            self.instructor.looked(&looked.census);
             let burnt = self
                 .spills
                 .take(&looked.census, scale, hands, self.shown_at());
@@ -420,6 +437,7 @@ impl Session {
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
             ends,
             happened,
+            told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
         }
     }
 }

@@ -69,9 +69,15 @@ impl Sounds {
         }
     }
 
-    /// Another bench, or this one anew.
-    pub fn begin(&mut self, scene: &Scene) {
+    /// Boiling is heard no more, or again.
+    pub fn mute_boiling(&mut self, on: bool) {
+        self.audible.mute_boiling(on);
+    }
+
+    /// Another bench, or this one anew, of which boiling is heard or not.
+    pub fn begin(&mut self, scene: &Scene, muted: bool) {
         self.audible = Audible::of(scene);
+        self.audible.mute_boiling(muted);
         self.events.clear();
         self.ear.clear();
     }

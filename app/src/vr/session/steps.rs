@@ -66,7 +66,7 @@ impl Steps {
             self.due.push_back(poses);
         }
         if passed > 0.0 {
-            let speed = 1.0 - 1e9 * due.skipped / passed;
+            let speed = self.clock.rate - 1e9 * due.skipped / passed;
             self.speed += SMOOTHING * (speed - self.speed);
         }
     }

@@ -9,8 +9,6 @@
 
 /// T_B, °C.
 override BOILING_POINT: f32 = 100.0;
-/// k_v of Eq. 17.
-override BOILING_INTENSITY: f32 = 0.0;
 /// Eq. 17 as printed, per substep however long that is.
 override LITERAL_BOILING: bool = false;
 /// P₀: power at twice T_B and k_v = 1, W/kg.
@@ -32,7 +30,7 @@ fn bounded_growth(budget: f32, agitation: f32) -> f32 {
 fn stirring(temperature: f32, agitation: f32) -> f32 {
     // Not by the excess: at k_v = 0 that of cold liquid is zero as well.
     if (temperature < BOILING_POINT) { return CALM; }
-    let excess = BOILING_INTENSITY * (temperature - BOILING_POINT) / BOILING_POINT;
+    let excess = step.intensity * (temperature - BOILING_POINT) / BOILING_POINT;
     if (LITERAL_BOILING) { return -excess * CALM; }
     return -bounded_growth(BOILING_POWER * excess * excess * step.time, agitation) / step.viscosity;
 }

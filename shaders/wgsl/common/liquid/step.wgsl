@@ -25,6 +25,8 @@ struct Step {
     /// Time of a step of the bubbles, seconds, and first of their records before it.
     bubble_time: f32,
     before_bubbles: u32,
+    /// k_v of Eq. 17.
+    intensity: f32,
 }
 
 /// Bubbles acted after the substep before; they act after this one.

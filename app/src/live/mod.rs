@@ -1,0 +1,7 @@
+//! The instructor's console beside a run: where it is served, and the live view that it shows.
+
+mod coder;
+mod serve;
+
+pub use coder::{Coder, Picture, VIEW_FPS, VIEW_SIDE};
+pub use serve::{Console, Serving, hub_address, invitation, start, student};

@@ -1,0 +1,345 @@
+//! The instructor's end of a session: what is asked for on the console, and what the console is told.
+//!
+//! Orders act with the next frame, the student reads of each on the panel, and a recording keeps what a replay is to do again.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use vitriol_console::{Command, Controls, Frames, List, Port, State, Student, Text};
+use vitriol_experiment::{Failure, Instruction};
+use vitriol_gpu::{Gpu, Image};
+use vitriol_lesson::{Attempt, Event, Texts, What};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::solver::{Census, Held};
+
+use crate::live::Console;
+use crate::vr::decision::Decision;
+use crate::vr::info::Told;
+use crate::vr::menu::CHOICES;
+use crate::vr::session::spills::Spilt;
+use crate::vr::texts::InstructorTexts;
+use crate::vr::view::View;
+
+/// How long the panel says what the instructor has done, ns of the display. Our choice: it is read twice in that.
+const SAID: i64 = 6_000_000_000;
+/// How long hands feel that something is said, ns.
+const FELT: i64 = 250_000_000;
+/// How strongly, 0 to 1.
+const STRENGTH: f32 = 0.5;
+/// Over which frames' times are told.
+const LATELY: Duration = Duration::from_secs(1);
+
+/// What an order asks of a session.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Asked {
+    /// What the user could decide as well.
+    Decided(Decision),
+    /// What only an instructor does.
+    Instruction(Instruction),
+    /// The session's end.
+    End,
+}
+
+/// What is told of a frame.
+pub(super) struct Now<'a> {
+    pub frame: u64,
+    /// Simulated time, s.
+    pub time: f64,
+    /// The scene's name, and what it is.
+    pub scene: (&'a str, &'a Scene),
+    pub intensity: Option<f64>,
+    pub spilt: Spilt,
+    /// All that was found so far.
+    pub events: &'a [Event],
+    /// The display's period, s.
+    pub period: Option<f64>,
+    pub missed: u64,
+    pub ended: bool,
+}
+
+/// See the module.
+pub(super) struct Instructor {
+    console: Option<Console>,
+    view: Option<View>,
+    texts: Texts,
+    controls: Controls,
+    /// The last order that was taken up.
+    done: u64,
+    /// What the panel says of the last one, and the display time at which it was said, ns.
+    said: Option<(String, i64)>,
+    /// By flask, at the last look.
+    flasks: Vec<Held>,
+    /// Of the last frames, s.
+    took: VecDeque<(Instant, f64)>,
+    /// Of how many events it is made, and what went wrong in them.
+    incidents: (usize, Vec<vitriol_console::Incident>),
+}
+
+impl Instructor {
+    /// Of a session with that console, or with none.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where a text is missing, which a test rules out.
+    pub fn new(console: Option<Console>) -> Result<Self, Failure> {
+        use vitriol_experiment::Blame;
+        Ok(Self {
+            console,
+            view: None,
+            texts: Texts::english().other()?,
+            controls: Controls::default(),
+            done: 0,
+            said: None,
+            flasks: Vec::new(),
+            took: VecDeque::new(),
+            incidents: (0, Vec::new()),
+        })
+    }
+
+    /// What was asked for since the last call, each with its order's number. Of what this program cannot do the instructor sees that it
+    /// was not done.
+    pub fn orders(&self) -> Vec<(u64, Option<Asked>)> {
+        let Some(Console { port, student }) = &self.console else {
+            return Vec::new();
+        };
+        let orders = port.commands().into_iter();
+        orders
+            .map(|order| (order.number, asked(order.command, student)))
+            .collect()
+    }
+
+    /// An order was taken up, or cannot be: the next frame is the first in which it counts.
+    pub fn taken_up(&mut self, order: u64) {
+        self.done = self.done.max(order);
+    }
+
+    /// Shows on the panel what was done, in the frame that is shown at `now` (ns).
+    pub fn announce(&mut self, text: String, now: i64) {
+        self.said = Some((text, now));
+    }
+
+    /// An instruction counts from now on.
+    pub fn follow(&mut self, instruction: &Instruction) {
+        let controls = &mut self.controls;
+        match instruction {
+            Instruction::Pause(on) => controls.paused = *on,
+            Instruction::Speed(rate) => controls.rate = *rate,
+            Instruction::Spare(on) => controls.spared = *on,
+            Instruction::Message(text) => controls.message = Text::clipped(text),
+            // The world's own is told.
+            Instruction::Intensity(_) => {}
+        }
+    }
+
+    /// Whether simulated time is held.
+    pub fn holds_time(&self) -> bool {
+        self.controls.paused
+    }
+
+    /// Whether the boiling is muted.
+    pub fn mutes_boiling(&self) -> bool {
+        self.controls.spared
+    }
+
+    /// How strongly both hands feel at `now` (ns) that something is said, 0 to 1.
+    pub fn felt(&self, now: i64) -> f32 {
+        let said = self.said.as_ref();
+        said.filter(|(_, at)| (0..FELT).contains(&(now - at)))
+            .map_or(0.0, |_| STRENGTH)
+    }
+
+    /// What the panel says at `now` (ns).
+    pub fn told(&self, words: &InstructorTexts, now: i64) -> Told {
+        let said = self.said.as_ref();
+        let lately = said.filter(|(_, at)| (0..SAID).contains(&(now - at)));
+        let held = self.controls.paused.then(|| words.held.clone());
+        let message = &self.controls.message;
+        Told {
+            done: held.or_else(|| lately.map(|(text, _)| text.clone())),
+            message: (!message.is_empty()).then(|| words.message(message)),
+        }
+    }
+
+    /// Takes in a look.
+    pub fn looked(&mut self, census: &Census) {
+        if self.console.is_some() {
+            self.flasks.clone_from(&census.flasks);
+        }
+    }
+
+    /// Another bench is there.
+    pub fn begin(&mut self) {
+        self.flasks.clear();
+    }
+
+    /// A frame has taken so long on the processor, s.
+    pub fn took(&mut self, seconds: f64) {
+        let now = Instant::now();
+        self.took.push_back((now, seconds));
+        let old = |it: &&(Instant, f64)| now.duration_since(it.0) > LATELY;
+        while self.took.front().filter(old).is_some() {
+            self.took.pop_front();
+        }
+    }
+
+    /// Tells the console how it is now.
+    pub fn tell(&mut self, now: &Now<'_>) {
+        let Some(port) = self.console.as_ref().map(|console| console.port.clone()) else {
+            return;
+        };
+        if self.incidents.0 != now.events.len() {
+            self.incidents = (now.events.len(), incidents(now.events, &self.texts));
+        }
+        port.publish(self.state(now));
+    }
+
+    fn state(&self, now: &Now<'_>) -> State {
+        let (name, scene) = now.scene;
+        let title = CHOICES.iter().find(|choice| choice.scene == name);
+        let all = &self.incidents.1;
+        // The last ones are shown.
+        let lately = all.iter().skip(all.len().saturating_sub(32));
+        State {
+            frame: now.frame,
+            time_s: Some(now.time),
+            scene: Text::clipped(title.map_or(name, |choice| choice.title)),
+            choice: (CHOICES.iter().position(|choice| choice.scene == name))
+                .and_then(|at| u8::try_from(at).ok()),
+            done: self.done,
+            controls: Controls {
+                k_v: now.intensity,
+                ended: now.ended,
+                ..self.controls.clone()
+            },
+            step: None,
+            hints: List::default(),
+            readings: readings(scene, &self.flasks, now.spilt),
+            incidents: List::clipped(lately.cloned()),
+            incidents_so_far: all.len() as u32,
+            frames: self.frames(now),
+        }
+    }
+
+    fn frames(&self, now: &Now<'_>) -> Frames {
+        let count = self.took.len();
+        let seconds = || self.took.iter().map(|(_, seconds)| *seconds);
+        Frames {
+            mean_s: (count > 0).then(|| seconds().sum::<f64>() / count as f64),
+            worst_s: (count > 0).then(|| seconds().fold(0.0, f64::max)),
+            period_s: now.period,
+            missed: now.missed,
+        }
+    }
+
+    /// Goes on with another device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
+        match &mut self.view {
+            Some(view) => view.move_to(gpu, library, eye),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), of pictures of `eye` pixels, where somebody looks.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn take(
+        &mut self,
+        (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
+        picture: &Image,
+        drawn: [u32; 2],
+        time: i64,
+    ) -> Result<(), Failure> {
+        let Some(port) = self.console.as_ref().map(|console| &console.port) else {
+            return Ok(());
+        };
+        if self.view.is_none() && looks(port) {
+            self.view = Some(View::new(gpu, library, eye, port)?);
+        }
+        match &mut self.view {
+            Some(view) => view.take(picture, drawn, time),
+            None => Ok(()),
+        }
+    }
+
+    /// Hands over the pictures that the device is done with.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn hand_over(&mut self) -> Result<(), Failure> {
+        self.view.as_mut().map_or(Ok(()), View::hand_over)
+    }
+}
+
+/// Whether somebody looks.
+fn looks(port: &Port) -> bool {
+    let wanted = port.wanted();
+    wanted.h264 || wanted.jpeg
+}
+
+/// `None` of what this program cannot do.
+fn asked(command: Command, student: &Student) -> Option<Asked> {
+    command.check(student).ok()?;
+    Some(match command {
+        Command::Scene { choice } => {
+            let choice = CHOICES.get(usize::from(choice))?;
+            Asked::Decided(Decision::Scene(choice.scene.into()))
+        }
+        Command::Reset {} => Asked::Decided(Decision::Start),
+        Command::End {} => Asked::End,
+        Command::KV { value } => Asked::Instruction(Instruction::Intensity(value)),
+        Command::Pause { on } => Asked::Instruction(Instruction::Pause(on)),
+        Command::SlowMotion { rate } => Asked::Instruction(Instruction::Speed(rate)),
+        Command::Spare { on } => Asked::Instruction(Instruction::Spare(on)),
+        Command::Message { text } => Asked::Instruction(Instruction::Message(text.to_string())),
+    })
+}
+
+/// What went wrong, in the order of its beginning.
+pub(crate) fn incidents(events: &[Event], texts: &Texts) -> Vec<vitriol_console::Incident> {
+    let attempts = Attempt::all(events.iter().cloned());
+    let of = |attempt: &Attempt| -> Vec<_> {
+        let incidents = attempt.incidents.iter();
+        incidents
+            .map(|incident| vitriol_console::Incident {
+                t_s: Some(incident.t_s),
+                text: Text::clipped(&texts.wrong(attempt, incident)),
+                grave: matches!(
+                    incident.what,
+                    What::WaterIntoAcid { .. } | What::BoiledOver { .. } | What::OnSkin { .. }
+                ),
+            })
+            .collect()
+    };
+    attempts.iter().flat_map(of).collect()
+}
+
+/// What is measured, at real size.
+pub(crate) fn readings(scene: &Scene, flasks: &[Held], spilt: Spilt) -> vitriol_console::Readings {
+    let real = scene.scale.length_scale.powi(3);
+    let boils = [Feature::Boiling, Feature::Evaporation].map(|it| scene.models(it));
+    let superheats = flasks.iter().filter_map(|held| held.superheat);
+    let [liquid, bubbles] = flasks.iter().fold([0.0, 0.0], |[liquid, bubbles], held| {
+        [liquid + held.volume, bubbles + held.bubbles.volume]
+    });
+    let named = scene.flasks.iter().zip(flasks);
+    vitriol_console::Readings {
+        flasks: List::clipped(named.map(|(flask, held)| vitriol_console::Flask {
+            name: Text::clipped(&flask.name),
+            volume_m3: Some(real * held.volume),
+            mean_c: held.temperature.map(f64::from),
+            hottest_c: held.hottest.map(f64::from),
+        })),
+        superheat_k: superheats
+            .reduce(f32::max)
+            .map(f64::from)
+            .filter(|_| boils.contains(&true)),
+        void_fraction: (scene.models(Feature::Bubbles) && liquid > 0.0)
+            .then(|| bubbles / (liquid + bubbles)),
+        bench_m3: Some(1e-6 * spilt.bench),
+        floor_m3: Some(1e-6 * spilt.floor),
+    }
+}
