@@ -11,7 +11,7 @@ use vitriol::command::replay::run;
 use vitriol::report::Report;
 use vitriol_experiment::{
     Blame, Colour, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
-    LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
+    Instruction, LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
 };
 
 use vitriol_lesson::{Attempt, Cause, Ending, Event, Incident, Rubric, Texts, What};
@@ -31,6 +31,7 @@ struct Toy {
     hot: bool,
     /// Whether something is found.
     finds: bool,
+    instructions: Vec<(f64, Instruction)>,
     picture: Vec<u8>,
 }
 
@@ -83,6 +84,7 @@ impl Toy {
             fails_at,
             hot: false,
             finds: false,
+            instructions: Vec::new(),
             picture: Vec::new(),
         }
     }
@@ -159,6 +161,7 @@ impl Experiment for Toy {
                 driver: "none".into(),
                 api: "1.3.0".into(),
             },
+            instructions: self.instructions.clone(),
             counters: Counters {
                 substeps: self.steps * 4,
                 solver_changes: 0,
@@ -246,6 +249,7 @@ fn what_was_found_is_kept_under_a_pseudonym() {
         let options = [&["--no-video"], more].concat();
         let finds = || Toy {
             finds: true,
+            instructions: vec![(0.5, Instruction::Message("Slowly <please>".into()))],
             ..Toy::new(u64::MAX)
         };
         replay_of(track.to_str().unwrap(), &out, &options, finds).unwrap();
@@ -255,6 +259,8 @@ fn what_was_found_is_kept_under_a_pseudonym() {
         assert_eq!(report.score.len(), 1);
         let page = fs::read_to_string(out.join("report.html")).unwrap();
         assert!(page.contains("What happened") && page.contains("the wrong order"));
+        assert_eq!(report.instructor[0].t_s, 0.5);
+        assert!(page.contains("Your instructor: Slowly &lt;please&gt;"));
         let table = fs::read_to_string(out.join("incidents.csv")).unwrap();
         assert!(
             table.lines().count() == 2 && table.contains("water-into-acid"),

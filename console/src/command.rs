@@ -59,6 +59,9 @@ impl Command {
     /// Why not, for the instructor.
     pub fn check(&self, student: &Student) -> Result<(), &'static str> {
         match self {
+            Self::Reset {} | Self::Spare { .. } | Self::Message { .. } if student.replays => {
+                Err("a replay does again what was done, and can only be held, slowed and ended")
+            }
             Self::Scene { choice } if usize::from(*choice) >= student.choices.len() => {
                 Err("there is no such scene: reload the page")
             }

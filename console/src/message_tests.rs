@@ -31,6 +31,7 @@ fn student() -> Student {
             least: 0.0,
             most: 2.0,
         }),
+        replays: false,
     }
 }
 
@@ -166,6 +167,22 @@ fn what_a_student_cannot_do_is_refused() {
         ..student()
     };
     assert!(Command::KV { value: 0.5 }.check(&plain).is_err());
+    // Nothing of a recording can be changed.
+    let replay = Student {
+        replays: true,
+        ..student()
+    };
+    let text = Text::clipped("Slowly!");
+    for (command, can) in [
+        (Command::Reset {}, false),
+        (Command::Spare { on: true }, false),
+        (Command::Message { text }, false),
+        (Command::Pause { on: true }, true),
+        (Command::SlowMotion { rate: 0.5 }, true),
+        (Command::End {}, true),
+    ] {
+        assert_eq!(command.check(&replay).is_ok(), can, "{command:?}");
+    }
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub struct Student {
     pub choices: List<Choice, 16>,
     /// In which range k_v can be set; `None` where it cannot.
     pub k_v: Option<Range>,
+    /// Whether it replays a recording, of which nothing can be changed.
+    pub replays: bool,
 }
 
 /// A scene that can be brought up.

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_render::PassPicture;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::Held;
 use vitriol_sound::{Event, Listener};
 use vitriol_xr::PoseFrame;
 
@@ -52,11 +54,33 @@ pub trait Experiment {
     /// What the device says.
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure>;
 
+    /// How it is after the last step, for who watches; `None` where nobody can. Does not wait: what is measured is some steps old.
+    fn glimpse(&self) -> Option<Glimpse<'_>> {
+        None
+    }
+
     /// What came of it, and on what device.
     ///
     /// # Errors
     /// What the device says while the final state is read.
     fn outcome(&mut self) -> Result<Outcome, Failure>;
+}
+
+/// What there is to be seen of a run while it goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct Glimpse<'a> {
+    /// The scene, and its name where a switch brought it up.
+    pub scene: (&'a Scene, Option<&'a str>),
+    /// By flask.
+    pub flasks: &'a [Held],
+    /// What lies on the bench and on the floor, real m³.
+    pub spilt: [f64; 2],
+    /// k_v, where there is one.
+    pub intensity: Option<f64>,
+    /// What was found.
+    pub events: &'a [vitriol_lesson::Event],
+    /// What an instructor did when it was recorded.
+    pub instructions: &'a [(f64, Instruction)],
 }
 
 /// What can be heard at a camera.

@@ -10,6 +10,7 @@ use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
+use vitriol_sim::solver::Held;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_sound::Event;
 use vitriol_xr::{Pose, PoseFrame, Switch};
@@ -18,7 +19,7 @@ use crate::audible::Audible;
 use crate::camera::{Camera, Colour, Shot};
 use crate::clock::SimulatedTime;
 use crate::device;
-use crate::experiment::{Counters, Experiment, Heard, Outcome, Taken};
+use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
 use crate::failure::{Blame, Failure};
 use crate::instruction::Instruction;
 use crate::looks::{Looked, Looks};
@@ -136,6 +137,8 @@ pub struct Laboratory {
     instructions: Vec<(f64, Instruction)>,
     /// Whether boiling is not heard.
     muted: bool,
+    /// By flask, at the last look, and what lay on bench and floor, real m³.
+    seen: (Vec<Held>, [f64; 2]),
 }
 
 impl Laboratory {
@@ -190,6 +193,7 @@ impl Laboratory {
             found: Vec::new(),
             instructions: Vec::new(),
             muted: false,
+            seen: (Vec::new(), [0.0; 2]),
         })
     }
 
@@ -324,6 +328,9 @@ impl Laboratory {
                 ..
             } = looked;
             self.found.extend(events);
+            let real = self.world.scene().scale.length_scale.powi(3);
+            self.seen.1 = [&census.table, &census.floor].map(|held| real * held.volume);
+            self.seen.0.clone_from(&census.flasks);
             if self.film.is_some() {
                 // From the look before on: the film's sound up to now is not made yet.
                 let since = t - elapsed;
@@ -441,6 +448,17 @@ impl Experiment for Laboratory {
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
         let passes = self.film.as_ref().map(|camera| camera.passes(&self.world));
         passes.unwrap_or_else(|| Ok(Vec::new()))
+    }
+
+    fn glimpse(&self) -> Option<Glimpse<'_>> {
+        Some(Glimpse {
+            scene: (self.world.scene(), self.switched.as_deref()),
+            flasks: &self.seen.0,
+            spilt: self.seen.1,
+            intensity: self.world.intensity(),
+            events: &self.found,
+            instructions: &self.instructions,
+        })
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {

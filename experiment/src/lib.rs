@@ -40,7 +40,7 @@ pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};
 pub use device::DeviceStatement;
-pub use experiment::{Counters, Experiment, Heard, Outcome, Taken};
+pub use experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
 pub use failure::{Blame, Cause, Failure};
 pub use film::{Film, FilmError};
 pub use h264::{Coded, H264};

@@ -97,6 +97,12 @@ pub struct ReplayArgs {
     /// What is kept of a student
     #[command(flatten)]
     pub keep: KeepArgs,
+    /// Show it on the instructor's console meanwhile, no faster than it was
+    #[arg(long, conflicts_with = "no_video")]
+    pub live: bool,
+    /// Where that console is
+    #[command(flatten)]
+    pub console: ConsoleArgs,
     /// Make the report without a film
     #[arg(long)]
     pub no_video: bool,
@@ -263,6 +269,9 @@ pub struct VrArgs {
     /// What is kept of a student
     #[command(flatten)]
     pub keep: KeepArgs,
+    /// No page for an instructor
+    #[arg(long, conflicts_with_all = ["listen", "hub", "name"])]
+    pub no_console: bool,
     /// Where an instructor directs it from
     #[command(flatten)]
     pub console: ConsoleArgs,
@@ -353,22 +362,26 @@ pub struct KeepArgs {
     pub lrs_token: Option<PathBuf>,
 }
 
-/// Where the instructor's console is. Without any of these it is a web page that this computer alone can open; its address, good for
-/// one browser, goes to standard error.
+/// Where the instructor's console is. Without any of these it is a page that this computer alone can open; its address, good for one
+/// browser, goes to standard error.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ConsoleArgs {
     /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470
-    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with_all = ["hub", "no_console"])]
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "hub")]
     pub listen: Option<SocketAddr>,
     /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
-    #[arg(long, value_name = "HUB", value_parser = hub_address, conflicts_with = "no_console")]
+    #[arg(long, value_name = "HUB", value_parser = hub_address)]
     pub hub: Option<HubAddress>,
     /// What the console calls this student; without it the computer's name
-    #[arg(long, value_name = "NAME", conflicts_with = "no_console")]
+    #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// No console
-    #[arg(long)]
-    pub no_console: bool,
+}
+
+impl ConsoleArgs {
+    /// Whether any of them is given.
+    pub fn is_given(&self) -> bool {
+        self.listen.is_some() || self.hub.is_some() || self.name.is_some()
+    }
 }
 
 /// Arguments of `vitriol hub`.

@@ -1,5 +1,7 @@
 //! `vitriol replay`: a track through the simulation to film and report.
 
+mod assemble;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,24 +15,24 @@ use vitriol_experiment::progress::Runs;
 use vitriol_experiment::track::{DEVICE, DRIVER, STATE_HASH};
 use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
 use vitriol_experiment::{
-    Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observations, Observer,
-    Outcome, Sample, Scenes, Setup, emit, in_a_line,
+    Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
+    Scenes, Setup, emit, in_a_line,
 };
-use vitriol_lesson::{Attempt, Event, Rubric, Score, Texts, incidents_csv};
+use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
 use vitriol_record::{Session, Timestamp};
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Feature, Preset, Scene};
+use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{Track, TrackMetadata, TrackSource};
 
-use crate::cli::{CameraName, ReplayArgs};
+use crate::cli::ReplayArgs;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::plan::{Ask, Plan};
 use crate::command::recorded::{differences, head, is_recording};
 use crate::command::stem;
-use crate::report::{
-    AskedStatement, FilmStatement, LAYOUT, RecordingStatement, Report, SceneStatement,
-    SolverStatement,
-};
+use crate::live::{Console, Live, Serving};
+use crate::report::{RecordingStatement, Report};
+
+use assemble::assemble;
 
 /// What `vitriol replay --json` prints: the report without its time series, and
 /// where things are.
@@ -73,19 +75,28 @@ pub fn run(
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let bars = Runs::new(format);
+    if !args.live && args.console.is_given() {
+        return Err("--listen, --hub and --name are of the console: give --live with them").input();
+    }
+    let serving = args.live.then(|| Serving::begin(&args.console, false));
+    let serving = serving.transpose()?;
+    if let Some(serving) = &serving {
+        serving.invite(format)?;
+    }
+    let live = serving.as_ref().map(Serving::console);
     if args.tracks.len() > 1 && args.keep.pseudonym.is_some() {
         return Err("--pseudonym: several tracks are of several students; replay one at a time")
             .input();
     }
     if let [track] = &args.tracks[..] {
-        let done = replay(args, track, args.out.clone(), &bars, &prepare)?;
+        let done = replay((args, track), args.out.clone(), &bars, live, &prepare)?;
         return emit(format, &done, describe);
     }
     let (mut runs, mut failure) = (Vec::new(), None);
     let made = args.out.as_ref().filter(|out| !out.exists());
     for (track, name) in args.tracks.iter().zip(folders(&args.tracks)) {
         let out = args.out.as_ref().map(|out| out.join(name));
-        runs.push(match replay(args, track, out, &bars, &prepare) {
+        runs.push(match replay((args, track), out, &bars, live, &prepare) {
             Ok(done) => Ended::Well(Box::new(done)),
             Err(error) => {
                 let (track, text) = (track.clone(), error.to_string());
@@ -125,10 +136,10 @@ fn folders(tracks: &[String]) -> Vec<String> {
 
 /// Replays one track.
 fn replay(
-    args: &ReplayArgs,
-    name: &str,
+    (args, name): (&ReplayArgs, &str),
     out: Option<PathBuf>,
     bars: &Runs,
+    live: Option<&Console>,
     prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<Replayed, Failure> {
     let ask = ask(args, name);
@@ -168,6 +179,9 @@ fn replay(
         head,
         shaders: Arc::new(Library::watching()),
     })?;
+    if let Some(console) = live {
+        experiment = Box::new(Live::new(experiment, console, &name_of_start)?);
+    }
     let recorded = is_recording(&track.metadata).then(|| Recorded {
         metadata: track.metadata.clone(),
         said: track.outcome.clone(),
@@ -206,7 +220,7 @@ fn replay(
         (&scene_name, &scene),
         outcome,
         observations,
-    );
+    )?;
     report.recording = recording;
     let texts = Texts::english().other()?;
     report.judge(&Rubric::default(), &texts);
@@ -332,134 +346,6 @@ fn film_name(index: usize) -> &'static str {
     if index == 0 { FILM } else { FILM_TEMPERATURE }
 }
 
-fn assemble(
-    (args, track, chosen): (&ReplayArgs, &str, Option<[u32; 2]>),
-    colours: &[Colour],
-    preset: Preset,
-    seed: u64,
-    (name, scene): (&str, &Scene),
-    outcome: Outcome,
-    observations: Observations,
-) -> Report {
-    let samples = &observations.samples;
-    // The filling is not the solver's work, so the start does not count.
-    let solved = || samples.iter().skip(1);
-    let count = solved().count().max(1) as f64;
-    let [width, height] = FILM_SIZE;
-    let film = |index: usize| {
-        colours.get(index).map(|colour| FilmStatement {
-            path: film_name(index).into(),
-            width,
-            height,
-            fps: FILM_FPS,
-            frames: observations.film_frames,
-            colour: colour.name().into(),
-        })
-    };
-    Report {
-        layout: LAYOUT,
-        program: concat!("vitriol ", env!("CARGO_PKG_VERSION")).into(),
-        command: command_line((args, track), preset, seed, chosen),
-        track: track.to_owned(),
-        asked: Some(AskedStatement {
-            scene: args.scene.clone(),
-            solver: chosen,
-            seconds: args.seconds,
-            breakable: args.breakable,
-            accept_truncated: args.accept_truncated,
-        }),
-        preset: preset.name().into(),
-        seed,
-        fluid_particles: outcome.fluid_particles,
-        lost_particles: outcome.lost_particles,
-        nan_particles: outcome.nan_particles,
-        density_error_mean: solved().map(|s| s.density_error_mean).sum::<f64>() / count,
-        density_error_p99: solved().map(|s| s.density_error_p99).fold(0.0, f64::max),
-        frames: observations.time.steps(),
-        simulated_s: observations.time.seconds(),
-        wall_s: observations.wall.as_secs_f64(),
-        state_hash: format!("{:016x}", outcome.state_hash),
-        mass_kg: samples
-            .last()
-            .map(|s| s.mass_kg.clone())
-            .unwrap_or_default(),
-        boiling_particle_seconds: boiling(samples),
-        film: film(0),
-        film_temperature: film(1),
-        device: outcome.device,
-        scene: SceneStatement::of(name, scene),
-        solver: SolverStatement::of(scene),
-        counters: outcome.counters,
-        recording: None,
-        scenes_before: observations.scenes_before,
-        attempts: Attempt::all(outcome.events),
-        score: Vec::new(),
-        series: observations.samples,
-    }
-}
-
-/// Particles above their boiling point times the time since the sample before,
-/// by flask.
-fn boiling(samples: &[Sample]) -> BTreeMap<String, f64> {
-    let mut sums = BTreeMap::new();
-    for pair in samples.windows(2) {
-        let flasks = pair[1].heat.iter().flat_map(|heat| &heat.boiling_in_flasks);
-        for (flask, &count) in flasks {
-            *sums.entry(flask.clone()).or_insert(0.0) += count as f64 * (pair[1].t_s - pair[0].t_s);
-        }
-    }
-    sums
-}
-
-/// The command line that makes the run again; without `--out`, since that
-/// folder is taken now.
-fn command_line(
-    (args, track): (&ReplayArgs, &str),
-    preset: Preset,
-    seed: u64,
-    solver: Option<[u32; 2]>,
-) -> String {
-    let head = (args.camera == CameraName::Head).then(|| "head".to_owned());
-    let options = [
-        ("scene", args.scene.as_deref().map(quoted)),
-        ("preset", Some(preset.name().to_owned())),
-        ("seed", Some(seed.to_string())),
-        ("solver", solver.map(|[a, b]| format!("{a}x{b}"))),
-        ("seconds", args.seconds.map(|seconds| seconds.to_string())),
-        ("device", args.device.as_deref().map(quoted)),
-        ("camera", head),
-        ("colour", args.colour.map(|it| it.name().to_owned())),
-        ("filter", args.filter.map(|it| it.name().to_owned())),
-    ];
-    let truncated = if args.accept_truncated {
-        " --accept-truncated"
-    } else {
-        ""
-    };
-    let mut line = format!("vitriol replay {}", quoted(track));
-    for (name, value) in options {
-        line.extend(value.map(|value| format!(" --{name} {value}")));
-    }
-    line += truncated;
-    if args.breakable {
-        line += " --breakable";
-    }
-    if args.no_video {
-        line += " --no-video";
-    }
-    line
-}
-
-/// An argument as a POSIX shell takes it.
-fn quoted(argument: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=+,@%".contains(c);
-    if !argument.is_empty() && argument.chars().all(plain) {
-        argument.to_owned()
-    } else {
-        format!("'{}'", argument.replace('\'', r"'\''"))
-    }
-}
-
 fn describe(done: &Replayed) -> String {
     let out = Path::new(&done.report_html)
         .parent()
@@ -508,16 +394,4 @@ fn describe(done: &Replayed) -> String {
     lines.push(format!("numbers {}", done.report_json));
     lines.extend(done.kept.iter().flat_map(Kept::lines));
     lines.join("\n")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arguments_survive_a_shell() {
-        assert_eq!(quoted("two-flasks"), "two-flasks");
-        assert_eq!(quoted("my tracks/a'b"), r"'my tracks/a'\''b'");
-        assert_eq!(quoted(""), "''");
-    }
 }

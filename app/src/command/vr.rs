@@ -17,7 +17,7 @@ use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::recorded::whole;
-use crate::live::{self, Serving};
+use crate::live::Serving;
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
 use crate::vr::first_minute::FirstMinuteReport;
@@ -138,8 +138,10 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         console: None,
     };
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
-    let told = live::student(args.console.name.as_deref(), true);
-    let serving = Serving::begin(&args.console, told)?.map(Arc::new);
+    let serving = match args.no_console {
+        true => None,
+        false => Some(Arc::new(Serving::begin(&args.console, true)?)),
+    };
     if let Some(serving) = &serving {
         options.console = Some(serving.console().clone());
         serving.invite(format)?;

@@ -40,22 +40,20 @@ struct Said<'a> {
 }
 
 impl Serving {
-    /// Serves it as `args` say, or dials; `None` where there is to be none.
+    /// Serves it as `args` say, or dials, for a session or a replay.
     ///
     /// # Errors
     /// [`Failure::Input`] for an address that cannot be listened on.
-    pub fn begin(args: &ConsoleArgs, student: Student) -> Result<Option<Self>, Failure> {
-        if args.no_console {
-            return Ok(None);
-        }
+    pub fn begin(args: &ConsoleArgs, is_session: bool) -> Result<Self, Failure> {
+        let student = student(args.name.as_deref(), is_session);
         if let Some(address) = &args.hub {
             let link = Link::start(address.clone(), student.clone()).other()?;
             let port = link.port().clone();
-            return Ok(Some(Self {
+            return Ok(Self {
                 console: Console { port, student },
                 hub: None,
                 _link: Some(link),
-            }));
+            });
         }
         let loopback = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
         let hub = start(args.listen.unwrap_or(loopback), false)?;
@@ -64,11 +62,11 @@ impl Serving {
         let port = port
             .ok_or("the console has no place for its own student")
             .other()?;
-        Ok(Some(Self {
+        Ok(Self {
             console: Console { port, student },
             hub: Some(hub),
             _link: None,
-        }))
+        })
     }
 
     /// The run's end.
@@ -134,8 +132,8 @@ pub fn invitation(hub: &Hub, format: Format) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// What an instructor is told that a program of that name is, in which scenes can be brought up where it is a `session`.
-pub fn student(name: Option<&str>, session: bool) -> Student {
+/// What an instructor is told that a program of that name is: a session, in which scenes can be brought up, or a replay.
+pub fn student(name: Option<&str>, is_session: bool) -> Student {
     let name = name.map(str::to_owned).or_else(computer);
     let name = name.unwrap_or_else(|| "computer".to_owned());
     let kind = |scene: &str| match scene {
@@ -143,7 +141,7 @@ pub fn student(name: Option<&str>, session: bool) -> Student {
         "water-into-acid" => Kind::Incorrect,
         _ => Kind::Other,
     };
-    let choices = menu::CHOICES.iter().filter(|_| session);
+    let choices = menu::CHOICES.iter().filter(|_| is_session);
     Student {
         name: Text::clipped(&name),
         version: Text::clipped(env!("CARGO_PKG_VERSION")),
@@ -151,7 +149,8 @@ pub fn student(name: Option<&str>, session: bool) -> Student {
             title: Text::clipped(choice.title),
             kind: kind(choice.scene),
         })),
-        k_v: session.then_some(Range {
+        replays: !is_session,
+        k_v: is_session.then_some(Range {
             least: 0.0,
             most: MOST_INTENSITY,
         }),

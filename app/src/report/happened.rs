@@ -22,6 +22,7 @@ impl Report {
                             (told(&sentences(attempt, score, texts), film))
                         }
                     }
+                    (self.instructed(film))
                 }
             }
             @for (number, (attempt, score)) in attempts() {
@@ -31,6 +32,22 @@ impl Report {
                         @if several { " of attempt " (number) ", " (attempt.scene) }
                     }
                     (points(score, texts, film))
+                }
+            }
+        }
+    }
+}
+
+impl Report {
+    /// What an instructor did meanwhile; nothing where nobody did.
+    fn instructed(&self, film: bool) -> Markup {
+        html! {
+            @if !self.instructor.is_empty() {
+                h4.plain { span.sign aria-hidden="true" { "·" } "What the instructor did" }
+                ul.said {
+                    @for said in &self.instructor {
+                        li { (moment(Some(said.t_s), film)) p { (said.text) } }
+                    }
                 }
             }
         }

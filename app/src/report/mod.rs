@@ -7,6 +7,6 @@ mod model;
 mod plot;
 
 pub use model::{
-    AskedStatement, FilmStatement, LAYOUT, RecordingStatement, Report, SceneStatement,
-    SolverStatement,
+    AskedStatement, FilmStatement, InstructorStatement, LAYOUT, RecordingStatement, Report,
+    SceneStatement, SolverStatement,
 };

@@ -126,6 +126,9 @@ pub struct Report {
     /// What its student did, by attempt. Empty where nobody looked for it, and in reports of older versions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub attempts: Vec<Attempt>,
+    /// What an instructor did while it was recorded.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub instructor: Vec<InstructorStatement>,
     /// The score of each of `attempts`, in their order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub score: Vec<Score>,
@@ -133,6 +136,15 @@ pub struct Report {
     /// in `report.json`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub series: Vec<Sample>,
+}
+
+/// Something that an instructor did.
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize, Deserialize)]
+pub struct InstructorStatement {
+    /// When, simulated time of the run, s.
+    pub t_s: f64,
+    /// What, in a sentence.
+    pub text: String,
 }
 
 /// What of a run was asked for, and not taken from the track.

@@ -232,6 +232,7 @@ pub fn options(folder: &Path) -> Options {
         sound: Device::Silent,
         // Most look at other things.
         hints: false,
+        console: None,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::common::{Trouble, Worn, carried, hash, nobody, options, pour, session
 use std::sync::Arc;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{Observer, Progress, Setup, Span, on_device};
+use vitriol_experiment::{Instruction, Observer, Outcome, Progress, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
 use vitriol_shaders::Library;
@@ -15,13 +15,24 @@ use vitriol_xr::{HeadsetFrame, Pause, Turn};
 
 /// Hash of the state that a replay of `track` ends in; it finds what the session found.
 pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
-    let (hash, recorded, found) = replay_of(gpu, track);
-    assert_eq!(recorded, found, "what was found in session and replay");
-    hash
+    let (recorded, outcome) = replay_of(gpu, track);
+    assert_eq!(
+        recorded, outcome.events,
+        "what was found in session and replay"
+    );
+    outcome.state_hash
 }
 
-/// The hash, what the session found, and what the replay did.
-fn replay_of(gpu: &Gpu, track: Track) -> (u64, Vec<Event>, Vec<Event>) {
+/// The hash, and what an instructor did in the replay, with simulated times in ns.
+pub fn instructed(gpu: &Gpu, track: Track) -> (u64, Vec<(i64, Instruction)>) {
+    let (_, outcome) = replay_of(gpu, track);
+    let instructions = outcome.instructions.into_iter();
+    let instructions = instructions.map(|(t, it)| ((1e9 * t).round() as i64, it));
+    (outcome.state_hash, instructions.collect())
+}
+
+/// What the session found, and what came of the replay.
+fn replay_of(gpu: &Gpu, track: Track) -> (Vec<Event>, Outcome) {
     let name = track.metadata.scene.clone();
     let scenes = carried(&track);
     let scene = scenes.get(&name).unwrap();
@@ -53,7 +64,7 @@ fn replay_of(gpu: &Gpu, track: Track) -> (u64, Vec<Event>, Vec<Event>) {
     vitriol_experiment::run(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     let outcome = experiment.outcome().unwrap();
     assert!(!recorded.is_empty());
-    (outcome.state_hash, recorded, outcome.events)
+    (recorded, outcome)
 }
 
 /// Gone before some frame, for three turns.
@@ -172,8 +183,9 @@ fn lost_devices_in_mid_pour_lose_nothing() {
     // It was poured out, over the bench, which recentrings moved away from under it.
     assert!(measured.in_flasks[0] < 0.1, "{measured:?}");
     // One device, never lost, comes to the same bits.
-    let (replay, recorded, found) = replay_of(&devices[3], track);
-    assert_eq!(replay, hash(&outcome));
+    let (recorded, replay) = replay_of(&devices[3], track);
+    let found = replay.events;
+    assert_eq!(replay.state_hash, hash(&outcome));
     // What happens is the same. Looks under way go with the device, and so does what knew whence the drops in the air came: amounts
     // lack what came then.
     let poured = |events: &[Event]| -> Vec<f64> {

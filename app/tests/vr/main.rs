@@ -3,6 +3,8 @@
 
 mod breaks;
 mod common;
+#[cfg(target_os = "linux")]
+mod console;
 mod contention;
 mod fade;
 mod first_minute;

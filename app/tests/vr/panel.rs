@@ -5,10 +5,11 @@ use std::sync::mpsc::channel;
 use crate::common::{Trouble, Worn, heard, pour, session};
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
-use vitriol::vr::info::{Effort, FlaskLine, Happened, Info, Lying};
+use vitriol::vr::info::{Effort, FlaskLine, Happened, Info, Lying, Told};
 use vitriol::vr::menu::CHOICES;
 use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::workbench::TAKEN_UP;
+use vitriol_console::MESSAGE;
 use vitriol_experiment::switches::SWITCH_START;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson::Tone;
@@ -51,6 +52,7 @@ fn info() -> Info {
         holding: Some(65),
         ends: true,
         happened: None,
+        told: Told::default(),
     }
 }
 
@@ -217,6 +219,54 @@ fn keep(name: &str, picture: &[u8]) {
     }
 }
 
+/// What short presses decide down the panel at that share of its width, each with its row.
+fn pressed_down(panel: &mut Panel, info: &Info, share: f32) -> Vec<(u32, Decision)> {
+    let mut pressed = Vec::new();
+    let [width, height] = PANEL;
+    for y in (0..height).step_by(16) {
+        let begun = i64::from(y) * 1_000_000_000;
+        for (n, trigger) in (0..).zip([0.0, 0.0, 1.0, 0.0]) {
+            let hand = pointing(share * width as f32, y as f32, trigger);
+            let decided = panel.update([None, Some(&hand)], info, begun + 100_000_000 * n);
+            pressed.extend(decided.map(|it| (y, it)));
+        }
+        panel.update([None, None], info, begun + 900_000_000);
+    }
+    pressed
+}
+
+/// The longest message is whole above everything else, and the lowest button is still on the panel.
+#[test]
+fn what_an_instructor_says_is_over_all_and_hides_no_button() {
+    let gpu = gpu::device();
+    let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
+    let said = "Put the flask down, step back from the bench, and look at the thermometer: ";
+    let said: String = said.chars().cycle().take(MESSAGE).collect();
+    let info = Info {
+        told: Told {
+            done: Some("Paused by your instructor".into()),
+            message: Some(format!("Your instructor: {said}")),
+        },
+        holding: None,
+        ..info()
+    };
+    let pressed = pressed_down(&mut panel, &info, 0.75);
+    let rows: Vec<u32> = (pressed.iter())
+        .filter_map(|(y, it)| (*it == Decision::Summary).then_some(*y))
+        .collect();
+    assert!(
+        rows.len() >= 2 && rows.iter().all(|y| *y < PANEL[1] - 22),
+        "{pressed:?}"
+    );
+    let shown = picture(&gpu, &mut panel);
+    keep("told", &shown);
+    // The strip has a ground of its own, down to where the rest begins: five lines of at least 30 pixels.
+    let ground = &shown[..4];
+    let strip = shown.chunks_exact(4 * PANEL[0] as usize);
+    let strip = strip.take_while(|row| row[..4] == *ground).count();
+    assert!((150..260).contains(&strip), "{strip} rows");
+}
+
 /// As much as is ever said fits, the button that ends it is under it and can be pressed, and nothing else can.
 #[test]
 fn what_happened_fits_the_panel() {
@@ -240,24 +290,8 @@ fn what_happened_fits_the_panel() {
         holding: None,
         ..info()
     };
-    let mut pressed = Vec::new();
     let [width, height] = PANEL;
-    for y in (0..height).step_by(16) {
-        for (n, trigger) in (0..).zip([0.0, 0.0, 1.0, 0.0]) {
-            let hand = pointing(0.2 * width as f32, y as f32, trigger);
-            let now = i64::from(y) * 1_000_000_000 + 100_000_000 * n;
-            pressed.extend(
-                panel
-                    .update([None, Some(&hand)], &info, now)
-                    .map(|it| (y, it)),
-            );
-        }
-        panel.update(
-            [None, None],
-            &info,
-            i64::from(y) * 1_000_000_000 + 900_000_000,
-        );
-    }
+    let pressed = pressed_down(&mut panel, &info, 0.2);
     let rows: Vec<u32> = pressed.iter().map(|(y, _)| *y).collect();
     assert!(
         pressed.iter().all(|(_, it)| *it == Decision::Summary),

@@ -38,6 +38,7 @@ function loseOrders() {
 
 const KINDS = { correct: "✓ ", incorrect: "✗ ", other: "" };
 function showScenes() {
+  for (const part of document.querySelectorAll(".of-session")) part.hidden = page.is.replays;
   const legend = $("scenes").querySelector("legend");
   $("scenes").replaceChildren(legend, ...page.is.choices.map(({ title, kind }, choice) => {
     const button = make("button", KINDS[kind] + title);

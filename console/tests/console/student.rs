@@ -49,6 +49,7 @@ pub fn card(name: &str) -> Student {
             least: 0.0,
             most: 4.0,
         }),
+        replays: false,
     }
 }
 

@@ -45,6 +45,8 @@ pub fn style(context: &Context) {
         style.visuals.override_text_color = Some(WHITE);
         style.visuals.selection.bg_fill = CHOSEN;
         style.spacing.item_spacing = vec2(12.0, 9.0);
+        // A trigger that is pulled on a text would mark it.
+        style.interaction.selectable_labels = false;
         // No animations: the panel is drawn anew for each of their frames.
         style.animation_time = 0.0;
     });

@@ -8,12 +8,12 @@ use std::time::{Duration, Instant};
 use vitriol_console::{Command, Controls, Frames, List, Port, State, Student, Text};
 use vitriol_experiment::{Failure, Instruction};
 use vitriol_gpu::{Gpu, Image};
-use vitriol_lesson::{Attempt, Event, Texts, What};
+use vitriol_lesson::{Event, Texts};
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Census, Held};
 
-use crate::live::Console;
+use crate::live::{Console, incidents, readings};
 use crate::vr::decision::Decision;
 use crate::vr::info::Told;
 use crate::vr::menu::CHOICES;
@@ -213,7 +213,11 @@ impl Instructor {
             },
             step: None,
             hints: List::default(),
-            readings: readings(scene, &self.flasks, now.spilt),
+            readings: readings(
+                scene,
+                &self.flasks,
+                [now.spilt.bench, now.spilt.floor].map(|ml| 1e-6 * ml),
+            ),
             incidents: List::clipped(lately.cloned()),
             incidents_so_far: all.len() as u32,
             frames: self.frames(now),
@@ -296,50 +300,4 @@ fn asked(command: Command, student: &Student) -> Option<Asked> {
         Command::Spare { on } => Asked::Instruction(Instruction::Spare(on)),
         Command::Message { text } => Asked::Instruction(Instruction::Message(text.to_string())),
     })
-}
-
-/// What went wrong, in the order of its beginning.
-pub(crate) fn incidents(events: &[Event], texts: &Texts) -> Vec<vitriol_console::Incident> {
-    let attempts = Attempt::all(events.iter().cloned());
-    let of = |attempt: &Attempt| -> Vec<_> {
-        let incidents = attempt.incidents.iter();
-        incidents
-            .map(|incident| vitriol_console::Incident {
-                t_s: Some(incident.t_s),
-                text: Text::clipped(&texts.wrong(attempt, incident)),
-                grave: matches!(
-                    incident.what,
-                    What::WaterIntoAcid { .. } | What::BoiledOver { .. } | What::OnSkin { .. }
-                ),
-            })
-            .collect()
-    };
-    attempts.iter().flat_map(of).collect()
-}
-
-/// What is measured, at real size.
-pub(crate) fn readings(scene: &Scene, flasks: &[Held], spilt: Spilt) -> vitriol_console::Readings {
-    let real = scene.scale.length_scale.powi(3);
-    let boils = [Feature::Boiling, Feature::Evaporation].map(|it| scene.models(it));
-    let superheats = flasks.iter().filter_map(|held| held.superheat);
-    let [liquid, bubbles] = flasks.iter().fold([0.0, 0.0], |[liquid, bubbles], held| {
-        [liquid + held.volume, bubbles + held.bubbles.volume]
-    });
-    let named = scene.flasks.iter().zip(flasks);
-    vitriol_console::Readings {
-        flasks: List::clipped(named.map(|(flask, held)| vitriol_console::Flask {
-            name: Text::clipped(&flask.name),
-            volume_m3: Some(real * held.volume),
-            mean_c: held.temperature.map(f64::from),
-            hottest_c: held.hottest.map(f64::from),
-        })),
-        superheat_k: superheats
-            .reduce(f32::max)
-            .map(f64::from)
-            .filter(|_| boils.contains(&true)),
-        void_fraction: (scene.models(Feature::Bubbles) && liquid > 0.0)
-            .then(|| bubbles / (liquid + bubbles)),
-        bench_m3: Some(1e-6 * spilt.bench),
-        floor_m3: Some(1e-6 * spilt.floor),
-    }
 }
