@@ -21,6 +21,7 @@ mod port;
 mod pump;
 mod student;
 mod tls;
+mod watcher;
 mod wire;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -40,6 +41,7 @@ pub use student::{
     Choice, Controls, Flask, Frames, Incident, Kind, NAME, Range, Readings, SENTENCE, Said, State,
     Step, Student,
 };
+pub use watcher::{Heard, NotServed, Watcher};
 
 /// The lock; a thread that panicked with it has left whole values behind, as all of them are exchanged in one go.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -353,7 +353,11 @@ mod tests {
             born: 3,
             collapsed: number(3, 1e-3),
             burst: number(1, 3e-3),
+            ..Bubbling::default()
         };
+        audible.mute_boiling(true);
+        assert!(audible.looked(&poses, &census, 2.0 * FRAME, 1.0).is_empty());
+        audible.mute_boiling(false);
         let events = audible.looked(&poses, &census, 2.0 * FRAME, 1.0);
         let [event] = events[..] else {
             panic!("{events:?}");

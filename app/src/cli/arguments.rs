@@ -298,6 +298,9 @@ pub struct VrArgs {
     /// Frames a second of the stand-in
     #[arg(long, value_name = "HZ", default_value_t = 90.0, value_parser = rate, requires = "stand_in")]
     pub rate: f64,
+    /// So many pages that look at the console meanwhile, of which one sends messages: for measurements
+    #[arg(long, value_name = "N", requires_all = ["stand_in", "frames"], conflicts_with_all = ["no_console", "listen", "hub"])]
+    pub watchers: Option<usize>,
     /// Device of the stand-in: its number or a part of its name (see `vitriol doctor`)
     #[arg(long, requires = "stand_in")]
     pub device: Option<String>,

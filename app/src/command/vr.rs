@@ -17,7 +17,7 @@ use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::recorded::whole;
-use crate::live::Serving;
+use crate::live::{Serving, WatchReport, Watchers};
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
 use crate::vr::first_minute::FirstMinuteReport;
@@ -100,6 +100,9 @@ struct SessionReport {
     /// What was kept under a pseudonym.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<Kept>,
+    /// What pages saw that looked meanwhile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    watched: Option<WatchReport>,
     /// Which of the signs' four steps were done, and when.
     #[serde(skip_serializing_if = "Option::is_none")]
     first_minute: Option<FirstMinuteReport>,
@@ -146,6 +149,10 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         options.console = Some(serving.console().clone());
         serving.invite(format)?;
     }
+    let watchers = match (&serving, args.watchers) {
+        (Some(serving), Some(count)) => Some(serving.watched(count)?),
+        _ => None,
+    };
     let (keeper, begun) = (keeping::keeper(&args.keep)?, vitriol_record::Session::now());
     // Nobody reads what nobody governs or measures.
     let timestamps = if options.governed || options.frames.is_some() {
@@ -199,6 +206,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         }
     };
     let mut report = state(name, &outcome, stand_in)?;
+    report.watched = watchers.map(Watchers::report);
     let sitting = Sitting {
         session: sitting(args, begun),
         source: args.record.as_deref(),
@@ -349,6 +357,7 @@ fn state(
         flasks_broken: outcome.broken,
         attempts: outcome.attempts.clone(),
         kept: None,
+        watched: None,
         first_minute: outcome.first_minute,
         holdings: match outcome.holdings {
             [Some(before), Some(after)] => Some([before, after]),
@@ -424,6 +433,10 @@ fn describe(session: &SessionReport) -> String {
         ("age of the eyes' pose, ms", session.pose_age_ms),
         ("hand to flask, steps", session.input_to_flask_steps),
         ("hand to flask, frames", session.input_to_flask_frames),
+        (
+            "from a page's order to done, ms",
+            session.watched.as_ref().and_then(|it| it.switch_ms),
+        ),
     ];
     text += "                                median      95 %      99 %      most\n";
     for (name, spread) in rows {

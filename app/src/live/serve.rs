@@ -10,6 +10,7 @@ use vitriol_console::{
 use vitriol_experiment::{Blame, Failure, Format};
 use vitriol_sim::world::MOST_INTENSITY;
 
+use super::watchers::Watchers;
 use crate::cli::ConsoleArgs;
 use crate::vr::menu;
 
@@ -72,6 +73,16 @@ impl Serving {
     /// The run's end.
     pub fn console(&self) -> &Console {
         &self.console
+    }
+
+    /// So many pages that look, for measurements.
+    ///
+    /// # Errors
+    /// Where the hub is elsewhere, or does not serve them.
+    pub fn watched(&self, count: usize) -> Result<Watchers, Failure> {
+        let hub = self.hub.as_ref();
+        let hub = hub.ok_or("--watchers look at a console of this computer: leave --hub out");
+        Watchers::start(hub.input()?, count)
     }
 
     /// Lets one browser in: its address goes to standard error. Nothing where a hub elsewhere does that.

@@ -7,7 +7,7 @@ use vitriol_xr::track::load;
 
 use crate::drive::{self, Driver};
 use crate::pour::begin;
-use crate::program::{self, Program};
+use crate::program::{self, Program, WINDOW};
 
 #[test]
 fn a_controller_that_sleeps_in_mid_grip_neither_drops_nor_throws_the_flask() {
@@ -72,13 +72,19 @@ fn nothing_grows_in_a_long_session() {
         driver.restart(&mut program);
         driver.finish(&mut program);
     }
+    let warm = WARM_UP as usize / WINDOW + 1;
+    let sizes = program.held.split_off(warm);
     let (report, _) = program.end();
-    eprintln!("{:#}", report["holdings"]);
+    eprintln!("{:#}, {sizes:?}", report["holdings"]);
     assert_eq!(report["lost_particles"], 0);
     assert_eq!(report["recording"]["unwritten"], 0);
     let held = |at: usize, what: &str| report["holdings"][at][what].as_u64().unwrap();
     assert!(held(1, "handles") <= held(0, "handles") + 1);
-    // What an allocator keeps for itself; a leak of a kilobyte a frame would be 2 MB and more.
-    let growth = held(1, "memory") as f64 - held(0, "memory") as f64;
-    assert!(growth < 2e6, "{growth} bytes more");
+    // An allocator or a driver takes megabytes at once, now and then: in most windows nothing grows. A leak is in each of them.
+    let mut growths: Vec<_> = sizes.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    growths.sort_by(f64::total_cmp);
+    let of_a_frame = growths[growths.len() / 2] / WINDOW as f64;
+    assert!(of_a_frame < 500.0, "{of_a_frame} bytes a frame");
+    let all = sizes[sizes.len() - 1] - sizes[0];
+    assert!(all < 16e6, "{all} bytes in all");
 }

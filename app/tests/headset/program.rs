@@ -76,6 +76,9 @@ fn numbers(text: &str) -> Vec<f32> {
     parts.filter_map(|part| part.parse().ok()).collect()
 }
 
+/// Frames between two looks at a program's memory.
+pub const WINDOW: usize = 200;
+
 /// `vitriol vr` at work.
 pub struct Program {
     child: Child,
@@ -83,6 +86,8 @@ pub struct Program {
     log: Receiver<String>,
     /// Its frames as far as its log was read.
     pub seen: Vec<Seen>,
+    /// What it held of memory after every [`WINDOW`] of them, bytes.
+    pub held: Vec<f64>,
     /// Whether Vulkan's validation layer watches it.
     watched: bool,
     /// What that layer says among the lines, at their end.
@@ -133,6 +138,7 @@ impl Program {
             child,
             log,
             seen: Vec::new(),
+            held: Vec::new(),
             watched,
             layer: Some(layer),
         }
@@ -142,8 +148,21 @@ impl Program {
     fn line(&mut self) -> String {
         let line = self.log.recv_timeout(PATIENCE);
         let line = line.unwrap_or_else(|error| panic!("the program says nothing: {error}"));
-        self.seen.extend(Seen::of(&line));
+        let seen = Seen::of(&line);
+        if seen.is_some() && self.seen.len().is_multiple_of(WINDOW) {
+            self.held.push(self.memory());
+        }
+        self.seen.extend(seen);
         line
+    }
+
+    /// What it holds of memory, bytes.
+    fn memory(&self) -> f64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
+        let mut lines = status.lines();
+        let line = lines.find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+        let kilobytes: f64 = line.trim().trim_end_matches(" kB").parse().unwrap();
+        1024.0 * kilobytes
     }
 
     /// Waits for a line of the log that has `part`.
