@@ -299,12 +299,9 @@ mod tests {
                     "{language}: {key}"
                 );
                 for unit in [" mL", " %", " °C", " cm"] {
-                    let broken = sentence.split(unit).rev().skip(1);
-                    for before in broken {
-                        assert!(
-                            !before.ends_with(|c: char| c.is_ascii_digit()),
-                            "{language}: {key}"
-                        );
+                    for (at, _) in sentence.match_indices(unit) {
+                        let breaks = sentence[..at].ends_with(|c: char| c.is_ascii_digit());
+                        assert!(!breaks, "{language}: {key}");
                     }
                 }
             }

@@ -112,11 +112,13 @@ impl Procedure {
         if self.begun.is_none() {
             self.begin(t);
         }
-        self.hear(rest, t);
-        if !self.ended {
-            self.see(sight);
-            self.mind_time(t);
-        }
+        self.hear_incidents(rest, t);
+        // What is so now is known before a pour is heard of: both are so at one time, or not.
+        self.see(sight);
+        self.hear_pours(rest, t);
+        self.see(sight);
+        self.hear_end(rest);
+        self.mind_time(t);
         std::mem::take(&mut self.said)
     }
 
@@ -188,27 +190,39 @@ impl Procedure {
         self.settle(t);
     }
 
+    /// All of these, which were said before a new beginning.
     fn hear(&mut self, events: &[Event], t: f64) {
-        if self.ended {
-            return;
-        }
+        self.hear_incidents(events, t);
+        self.hear_pours(events, t);
+        self.hear_end(events);
+    }
+
+    fn hear_incidents(&mut self, events: &[Event], t: f64) {
         for event in events {
-            if let Event::Incident(incident) = event {
+            if let Event::Incident(incident) = event
+                && !self.ended
+            {
                 self.hear_incident(incident, t);
             }
         }
+    }
+
+    fn hear_pours(&mut self, events: &[Event], t: f64) {
         for event in events {
-            if let Event::Poured(pour) = event {
+            if let Event::Poured(pour) = event
+                && !self.ended
+            {
                 self.hear_pour(pour, t);
                 self.settle(t);
             }
         }
-        let ending = events.iter().find_map(|event| match event {
-            Event::Ended(ending) => Some(ending.t_s),
-            _ => None,
-        });
-        if let Some(t_s) = ending {
-            self.end(t_s);
+    }
+
+    fn hear_end(&mut self, events: &[Event]) {
+        for event in events {
+            if let Event::Ended(ending) = event {
+                self.end(ending.t_s);
+            }
         }
     }
 
@@ -259,6 +273,9 @@ impl Procedure {
     }
 
     fn see(&mut self, sight: &Sight) {
+        if self.ended {
+            return;
+        }
         let t = sight.t_s;
         let held = sight.flasks.iter().filter(|flask| flask.held);
         for flask in held {

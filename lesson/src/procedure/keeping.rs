@@ -3,7 +3,7 @@
 use super::condition::Keep;
 use super::progress::{Gear, Why};
 use super::sight::Sight;
-use super::watch::ML;
+use super::watch::m3;
 use crate::event::{Incident, What};
 
 /// See the module.
@@ -22,7 +22,7 @@ impl Keeping {
             (Keep::Never(kind), what) if kind.is(what) => Some(Why::Incident { kind: *kind }),
             (Keep::Spilt(it), What::Spilt { volume_m3, .. }) => {
                 self.spilt += volume_m3;
-                let limit_m3 = it.at_most_ml * ML;
+                let limit_m3 = m3(it.at_most_ml);
                 (self.spilt > limit_m3).then_some(Why::Spilt {
                     volume_m3: self.spilt,
                     limit_m3,

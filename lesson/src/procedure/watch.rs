@@ -7,8 +7,11 @@ use super::progress::Why;
 use super::sight::{Dip, Sight};
 use crate::event::{Pour, Surface};
 
-/// m³ of a mL.
-pub(super) const ML: f64 = 1e-6;
+/// m³ of a volume in mL. Divided, so that 5 mL have the bits of 5e-6.
+pub(super) fn m3(ml: f64) -> f64 {
+    ml / 1e6
+}
+
 /// How long a flask that was put down stands, s: else one that slips from a hand onto the bench and falls would count. Our choice.
 const SETTLED: f64 = 0.5;
 /// Least speed of a rod that stirs, m/s. Our choice: slower it is held, by a hand that trembles.
@@ -107,7 +110,7 @@ impl Watch {
     }
 }
 
-fn met<'a>(condition: &Condition, known: &mut dyn Iterator<Item = &'a Leaf>) -> Option<f64> {
+fn met(condition: &Condition, known: &mut dyn Iterator<Item = &Leaf>) -> Option<f64> {
     // Each part takes its own leaves, met or not.
     let mut each = |parts: &[Condition]| -> Vec<Option<f64>> {
         parts.iter().map(|part| met(part, known)).collect()
@@ -129,22 +132,22 @@ fn pours(leaf: &mut Leaf, poured: &Poured, pour: &Pour) -> Option<Why> {
     }
     leaf.sum += pour.volume_m3;
     if let Some(limit) = poured.at_most_ml_s
-        && pour.fastest_m3_s > limit * ML
+        && pour.fastest_m3_s > m3(limit)
     {
         return Some(Why::TooFast {
             rate_m3_s: pour.fastest_m3_s,
-            limit_m3_s: limit * ML,
+            limit_m3_s: m3(limit),
         });
     }
     if let Some(limit) = poured.at_most_ml
-        && leaf.sum > limit * ML
+        && leaf.sum > m3(limit)
     {
         return Some(Why::TooMuch {
             volume_m3: leaf.sum,
-            limit_m3: limit * ML,
+            limit_m3: m3(limit),
         });
     }
-    leaf.gathers(pour.until_s, poured.at_least_ml * ML);
+    leaf.gathers(pour.until_s, m3(poured.at_least_ml));
     None
 }
 
@@ -175,7 +178,7 @@ fn sees(
             let holds = sight.flask(&it.flask).is_some_and(|flask| {
                 let percent = 100.0 * flask.acid;
                 let range = it.acid_from_percent..=it.acid_to_percent;
-                flask.volume_m3 >= it.at_least_ml * ML && range.contains(&percent)
+                flask.volume_m3 >= m3(it.at_least_ml) && range.contains(&percent)
             });
             leaf.lasts(holds, t, it.for_s);
         }
@@ -214,13 +217,13 @@ fn sees(
                 Surface::Bench => sight.bench_m3,
                 Surface::Floor => sight.floor_m3,
             };
-            leaf.lasts(lies <= it.at_most_ml * ML, t, 0.0);
+            leaf.lasts(lies <= m3(it.at_most_ml), t, 0.0);
         }
         Condition::Rinsed(it) => {
             if let Some(hands) = sight.rinsed_m3 {
                 let came = hands[it.hand.index()];
                 leaf.sum = came - *leaf.base.get_or_insert(came);
-                leaf.gathers(t, it.at_least_ml * ML);
+                leaf.gathers(t, m3(it.at_least_ml));
             }
         }
     }
