@@ -34,7 +34,7 @@ pub(super) struct Tried {
     shown: f64,
     /// From when on the time until the hint runs, s.
     waits: f64,
-    /// From when on a pour may begin, s: that of a failure.
+    /// From when on a pour may begin, s: after a failure.
     again: Option<f64>,
     watch: Watch,
     keeping: Vec<Keeping>,
@@ -313,13 +313,16 @@ impl Procedure {
             self.fail(at, sight.t_s, (sight.t_s, why), false);
         } else if tried.keeps() {
             tried.watch.see(&step.condition, sight, &self.lifted);
+        } else {
+            // A new try begins once all is kept again.
+            tried.again = Some(sight.t_s);
         }
     }
 
     /// Says what is done, opens what comes next, and ends where nothing does; whether it opened any.
     fn settle(&mut self, t: f64) -> bool {
         for (step, tried) in self.lesson.steps.iter().zip(&mut self.steps) {
-            if tried.status != Status::Open || !tried.keeps() {
+            if tried.status != Status::Open {
                 continue;
             }
             if let Some(evidence_s) = tried.watch.met(&step.condition) {

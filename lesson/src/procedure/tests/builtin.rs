@@ -50,6 +50,45 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     );
 }
 
+/// By the scenes' files: 20 and 160 mL, and 13,000 particles of 2.5 mm at real size.
+#[test]
+fn facts_are_those_of_the_scene() {
+    let dilution = facts("acid-into-water");
+    assert!((dilution.liquid_m3 - 180e-6).abs() < 1e-12 && dilution.heat);
+    let names: Vec<&str> = dilution.flasks.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["source", "target"]);
+    assert!(dilution.flasks.iter().all(|it| it.lifted));
+    assert!(!dilution.goggles && !dilution.gloves && !dilution.rinsing);
+    let small = facts("vr-dilution").liquid_m3;
+    assert!(
+        (small / (13_000.0 * 0.0025_f64.powi(3)) - 1.0).abs() < 0.01,
+        "{small}"
+    );
+    assert!(facts("triple-dilution").flasks.iter().all(|it| !it.lifted));
+    assert!(!facts("two-flasks").heat);
+}
+
+/// An instructor's own texts come before those of the built-in lesson of that name.
+#[test]
+fn own_texts_come_first() {
+    let texts = "[texts.en]\ntitle = \"Mine\"\nsummary = \"Mine.\"\nstep.lift = { text = \"a\", hint = \"b\" }\n";
+    let step =
+        "[[step]]\nid = \"lift\"\npoints = 1\ncondition = { lifted = { flask = \"source\" } }\n";
+    let head = "version = 1\nname = \"dilute\"\nscene = \"acid-into-water\"\nmodes = [\"free\"]\n";
+    let own = Lesson::parse(&format!("{head}{step}{texts}"), "own.toml").unwrap();
+    assert_eq!(own.texts(Language::En).title, "Mine");
+    // English stands in for a language that is not there.
+    assert_eq!(
+        (own.texts(Language::De).title.as_str(), own.languages()),
+        ("Mine", vec![Language::En])
+    );
+    // With other steps than the built-in one, it needs its own.
+    let error = Lesson::parse(&format!("{head}{step}"), "own.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("texts.en.step."), "{error}");
+}
+
 /// A line of the panel, and two or three; Chinese signs are twice as wide.
 #[test]
 fn each_text_fits_the_panel() {

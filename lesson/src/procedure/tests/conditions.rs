@@ -309,3 +309,30 @@ fn all_are_so_at_one_time_and_any_is_enough() {
     ));
     assert!(!seen(&format!("{{ any = {parts} }}"), 1.0, &|_| {}));
 }
+
+/// Evidence is the first of any, and the last of all.
+#[test]
+fn evidence_is_of_the_first_or_the_last() {
+    let measured = "{ measured = { flask = \"a\", for_s = 1 } }";
+    let poured = |from: &str, into: &str| {
+        format!("{{ poured = {{ from = \"{from}\", into = \"{into}\", at_least_ml = 5 }} }}")
+    };
+    let [there, back] = [poured("a", "b"), poured("b", "a")];
+    let any = format!("{{ all = [{{ any = [{measured}, {there}] }}, {back}] }}");
+    let all = format!("{{ all = [{measured}, {there}, {back}] }}");
+    for (condition, evidence_s) in [(any, 10.0), (all, 12.0)] {
+        let mut run = fresh(&condition);
+        run.t = 8.0;
+        let dips = |it: &mut Sight| it.thermometer.as_mut().unwrap().flask = Some("a".into());
+        run.look(STEP, &dips);
+        let mut last = sight(12.0);
+        dips(&mut last);
+        let there = pour([8.5, 9.0], 9.0, 2.0, 0.98);
+        let mut back = pour([9.5, 10.0], 9.0, 2.0, 0.98);
+        if let Event::Poured(pour) = &mut back {
+            (pour.from, pour.into) = ("b".to_owned(), Some("a".to_owned()));
+        }
+        run.procedure.advance(&last, &[there, back]);
+        assert_eq!(run.line("one").evidence_s, Some(evidence_s), "{condition}");
+    }
+}

@@ -76,6 +76,8 @@ fn what_must_not_happen_is_of_its_kind() {
             assert_eq!(why.len(), usize::from(kind == other), "{kind}, {other}");
         }
         assert!(broken(&keep, &|_| {}, &[spilt(10.5, 9.0)]).is_empty());
+        // What began before the lesson is not of it.
+        assert!(broken(&keep, &|_| {}, &[incident(9.9, whats[0].1.clone())]).is_empty());
     }
 }
 
@@ -173,4 +175,20 @@ fn a_new_try_begins_with_nothing_spilt() {
     assert_eq!(run.whys().len(), 1);
     run.hear(&[spilt(run.t, 0.6)]);
     assert_eq!(run.whys().len(), 2);
+}
+
+/// What is poured without goggles does not count, even after they are on again.
+#[test]
+fn nothing_counts_while_something_is_not_kept() {
+    let body = "condition = { poured = { from = \"a\", into = \"b\", at_least_ml = 5 } }\nkeep = [\"goggles\"]";
+    let mut run = Run::new(lesson(&[("one", body)], &[]), Mode::Free);
+    let bare = |it: &mut Sight| it.goggles = Some(false);
+    run.look(1.0, &bare);
+    let from = run.t + 1.0;
+    run.look(5.0, &bare);
+    run.hear(&[pour([from, from + 1.0], 9.0, 2.0, 0.98)]);
+    run.wait(1.0);
+    assert_eq!(run.status("one"), Status::Open);
+    run.hear(&[pour([run.t, run.t], 9.0, 2.0, 0.98)]);
+    assert_eq!(run.status("one"), Status::Done);
 }

@@ -82,6 +82,20 @@ fn what_went_wrong_in_a_step_fails_it_whenever_it_is_known() {
     assert!(run.whys().is_empty());
 }
 
+/// A step that is done is not failed by what went wrong before it, or in a try that failed already.
+#[test]
+fn what_went_wrong_before_a_step_is_not_of_it() {
+    let body = format!("{POUR}\nkeep = [{{ never = \"boiled-over\" }}]");
+    let mut run = Run::new(lesson(&[("one", POUR), ("two", &body)], &[]), Mode::Guided);
+    run.wait(8.0);
+    run.hear(&[pour([11.0, 12.0], 5.0, 2.0, 0.98)]);
+    run.hear(&[pour([12.5, 13.0], 5.0, 2.0, 0.98)]);
+    run.hear(&[boiled_over(11.5)]);
+    assert_eq!(run.status("two"), Status::Done);
+    run.hear(&[boiled_over(12.7)]);
+    assert_eq!(run.status("two"), Status::Missed);
+}
+
 /// A failed try is not mended by the rest of its own pour.
 #[test]
 fn a_new_try_begins_with_a_new_pour() {
@@ -177,15 +191,13 @@ fn a_step_begins_after_those_it_names() {
     assert_eq!(run.status("three"), Status::Waiting);
 }
 
-/// A step that is opened by a look sees that look.
+/// A step that is opened by a look sees that look, however many there are.
 #[test]
 fn what_is_so_already_is_done_at_once() {
     let goggles = "condition = { goggles = { on = true } }";
-    let gloves = "condition = { gloves = { on = true } }";
-    let run = Run::new(
-        lesson(&[("one", goggles), ("two", gloves)], &[]),
-        Mode::Guided,
-    );
-    assert_eq!(run.status("two"), Status::Done);
-    assert_eq!(run.said.len(), 6, "{:?}", run.said);
+    let ids = ["one", "two", "three", "four", "five", "six"];
+    let run = Run::new(lesson(&ids.map(|id| (id, goggles)), &[]), Mode::Guided);
+    assert!(ids.iter().all(|id| run.status(id) == Status::Done));
+    // Each begins and is done; before and after them the lesson.
+    assert_eq!(run.said.len(), 14, "{:?}", run.said);
 }
