@@ -1,13 +1,16 @@
 //! The lesson: what a student did in an attempt, and what went wrong in it, found in the particles.
 //!
 //! A [`Finder`] looks at the simulation and says [`Event`]s, which a session records as they come; a replay finds the same ones
-//! again. An [`Attempt`] is what they add up to: report, summary, table and score are made of it.
+//! again. An [`Attempt`] is what they add up to: report, summary, table and score are made of it. A [`Lesson`] says what is to be done, and a
+//! [`Procedure`] judges whether it was.
 
 mod attempt;
 mod event;
 mod finder;
+mod language;
 mod limits;
 mod mixing;
+pub mod procedure;
 mod rubric;
 mod score;
 pub mod skin;
@@ -21,7 +24,9 @@ pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
 pub use finder::{Finder, Seen};
+pub use language::{Language, LanguageError};
 pub use limits::Limits;
+pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Criterion, Evidence, LeftOut, Score, ScoreLine};
 pub use table::{TableError, incidents_csv};

@@ -1,10 +1,16 @@
-//! The string table: what is said of an attempt, in one language.
+//! The string table: what is said of an attempt and in a lesson, in one language.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
+use crate::language::Language;
+use crate::procedure::LessonTexts;
+
 const ENGLISH: &str = include_str!("../texts/en.toml");
+const GERMAN: &str = include_str!("../texts/de.toml");
+const SPANISH: &str = include_str!("../texts/es.toml");
+const CHINESE: &str = include_str!("../texts/zh.toml");
 
 /// Why a string table is refused.
 #[derive(Debug, thiserror::Error)]
@@ -12,6 +18,16 @@ pub enum TextsError {
     /// It is no TOML, or a key is missing or unknown.
     #[error("the string table does not have the keys of lesson/texts/en.toml: {0}")]
     Keys(#[from] toml::de::Error),
+    /// A sentence is there in one of the two tables alone.
+    #[error(
+        "{key}: is only in {only}; lesson/texts/en.toml and its translations have the same keys"
+    )]
+    Alone {
+        /// The sentence's key.
+        key: String,
+        /// Where it is.
+        only: &'static str,
+    },
     /// A sentence has other holes than the English one.
     #[error("{key}: has the holes {found:?}, and needs {needed:?}, as in lesson/texts/en.toml")]
     Holes {
@@ -77,7 +93,8 @@ macro_rules! section {
 }
 
 section!(Number: decimal);
-section!(Unit: millilitres litres millilitres_a_second seconds minutes hours celsius percent metres_a_second);
+section!(Unit: millilitres litres millilitres_a_second seconds minutes hours celsius percent metres_a_second
+    centimetres);
 section!(Amount: water acid);
 section!(Join: two);
 section!(Pour: acid_into_water plain beside nothing);
@@ -91,6 +108,9 @@ section!(CriterionNames: right_order poured_slowly stayed_cool nothing_thrown_ou
 section!(Rule: right_order up_to nothing skin glass);
 section!(Evidence: too_little too_little_acid mean);
 section!(LeftOut: nothing_poured no_acid no_heat);
+section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
+    sash_open time_up skipped not_done);
+section!(ModeNames: guided free examination);
 
 /// The texts of one language: a file of `lesson/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -110,6 +130,10 @@ pub struct Texts {
     pub(crate) rule: Rule,
     pub(crate) evidence: Evidence,
     pub(crate) left_out: LeftOut,
+    pub(crate) why: WhyTexts,
+    pub(crate) mode: ModeNames,
+    /// By lesson: of those that come with the program.
+    pub(crate) lesson: BTreeMap<String, LessonTexts>,
 }
 
 impl Texts {
@@ -118,7 +142,15 @@ impl Texts {
     /// # Errors
     /// As for [`Texts::parse`], which a test rules out.
     pub fn english() -> Result<Self, TextsError> {
-        Self::parse(ENGLISH)
+        Self::of(Language::En)
+    }
+
+    /// Those of a language, which the program carries.
+    ///
+    /// # Errors
+    /// As for [`Texts::parse`], which a test rules out.
+    pub fn of(language: Language) -> Result<Self, TextsError> {
+        Self::parse(table(language))
     }
 
     /// Those of a file's text.
@@ -129,20 +161,38 @@ impl Texts {
     pub fn parse(text: &str) -> Result<Self, TextsError> {
         let (found, needed) = (holes(text)?, holes(ENGLISH)?);
         let texts = toml::from_str(text)?;
-        for (key, needed) in needed {
-            let found = found.get(&key).cloned().unwrap_or_default();
+        for (key, needed) in &needed {
+            let Some(found) = found.get(key) else {
+                let (key, only) = (key.clone(), "lesson/texts/en.toml");
+                return Err(TextsError::Alone { key, only });
+            };
             if found != needed {
-                let [found, needed] = [found, needed].map(|holes| holes.into_iter().collect());
+                let [found, needed] = [found, needed].map(|it| it.iter().cloned().collect());
+                let key = key.clone();
                 return Err(TextsError::Holes { key, found, needed });
             }
+        }
+        if let Some(key) = found.into_keys().find(|key| !needed.contains_key(key)) {
+            let only = "the translation";
+            return Err(TextsError::Alone { key, only });
         }
         Ok(texts)
     }
 }
 
-/// The holes of each sentence, by section and key.
+/// Text of the table of a language.
+fn table(language: Language) -> &'static str {
+    match language {
+        Language::En => ENGLISH,
+        Language::De => GERMAN,
+        Language::Es => SPANISH,
+        Language::Zh => CHINESE,
+    }
+}
+
+/// The holes of each sentence, by its path.
 fn holes(text: &str) -> Result<BTreeMap<String, BTreeSet<String>>, toml::de::Error> {
-    let sections: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(text)?;
+    let sentences = sentences(text)?;
     let of = |sentence: &str| {
         let holes = parts(sentence).filter_map(|part| match part {
             Part::Hole(name) => Some(name.to_owned()),
@@ -150,12 +200,31 @@ fn holes(text: &str) -> Result<BTreeMap<String, BTreeSet<String>>, toml::de::Err
         });
         holes.collect::<BTreeSet<_>>()
     };
-    let sentences = sections.iter().flat_map(|(section, sentences)| {
-        let named =
-            move |(key, sentence): (&String, &String)| (format!("{section}.{key}"), of(sentence));
-        sentences.iter().map(named)
-    });
-    Ok(sentences.collect())
+    let sentences = sentences.into_iter();
+    Ok(sentences.map(|(key, it)| (key, of(&it))).collect())
+}
+
+/// Each sentence, by its path.
+fn sentences(text: &str) -> Result<BTreeMap<String, String>, toml::de::Error> {
+    let table: toml::Table = toml::from_str(text)?;
+    let mut found = BTreeMap::new();
+    gather("", table, &mut found);
+    Ok(found)
+}
+
+fn gather(path: &str, table: toml::Table, found: &mut BTreeMap<String, String>) {
+    for (name, value) in table {
+        let path = match path {
+            "" => name,
+            path => format!("{path}.{name}"),
+        };
+        match value {
+            toml::Value::Table(table) => gather(&path, table, found),
+            toml::Value::String(text) => _ = found.insert(path, text),
+            // Refused where the table is read into its type.
+            _ => {}
+        }
+    }
 }
 
 #[cfg(test)]
@@ -181,6 +250,84 @@ mod tests {
         for wrong in ["Verschüttet.", "Verschüttet: {menge}.", "{amount}, {flask}"] {
             let error = with(wrong).unwrap_err().to_string();
             assert!(error.contains("wrong.spilt_bench") && error.contains("amount"));
+        }
+    }
+
+    /// What the program carries, in each language: no sentence is missing, empty or left in English.
+    #[test]
+    fn each_language_is_complete() {
+        let english = sentences(ENGLISH).unwrap();
+        // Units, names and the like are the same in several languages.
+        let same = |key: &str| {
+            ["unit.", "number.", "join."]
+                .iter()
+                .any(|it| key.starts_with(it))
+        };
+        for language in Language::ALL {
+            Texts::of(language).unwrap();
+            let translated = sentences(table(language)).unwrap();
+            assert!(translated.keys().eq(english.keys()), "{language}");
+            for (key, sentence) in &translated {
+                assert!(!sentence.trim().is_empty(), "{language}: {key}");
+                let is_english = *sentence == english[key];
+                assert!(
+                    language == Language::En || same(key) || !is_english,
+                    "{language}: {key}"
+                );
+            }
+        }
+    }
+
+    /// Numbers are the same in each language, and stand apart from their units by a space that no line breaks at.
+    #[test]
+    fn numbers_are_translated_as_they_are() {
+        let numbers = |text: &str| -> Vec<String> {
+            let mut found: Vec<String> = text
+                .split(|c: char| !c.is_ascii_digit())
+                .filter(|it| !it.is_empty())
+                .map(str::to_owned)
+                .collect();
+            found.sort();
+            found
+        };
+        let english = sentences(ENGLISH).unwrap();
+        for language in Language::ALL {
+            for (key, sentence) in sentences(table(language)).unwrap() {
+                assert_eq!(
+                    numbers(&sentence),
+                    numbers(&english[&key]),
+                    "{language}: {key}"
+                );
+                for unit in [" mL", " %", " °C", " cm"] {
+                    for (at, _) in sentence.match_indices(unit) {
+                        let breaks = sentence[..at].ends_with(|c: char| c.is_ascii_digit());
+                        assert!(!breaks, "{language}: {key}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Chinese is written without Latin words, and the others without Chinese signs.
+    #[test]
+    fn each_table_is_of_its_language() {
+        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
+        // Traditional forms of what is said here, which simplified Chinese writes otherwise.
+        let traditional = "傾實驗臺濃於後體氣熱時間燒灑濺單護鏡這樣應";
+        for language in Language::ALL {
+            for (key, sentence) in sentences(table(language)).unwrap() {
+                let chinese = sentence.chars().any(is_chinese);
+                let templates = ["unit.", "number.", "join."];
+                if language != Language::Zh {
+                    assert!(!chinese, "{language}: {key}");
+                } else if !templates.iter().any(|it| key.starts_with(it)) {
+                    assert!(chinese, "{key}");
+                    assert!(
+                        !sentence.contains(|c| traditional.contains(c)),
+                        "{key}: {sentence}"
+                    );
+                }
+            }
         }
     }
 

@@ -48,6 +48,12 @@ impl Texts {
         self.said(&self.unit.metres_a_second, m_s)
     }
 
+    /// m as whole cm.
+    pub(crate) fn height(&self, m: f64) -> String {
+        let whole = format!("{:.0}", (100.0 * m).round() + 0.0);
+        self.unit.centimetres.fill(&[("number", &whole)])
+    }
+
     /// How much of what.
     pub(crate) fn amount(&self, m3: f64, acid: f64) -> String {
         let volume = self.volume(m3);
@@ -84,6 +90,7 @@ fn two_digits(value: f64) -> String {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::Language;
 
     #[test]
     fn numbers_are_as_people_say_them() {
@@ -101,15 +108,17 @@ mod tests {
         assert_eq!(plain(texts.temperature(133.6)), "134 °C");
         assert_eq!(plain(texts.temperature(-0.2)), "0 °C");
         assert_eq!(plain(texts.fraction(0.9642)), "96 %");
+        assert_eq!(plain(texts.height(0.4549)), "45 cm");
         assert_eq!(plain(texts.amount(3.12e-6, 0.004)), "3.1 mL of water");
         assert_eq!(plain(texts.amount(3.12e-6, 0.19)), "3.1 mL of 19 % acid");
     }
 
     #[test]
-    fn another_language_has_its_own_comma() {
-        let english = include_str!("../texts/en.toml");
-        let texts = english.replace("decimal = \".\"", "decimal = \",\"");
-        let texts = Texts::parse(&texts).unwrap();
-        assert_eq!(texts.duration(3.12), "3,1\u{a0}s");
+    fn each_language_has_its_own_comma() {
+        let said = Language::ALL.map(|it| Texts::of(it).unwrap().duration(3.12));
+        assert_eq!(
+            said,
+            ["3.1\u{a0}s", "3,1\u{a0}s", "3,1\u{a0}s", "3.1\u{a0}s"]
+        );
     }
 }

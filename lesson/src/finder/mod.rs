@@ -9,6 +9,7 @@ mod flows;
 mod glass;
 mod heat;
 mod leaving;
+mod sight;
 mod skin;
 mod spills;
 #[cfg(test)]
@@ -17,7 +18,7 @@ mod thrown;
 
 use vitriol_sim::bodies::{Break, Strike};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::{Feature, Scene, TableTop};
 use vitriol_sim::solver::{Census, Held};
 
 use crate::event::{Content, Contents, Ending, Event};
@@ -74,6 +75,8 @@ pub(crate) struct Bench {
     gravity: f64,
     /// Of the scene's file, in the world, m of the scene.
     pub origin: glam::DVec3,
+    /// The bench's top.
+    pub table: Option<TableTop>,
     pub limits: Limits,
 }
 
@@ -89,6 +92,7 @@ impl Bench {
             scale: scene.scale.length_scale,
             gravity: scene.scale.gravity,
             origin: scene.origin,
+            table: scene.table,
             limits,
         }
     }

@@ -1,0 +1,149 @@
+//! What a look shows of the flasks, for the judge of a lesson.
+
+use glam::Vec3;
+use vitriol_sim::bodies;
+use vitriol_sim::pose::Pose;
+
+use super::{Bench, Finder, Seen};
+use crate::procedure::{FlaskSight, Sight};
+
+/// Tilt up to which a flask stands, as the cosine of its axis with the vertical: 5°, which rounding of the table's contact does not reach.
+/// Our choice.
+const UPRIGHT: f32 = 0.996;
+/// How far above or below the bench's top its base may be, m at real size. Our choice.
+const CONTACT: f64 = 0.005;
+
+impl Bench {
+    fn stands(&self, pose: &Pose) -> bool {
+        let Some(table) = self.table else {
+            return false;
+        };
+        let place = pose.position.as_dvec3();
+        let over = |at: f64, axis: usize| (at - table.centre[axis]).abs() <= 0.5 * table.size[axis];
+        let upright = (pose.orientation * Vec3::Y).y >= UPRIGHT;
+        let near = self.scale * (place.y - table.top).abs() <= CONTACT;
+        !bodies::is_nowhere(pose) && upright && near && over(place.x, 0) && over(place.z, 1)
+    }
+}
+
+impl Finder {
+    /// What a look shows, for [`Procedure::advance`](crate::Procedure::advance) with the events of the same look. Bodies that no scene has
+    /// yet are `None`.
+    pub fn sight(&self, seen: &Seen<'_>) -> Sight {
+        let bench = &self.bench;
+        let flasks = bench.names.iter().enumerate().map(|(flask, name)| {
+            let held = seen.census.flasks.get(flask);
+            let content = held.map(|it| bench.content(it)).unwrap_or_default();
+            let is_held = seen.held.get(flask) == Some(&true);
+            let pose = seen.poses.get(flask);
+            FlaskSight {
+                name: name.clone(),
+                volume_m3: content.volume_m3,
+                acid: content.acid,
+                temperature_c: content.temperature_c,
+                held: is_held,
+                standing: !is_held && pose.is_some_and(|pose| bench.stands(pose)),
+            }
+        });
+        Sight {
+            t_s: seen.t,
+            flasks: flasks.collect(),
+            bench_m3: bench.volume(seen.census.table.volume),
+            floor_m3: bench.volume(seen.census.floor.volume),
+            ..Sight::default()
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::Quat;
+    use vitriol_sim::scene::Scene;
+    use vitriol_sim::solver::{Census, Held};
+
+    use super::*;
+    use crate::Limits;
+
+    /// The first flask of a scene at its start, after `change`.
+    fn seen(scene: &str, held: bool, change: &dyn Fn(&mut Pose)) -> Sight {
+        let scene = Scene::builtin(scene).unwrap();
+        let finder = Finder::new("scene", &scene, Limits::default());
+        let poses = scene.flasks.iter().map(|it| it.stage_from_flask);
+        let mut poses: Vec<Pose> = poses.collect();
+        change(&mut poses[0]);
+        let full = Held {
+            particles: 10,
+            volume: 8.0,
+            temperature: Some(30.0),
+            acid: 0.5,
+            ..Held::default()
+        };
+        let census = Census {
+            flasks: vec![full, Held::default()],
+            table: full,
+            floor: Held {
+                volume: 16.0,
+                ..full
+            },
+            ..Census::default()
+        };
+        finder.sight(&Seen {
+            t: 3.0,
+            elapsed: 0.1,
+            census: &census,
+            poses: &poses,
+            held: &[held, false],
+            strikes: &[],
+            breaks: &[],
+        })
+    }
+
+    /// At real size, and in a scene that is drawn at a twentieth: 8 m³ of it are 1 L.
+    #[test]
+    fn a_sight_is_of_real_size() {
+        for (scene, volume_m3) in [("acid-into-water", 8.0), ("vr-dilution", 1e-3)] {
+            let sight = seen(scene, false, &|_| {});
+            let flask = &sight.flasks[0];
+            assert!(
+                (flask.volume_m3 / volume_m3 - 1.0).abs() < 1e-9,
+                "{flask:?}"
+            );
+            assert!((sight.bench_m3 / volume_m3 - 1.0).abs() < 1e-9);
+            assert!((sight.floor_m3 / volume_m3 - 2.0).abs() < 1e-9);
+            assert_eq!((flask.acid, flask.temperature_c), (0.5, Some(30.0)));
+            assert_eq!((sight.t_s, sight.flasks.len()), (3.0, 2));
+            assert_eq!(sight.flasks[1].temperature_c, None);
+            assert_eq!((sight.goggles, sight.rinsed_m3), (None, None));
+        }
+    }
+
+    #[test]
+    fn a_flask_stands_upright_on_the_bench_and_in_no_hand() {
+        for (name, metre) in [("acid-into-water", 1.0), ("vr-dilution", 20.0)] {
+            let stands = |held, change: &dyn Fn(&mut Pose)| {
+                let sight = seen(name, held, change);
+                (sight.flasks[0].standing, sight.flasks[0].held)
+            };
+            assert_eq!(stands(false, &|_| {}), (true, false));
+            assert_eq!(stands(true, &|_| {}), (false, true));
+            assert!(stands(false, &|it| it.position.y += 0.004 * metre).0);
+            assert!(!stands(false, &|it| it.position.y += 0.006 * metre).0);
+            assert!(!stands(false, &|it| it.position.y -= 0.75 * metre).0);
+            assert!(!stands(false, &|it| it.position.x += 2.0 * metre).0);
+            assert!(!stands(false, &|it| it.position.z += 2.0 * metre).0);
+            let tilt = |degrees: f32| {
+                let turn = Quat::from_rotation_x(degrees.to_radians());
+                stands(false, &|it| it.orientation = turn).0
+            };
+            assert!(tilt(4.0) && !tilt(6.0) && !tilt(180.0));
+        }
+        // Nowhere once it is broken, and on no bench where there is none.
+        let scene = Scene::builtin("acid-into-water").unwrap();
+        let mut finder = Finder::new("scene", &scene, Limits::default());
+        let pose = scene.flasks[0].stage_from_flask;
+        assert!(finder.bench.stands(&pose));
+        finder.bench.table = None;
+        assert!(!finder.bench.stands(&pose));
+    }
+}

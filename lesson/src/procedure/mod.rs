@@ -1,0 +1,31 @@
+//! Guided procedures: lessons of steps that the simulation judges.
+//!
+//! A [`Lesson`] is read from a TOML file (`lesson/lessons`) and checked against what its scene has ([`SceneFacts`]). A [`Procedure`] goes
+//! through it: it takes in [`Sight`]s and the finder's events, and says [`Progress`].
+
+mod condition;
+mod error;
+mod file;
+mod fits;
+mod judge;
+mod keeping;
+mod mode;
+mod progress;
+mod sight;
+#[cfg(test)]
+mod tests;
+mod verdict;
+mod watch;
+mod words;
+
+pub use condition::{
+    Condition, Cool, HandName, Holds, Keep, Kind, Liquid, Measured, OfFlask, Poured, Rinsed,
+    SashAtMost, SashIs, SpiltAtMost, Stirred, TemperatureIs, Wiped, Worn,
+};
+pub use error::LessonError;
+pub use file::{Lesson, Rule, Step};
+pub use judge::Procedure;
+pub use mode::{Mode, ModeError};
+pub use progress::{Gear, Progress, State, Status, StepState, Verdict, VerdictLine, Why};
+pub use sight::{Dip, FlaskFacts, FlaskSight, SceneFacts, Sight};
+pub use words::{LessonTexts, StepTexts};

@@ -1,0 +1,47 @@
+//! Whatever a file or a look has.
+
+use proptest::prelude::*;
+
+use super::fits::facts;
+use super::spoiled::GOOD;
+use super::*;
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_refused(text in ".{0,200}") {
+        let _ = Lesson::parse(&text, "any.toml");
+    }
+
+    /// A good file in which a piece is another piece of it, or goes.
+    #[test]
+    fn a_damaged_lesson_is_read_or_refused(
+        at in 0..GOOD.len(), long in 0usize..60, from in 0..GOOD.len(), of in 0usize..60,
+    ) {
+        let bytes = GOOD.as_bytes();
+        let piece = &bytes[from..(from + of).min(bytes.len())];
+        let rest = &bytes[(at + long).min(bytes.len())..];
+        let text = [&bytes[..at], piece, rest].concat();
+        if let Ok(lesson) = Lesson::parse(&String::from_utf8_lossy(&text), "any.toml") {
+            let _ = lesson.check(&facts());
+            let mut procedure = Procedure::new(lesson, Mode::Guided);
+            procedure.advance(&sight(1.0), &[ended(1.0)]);
+        }
+    }
+
+    /// Numbers of any kind do not stop a judge.
+    #[test]
+    fn a_judge_bears_any_number(values in proptest::collection::vec(proptest::num::f64::ANY, 6)) {
+        let lesson = Lesson::parse(GOOD, "good.toml").unwrap();
+        for mode in Mode::ALL {
+            let mut procedure = Procedure::new(lesson.clone(), mode);
+            for t in &values {
+                let mut sight = sight(*t);
+                sight.flasks[1].temperature_c = Some(values[1]);
+                sight.flasks[1].acid = values[2];
+                procedure.advance(&sight, &[pour([values[3], values[4]], values[5], *t, 0.98), spilt(*t, *t)]);
+            }
+            let verdict = procedure.verdict();
+            prop_assert!(verdict.points <= verdict.of);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Against sights and events that are arranged by hand.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod any;
+mod builtin;
+mod conditions;
+mod fits;
+mod keeping;
+mod modes;
+mod order;
+mod spoiled;
+
+use super::*;
+use crate::event::{Cause, Content, Ending, Event, Incident, Pour, Skin, Surface, What};
+
+/// Looks are so far apart here, s.
+const STEP: f64 = 0.1;
+
+/// A lesson with steps and rules of these ids and bodies, and texts for them.
+fn lesson(steps: &[(&str, &str)], rules: &[(&str, &str)]) -> Lesson {
+    Lesson::parse(&text(steps, rules), "own.toml").unwrap()
+}
+
+fn text(steps: &[(&str, &str)], rules: &[(&str, &str)]) -> String {
+    let mut text = "version = 1\nname = \"own\"\nscene = \"bench\"\n".to_owned();
+    text += "modes = [\"guided\", \"free\", \"examination\"]\n";
+    for (id, body) in steps {
+        text += &format!("[[step]]\nid = \"{id}\"\npoints = 10\n{body}\n");
+    }
+    for (id, keep) in rules {
+        text += &format!("[[rule]]\nid = \"{id}\"\npoints = 10\nkeep = {keep}\n");
+    }
+    text += "[texts.en]\ntitle = \"Own\"\nsummary = \"What it is.\"\n";
+    for (id, _) in steps {
+        text += &format!("step.{id} = {{ text = \"Do {id}.\", hint = \"So.\" }}\n");
+    }
+    for (id, _) in rules {
+        text += &format!("rule.{id} = \"Keep {id}.\"\n");
+    }
+    text
+}
+
+/// A bench with all bodies: acid in `a`, water in `b`, both stand.
+fn sight(t_s: f64) -> Sight {
+    let flask = |name: &str, volume_m3, acid| FlaskSight {
+        name: name.to_owned(),
+        volume_m3,
+        acid,
+        temperature_c: Some(20.0),
+        held: false,
+        standing: true,
+    };
+    Sight {
+        t_s,
+        flasks: vec![flask("a", 20e-6, 0.98), flask("b", 160e-6, 0.0)],
+        goggles: Some(true),
+        gloves: Some(true),
+        sash_m: Some(0.4),
+        rod: Some(Dip::default()),
+        thermometer: Some(Dip::default()),
+        rinsed_m3: Some([0.0; 2]),
+        ..Sight::default()
+    }
+}
+
+/// A lesson under way.
+struct Run {
+    procedure: Procedure,
+    t: f64,
+    said: Vec<Progress>,
+}
+
+impl Run {
+    /// Begins at 10 s: times are of the run, and not of the lesson.
+    fn new(lesson: Lesson, mode: Mode) -> Self {
+        let mut run = Self {
+            procedure: Procedure::new(lesson, mode),
+            t: 10.0,
+            said: Vec::new(),
+        };
+        let begun = Event::Begun {
+            t_s: 10.0,
+            scene: "bench".to_owned(),
+            contents: Default::default(),
+        };
+        run.said = run.procedure.advance(&sight(10.0), &[begun]);
+        run
+    }
+
+    /// Looks for so long, s, at what `change` makes of the bench.
+    fn look(&mut self, long: f64, change: &dyn Fn(&mut Sight)) {
+        for _ in 0..(long / STEP).round() as usize {
+            self.t += STEP;
+            let mut sight = sight(self.t);
+            change(&mut sight);
+            self.said.extend(self.procedure.advance(&sight, &[]));
+        }
+    }
+
+    /// A look with these events, with all on the bench as it was at first.
+    fn hear(&mut self, events: &[Event]) {
+        self.t += STEP;
+        let said = self.procedure.advance(&sight(self.t), events);
+        self.said.extend(said);
+    }
+
+    fn wait(&mut self, long: f64) {
+        self.look(long, &|_| {});
+    }
+
+    fn status(&self, id: &str) -> Status {
+        let steps = self.procedure.state().steps;
+        steps.iter().find(|step| step.id == id).unwrap().status
+    }
+
+    fn line(&self, id: &str) -> VerdictLine {
+        let lines = self.procedure.verdict().lines;
+        lines.into_iter().find(|line| line.id == id).unwrap()
+    }
+
+    /// Why something failed, of all that was said.
+    fn whys(&self) -> Vec<Why> {
+        let whys = self.said.iter().filter_map(|it| match it {
+            Progress::StepFailed { why, .. } | Progress::RuleBroken { why, .. } => Some(why),
+            _ => None,
+        });
+        whys.cloned().collect()
+    }
+
+    fn hints(&self) -> usize {
+        let hint = |it: &&Progress| matches!(it, Progress::HintDue { .. });
+        self.said.iter().filter(hint).count()
+    }
+}
+
+/// So much from `a` into `b`, mL at mL/s, of that acid fraction.
+fn pour([t_s, until_s]: [f64; 2], ml: f64, ml_s: f64, acid: f64) -> Event {
+    Event::Poured(Pour {
+        t_s,
+        until_s,
+        from: "a".to_owned(),
+        into: Some("b".to_owned()),
+        volume_m3: ml * 1e-6,
+        fastest_m3_s: ml_s * 1e-6,
+        acid,
+        met: Some(Content::default()),
+    })
+}
+
+fn incident(t_s: f64, what: What) -> Event {
+    Event::Incident(Incident {
+        t_s,
+        until_s: t_s + 0.5,
+        what,
+        cause: Cause::Unknown,
+        place_m: [0.0; 3],
+    })
+}
+
+fn boiled_over(t_s: f64) -> Event {
+    incident(
+        t_s,
+        What::BoiledOver {
+            flask: "b".to_owned(),
+            volume_m3: 1e-6,
+            acid: 0.5,
+        },
+    )
+}
+
+fn spilt(t_s: f64, ml: f64) -> Event {
+    incident(
+        t_s,
+        What::Spilt {
+            surface: Surface::Bench,
+            volume_m3: ml * 1e-6,
+            acid: 0.5,
+        },
+    )
+}
+
+fn ended(t_s: f64) -> Event {
+    Event::Ended(Ending {
+        t_s,
+        contents: Default::default(),
+        hottest: None,
+        bench_m3: 0.0,
+        floor_m3: 0.0,
+    })
+}

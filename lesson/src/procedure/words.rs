@@ -1,0 +1,107 @@
+//! What is said of a lesson, in one language.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Deserialize;
+
+use super::error::{Problem, listed};
+use crate::language::Language;
+
+/// Longest title, a line of the panel, characters; Chinese ones are twice as wide, so they have half of each limit.
+const TITLE: usize = 60;
+/// Longest text of a step or a rule, and longest hint.
+const STEP: usize = 140;
+/// Longest summary.
+const SUMMARY: usize = 280;
+
+/// Texts of a lesson.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LessonTexts {
+    /// Its title: a line of the panel.
+    pub title: String,
+    /// What it is about, and what is to be done.
+    pub summary: String,
+    /// By step.
+    #[serde(default)]
+    pub step: BTreeMap<String, StepTexts>,
+    /// By rule: what is to be kept.
+    #[serde(default)]
+    pub rule: BTreeMap<String, String>,
+}
+
+/// Texts of a step.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StepTexts {
+    /// What to do.
+    pub text: String,
+    /// How, for who does not get on.
+    pub hint: String,
+}
+
+impl LessonTexts {
+    /// Whether there is one for each of these steps and rules and no other, and each fits the panel.
+    pub(super) fn check(
+        &self,
+        language: Language,
+        (steps, rules): (&[&str], &[&str]),
+    ) -> Result<(), Problem> {
+        let field = format!("texts.{language}");
+        same_keys(&format!("{field}.step"), self.step.keys(), steps)?;
+        same_keys(&format!("{field}.rule"), self.rule.keys(), rules)?;
+        let fits = |key: &str, text: &str, most: usize| {
+            let most = match language {
+                Language::Zh => most / 2,
+                _ => most,
+            };
+            line(&format!("{field}.{key}"), text, most)
+        };
+        fits("title", &self.title, TITLE)?;
+        fits("summary", &self.summary, SUMMARY)?;
+        for (id, step) in &self.step {
+            fits(&format!("step.{id}.text"), &step.text, STEP)?;
+            fits(&format!("step.{id}.hint"), &step.hint, STEP)?;
+        }
+        for (id, rule) in &self.rule {
+            fits(&format!("rule.{id}"), rule, STEP)?;
+        }
+        Ok(())
+    }
+}
+
+fn same_keys<'a>(
+    field: &str,
+    found: impl Iterator<Item = &'a String>,
+    needed: &[&str],
+) -> Result<(), Problem> {
+    let found: BTreeSet<&str> = found.map(String::as_str).collect();
+    if let Some(missing) = needed.iter().find(|id| !found.contains(*id)) {
+        let problem = "missing; give its texts, or take the language out";
+        return Err(Problem::new(format!("{field}.{missing}"), problem));
+    }
+    if let Some(other) = found.iter().find(|id| !needed.contains(id)) {
+        let problem = format!(
+            "the lesson has none of that id; it has {}",
+            listed(needed.iter().copied())
+        );
+        return Err(Problem::new(format!("{field}.{other}"), problem));
+    }
+    Ok(())
+}
+
+fn line(field: &str, text: &str, most: usize) -> Result<(), Problem> {
+    let length = text.chars().count();
+    let problem = if text.trim().is_empty() {
+        "empty; say something".to_owned()
+    } else if length > most {
+        format!("{length} characters, where the panel has room for {most}; say it shorter")
+    } else if text.chars().any(char::is_control) {
+        "has a line break or another control character; make one line of it".to_owned()
+    } else if text.contains(['{', '}']) {
+        "has a brace; a lesson's texts have no holes, so write what is meant".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(Problem::new(field, problem))
+}
