@@ -6,8 +6,8 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, HubArgs, KeepArgs, PagesArgs, PictureArgs,
-    ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, HubArgs, KeepArgs, LessonArgs, PagesArgs,
+    PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -51,6 +51,8 @@ pub enum Command {
     /// What measures.
     #[command(flatten)]
     Study(vitriol_study::cli::Command),
+    /// List the lessons, or check and show one
+    Lesson(LessonArgs),
     /// Delete all that is kept of a student
     Forget(ForgetArgs),
     /// Look for devices, driver and OpenXR runtime; name what is missing

@@ -1,6 +1,7 @@
 //! The binary from outside: exit codes, one message, pure JSON.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -253,6 +254,39 @@ fn built_in_tracks_are_listed() {
     let two_flasks = tracks.iter().find(|t| t["track"] == "two-flasks").unwrap();
     assert!(two_flasks["duration_s"].as_f64().unwrap() >= 8.0, "{list}");
     assert!(tracks.len() >= 3);
+}
+
+/// The lessons are listed, shown in each language and as a file to begin with; a spoiled one gets one message with file, field and what
+/// would be right.
+#[test]
+fn lessons_are_listed_shown_and_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let all = object(here, &["lesson"]);
+    let names: Vec<_> = all["lessons"].as_array().unwrap().iter().collect();
+    assert!(names.len() >= 3 && names.iter().any(|it| it["name"] == "dilute"));
+    let titles: BTreeSet<String> = ["en", "de", "es", "zh"]
+        .map(|language| {
+            let told = object(here, &["lesson", "dilute", "--language", language]);
+            assert_eq!(told["points"], 100);
+            told["title"].as_str().unwrap().to_owned()
+        })
+        .into();
+    assert_eq!(titles.len(), 4, "{titles:?}");
+
+    let own = vitriol(here, &["lesson", "dilute", "--toml"]);
+    let own = text(&own.stdout);
+    let file = here.join("own.toml");
+    fs::write(&file, own).unwrap();
+    assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);
+    fs::write(&file, own.replace("into = \"target\"", "into = \"vase\"")).unwrap();
+    let parts = &["own.toml", "step[1].condition.poured.into", "target"];
+    refuses(here, &["lesson", "own.toml"], 2, parts);
+    let stand_in = ["vr", "--no-console", "--stand-in", "two-flasks", "--lesson"];
+    refuses(here, &[&stand_in[..], &["own.toml"]].concat(), 2, parts);
+    let examined = [&stand_in[..], &["dilute", "--mode", "examination"]].concat();
+    refuses(here, &examined, 2, &["examination", "guided"]);
+    refuses(here, &["lesson", "nowhere"], 2, &["nowhere", "dilute"]);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 
 use vitriol_gpu::{QueueKind, Ticket};
-use vitriol_lesson::{Event, Finder, Limits, Seen};
+use vitriol_lesson::{Event, Finder, Limits, Seen, Sight};
 use vitriol_render::Bone;
 use vitriol_sim::bodies::{Break, Strike};
 use vitriol_sim::pose::Pose;
@@ -43,6 +43,8 @@ pub struct Looked {
     pub hands: [Vec<Bone>; 2],
     /// What is over with it.
     pub events: Vec<Event>,
+    /// What a lesson judges.
+    pub sight: Sight,
 }
 
 /// See the module.
@@ -149,7 +151,7 @@ impl Looks {
 
     fn seen(&mut self, of: UnderWay, census: Census) -> Looked {
         let elapsed = of.look.elapsed;
-        let events = self.finder.looked(&Seen {
+        let seen = Seen {
             t: of.t,
             elapsed,
             census: &census,
@@ -157,7 +159,9 @@ impl Looks {
             held: &of.held,
             strikes: &of.strikes,
             breaks: &of.breaks,
-        });
+        };
+        let events = self.finder.looked(&seen);
+        let sight = self.finder.sight(&seen);
         Looked {
             census,
             t: of.t,
@@ -165,6 +169,7 @@ impl Looks {
             poses: of.poses,
             hands: of.hands,
             events,
+            sight,
         }
     }
 }

@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 use vitriol_console::HubAddress;
 use vitriol_experiment::Colour;
 use vitriol_experiment::switches::pair;
+use vitriol_lesson::{Language, Mode};
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
 use vitriol_sim::scene::{PictureFilter, Preset};
@@ -237,6 +238,15 @@ pub struct VrArgs {
     /// A built-in scene's name (see `vitriol scenes`) or a TOML file
     #[arg(long, value_name = "SCENE", default_value = "acid-into-water")]
     pub scene: String,
+    /// Go through this lesson, in its scene: a built-in one's name (see `vitriol lesson`) or a TOML file
+    #[arg(long, value_name = "LESSON", conflicts_with = "scene")]
+    pub lesson: Option<String>,
+    /// How: guided, free or examination; without it as the lesson says
+    #[arg(long, value_name = "MODE", requires = "lesson")]
+    pub mode: Option<Mode>,
+    /// The lesson's language: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t, requires = "lesson")]
+    pub language: Language,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,
@@ -385,6 +395,20 @@ impl ConsoleArgs {
     pub fn is_given(&self) -> bool {
         self.listen.is_some() || self.hub.is_some() || self.name.is_some()
     }
+}
+
+/// Arguments of `vitriol lesson`.
+#[derive(Debug, Args)]
+pub struct LessonArgs {
+    /// A built-in lesson's name or a TOML file, which is checked and shown; without it all built-in ones are listed
+    #[arg(value_name = "LESSON")]
+    pub lesson: Option<String>,
+    /// Language of its texts: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
+    /// The file of a built-in lesson, to begin an own one with
+    #[arg(long, requires = "lesson")]
+    pub toml: bool,
 }
 
 /// Arguments of `vitriol hub`.

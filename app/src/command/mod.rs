@@ -5,6 +5,7 @@ pub mod export;
 pub mod forget;
 pub mod hub;
 mod keeping;
+mod lesson;
 pub mod pages;
 pub mod picture;
 mod plan;
@@ -41,6 +42,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Vr(args) => vr::run(args, format),
         Command::Hub(args) => hub::run(args, format),
         Command::Study(command) => vitriol_study::command::run(command, format),
+        Command::Lesson(args) => lesson::run(args, format),
         Command::Forget(args) => forget::run(args, format),
         Command::Doctor => doctor::run(format),
         Command::Pages(args) => pages::run(args, format),

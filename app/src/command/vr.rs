@@ -10,12 +10,14 @@ use vitriol_experiment::units::{grouped, three_digits};
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, Scenes, device, emit, track};
 use vitriol_gpu::{Gpu, PlainLoader, Timestamps};
 use vitriol_lesson::Attempt;
+use vitriol_lesson::procedure::Verdict;
 use vitriol_sound::Device;
 use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::keeping::{self, Kept, Sitting};
+use crate::command::lesson;
 use crate::command::recorded::whole;
 use crate::live::{Serving, WatchReport, Watchers};
 use crate::vr::blame::blame;
@@ -26,8 +28,8 @@ use crate::vr::mirror::Window;
 use crate::vr::panel::PANEL;
 use crate::vr::record::RecordingStatus;
 use crate::vr::session::{
-    Contacts, FramesWith, GovernorReport, Options, Session, SessionOutcome, SoundReport, Spilt,
-    WARM_UP,
+    Contacts, Course, FramesWith, GovernorReport, Options, Session, SessionOutcome, SoundReport,
+    Spilt, WARM_UP,
 };
 use crate::vr::stand_in::{Ready, StandIn, StandInSpec, Timing};
 use crate::vr::tally::{FramesReport, Holdings, Spread, WaitsReport};
@@ -97,6 +99,9 @@ struct SessionReport {
     flasks_broken: u32,
     /// What was done and what went wrong, from each start of a scene on.
     attempts: Vec<Attempt>,
+    /// What the lesson came to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lesson: Option<Verdict>,
     /// What was kept under a pseudonym.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<Kept>,
@@ -121,9 +126,14 @@ struct SessionReport {
 /// not there or a recording that is; [`Failure::Other`].
 pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     let mut scenes = Scenes::default();
+    let course = course(args)?;
+    let scene = course
+        .as_ref()
+        .map_or(&args.scene, |it| &it.lesson.scene)
+        .clone();
     let mut options = Options {
         plan: Plan {
-            scene: scenes.open(&args.scene)?,
+            scene: scenes.open(&scene)?,
             scenes,
             preset: args.preset,
             breakable: args.breakable,
@@ -139,6 +149,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         governed: !args.fixed,
         hints: !args.no_hints,
         console: None,
+        course,
     };
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
     let serving = match args.no_console {
@@ -223,6 +234,25 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     };
     emit(format, &report, describe)?;
     failure.map_or(Ok(()), Err)
+}
+
+/// The lesson that is asked for, which its scene has all for.
+fn course(args: &VrArgs) -> Result<Option<Course>, Failure> {
+    let Some(name) = &args.lesson else {
+        return Ok(None);
+    };
+    let lesson = lesson::open(name)?;
+    let mode = args.mode.unwrap_or(lesson.default_mode());
+    if !lesson.modes.contains(&mode) {
+        let modes: Vec<_> = lesson.modes.iter().map(|mode| mode.name()).collect();
+        let modes = modes.join(", ");
+        return Err(format!("--mode {mode}: {name} has {modes}")).input();
+    }
+    Ok(Some(Course {
+        lesson,
+        mode,
+        language: args.language,
+    }))
 }
 
 /// This sitting; with a recording that recording's, so that its replay keeps nothing twice.
@@ -356,6 +386,7 @@ fn state(
         acid_touched: outcome.contacts,
         flasks_broken: outcome.broken,
         attempts: outcome.attempts.clone(),
+        lesson: outcome.verdict.clone(),
         kept: None,
         watched: None,
         first_minute: outcome.first_minute,
@@ -506,6 +537,12 @@ fn describe(session: &SessionReport) -> String {
                 .as_ref()
                 .map_or_else(String::new, |cause| format!(": {cause}"))
         );
+    }
+    if let Some(verdict) = &session.lesson {
+        let Verdict {
+            lesson, points, of, ..
+        } = verdict;
+        let _ = writeln!(text, "lesson {lesson}: {points} of {of} points");
     }
     let _ = write!(text, "state {}", session.state_hash);
     text

@@ -41,6 +41,19 @@ pub struct Info {
     pub happened: Option<Happened>,
     /// What the instructor says.
     pub told: Told,
+    /// What is to be done in the lesson.
+    pub lesson: Option<Shown>,
+}
+
+/// What the panel shows of a lesson.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shown {
+    /// What is to be done, or what it came to.
+    pub step: String,
+    /// How, for who does not get on.
+    pub hint: Option<String>,
+    /// Why something failed a short time ago.
+    pub failed: Option<String>,
 }
 
 /// What the instructor says.

@@ -6,6 +6,7 @@ mod choices;
 mod counts;
 mod ended;
 mod frame;
+mod guide;
 mod hints;
 mod instructor;
 mod keeper;
@@ -30,6 +31,7 @@ use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
 use vitriol_experiment::{Blame, Failure, Looks};
 use vitriol_gpu::Timestamps;
 use vitriol_lesson::Attempt;
+use vitriol_lesson::procedure::Verdict;
 use vitriol_render::Bone;
 use vitriol_sound::Device;
 use vitriol_xr::{Headset, Pause, Switch, Turn};
@@ -54,6 +56,7 @@ use benches::Benches;
 use choices::Choices;
 use counts::Counts;
 use ended::NoFrameOpen;
+use guide::Guide;
 use hints::Hints;
 use instructor::Instructor;
 use keeper::Keeper;
@@ -67,6 +70,7 @@ use summary::Summary;
 use track::{Finished, SessionTrack};
 
 pub use counts::WARM_UP;
+pub use guide::Course;
 pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_RESOLUTION};
 pub use sounds::SoundReport;
 pub use spills::{Contacts, Spilt, Touched};
@@ -92,6 +96,8 @@ pub struct Options {
     pub hints: bool,
     /// The instructor's console, if there is one.
     pub console: Option<Console>,
+    /// The lesson that it goes through, if it does.
+    pub course: Option<Course>,
 }
 
 /// A session as it ends.
@@ -132,6 +138,8 @@ pub struct SessionOutcome {
     pub recorded: Option<RecordingStatus>,
     /// What was done and what went wrong, from each start of a scene on.
     pub attempts: Vec<Attempt>,
+    /// What the lesson came to, if there was one.
+    pub verdict: Option<Verdict>,
 }
 
 /// See the module. Each part keeps one thing and knows no other part but those that it is handed.
@@ -172,6 +180,8 @@ pub struct Session {
     gloves: [Vec<Bone>; 2],
     /// The panel.
     panel: Panel,
+    /// The lesson.
+    guide: Guide,
     /// Who directs it from elsewhere.
     instructor: Instructor,
     /// The window on the computer, if there is one.
@@ -242,6 +252,7 @@ impl Session {
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],
             panel,
+            guide: Guide::new(options.course, &options.plan.scene)?,
             instructor: Instructor::new(options.console)?,
             mirror: None,
             pacing,
@@ -379,7 +390,9 @@ impl Session {
     fn finish(mut self) -> Result<SessionOutcome, Failure> {
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
         self.take_looks(1e-9 * self.shown_at() as f64, true)?;
-        self.track.found(self.steps.looks.end());
+        let events = self.steps.looks.end();
+        self.guide.ended(&self.benches.current.plan.scene, &events);
+        self.track.found(events);
         self.benches.current.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
         self.tell(true);
@@ -409,6 +422,7 @@ impl Session {
             holdings: [self.counts.began_with, Holdings::now()],
             recorded,
             attempts: Attempt::all(events),
+            verdict: self.guide.verdict(),
         })
     }
 }

@@ -12,8 +12,34 @@ pub struct Texts {
     heard: Heard,
     /// What an instructor did.
     pub instructor: InstructorTexts,
+    /// Around a lesson's own texts.
+    pub lesson: LessonTexts,
     /// Around what is said of an attempt.
     pub summary: SummaryTexts,
+}
+
+/// Around a lesson's own texts.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LessonTexts {
+    step: String,
+    points: String,
+}
+
+impl LessonTexts {
+    /// A step, of how many, and what is to be done.
+    pub fn step(&self, number: usize, of: usize, text: &str) -> String {
+        let numbered = self.step.replace("{number}", &number.to_string());
+        numbered
+            .replace("{of}", &of.to_string())
+            .replace("{text}", text)
+    }
+
+    /// Points, of how many.
+    pub fn points(&self, points: u32, of: u32) -> String {
+        let text = self.points.replace("{points}", &points.to_string());
+        text.replace("{of}", &of.to_string())
+    }
 }
 
 /// What an instructor did.

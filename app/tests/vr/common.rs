@@ -233,6 +233,7 @@ pub fn options(folder: &Path) -> Options {
         // Most look at other things.
         hints: false,
         console: None,
+        course: None,
     }
 }
 

@@ -53,6 +53,7 @@ fn info() -> Info {
         ends: true,
         happened: None,
         told: Told::default(),
+        lesson: None,
     }
 }
 

@@ -1,8 +1,13 @@
 //! From a driven track through a session to its recording and that recording's replay.
 
-use crate::common::{Calm, Worn, apart, carried, hash, nobody, pour, session};
+use crate::common::{
+    Calm, Worn, apart, carried, hash, nobody, options, pour, session, session_with,
+};
 use vitriol::vr::clock::MOST_STEPS;
+use vitriol::vr::session::Course;
 use vitriol::vr::stand_in::EPOCH;
+use vitriol_lesson::procedure::{Verdict, Why};
+use vitriol_lesson::{Language, Lesson, Mode};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::pose::Pose;
@@ -44,6 +49,43 @@ fn replayed(gpu: &vitriol_gpu::Gpu, track: &Track) -> u64 {
     world.snapshot().unwrap().solver.hash()
 }
 
+/// Lift, pour, pour slowly, and put down.
+fn lesson() -> Lesson {
+    let step = |id: &str, after: &str, condition: &str| {
+        format!(
+            "[[step]]\nid = \"{id}\"\nafter = [{after}]\npoints = 10\n[step.condition.{condition}\n"
+        )
+    };
+    let of_source = "flask = \"source\"";
+    let poured = "poured]\nfrom = \"source\"\ninto = \"target\"\nat_least_ml = 60";
+    let steps = [
+        step("lift", "", &format!("lifted]\n{of_source}")),
+        step("pour", "\"lift\"", poured),
+        // No wrist pours at a millilitre a second.
+        step("slowly", "\"lift\"", &format!("{poured}\nat_most_ml_s = 1")),
+        step("put-down", "\"pour\"", &format!("put-down]\n{of_source}")),
+    ];
+    let said = ["lift", "pour", "slowly", "put-down"]
+        .map(|id| format!("step.{id}.text = \"Do {id}.\"\nstep.{id}.hint = \"How to {id}.\"\n"));
+    let head = "version = 1\nname = \"water\"\nscene = \"small.toml\"\nmodes = [\"free\"]\n";
+    let texts = "[texts.en]\ntitle = \"Water\"\nsummary = \"Pour water.\"\n";
+    let text = [head, &steps.concat(), texts, &said.concat()].concat();
+    Lesson::parse(&text, "water.toml").unwrap()
+}
+
+/// What the track does meets the lesson's steps, but for the one that it does too fast.
+fn meets_its_lesson(verdict: &Verdict) {
+    let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
+    assert_eq!(met, [true, true, false, true], "{verdict:#?}");
+    assert_eq!((verdict.points, verdict.of), (30, 40));
+    assert!(matches!(verdict.lines[2].why, Some(Why::TooFast { .. })));
+    // By the keyframes: it is gripped at 0.8 s, poured until 6.7 s and let go of at 9.4 s.
+    let at = |line: usize| verdict.lines[line].evidence_s.unwrap();
+    assert!((0.7..1.0).contains(&at(0)), "{}", at(0));
+    assert!((3.0..7.5).contains(&at(1)), "{}", at(1));
+    assert!((9.3..9.7).contains(&at(3)), "{}", at(3));
+}
+
 #[test]
 fn a_poured_flask_is_recorded_and_replays() {
     let gpu = gpu::device();
@@ -51,7 +93,14 @@ fn a_poured_flask_is_recorded_and_replays() {
     let keyframes = pour();
     // Three steps in each frame, the last ones of the track included.
     let mut headset = Worn::new(&gpu, keyframes.sample_track(), 30.0, 288, Calm);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let mut options = options(folder.path());
+    options.course = Some(Course {
+        lesson: lesson(),
+        mode: Mode::Free,
+        language: Language::En,
+    });
+    let (outcome, track) = session_with(&mut headset, options, nobody());
+    meets_its_lesson(outcome.verdict.as_ref().unwrap());
     assert_eq!(outcome.steps, 3 * 287);
     assert_eq!(outcome.slowed, 0.0);
 

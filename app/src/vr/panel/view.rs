@@ -1,16 +1,17 @@
 //! The panel's layout.
 
+use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::{
-    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontId, Frame, Label,
-    Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke, TextStyle, TopBottomPanel,
-    Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, CentralPanel, Color32, Context, CornerRadius, FontData, FontFamily,
+    FontId, Frame, Label, Layout, Margin, Painter, Pos2, Rect, RichText, Sense, Shape, Stroke,
+    TextStyle, TopBottomPanel, Ui, Vec2, pos2, vec2,
 };
 use std::f32::consts::TAU;
 use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
 use crate::vr::decision::Decision;
-use crate::vr::info::{Effort, FlaskLine, Happened, Info, Told, burns_text};
+use crate::vr::info::{Effort, FlaskLine, Happened, Info, burns_text};
 use crate::vr::menu::{self, CHOICES};
 
 /// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
@@ -33,8 +34,17 @@ const HOT: Color32 = Color32::from_rgb(235, 90, 40);
 /// Where a thermometer's column ends, °C.
 const RANGE: [f32; 2] = [0.0, 180.0];
 
-/// Sets sizes and colours of a context.
+/// Chinese characters, which egui's own fonts lack: see `app/fonts`.
+const HAN: &[u8] = include_bytes!("../../../fonts/han.ttf");
+
+/// Sets fonts, sizes and colours of a context.
 pub fn style(context: &Context) {
+    let behind = InsertFontFamily {
+        family: FontFamily::Proportional,
+        priority: FontPriority::Lowest,
+    };
+    let han = FontInsert::new("han", FontData::from_static(HAN), vec![behind]);
+    context.add_font(han);
     context.all_styles_mut(|style| {
         for text in [TextStyle::Body, TextStyle::Button] {
             style.text_styles.insert(text, FontId::proportional(TEXT));
@@ -64,7 +74,7 @@ pub struct Seen {
 /// Lays the panel out; `ring` is how far a button that is held has come, 0 to 1.
 pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<f32>) -> Seen {
     let mut seen = Seen::default();
-    told(context, &info.told);
+    told(context, info);
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         match &info.happened {
@@ -94,9 +104,17 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
     seen
 }
 
-/// What the instructor says, over all else.
-fn told(context: &Context, told: &Told) {
-    let lines: Vec<&String> = told.message.iter().chain(&told.done).collect();
+/// What the instructor says, and the lesson, over all else. A message takes the hint's place.
+fn told(context: &Context, info: &Info) {
+    let Info { told, lesson, .. } = info;
+    let mut lines: Vec<(&String, Color32)> = Vec::new();
+    if let Some(shown) = lesson {
+        lines.push((&shown.step, WHITE));
+        let hint = shown.hint.iter().filter(|_| told.message.is_none());
+        lines.extend(shown.failed.iter().chain(hint).map(|line| (line, WARNING)));
+    }
+    let said = told.message.iter().chain(&told.done);
+    lines.extend(said.map(|line| (line, WHITE)));
     if lines.is_empty() {
         return;
     }
@@ -104,8 +122,8 @@ fn told(context: &Context, told: &Told) {
     let frame = Frame::new().inner_margin(margin).fill(SAID);
     let strip = TopBottomPanel::top("told").frame(frame);
     strip.show_separator_line(false).show(context, |ui| {
-        for line in lines {
-            ui.label(RichText::new(line).color(WHITE));
+        for (line, colour) in lines {
+            ui.label(RichText::new(line).color(colour));
         }
     });
 }
@@ -308,6 +326,7 @@ mod tests {
     use crate::vr::panel::{PANEL, SIZE, WIDTH, scene_from_panel};
     use crate::vr::placement::{SCENE_TABLE, SEATED, STANDING};
     use glam::Vec3;
+    use vitriol_lesson::Language;
 
     /// Degrees that a line of text has to have, from its ascenders to its descenders.
     const LINE: f32 = 1.2;
@@ -343,6 +362,25 @@ mod tests {
         }
     }
 
+    /// Each character of each lesson has a picture of its own, in each language.
+    #[test]
+    fn every_text_of_a_lesson_can_be_shown() {
+        let context = Context::default();
+        style(&context);
+        let _ = context.run(egui::RawInput::default(), |_| {});
+        let font = FontId::proportional(TEXT);
+        for language in Language::ALL {
+            let name = format!("../lesson/texts/{language}.toml");
+            let table = std::fs::read_to_string(name).unwrap();
+            let missing: Vec<char> = context.fonts_mut(|fonts| {
+                let texts = table.lines().filter(|line| !line.starts_with('#'));
+                let all = texts.flat_map(str::chars).filter(|it| !it.is_whitespace());
+                all.filter(|it| !fonts.has_glyph(&font, *it)).collect()
+            });
+            assert!(missing.is_empty(), "{language}: {missing:?}");
+        }
+    }
+
     /// Relative luminance, as WCAG 2.1 defines it.
     fn luminance(colour: Color32) -> f32 {
         let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(|level| {
@@ -375,7 +413,7 @@ mod tests {
         ];
         pairs.extend(faces.map(|face| (WHITE, face.weak_bg_fill)));
         pairs.push((WHITE, visuals.selection.bg_fill));
-        pairs.push((WHITE, SAID));
+        pairs.extend([(WHITE, SAID), (WARNING, SAID)]);
         for (text, ground) in pairs {
             let [bright, dark] = [text, ground].map(luminance);
             let contrast = (bright + 0.05) / (dark + 0.05);

@@ -396,6 +396,7 @@ impl Session {
                 .take(&looked.census, scale, hands, self.shown_at());
             self.sounds.looked(world, &looked, &burnt, time);
             self.hints.looked(world, &looked.census, time);
+            self.guide.looked(&self.benches.current.plan.scene, &looked);
             self.track.found(looked.events);
         }
     }
@@ -437,6 +438,7 @@ impl Session {
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
             ends,
             happened,
+            lesson: self.guide.shown(&self.texts.lesson),
             told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
         }
     }

@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use vitriol_console::{Command, Controls, Frames, List, Port, State, Student, Text};
+use vitriol_console::{Command, Controls, Frames, List, Port, Said, State, Step, Student, Text};
 use vitriol_experiment::{Failure, Instruction};
 use vitriol_gpu::{Gpu, Image};
 use vitriol_lesson::{Event, Texts};
@@ -55,6 +55,9 @@ pub(super) struct Now<'a> {
     /// The display's period, s.
     pub period: Option<f64>,
     pub missed: u64,
+    /// The lesson's step and the hints that were given.
+    pub step: Option<Step>,
+    pub hints: List<Said, 16>,
     pub ended: bool,
 }
 
@@ -211,8 +214,8 @@ impl Instructor {
                 ended: now.ended,
                 ..self.controls.clone()
             },
-            step: None,
-            hints: List::default(),
+            step: now.step.clone(),
+            hints: now.hints.clone(),
             readings: readings(
                 scene,
                 &self.flasks,

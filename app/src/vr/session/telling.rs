@@ -1,5 +1,6 @@
 //! A session and its instructor: what she asks for is done, and she is told what goes on.
 
+use vitriol_console::List;
 use vitriol_experiment::{Failure, Instruction};
 use vitriol_xr::Shown;
 
@@ -79,6 +80,8 @@ impl Session {
             events: &self.track.events,
             period: period.map(|info| 1e-9 * info.period_ns as f64),
             missed: self.counts.skipped,
+            step: self.guide.step(),
+            hints: List::clipped(self.guide.hints()),
             ended,
         });
     }

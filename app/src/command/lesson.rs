@@ -1,0 +1,138 @@
+//! `vitriol lesson`: the lessons, and what one asks for.
+
+use std::path::Path;
+
+use serde::Serialize;
+use vitriol_experiment::{Blame, Failure, Format, Scenes, emit};
+use vitriol_lesson::{Language, Lesson, SceneFacts, Texts};
+
+use crate::cli::LessonArgs;
+
+/// What is printed of a lesson.
+#[derive(Debug, Serialize)]
+struct Told {
+    name: String,
+    scene: String,
+    title: String,
+    summary: String,
+    modes: Vec<&'static str>,
+    languages: Vec<&'static str>,
+    points: u32,
+    steps: Vec<Item>,
+    rules: Vec<Item>,
+}
+
+/// A step or a rule.
+#[derive(Debug, Serialize)]
+struct Item {
+    id: String,
+    points: u32,
+    text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hint: Option<String>,
+}
+
+/// All of them.
+#[derive(Debug, Serialize)]
+struct All {
+    lessons: Vec<Told>,
+}
+
+/// Runs `vitriol lesson`.
+///
+/// # Errors
+/// [`Failure::Input`] for a lesson that is not there, is spoiled, or asks for what its scene does not have.
+pub fn run(args: &LessonArgs, format: Format) -> Result<(), Failure> {
+    let texts = Texts::of(args.language).other()?;
+    let modes = |told: &Told, lesson: &Lesson| -> String {
+        let names = lesson.modes.iter().map(|mode| texts.mode(*mode));
+        format!("{}: {}", told.name, names.collect::<Vec<_>>().join(", "))
+    };
+    let Some(name) = &args.lesson else {
+        let names = Lesson::builtin_names().into_iter();
+        let lessons: Vec<Lesson> = names.map(open).collect::<Result<_, _>>()?;
+        let told = lessons.iter().map(|it| of(it, args.language)).collect();
+        return emit(format, &All { lessons: told }, |all| {
+            let lines = all.lessons.iter().zip(&lessons);
+            let lines =
+                lines.map(|(told, lesson)| format!("{}\n  {}\n", modes(told, lesson), told.title));
+            lines.collect()
+        });
+    };
+    if args.toml {
+        let text = Lesson::builtin_text(name);
+        let text = text.ok_or_else(|| format!("--toml: {name} is no built-in lesson"));
+        return emit(format, &text.input()?, |text| (*text).to_owned());
+    }
+    let lesson = open(name)?;
+    emit(format, &of(&lesson, args.language), |told| {
+        let mut text = format!(
+            "{}\n{}\n{}\nscene {}, {} points\n",
+            modes(told, &lesson),
+            told.title,
+            told.summary,
+            told.scene,
+            told.points
+        );
+        for (number, step) in (1..).zip(&told.steps) {
+            text += &format!("{number:>3}  {} ({})\n", step.text, step.points);
+            text += &step
+                .hint
+                .as_ref()
+                .map_or_else(String::new, |hint| format!("     {hint}\n"));
+        }
+        for rule in &told.rules {
+            text += &format!("  ·  {} ({})\n", rule.text, rule.points);
+        }
+        text
+    })
+}
+
+/// The lesson of that name or file, which its scene has all for.
+///
+/// # Errors
+/// [`Failure::Input`] with file, field and what would be right.
+pub fn open(name: &str) -> Result<Lesson, Failure> {
+    let is_builtin = Lesson::builtin_names().contains(&name);
+    let lesson = match is_builtin {
+        true => Lesson::builtin(name),
+        false => Lesson::open(Path::new(name)),
+    };
+    let lesson = lesson.input()?;
+    let mut scenes = Scenes::default();
+    let scene = scenes.open(&lesson.scene)?;
+    let facts = SceneFacts::of(&lesson.scene, &scenes.get(&scene)?);
+    lesson.check(&facts).input()?;
+    Ok(lesson)
+}
+
+fn of(lesson: &Lesson, language: Language) -> Told {
+    let texts = lesson.texts(language);
+    let steps = lesson.steps.iter().map(|step| {
+        let said = texts.step.get(&step.id);
+        Item {
+            id: step.id.clone(),
+            points: step.points,
+            text: said.map(|it| it.text.clone()).unwrap_or_default(),
+            hint: said.map(|it| it.hint.clone()),
+        }
+    });
+    let rules = lesson.rules.iter().map(|rule| Item {
+        id: rule.id.clone(),
+        points: rule.points,
+        text: texts.rule.get(&rule.id).cloned().unwrap_or_default(),
+        hint: None,
+    });
+    let (steps, rules): (Vec<_>, Vec<_>) = (steps.collect(), rules.collect());
+    Told {
+        name: lesson.name.clone(),
+        scene: lesson.scene.clone(),
+        title: texts.title.clone(),
+        summary: texts.summary.clone(),
+        modes: lesson.modes.iter().map(|mode| mode.name()).collect(),
+        languages: lesson.languages().into_iter().map(Language::code).collect(),
+        points: steps.iter().chain(&rules).map(|item| item.points).sum(),
+        steps,
+        rules,
+    }
+}
