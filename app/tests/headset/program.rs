@@ -150,19 +150,19 @@ impl Program {
         let line = line.unwrap_or_else(|error| panic!("the program says nothing: {error}"));
         let seen = Seen::of(&line);
         if seen.is_some() && self.seen.len().is_multiple_of(WINDOW) {
-            self.held.push(self.memory());
+            self.held.extend(self.memory());
         }
         self.seen.extend(seen);
         line
     }
 
-    /// What it holds of memory, bytes.
-    fn memory(&self) -> f64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
+    /// What it holds of memory, bytes; `None` once it has ended, of which the log tells later.
+    fn memory(&self) -> Option<f64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
         let mut lines = status.lines();
-        let line = lines.find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
-        let kilobytes: f64 = line.trim().trim_end_matches(" kB").parse().unwrap();
-        1024.0 * kilobytes
+        let line = lines.find_map(|line| line.strip_prefix("VmRSS:"))?;
+        let kilobytes: f64 = line.trim().trim_end_matches(" kB").parse().ok()?;
+        Some(1024.0 * kilobytes)
     }
 
     /// Waits for a line of the log that has `part`.

@@ -26,7 +26,7 @@ const RECORDING: Color32 = Color32::from_rgb(255, 132, 122);
 const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
 const COLD: Color32 = Color32::from_rgb(80, 150, 230);
 /// Ground of what the instructor says.
-const SAID: Color32 = Color32::from_rgb(64, 40, 96);
+const SAID: Color32 = Color32::from_rgb(54, 34, 84);
 /// Ground of the scene's button that is shown; egui's own is too bright for white text.
 const CHOSEN: Color32 = Color32::from_rgb(0, 72, 104);
 const HOT: Color32 = Color32::from_rgb(235, 90, 40);
