@@ -468,6 +468,18 @@ fn a_simulation_confirms_or_refutes() {
     }
     let again = [&more[..], &["--verify"]].concat();
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
+    // By another tolerance it is judged anew.
+    let strict = [&again[..], &["--tolerance", "0.5,1,0.1"]].concat();
+    let toy = |_: &Setup<'_>| -> Made {
+        Ok(Box::new(Toy {
+            events: events(2.2),
+            driver: "another",
+        }))
+    };
+    let (class, _) = graded(here, &strict, toy).unwrap();
+    assert_eq!(class.taken, 0);
+    let found = line(&class, "other-device");
+    assert_eq!(found.verified, Some(Verdict::Differs), "{}", found.note);
     // What was only read is not.
     fs::remove_dir_all(&out).unwrap();
     read(here, &more);

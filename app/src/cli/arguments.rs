@@ -14,6 +14,7 @@ use vitriol_record::lrs::Endpoint;
 use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_study::parse::{filter, named, positive, preset};
 
+use crate::command::grade::Tolerance;
 use crate::live::hub_address;
 use crate::vr::latch::Grip;
 use crate::vr::placement::Posture;
@@ -348,6 +349,10 @@ pub struct GradeArgs {
     /// Simulate each track again, and say whether what happens is what it says
     #[arg(long)]
     pub verify: bool,
+    /// How far what happens on another device may be from what a track says: a moment, a share of a volume, and a volume
+    /// beside that; without it 0.5,20,1
+    #[arg(long, value_name = "S,%,ML", requires = "verify")]
+    pub tolerance: Option<Tolerance>,
     /// Device for that: its number or a part of its name (see `vitriol doctor`)
     #[arg(long, requires = "verify")]
     pub device: Option<String>,

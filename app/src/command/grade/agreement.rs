@@ -1,6 +1,7 @@
 //! How what a simulation finds agrees with what a recording says.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -17,12 +18,39 @@ pub struct Tolerance {
     pub volume_m3: f64,
 }
 
-/// That of two devices.
-pub const TOLERANCE: Tolerance = Tolerance {
-    time_s: 0.5,
-    share: 0.2,
-    volume_m3: 1e-6,
-};
+impl Default for Tolerance {
+    /// What seeds of the particles' jitter make of the same hands, and some more: on two devices bits differ by as little at first.
+    fn default() -> Self {
+        Self {
+            time_s: 0.5,
+            share: 0.2,
+            volume_m3: 1e-6,
+        }
+    }
+}
+
+impl FromStr for Tolerance {
+    type Err = String;
+
+    /// Seconds, per cent and millilitres, such as `0.5,20,1`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|it| it.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[time_s, percent, millilitres])
+                if [time_s, percent, millilitres]
+                    .iter()
+                    .all(|it| it.is_finite() && *it >= 0.0) =>
+            {
+                Ok(Self {
+                    time_s,
+                    share: percent / 100.0,
+                    volume_m3: millilitres * 1e-6,
+                })
+            }
+            _ => Err("give seconds, per cent and millilitres, such as 0.5,20,1".into()),
+        }
+    }
+}
 
 /// How two findings of the same track agree.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -231,6 +259,23 @@ mod tests {
         assert!(agreement(none.clone(), some(0.9)).beyond.is_empty());
         assert_eq!(agreement(none, some(1.5)).beyond.len(), 1);
         assert_eq!(of(20.0, f64::NAN).beyond.len(), 1);
+    }
+
+    #[test]
+    fn a_tolerance_is_three_numbers() {
+        let default = Tolerance::default();
+        assert_eq!("0.5,20,1".parse(), Ok(default));
+        for wrong in [
+            "",
+            "0.5",
+            "0.5,20",
+            "0.5,20,1,1",
+            "-1,20,1",
+            "nan,20,1",
+            "a,b,c",
+        ] {
+            assert!(wrong.parse::<Tolerance>().is_err(), "{wrong}");
+        }
     }
 
     #[test]

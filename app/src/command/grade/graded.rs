@@ -8,6 +8,7 @@ use vitriol_experiment::output::write_over;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_lesson::{Attempt, Score};
 
+use super::agreement::Tolerance;
 use super::expected::Asked;
 use super::verify::Verified;
 
@@ -80,15 +81,24 @@ impl Graded {
         out.join(format!("{stem}.grade.json"))
     }
 
-    /// What an earlier call left of a track of this content, if it will do. What is no result, or one of something else, is none.
-    pub fn earlier(file: &Path, content: &str, asked: &Asked, verified: bool) -> Option<Self> {
+    /// What an earlier call left of a track of this content, if it will do: with `verified`, one that was verified by that tolerance. What is no result, or one of something else, is none.
+    pub fn earlier(
+        file: &Path,
+        content: &str,
+        asked: &Asked,
+        verified: Option<Tolerance>,
+    ) -> Option<Self> {
         let found: Self = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
         let same = found.layout == LAYOUT
             && found.program == PROGRAM
             && found.content == content
             && found.asked == *asked;
-        let enough =
-            !verified || found.verified.is_some() || matches!(found.found, Found::Otherwise(_));
+        let enough = match (verified, &found.found) {
+            (None, _) | (_, Found::Otherwise(_)) => true,
+            (Some(by), Found::Attempts(_)) => {
+                found.verified.as_ref().is_some_and(|it| it.tolerance == by)
+            }
+        };
         (same && enough).then_some(found)
     }
 

@@ -7,7 +7,7 @@ mod graded;
 mod table;
 mod verify;
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +25,7 @@ use crate::cli::GradeArgs;
 use crate::command::recorded::{recorded_events, whole};
 use crate::command::stem;
 
+pub use self::agreement::Tolerance;
 use self::expected::Expected;
 use self::graded::{Found, Graded, Scored};
 use self::table::Ended;
@@ -60,8 +61,8 @@ pub fn grade(
 ) -> Result<(Class, Option<Failure>), Failure> {
     let expected = Expected::new(&args.scene, args.preset)?;
     let tracks = tracks(&args.tracks)?;
-    let mut store = args.class.as_deref().map(Store::open_existing);
-    let store = store.take().transpose().input()?;
+    let store = args.class.as_deref().map(Store::open_existing);
+    let store = store.transpose().input()?;
     if let Some(out) = &args.out {
         if let Some(name) = same_name(&tracks) {
             return Err(format!(
@@ -158,9 +159,10 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         let content = session.id.to_string();
         let name = file.display().to_string();
         let result = args.out.as_ref().map(|out| Graded::file(out, &stem(&name)));
+        let verified = args.verify.then(|| args.tolerance.unwrap_or_default());
         let earlier = result
             .as_deref()
-            .and_then(|it| Graded::earlier(it, &content, asked, args.verify));
+            .and_then(|it| Graded::earlier(it, &content, asked, verified));
         if let Some(earlier) = earlier.filter(|it| args.accept_truncated || !it.truncated) {
             return Ok((session, earlier, true));
         }
@@ -247,10 +249,10 @@ fn tracks(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// A name that two of the tracks have. Some file systems do not tell capitals from small letters.
 fn same_name(tracks: &[PathBuf]) -> Option<String> {
-    let mut names = BTreeMap::new();
+    let mut names = BTreeSet::new();
     tracks.iter().find_map(|file| {
         let name = stem(&file.display().to_string());
-        let again = names.insert(name.to_lowercase(), ()).is_some();
+        let again = !names.insert(name.to_lowercase());
         again.then_some(name)
     })
 }

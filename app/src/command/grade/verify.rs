@@ -10,7 +10,7 @@ use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{Track, TrackSource};
 
-use super::agreement::{Agreement, TOLERANCE, Tolerance};
+use super::agreement::{Agreement, Tolerance};
 use crate::cli::GradeArgs;
 use crate::command::plan::{Ask, Plan};
 use crate::command::recorded::{differences, recorded_events};
@@ -104,14 +104,15 @@ impl Verified {
         let differs = differences(&metadata, scene, Some(&outcome.device), asked.as_slice());
         let to_the_bit = events == outcome.events;
         let found = Attempt::all(outcome.events);
+        let tolerance = args.tolerance.unwrap_or_default();
         let texts = Texts::english().other()?;
         let points = found.iter().map(|it| Score::of(it, rubric, &texts));
         Ok(Self {
             device: outcome.device,
             differs,
             to_the_bit,
-            agreement: Agreement::of(&Attempt::all(events), &found, TOLERANCE),
-            tolerance: TOLERANCE,
+            agreement: Agreement::of(&Attempt::all(events), &found, tolerance),
+            tolerance,
             points: points.map(|it| [it.points, it.of]).collect(),
         })
     }
