@@ -222,8 +222,8 @@ mod tests {
         assert_eq!(ordered(&[5..9, 3..3, 0..5], all.clone()), Ok(vec![0, 3, 5]));
         let missing = |from, to| Err(MergeError::Missing { from, to });
         assert_eq!(ordered(&[5..9, 0..2], all.clone()), missing(2, 5));
-        assert_eq!(ordered(&[1..9], all.clone()), missing(0, 1));
-        assert_eq!(ordered(&[0..5], all.clone()), missing(5, 9));
+        assert_eq!(ordered(&[1..1, 1..9], all.clone()), missing(0, 1));
+        assert_eq!(ordered(&[0..5, 5..5], all.clone()), missing(5, 9));
         assert_eq!(ordered(&[], all.clone()), missing(0, 9));
         let twice = ordered(&[0..5, 4..9], all);
         let path = "1.json".into();
