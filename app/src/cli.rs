@@ -6,8 +6,8 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, HubArgs, KeepArgs, LessonArgs, PagesArgs,
-    PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs, LessonArgs,
+    PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
@@ -36,6 +36,8 @@ pub struct Cli {
 pub enum Command {
     /// Replay a recorded pour and make its film and report
     Replay(ReplayArgs),
+    /// Grade a class's recordings: a table of students with points and incidents
+    Grade(GradeArgs),
     /// Write a run for other programs: particles, surfaces, measurements, recordings
     Export(ExportArgs),
     /// Replay a recorded pour up to a time and take one picture

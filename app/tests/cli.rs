@@ -108,6 +108,12 @@ fn help_names_every_subcommand_and_its_options() {
                 "--device",
             ],
         ),
+        (
+            "grade",
+            &[
+                "--scene", "--preset", "--jobs", "--out", "--verify", "--device", "--class",
+            ],
+        ),
         ("forget", &["--class"]),
         ("doctor", &[]),
     ] {

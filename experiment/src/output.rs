@@ -89,20 +89,24 @@ impl Staged {
         if path.symlink_metadata().is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
+        Ok(Self {
+            file: Self::temporary(path)?,
+            path: path.to_owned(),
+        })
+    }
+
+    /// An empty file of another name, beside `path`.
+    fn temporary(path: &Path) -> io::Result<NamedTempFile<File>> {
         let folder = match path.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        let file = tempfile::Builder::new()
+        tempfile::Builder::new()
             .prefix(".vitriol-")
             .suffix(".part")
             // Not tempfile's own way of opening, which lets nobody but the
             // owner read the file that it becomes.
-            .make_in(folder, |path| File::create_new(path))?;
-        Ok(Self {
-            file,
-            path: path.to_owned(),
-        })
+            .make_in(folder, |path| File::create_new(path))
     }
 
     /// A second handle to the file being written.
@@ -187,7 +191,22 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     Ok(write().map_err(|source| OutputError::write(path, source))?)
 }
 
-/// The same of an object, as JSON.
+/// Writes a file whole, in place of one of an earlier call or as a new one: a reader finds the one or the other.
+///
+/// # Errors
+/// [`Failure::Other`] where the system refuses.
+pub fn write_over(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let write = || {
+        let file = Staged::temporary(path)?;
+        file.as_file().write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        Ok(())
+    };
+    Ok(write().map_err(|source| OutputError::write(path, source))?)
+}
+
+/// The same as [`write_new`] of an object, as JSON.
 ///
 /// # Errors
 /// As for [`write_new`].

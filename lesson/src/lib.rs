@@ -29,6 +29,6 @@ pub use limits::Limits;
 pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};
 pub use rubric::{Ramp, Rubric, RubricError};
 pub use score::{Criterion, Evidence, LeftOut, Score, ScoreLine};
-pub use table::{TableError, incidents_csv};
+pub use table::{TableError, incidents_csv, spreadsheet_text};
 pub use texts::{Texts, TextsError};
 pub use words::{Sentence, Tone, sentences};

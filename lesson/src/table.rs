@@ -66,13 +66,15 @@ fn row(number: u32, attempt: &Attempt, incident: &Incident) -> [String; HEADER.l
     };
     [
         number.to_string(),
-        name(&attempt.scene),
+        spreadsheet_text(&attempt.scene),
         rounded(incident.t_s),
         rounded(incident.until_s),
         cells.kind.to_owned(),
         cause_name(&incident.cause).to_owned(),
-        cause.map_or_else(String::new, |it| name(it)),
-        cells.flask.map_or_else(String::new, |it| name(it)),
+        cause.map_or_else(String::new, |it| spreadsheet_text(it)),
+        cells
+            .flask
+            .map_or_else(String::new, |it| spreadsheet_text(it)),
         cells.place.to_owned(),
         number_of(cells.volume_m3, 1e6),
         number_of(cells.acid, 100.0),
@@ -93,12 +95,30 @@ fn rounded(value: f64) -> String {
     ((value * 1e6).round() / 1e6).to_string()
 }
 
-/// A name from a scene's file. A spreadsheet takes a cell that begins so for a formula and runs it; behind an apostrophe it is text.
+/// A cell of a text that others chose, such as a name from a scene's file. A spreadsheet takes a cell that begins so for a formula and runs it; behind an apostrophe it is text.
 /// (OWASP, "CSV Injection".)
-fn name(name: &str) -> String {
+pub fn spreadsheet_text(name: &str) -> String {
     let formula = name.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
     let sign = if formula { "'" } else { "" };
     format!("{sign}{name}")
+}
+
+impl What {
+    /// Kinds, as [`What::kind`] names them.
+    pub const KINDS: [&str; 7] = [
+        "water-into-acid",
+        "poured-too-fast",
+        "boiled-over",
+        "hot",
+        "spilt",
+        "on-skin",
+        "dropped",
+    ];
+
+    /// Its kind, as in a recording's `/events`.
+    pub fn kind(&self) -> &'static str {
+        Cells::of(self).kind
+    }
 }
 
 /// What a row has of an incident.

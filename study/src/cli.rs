@@ -1,12 +1,13 @@
 //! The subcommands that measure, and their arguments.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_sim::scene::{PictureFilter, Preset};
 
-use crate::parse::{filter, positive, preset};
+use crate::parse::{cases, filter, positive, preset};
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -175,7 +176,8 @@ pub struct CalorimeterArgs {
 }
 
 /// Parts of `vitriol trade`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum TradePart {
     /// Settings of the solver in a vessel of water
     Solver,
@@ -199,6 +201,12 @@ pub struct TradeArgs {
     /// Seconds after which no further setting is begun
     #[arg(long, value_name = "S", value_parser = positive)]
     pub within: Option<f64>,
+    /// These of the cases that there are: settings, mixes and runs of seeds, in the report's order; without it all of them
+    #[arg(long, value_name = "A..B", value_parser = cases)]
+    pub cases: Option<Range<usize>>,
+    /// Run nothing, and make one report of those of ranges of cases: their trade.json
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["quick", "part", "within", "cases", "device"])]
+    pub merge: Vec<PathBuf>,
     /// Folder for trade.json and trade.html; without it none are made
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -210,9 +218,12 @@ pub struct TradeArgs {
 /// Arguments of `vitriol extremes`.
 #[derive(Debug, Args)]
 pub struct ExtremesArgs {
-    /// Cases: those that were thought of first, then random ones
-    #[arg(long, default_value_t = 2000)]
-    pub cases: usize,
+    /// So many cases, those that were thought of first, then random ones; or a range of them, such as 100..200
+    #[arg(long, value_name = "N|A..B", default_value = "2000", value_parser = cases)]
+    pub cases: Range<usize>,
+    /// Run nothing, and make one report of those of ranges of cases: their extremes.json
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["cases", "seed", "only", "jobs", "device"])]
+    pub merge: Vec<PathBuf>,
     /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

@@ -8,6 +8,7 @@ pub mod command;
 pub mod extremes;
 pub mod fidelity;
 mod liquid;
+pub mod merge;
 pub mod parse;
-mod several;
+pub mod several;
 pub mod trade;

@@ -19,4 +19,6 @@ pub mod readers;
 mod rig;
 #[cfg(target_os = "linux")]
 pub mod screen;
+#[cfg(target_os = "linux")]
+pub mod slurm;
 pub mod wait;

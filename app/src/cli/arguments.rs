@@ -15,6 +15,7 @@ use vitriol_record::lrs::Endpoint;
 use vitriol_sim::scene::{PictureFilter, Preset};
 use vitriol_study::parse::{filter, named, positive, preset};
 
+use crate::command::grade::Tolerance;
 use crate::live::hub_address;
 use crate::vr::latch::Grip;
 use crate::vr::placement::Posture;
@@ -345,6 +346,44 @@ pub struct ScenesArgs {
     /// With --cost: device to use, its number or a part of its name
     #[arg(long, requires = "cost")]
     pub device: Option<String>,
+}
+
+/// Arguments of `vitriol grade`.
+#[derive(Debug, Args)]
+pub struct GradeArgs {
+    /// Recordings (MCAP), or folders of them; one that cannot be graded stops no other
+    #[arg(required = true, value_name = "DIR|TRACK")]
+    pub tracks: Vec<PathBuf>,
+    /// The scene that they are graded by: a built-in one's name (see `vitriol scenes`) or a TOML file. A track that was
+    /// made with another is listed as such
+    #[arg(long, value_name = "SCENE")]
+    pub scene: String,
+    /// Likewise the preset; without it any will do
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// Tracks at a time; without it as many as there are cores, and one with --verify
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Folder for a result of each track and the table grades.csv, which is written anew each time; results that are there
+    /// and of the same track, scene and preset are taken as they are
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Simulate each track again, and say whether what happens is what it says
+    #[arg(long)]
+    pub verify: bool,
+    /// How far what happens on another device may be from what a track says: a moment, a share of a volume, and a volume
+    /// beside that; without it 0.5,20,1
+    #[arg(long, value_name = "S,%,ML", requires = "verify")]
+    pub tolerance: Option<Tolerance>,
+    /// Device for that: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long, requires = "verify")]
+    pub device: Option<String>,
+    /// The class's file, which tells whose tracks they are; without it their files' names stand for students
+    #[arg(long, value_name = "FILE")]
+    pub class: Option<PathBuf>,
+    /// Grade what is whole of a track that breaks off or lacks steps
+    #[arg(long)]
+    pub accept_truncated: bool,
 }
 
 /// Arguments of `vitriol forget`.

@@ -3,6 +3,7 @@
 pub mod doctor;
 pub mod export;
 pub mod forget;
+pub mod grade;
 pub mod hub;
 mod keeping;
 mod lesson;
@@ -28,13 +29,14 @@ use crate::cli::{Cli, Command};
 pub fn run(cli: &Cli) -> Result<(), Failure> {
     if matches!(
         cli.command,
-        Command::Replay(_) | Command::Export(_) | Command::Picture(_)
+        Command::Replay(_) | Command::Grade(_) | Command::Export(_) | Command::Picture(_)
     ) {
         stop_when_asked();
     }
     let format = if cli.json { Format::Json } else { Format::Text };
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, prepare),
+        Command::Grade(args) => grade::run(args, format, prepare),
         Command::Export(args) => export::run(args, format),
         Command::Picture(args) => picture::run(args, format, prepare),
         Command::Track(args) => track::run(args, format),

@@ -103,7 +103,14 @@ impl Plan {
     /// # Errors
     /// [`Failure::Input`] for bad track, scene or option, [`Failure::NoDevice`], [`Failure::Other`].
     pub fn new(ask: &Ask<'_>) -> Result<Self, Failure> {
-        let track = track::load(ask.track)?;
+        Self::of(ask, track::load(ask.track)?)
+    }
+
+    /// The same of a track that is loaded.
+    ///
+    /// # Errors
+    /// As for [`Plan::new`].
+    pub fn of(ask: &Ask<'_>, track: Track) -> Result<Self, Failure> {
         let mut track = whole(ask.track, track, ask.accept_truncated)?;
         let mut scenes = Scenes::default();
         let name = scene_of(&mut scenes, ask.track, ask.scene, &track)?;

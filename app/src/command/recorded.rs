@@ -4,6 +4,7 @@ use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
 use vitriol_experiment::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
 use vitriol_experiment::units::three_digits;
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
+use vitriol_lesson::Event;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Hole, Track, TrackMetadata};
@@ -117,6 +118,14 @@ pub fn differences(
 fn has_recorded_text(metadata: &TrackMetadata, name: &str, scenes: &Scenes) -> bool {
     let recorded = metadata.scenes.get(name);
     recorded.is_none_or(|recorded| scenes.text(name) == Some(recorded))
+}
+
+/// What was found in the session; what is no event of this version is left out.
+pub fn recorded_events(track: &Track) -> Vec<Event> {
+    let events = track.events.iter();
+    events
+        .filter_map(|(_, json)| serde_json::from_str(json).ok())
+        .collect()
 }
 
 /// The preset that was asked for, or else the one that the track was recorded

@@ -27,7 +27,7 @@ use vitriol_xr::track::{Track, TrackMetadata, TrackSource};
 use crate::cli::ReplayArgs;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::plan::{Ask, Plan};
-use crate::command::recorded::{differences, head, is_recording};
+use crate::command::recorded::{differences, head, is_recording, recorded_events};
 use crate::command::stem;
 use crate::live::{Console, Live, Serving};
 use crate::report::{RecordingStatement, Report};
@@ -259,14 +259,6 @@ fn sitting(name: &str, track: &Track) -> Session {
     let begun = written.and_then(|at| at.checked_sub(Duration::from_secs_f64(track.duration())));
     let begun = begun.and_then(|at| Timestamp::try_from(at).ok());
     Session::of_recording(&content, begun.unwrap_or_else(Timestamp::now))
-}
-
-/// What was found in the session; what is no event of this version is left out.
-fn recorded_events(track: &Track) -> Vec<Event> {
-    let events = track.events.iter();
-    events
-        .filter_map(|(_, json)| serde_json::from_str(json).ok())
-        .collect()
 }
 
 /// What the options ask for of a track.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use jiff::Timestamp;
-use rusqlite::{Connection, Row};
+use rusqlite::{Connection, OptionalExtension, Row};
 use uuid::Uuid;
 use vitriol_lesson::Attempt;
 
@@ -60,6 +60,21 @@ impl Store {
     /// [`StoreError`], also where there is none.
     pub fn attempt(&self, id: Uuid) -> Result<Entry, StoreError> {
         entry(&self.connection, &self.path, id)
+    }
+
+    /// Whose attempt that is; `None` where none of that identifier is kept.
+    ///
+    /// # Errors
+    /// [`StoreError`].
+    pub fn pseudonym_of(&self, id: Uuid) -> Result<Option<Pseudonym>, StoreError> {
+        let query = "SELECT pseudonym FROM attempts WHERE attempt_id = ?1";
+        let name = self
+            .connection
+            .query_row(query, [id.to_string()], |row| row.get::<_, String>(0))
+            .optional()
+            .of(&self.path)?;
+        name.map(|name| self.parsed(&name, "a pseudonym"))
+            .transpose()
     }
 
     /// What each student has done, by pseudonym.

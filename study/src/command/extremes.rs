@@ -6,7 +6,8 @@ use vitriol_experiment::{Blame, Failure, Format, device, emit, output};
 use vitriol_shaders::Library;
 
 use crate::cli::ExtremesArgs;
-use crate::extremes::{Finding, Verdict, cases, describe, judge, summary};
+use crate::extremes::{Extremes, Finding, Verdict, cases, describe, judge, merge, summary};
+use crate::merge::read;
 use crate::several::at_a_time;
 
 /// The numbers' name in the folder.
@@ -16,13 +17,21 @@ const NUMBERS: &str = "extremes.json";
 ///
 /// # Errors
 /// [`Failure::NoDevice`]; [`Failure::Input`] where the file exists already or there
-/// is no such case; [`Failure::Other`] where device or folder fails, or a case does.
+/// is no such case, or parts do not belong together; [`Failure::Other`] where device or folder fails, or a case does.
 pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
+    let file = output::new_files(args.out.as_deref(), [NUMBERS])?;
+    if !args.merge.is_empty() {
+        let all = merge(read(&args.merge)?).input()?;
+        if let Some([path]) = file {
+            output::write_json(&path, &all)?;
+        }
+        emit(format, &all, describe)?;
+        return whether_all_passed(&all);
+    }
     let wanted = match args.only {
         Some(only) => cases(only + 1, args.seed).split_off(only),
-        None => cases(args.cases, args.seed),
+        None => cases(args.cases.end, args.seed).split_off(args.cases.start),
     };
-    let file = output::new_files(args.out.as_deref(), [NUMBERS])?;
     let gpu = device::open(args.device.as_deref())?;
     let begin = Instant::now();
     let library = Library::embedded();
@@ -47,6 +56,10 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
         (Some(_), [finding]) => emit(format, finding, describe_one)?,
         _ => emit(format, &all, describe)?,
     }
+    whether_all_passed(&all)
+}
+
+fn whether_all_passed(all: &Extremes) -> Result<(), Failure> {
     if all.failed > 0 {
         return Err(format!("{} of {} cases failed", all.failed, all.cases)).other();
     }

@@ -10,12 +10,13 @@ use vitriol_xr::track::Track;
 use super::calorimeter::resolution;
 use crate::calorimeter::{self, Feed};
 use crate::cli::{TradeArgs, TradePart};
+use crate::merge::read;
 use crate::several::at_a_time;
 use crate::trade::constants::{CONSTANTS, Change};
 use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
-    Errors, Point, Seeds, Setting, Trade, boil, convergence, describe, finest, page, rest, sweep,
-    tip, vouch,
+    Errors, Point, Seeds, Setting, Tipped, Trade, boil, convergence, describe, finest, merge, page,
+    rest, sweep, tip, vouch,
 };
 
 /// The files' names in the folder.
@@ -60,9 +61,22 @@ const MIXES: [([f64; 2], f64); 6] = [
 ///
 /// # Errors
 /// [`Failure::NoDevice`]; [`Failure::Input`] where a file of that name exists
-/// already; [`Failure::Other`] where device or folder fails.
+/// already, or parts do not belong together; [`Failure::Other`] where device or folder fails.
 pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
     let files = output::new_files(args.out.as_deref(), [NUMBERS, PAGE])?;
+    let found = if args.merge.is_empty() {
+        find(args)?
+    } else {
+        merge(read(&args.merge)?).input()?
+    };
+    if let Some([numbers, html]) = files {
+        output::write_new(&html, page(&found).as_bytes())?;
+        output::write_json(&numbers, &found)?;
+    }
+    emit(format, &found, describe)
+}
+
+fn find(args: &TradeArgs) -> Result<Trade, Failure> {
     let gpu = device::open(args.device.as_deref())?;
     let mut work = Work {
         gpu: &gpu,
@@ -71,6 +85,7 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         found: Trade {
             device: device::statement(&gpu),
             quick: args.quick,
+            part: args.part,
             ..Trade::default()
         },
     };
@@ -88,12 +103,12 @@ pub fn run(args: &TradeArgs, format: Format) -> Result<(), Failure> {
         work.solver()?;
     }
     let mut found = work.found;
+    found.cases = match &args.cases {
+        None => [0, found.of],
+        Some(range) => [range.start, range.end].map(|number| number.min(found.of)),
+    };
     found.seconds = work.begin.elapsed().as_secs_f64();
-    if let Some([numbers, html]) = files {
-        output::write_new(&html, page(&found).as_bytes())?;
-        output::write_json(&numbers, &found)?;
-    }
-    emit(format, &found, describe)
+    Ok(found)
 }
 
 struct Work<'a> {
@@ -109,16 +124,36 @@ impl Work<'_> {
         self.args.within.is_some_and(|within| spent > within)
     }
 
+    /// Counts a case; whether it is one of those that are asked for.
+    fn takes_next(&mut self) -> bool {
+        let number = self.found.of;
+        self.found.of += 1;
+        let cases = self.args.cases.as_ref();
+        cases.is_none_or(|cases| cases.contains(&number))
+    }
+
+    /// The finest setting's pour, with which others are compared: run before the first of them.
+    fn finest(&mut self, scene: &Scene) -> Result<Tipped, Failure> {
+        if let Some((_, poured)) = self.found.finest {
+            return Ok(poured);
+        }
+        // The device's clocks rise with the first work that it gets.
+        rest(self.gpu, scene, &Setting::of(scene, Preset::Fast), 0.5)?;
+        let particles = if self.args.quick { 6e3 } else { 110e3 };
+        let truth = finest(scene, particles);
+        let poured = tip(self.gpu, scene, &truth)?;
+        self.found.finest = Some((truth, poured));
+        Ok(poured)
+    }
+
     fn solver(&mut self) -> Result<(), Failure> {
         let scene = Scene::builtin(SCENE).other()?;
         let seconds = if self.args.quick { 0.6 } else { 1.5 };
-        // The device's clocks rise with the first work that it gets.
-        rest(self.gpu, &scene, &Setting::of(&scene, Preset::Fast), 0.5)?;
-        let particles = if self.args.quick { 6e3 } else { 110e3 };
-        let truth = finest(&scene, particles);
-        let poured = tip(self.gpu, &scene, &truth)?;
-        self.found.finest = Some((truth, poured));
         for (preset, knob, setting) in sweep(&scene, self.args.quick) {
+            if !self.takes_next() {
+                continue;
+            }
+            let poured = self.finest(&scene)?;
             if self.late() {
                 self.found.skipped += 1;
                 continue;
@@ -126,7 +161,7 @@ impl Work<'_> {
             let rested = rest(self.gpu, &scene, &setting, seconds)?;
             let tipped = tip(self.gpu, &scene, &setting)?;
             self.found.points.push(Point {
-                preset: preset.name(),
+                preset: preset.name().into(),
                 knob,
                 setting,
                 stiffness: setting.stiffness(scene.scale.gravity, DEPTH),
@@ -154,6 +189,9 @@ impl Work<'_> {
         let mixes = if quick { 2..3 } else { 0..6 };
         for &preset in &Preset::ALL[presets] {
             for &mix in &MIXES[mixes.clone()] {
+                if !self.takes_next() {
+                    continue;
+                }
                 let found = calorimetry(self.gpu, preset, mix)?;
                 self.found.calorimetry.push(found);
             }
@@ -203,6 +241,9 @@ impl Work<'_> {
                 times.filter_map(move |times| Some((Some(*constant), value?, times)))
             });
             for (constant, value, times) in std::iter::once((None, 1.0, 1.0)).chain(changed) {
+                if !self.takes_next() {
+                    continue;
+                }
                 if self.late() {
                     self.found.skipped += 1;
                     continue;
@@ -229,6 +270,9 @@ impl Work<'_> {
         track: &Track,
         (count, seconds): (u64, f64),
     ) -> Result<(), Failure> {
+        if !self.takes_next() {
+            return Ok(());
+        }
         if self.late() {
             self.found.skipped += 1;
             return Ok(());
@@ -250,14 +294,18 @@ impl Work<'_> {
 
     fn truth(&mut self) -> Result<(), Failure> {
         let scene = Scene::builtin(SCENE).other()?;
-        self.found.orders = convergence(self.gpu, self.args.quick)?;
+        if self.takes_next() {
+            self.found.orders = convergence(self.gpu, self.args.quick)?;
+        }
         let (count, seconds) = if self.args.quick {
             (300, 0.1)
         } else {
             (3000, 0.3)
         };
-        let vouched = vouch(self.gpu, &scene, &finest(&scene, 28e3), count, seconds)?;
-        self.found.vouched = Some(vouched);
+        if self.takes_next() {
+            let vouched = vouch(self.gpu, &scene, &finest(&scene, 28e3), count, seconds)?;
+            self.found.vouched = Some(vouched);
+        }
         self.effects(&scene)
     }
 
@@ -281,11 +329,14 @@ impl Work<'_> {
             (Preset::Balanced, 1.5)
         };
         for (name, change) in &all[..if self.args.quick { 2 } else { 4 }] {
+            if !self.takes_next() {
+                continue;
+            }
             let mut scene = scene.clone();
             change(&mut scene.solver);
             let setting = Setting::of(&scene, preset);
             self.found.effects.push(Effect {
-                name,
+                name: (*name).into(),
                 rest: rest(self.gpu, &scene, &setting, seconds)?,
                 pour: tip(self.gpu, &scene, &setting)?,
             });
@@ -319,7 +370,7 @@ fn calorimetry(
     let feeds = [feed(millilitres[0], 0.0), feed(millilitres[1], 0.98)];
     let mixed = calorimeter::mix(gpu, feeds, resolution(preset), 1)?;
     Ok(Calorimetry {
-        preset: preset.name(),
+        preset: preset.name().into(),
         millilitres,
         temperature: [mixed.end.temperature_mean, table],
         drifts: mixed.drifts,

@@ -1,6 +1,6 @@
 //! Whether a case passed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
@@ -11,40 +11,46 @@ use super::case::Case;
 use super::drive::{ENERGY, Run, drive};
 use super::motion::Motion;
 use super::recipe::{Base, Crowd, Recipe};
+use crate::merge::{Name, number, numbers};
 
 /// What a case came to.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// The case's number.
     pub case: usize,
     /// What was extreme in it.
     pub label: String,
     /// Kinds of what was extreme.
-    pub kinds: Vec<&'static str>,
+    pub kinds: Vec<Name>,
     /// How it ended.
     #[serde(flatten)]
     pub verdict: Verdict,
     /// Limiters that acted, with how often.
-    pub limiters: BTreeMap<&'static str, u32>,
+    pub limiters: BTreeMap<Name, u32>,
     /// Particles.
     pub particles: usize,
     /// Steps.
     pub steps: u64,
     /// Largest speed over v_max.
+    #[serde(deserialize_with = "number")]
     pub speed_over_max: f64,
     /// Energy beyond what was there or declared, over what was turned over.
+    #[serde(deserialize_with = "number")]
     pub energy_excess: f64,
     /// Energy that the filling set free as it settled, likewise.
+    #[serde(deserialize_with = "number")]
     pub settling: f64,
     /// Largest relative changes of acid, mass and enthalpy.
+    #[serde(deserialize_with = "numbers")]
     pub drifts: [f64; 3],
     /// Root mean square of the speeds in the flask over the last quarter of a second,
     /// m/s.
+    #[serde(deserialize_with = "number")]
     pub end_speed: f64,
 }
 
 /// How a case ended.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 pub enum Verdict {
     /// All criteria hold.
@@ -70,7 +76,7 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
     let finding = |verdict, run: Option<&Run>| Finding {
         case: case.number,
         label: case.label(),
-        kinds: case.extremes.iter().map(|extreme| extreme.kind()).collect(),
+        kinds: case.extremes.iter().map(|it| it.kind().into()).collect(),
         verdict,
         limiters: run.map(limiters).unwrap_or_default(),
         particles: run.map_or(0, |run| run.particles),
@@ -207,7 +213,7 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
 }
 
 /// Limiters that acted in a run.
-fn limiters(run: &Run) -> BTreeMap<&'static str, u32> {
+fn limiters(run: &Run) -> BTreeMap<Name, u32> {
     let c = &run.counters;
     [
         ("neighbour list full", c.list_overflows),
@@ -226,6 +232,7 @@ fn limiters(run: &Run) -> BTreeMap<&'static str, u32> {
     ]
     .into_iter()
     .filter(|&(_, times)| times > 0)
+    .map(|(name, times)| (name.into(), times))
     .collect()
 }
 

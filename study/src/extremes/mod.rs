@@ -16,4 +16,4 @@ mod surface;
 
 pub use case::{Case, cases};
 pub use judge::{Finding, Verdict, judge};
-pub use report::{Extremes, describe, summary};
+pub use report::{Extremes, describe, merge, summary};

@@ -2,19 +2,23 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::PathBuf;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::DeviceStatement;
 
 use super::judge::{Finding, Verdict};
+use crate::merge::{MergeError, alike, devices, in_order, largest, numbers};
 
 /// What `vitriol extremes` prints and writes.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// The device.
     pub device: DeviceStatement,
     /// The seed of the random cases.
     pub seed: u64,
+    /// Number of the first case.
+    pub first: usize,
     /// Cases.
     pub cases: usize,
     /// Of these, those in which all criteria hold.
@@ -38,7 +42,7 @@ pub struct Extremes {
 }
 
 /// How often a limiter acted.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Acted {
     /// Cases in which it did.
     pub cases: usize,
@@ -47,7 +51,7 @@ pub struct Acted {
 }
 
 /// Cases with one kind of extreme, alone or in a pair.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Kind {
     /// All of them.
     pub cases: usize,
@@ -62,15 +66,19 @@ pub struct Kind {
 }
 
 /// Worst figures.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     /// Speed over v_max.
+    #[serde(deserialize_with = "largest")]
     pub speed_over_max: f64,
     /// Energy beyond what was declared, over what was turned over.
+    #[serde(deserialize_with = "largest")]
     pub energy_excess: f64,
     /// Energy that a filling set free as it settled, likewise.
+    #[serde(deserialize_with = "largest")]
     pub settling: f64,
     /// Relative changes of acid, mass, enthalpy.
+    #[serde(deserialize_with = "numbers")]
     pub drifts: [f64; 3],
 }
 
@@ -79,13 +87,14 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
     let mut all = Extremes {
         device,
         seed,
+        first: found.first().map_or(0, |finding| finding.case),
         cases: found.len(),
         seconds,
         ..Extremes::default()
     };
     for finding in found {
         for name in &finding.kinds {
-            let kind = all.kinds.entry((*name).to_owned()).or_default();
+            let kind = all.kinds.entry(name.to_string()).or_default();
             kind.cases += 1;
             match &finding.verdict {
                 Verdict::Passed => {
@@ -108,7 +117,7 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
             }
         }
         for (name, &times) in &finding.limiters {
-            let acted = all.limiters.entry((*name).to_owned()).or_default();
+            let acted = all.limiters.entry(name.to_string()).or_default();
             acted.cases += 1;
             acted.times += u64::from(times);
         }
@@ -121,6 +130,57 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
         }
     }
     all
+}
+
+/// The one report of parts.
+///
+/// # Errors
+/// [`MergeError`] where they are of several seeds, or cases are missing or in two of them.
+pub fn merge(mut parts: Vec<(PathBuf, Extremes)>) -> Result<Extremes, MergeError> {
+    alike(&parts, "seed", |part| part.seed.to_string())?;
+    let range = |part: &Extremes| part.first..part.first + part.cases;
+    in_order(&mut parts, range, None..None)?;
+    let mut parts = parts.into_iter().map(|(_, part)| part).collect::<Vec<_>>();
+    // One without cases has no first one either.
+    parts.sort_by_key(|part| part.cases == 0);
+    let mut all = Extremes {
+        device: devices(parts.iter().map(|part| &part.device)),
+        seed: parts.first().map_or(0, |part| part.seed),
+        first: parts.first().map_or(0, |part| part.first),
+        ..Extremes::default()
+    };
+    for part in parts {
+        all.cases += part.cases;
+        all.passed += part.passed;
+        all.refused += part.refused;
+        all.failed += part.failed;
+        all.seconds += part.seconds;
+        all.failures.extend(part.failures);
+        for (name, acted) in part.limiters {
+            let sum = all.limiters.entry(name).or_default();
+            sum.cases += acted.cases;
+            sum.times += acted.times;
+        }
+        for (name, kind) in part.kinds {
+            let sum = all.kinds.entry(name).or_default();
+            sum.cases += kind.cases;
+            sum.passed += kind.passed;
+            sum.refused += kind.refused;
+            sum.failed += kind.failed;
+            sum.limited += kind.limited;
+        }
+        for (field, cases) in part.refusals {
+            *all.refusals.entry(field).or_default() += cases;
+        }
+        let worst = &mut all.worst;
+        worst.speed_over_max = worst.speed_over_max.max(part.worst.speed_over_max);
+        worst.energy_excess = worst.energy_excess.max(part.worst.energy_excess);
+        worst.settling = worst.settling.max(part.worst.settling);
+        for (worst, drift) in worst.drifts.iter_mut().zip(part.worst.drifts) {
+            *worst = worst.max(drift);
+        }
+    }
+    Ok(all)
 }
 
 /// The field that a scene's message names.

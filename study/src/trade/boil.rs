@@ -1,7 +1,7 @@
 //! Water poured into acid: chaotic, so seeds are told apart by medians and
 //! quartiles, never by trajectories.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::stage::grip;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
@@ -12,6 +12,7 @@ use vitriol_xr::PoseSource;
 use vitriol_xr::track::{Track, TrackSource};
 
 use super::tank::Cost;
+use crate::merge::{number, numbers};
 
 /// Looks a second.
 const LOOKS: f64 = 10.0;
@@ -19,9 +20,10 @@ const LOOKS: f64 = 10.0;
 const BOILS: f64 = 1e-3;
 
 /// What one seed came to.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Boiled {
     /// Highest superheat of any particle, K.
+    #[serde(deserialize_with = "number")]
     pub superheat: f64,
     /// When a thousandth of the liquid was above its boiling point, s; none where
     /// it never was.
@@ -31,17 +33,18 @@ pub struct Boiled {
     /// Mass that left as steam, g.
     pub steam: f64,
     /// Mean temperature at the end, °C.
+    #[serde(deserialize_with = "number")]
     pub temperature: f64,
     /// Largest relative error of the enthalpy's ledger.
     pub closure: f64,
 }
 
 /// First quartile, median, third quartile.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Quartiles(pub [f64; 3]);
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Quartiles(#[serde(deserialize_with = "numbers")] pub [f64; 3]);
 
 /// What several seeds came to.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Seeds {
     /// What was run.
     pub name: String,

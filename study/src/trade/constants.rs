@@ -3,7 +3,8 @@
 
 use std::fmt::Write;
 
-use serde::Serialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use vitriol_sim::scene::{PhysicalChemistry, Scene};
 
 use super::boil::Seeds;
@@ -87,8 +88,21 @@ impl Constant {
     }
 }
 
+impl<'de> Deserialize<'de> for Constant {
+    /// By its key.
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Key {
+            key: String,
+        }
+        let Key { key } = Key::deserialize(from)?;
+        let known = CONSTANTS.into_iter().find(|it| it.key == key);
+        known.ok_or_else(|| D::Error::custom(format!("there is no constant {key:?}")))
+    }
+}
+
 /// What a scene comes to with a constant changed.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Change {
     /// The constant; none where all are as they are.
     pub constant: Option<Constant>,

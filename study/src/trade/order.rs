@@ -1,7 +1,7 @@
 //! How errors shrink with h and Δt, where the truth is a formula.
 
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
@@ -10,25 +10,27 @@ use vitriol_sim::solver::{Particle, SolverState};
 
 use super::front::observed_order;
 use crate::liquid;
+use crate::merge::{Name, number};
 
 /// An error at several resolutions.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Convergence {
     /// What is wrong, and against what.
-    pub name: &'static str,
+    pub name: Name,
     /// What is refined.
-    pub by: &'static str,
+    pub by: Name,
     /// (h or Δt, error).
     pub errors: Vec<[f64; 2]>,
     /// Slope of the error over that, both logarithms: 1 is first order.
+    #[serde(deserialize_with = "number")]
     pub order: f64,
 }
 
 impl Convergence {
     fn of(name: &'static str, by: &'static str, errors: Vec<[f64; 2]>) -> Self {
         Self {
-            name,
-            by,
+            name: name.into(),
+            by: by.into(),
             order: observed_order(&errors),
             errors,
         }

@@ -48,7 +48,7 @@ fn scatter(trade: &Trade, name: &str, error: fn(&Errors) -> f64) -> Markup {
         cost: point.cost(),
         error: error(&point.errors),
         title: describe(point),
-        preset: (point.knob == Knob::Preset).then_some(point.preset),
+        preset: (point.knob == Knob::Preset).then_some(point.preset.as_ref()),
     });
     let Some(svg) = plot::scatter(&dots.collect::<Vec<_>>()) else {
         return html! {};
@@ -95,7 +95,7 @@ fn presets(trade: &Trade) -> Markup {
                 td { (percent(point.errors.pour_p99)) }
                 td { (percent(point.errors.poured)) }
                 td { (percent(point.errors.lost_volume)) }
-                td { (worst_heat(trade, point.preset)) }
+                td { (worst_heat(trade, &point.preset)) }
             }
         } }
     } } }

@@ -8,7 +8,7 @@ use vitriol_experiment::units::{percent, three_digits};
 use super::front::front;
 
 /// A setting in the plot.
-pub struct Dot {
+pub struct Dot<'a> {
     /// Time, ms.
     pub cost: f64,
     /// Error, relative.
@@ -16,7 +16,7 @@ pub struct Dot {
     /// What is shown where the mouse rests on it.
     pub title: String,
     /// The preset's name, where it is one.
-    pub preset: Option<&'static str>,
+    pub preset: Option<&'a str>,
 }
 
 /// What has no error that can be told is at the bottom.
@@ -29,7 +29,7 @@ const TEXT: (&str, u32) = ("sans-serif", 16);
 
 /// Draws the settings, and a line along their front; `None` where there is
 /// nothing to draw.
-pub fn scatter(dots: &[Dot]) -> Option<String> {
+pub fn scatter(dots: &[Dot<'_>]) -> Option<String> {
     let values: Vec<(f64, f64)> = dots.iter().map(|d| (d.cost, d.error.max(LEAST))).collect();
     let across = span(values.iter().map(|value| value.0))?;
     let up = span(values.iter().map(|value| value.1))?;
@@ -51,7 +51,7 @@ type DrawError = DrawingAreaErrorKind<std::io::Error>;
 /// Where each dot is, pixels.
 fn draw(
     svg: &mut String,
-    dots: &[Dot],
+    dots: &[Dot<'_>],
     values: &[(f64, f64)],
     [across, up]: [[f64; 2]; 2],
 ) -> Result<Vec<(i32, i32)>, DrawError> {
@@ -90,7 +90,7 @@ fn draw(
     }))?;
     let presets = || {
         let presets = dots.iter().zip(values);
-        presets.filter_map(|(dot, &at)| Some((dot.preset?, at)))
+        presets.filter_map(|(dot, &at)| Some((dot.preset?.to_owned(), at)))
     };
     chart.draw_series(presets().map(|(_, at)| Circle::new(at, 8, of_preset.stroke_width(2))))?;
     chart.draw_series(presets().map(|(name, at)| {

@@ -1,8 +1,9 @@
 //! What `vitriol trade` found.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::DeviceStatement;
 use vitriol_experiment::units::percent;
 
@@ -12,14 +13,22 @@ use super::order::Convergence;
 use super::setting::{Knob, Setting};
 use super::tank::{Cost, Rested, Tipped};
 use super::vouch::Vouched;
+use crate::cli::TradePart;
+use crate::merge::{MergeError, Name, alike, devices, in_order};
 
 /// What `vitriol trade` prints and writes.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Trade {
     /// The device.
     pub device: DeviceStatement,
     /// Whether with `--quick`.
     pub quick: bool,
+    /// The one part, where only one was asked for.
+    pub part: Option<TradePart>,
+    /// Numbers of the first case, and behind the last one.
+    pub cases: [usize; 2],
+    /// How many cases there are.
+    pub of: usize,
     /// The setting whose poured volume is the others' truth, and what it poured.
     pub finest: Option<(Setting, Tipped)>,
     /// Settings of the solver, in one vessel of water.
@@ -45,10 +54,10 @@ pub struct Trade {
 }
 
 /// One setting.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// The preset from which one knob was turned.
-    pub preset: &'static str,
+    pub preset: Name,
     /// The knob.
     pub knob: Knob,
     /// The setting.
@@ -64,7 +73,7 @@ pub struct Point {
 }
 
 /// Errors of a setting, relative.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Errors {
     /// 99th percentile of the density error at rest.
     pub rest_p99: f64,
@@ -77,10 +86,10 @@ pub struct Errors {
 }
 
 /// A pour with an effect that scenes of water leave out.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Effect {
     /// The effect.
-    pub name: &'static str,
+    pub name: Name,
     /// At rest.
     pub rest: Rested,
     /// While it is poured.
@@ -88,10 +97,10 @@ pub struct Effect {
 }
 
 /// What the calorimeter says of one mix.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Calorimetry {
     /// The preset.
-    pub preset: &'static str,
+    pub preset: Name,
     /// Water and acid, mL.
     pub millilitres: [f64; 2],
     /// Temperature at the end, °C, and the table's.
@@ -108,6 +117,40 @@ impl Point {
         let frames = 1.0 / 90.0 / self.setting.frame_time;
         frames * self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
     }
+}
+
+/// The one report of parts.
+///
+/// # Errors
+/// [`MergeError`] where they are not of one call, or cases are missing or in two of them.
+pub fn merge(mut parts: Vec<(PathBuf, Trade)>) -> Result<Trade, MergeError> {
+    alike(&parts, "--quick", |it| it.quick.to_string())?;
+    alike(&parts, "--part", |it| format!("{:?}", it.part))?;
+    alike(&parts, "a number of cases,", |it| it.of.to_string())?;
+    let of = parts.first().map_or(0, |(_, part)| part.of);
+    let range = |part: &Trade| part.cases[0]..part.cases[1];
+    in_order(&mut parts, range, Some(0)..Some(of))?;
+    let mut all = Trade {
+        device: devices(parts.iter().map(|(_, part)| &part.device)),
+        cases: [0, of],
+        of,
+        ..Trade::default()
+    };
+    for (_, part) in parts {
+        (all.quick, all.part) = (part.quick, part.part);
+        all.finest = all.finest.or(part.finest);
+        all.vouched = all.vouched.or(part.vouched);
+        all.points.extend(part.points);
+        all.calorimetry.extend(part.calorimetry);
+        all.boiling.extend(part.boiling);
+        all.boiling_costs.extend(part.boiling_costs);
+        all.constants.extend(part.constants);
+        all.effects.extend(part.effects);
+        all.orders.extend(part.orders);
+        all.skipped += part.skipped;
+        all.seconds += part.seconds;
+    }
+    Ok(all)
 }
 
 /// A name, and how the error is read.
@@ -217,12 +260,130 @@ pub fn describe(trade: &Trade) -> String {
         );
     }
     for found in &trade.orders {
-        let (name, by, order) = (found.name, found.by, found.order);
+        let (name, by, order) = (&found.name, &found.by, found.order);
         let _ = writeln!(t, "{name} over {by}: order {order:.2}");
     }
     if trade.skipped > 0 {
         let _ = writeln!(t, "{} settings not tried for want of time", trade.skipped);
     }
+    let [first, end] = trade.cases;
+    if end - first < trade.of {
+        let _ = writeln!(t, "cases {first}..{end} of {}", trade.of);
+    }
     let _ = writeln!(t, "{:.0} s", trade.seconds);
     t
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::trade::boil::{Boiled, quartiles};
+    use crate::trade::constants::CONSTANTS;
+
+    /// One of everything, with what JSON has no number for.
+    fn one_of_each() -> Trade {
+        let scene = vitriol_sim::scene::Scene::builtin("beaker").unwrap();
+        let setting = Setting::of(&scene, vitriol_sim::scene::Preset::Fast);
+        let cost = Cost::of(&[]);
+        let rest = Rested {
+            particles: 7,
+            cost,
+            density_mean: 0.1,
+            density_p99: 0.3,
+            density_signed: -1.0 / 3.0,
+            lost_volume: 1e-17,
+            speed: 0.0,
+            pressure: None,
+        };
+        let pour = Tipped {
+            cost,
+            density_p99: 0.2,
+            poured: 48e-6,
+            in_the_end: 1e-4,
+            lost: 0,
+        };
+        let boiled = Boiled {
+            superheat: f64::NEG_INFINITY,
+            temperature: f64::NAN,
+            ..Boiled::default()
+        };
+        let seeds = Seeds::of("balanced".into(), vec![boiled]);
+        assert!(quartiles(&[]).0[0].is_nan());
+        Trade {
+            of: 1,
+            cases: [0, 1],
+            part: Some(TradePart::Solver),
+            finest: Some((setting, pour)),
+            points: vec![Point {
+                preset: "fast".into(),
+                knob: Knob::FrameTime,
+                setting,
+                stiffness: 0.9,
+                rest,
+                pour,
+                errors: Errors {
+                    rest_p99: 0.1,
+                    pour_p99: 0.2,
+                    poured: 0.3,
+                    lost_volume: 0.4,
+                },
+            }],
+            calorimetry: vec![Calorimetry {
+                preset: "fast".into(),
+                millilitres: [10.0, 100.0],
+                temperature: [75.0, 75.5],
+                drifts: [0.0, 1e-9, 2e-9],
+            }],
+            boiling: vec![seeds.clone()],
+            boiling_costs: vec![cost],
+            constants: vec![Change {
+                constant: Some(CONSTANTS[3]),
+                value: 0.1,
+                times: 2.0,
+                seeds,
+            }],
+            effects: vec![Effect {
+                name: "as it is".into(),
+                rest,
+                pour,
+            }],
+            ..Trade::default()
+        }
+    }
+
+    #[test]
+    fn a_report_that_is_read_and_written_again_has_the_same_bytes() {
+        let written = serde_json::to_string(&one_of_each()).unwrap();
+        let read: Trade = serde_json::from_str(&written).unwrap();
+        assert_eq!(serde_json::to_string(&read).unwrap(), written);
+        let merged = merge(vec![("a.json".into(), read)]).unwrap();
+        assert_eq!(serde_json::to_string(&merged).unwrap(), written);
+        let other = written.replace("nuclei_spacing", "nuclei");
+        assert!(serde_json::from_str::<Trade>(&other).is_err());
+    }
+
+    #[test]
+    fn parts_are_put_together_in_their_order() {
+        let part = |cases: [usize; 2], names: &[&'static str]| {
+            let effect = |name: &&'static str| Effect {
+                name: (*name).into(),
+                ..one_of_each().effects[0].clone()
+            };
+            Trade {
+                cases,
+                of: 3,
+                effects: names.iter().map(effect).collect(),
+                ..Trade::default()
+            }
+        };
+        let (a, b) = (part([0, 2], &["x", "y"]), part([2, 3], &["z"]));
+        let both = || vec![("b.json".into(), b.clone()), ("a.json".into(), a.clone())];
+        let merged = merge(both()).unwrap();
+        let names: Vec<&str> = merged.effects.iter().map(|it| &*it.name).collect();
+        assert_eq!((names, merged.cases), (vec!["x", "y", "z"], [0, 3]));
+        let mut other = both();
+        other[1].1.quick = true;
+        assert!(merge(other).unwrap_err().to_string().contains("--quick"));
+    }
 }

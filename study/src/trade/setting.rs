@@ -1,11 +1,11 @@
 //! One setting of the solver's knobs.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::{Boundary, Preset, RelaxationKind, Scene};
 
 /// What is turned; everything else of the liquid is the scene's.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     /// Particle spacing d, m.
     pub spacing: f64,
@@ -30,7 +30,7 @@ pub struct Setting {
 }
 
 /// Which knob a point of a sweep turns.
-#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
     /// None: a preset as it is.

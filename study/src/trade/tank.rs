@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Blame, Failure, Ranks};
 use vitriol_gpu::Gpu;
 use vitriol_sim::fill::{count_for_volume, fill};
@@ -16,6 +16,7 @@ use vitriol_sim::solver::{Particle, Solver, SolverSpec, SolverState};
 use super::exact;
 use super::setting::Setting;
 use crate::liquid;
+use crate::merge::number;
 
 /// Water at rest, m³: the paper's single dilution at d = 2.5 mm.
 pub const VOLUME: f64 = 217.09e-6;
@@ -33,11 +34,13 @@ const HELD: f64 = 1.0;
 const BETWEEN: u32 = 5;
 
 /// Time of a frame, recorded, solved and waited for.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Cost {
     /// Median, ms.
+    #[serde(deserialize_with = "number")]
     pub median_ms: f64,
     /// 99th percentile, ms.
+    #[serde(deserialize_with = "number")]
     pub p99_ms: f64,
 }
 
@@ -54,7 +57,7 @@ impl Cost {
 }
 
 /// What came of resting.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Rested {
     /// Particles.
     pub particles: u32,
@@ -76,7 +79,7 @@ pub struct Rested {
 }
 
 /// What came of tipping.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Tipped {
     /// A frame's time.
     pub cost: Cost,

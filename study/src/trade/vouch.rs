@@ -1,7 +1,7 @@
 //! Whether the f64 reference vouches for a setting: the same water by both.
 
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
 use vitriol_sim::fill::fill;
@@ -17,7 +17,7 @@ use super::setting::Setting;
 use crate::liquid;
 
 /// What both found of a glass of water that settles.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Vouched {
     /// Particles.
     pub particles: usize,

@@ -1,0 +1,316 @@
+//! How what a simulation finds agrees with what a recording says.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use vitriol_lesson::Attempt;
+
+/// How far what is found on two devices may be apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tolerance {
+    /// Of a moment, s.
+    pub time_s: f64,
+    /// Of a volume, as a share of the larger.
+    pub share: f64,
+    /// Of a volume beside that, m³.
+    pub volume_m3: f64,
+}
+
+impl Default for Tolerance {
+    /// What seeds of the particles' jitter make of the same hands, and some more: on two devices bits differ by as little at first.
+    fn default() -> Self {
+        Self {
+            time_s: 0.5,
+            share: 0.2,
+            volume_m3: 1e-6,
+        }
+    }
+}
+
+impl FromStr for Tolerance {
+    type Err = String;
+
+    /// Seconds, per cent and millilitres, such as `0.5,20,1`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|it| it.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[time_s, percent, millilitres])
+                if [time_s, percent, millilitres]
+                    .iter()
+                    .all(|it| it.is_finite() && *it >= 0.0) =>
+            {
+                Ok(Self {
+                    time_s,
+                    share: percent / 100.0,
+                    volume_m3: millilitres * 1e-6,
+                })
+            }
+            _ => Err("give seconds, per cent and millilitres, such as 0.5,20,1".into()),
+        }
+    }
+}
+
+/// How two findings of the same track agree.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Agreement {
+    /// The most that moments of the same thing are apart, s.
+    pub time_s: f64,
+    /// The most that volumes of the same thing are apart, m³.
+    pub volume_m3: f64,
+    /// What is beyond the tolerance, each in a few words; empty where all is within.
+    pub beyond: Vec<String>,
+}
+
+/// Pours from one flask to another, or incidents of one kind in one place. They are summed up: where one of two devices sees a
+/// gap of a second, it says two pours in place of one.
+#[derive(Default)]
+struct Sum {
+    count: usize,
+    /// m³; `None` of what has no volume.
+    volume_m3: Option<f64>,
+    /// When the largest of them began, and its volume.
+    largest: (f64, f64),
+}
+
+impl Agreement {
+    /// How attempts that a recording says agree with those that were found.
+    pub fn of(recorded: &[Attempt], found: &[Attempt], tolerance: Tolerance) -> Self {
+        let mut agreement = Self::default();
+        if recorded.len() != found.len() {
+            agreement.beyond.push(format!(
+                "{} attempts in the recording, {} found",
+                recorded.len(),
+                found.len()
+            ));
+        }
+        for (number, (recorded, found)) in (1..).zip(recorded.iter().zip(found)) {
+            agreement.compare(number, &[sums(recorded), sums(found)], tolerance);
+        }
+        agreement
+    }
+
+    fn compare(&mut self, attempt: u32, both: &[BTreeMap<String, Sum>; 2], tolerance: Tolerance) {
+        let keys: BTreeSet<&String> = both.iter().flat_map(BTreeMap::keys).collect();
+        for key in keys {
+            let nothing = Sum::default();
+            let [recorded, found] = both
+                .each_ref()
+                .map(|sums| sums.get(key).unwrap_or(&nothing));
+            let mut beyond = |text: String| {
+                self.beyond
+                    .push(format!("attempt {attempt}, {key}: {text}"));
+            };
+            let volumes = [recorded, found].map(|it| it.volume_m3);
+            if volumes.iter().any(Option::is_some) {
+                let [a, b] = volumes.map(Option::unwrap_or_default);
+                self.volume_m3 = self.volume_m3.max((a - b).abs());
+                // An amount that is no number is none that agrees.
+                let within = (a - b).abs() <= tolerance.share * a.max(b) + tolerance.volume_m3;
+                if !within {
+                    let [a, b] = [a, b].map(|volume| 1e6 * volume);
+                    beyond(format!("{a:.2} mL in the recording, {b:.2} mL found"));
+                    continue;
+                }
+                if a.min(b) <= tolerance.volume_m3 {
+                    // So little has no moment that counts.
+                    continue;
+                }
+            } else if recorded.count != found.count {
+                let (a, b) = (recorded.count, found.count);
+                beyond(format!("{a} in the recording, {b} found"));
+                continue;
+            }
+            let [a, b] = [recorded, found].map(|it| it.largest.0);
+            self.time_s = self.time_s.max((a - b).abs());
+            let within = (a - b).abs() <= tolerance.time_s;
+            if !within {
+                beyond(format!("at {a:.2} s in the recording, at {b:.2} s found"));
+            }
+        }
+    }
+
+    /// In a few words.
+    pub fn text(&self) -> String {
+        if self.beyond.is_empty() {
+            format!(
+                "differs by at most {:.2} s and {:.2} mL",
+                self.time_s,
+                1e6 * self.volume_m3
+            )
+        } else {
+            self.beyond.join("; ")
+        }
+    }
+}
+
+/// What an attempt holds, by what, where and of which flasks.
+fn sums(attempt: &Attempt) -> BTreeMap<String, Sum> {
+    let mut sums = BTreeMap::<String, Sum>::new();
+    let pours = attempt.pours.iter().map(|pour| {
+        let into = pour.into.as_deref().unwrap_or("none");
+        let key = format!("poured from {} into {into}", pour.from);
+        (key, pour.t_s, Some(pour.volume_m3))
+    });
+    let incidents = attempt.incidents.iter().map(|incident| {
+        // What tells it from others, whatever its kind: the fields that are no amounts.
+        let what = serde_json::to_value(&incident.what).unwrap_or_default();
+        let fields = what.as_object().into_iter().flatten();
+        let mut names: Vec<String> = fields
+            .filter(|(name, _)| *name != "kind")
+            .filter_map(|(name, value)| match value {
+                Value::String(text) => Some(text.clone()),
+                Value::Bool(yes) => Some(format!("{}{name}", if *yes { "" } else { "not " })),
+                _ => None,
+            })
+            .collect();
+        names.insert(0, incident.what.kind().into());
+        let volume = what.get("volume_m3").and_then(Value::as_f64);
+        (names.join(" "), incident.t_s, volume)
+    });
+    for (key, t_s, volume_m3) in pours.chain(incidents) {
+        let sum = sums.entry(key).or_default();
+        if let Some(volume) = volume_m3 {
+            *sum.volume_m3.get_or_insert(0.0) += volume;
+        }
+        let size = volume_m3.unwrap_or_default();
+        if sum.count == 0 || size > sum.largest.1 {
+            sum.largest = (t_s, size);
+        }
+        sum.count += 1;
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vitriol_lesson::{Cause, Incident, Pour, What};
+
+    fn pour(t_s: f64, millilitres: f64) -> Pour {
+        Pour {
+            t_s,
+            until_s: t_s + 0.5,
+            from: "acid".into(),
+            into: Some("water".into()),
+            volume_m3: 1e-6 * millilitres,
+            fastest_m3_s: 0.0,
+            acid: 0.98,
+            met: None,
+        }
+    }
+
+    fn incident(t_s: f64, what: What) -> Incident {
+        Incident {
+            t_s,
+            until_s: t_s,
+            what,
+            cause: Cause::Unknown,
+            place_m: [0.0; 3],
+        }
+    }
+
+    fn hot(flask: &str, t_s: f64) -> Incident {
+        let (flask, temperature_c) = (flask.into(), 70.0);
+        incident(
+            t_s,
+            What::Hot {
+                flask,
+                temperature_c,
+            },
+        )
+    }
+
+    fn attempt(pours: Vec<Pour>, incidents: Vec<Incident>) -> Attempt {
+        Attempt {
+            begun_s: 0.0,
+            scene: "acid-into-water".into(),
+            contents: BTreeMap::new(),
+            pours,
+            incidents,
+            ending: None,
+        }
+    }
+
+    const LIMITS: Tolerance = Tolerance {
+        time_s: 0.5,
+        share: 0.1,
+        volume_m3: 1e-6,
+    };
+
+    fn agreement(recorded: Attempt, found: Attempt) -> Agreement {
+        Agreement::of(&[recorded], &[found], LIMITS)
+    }
+
+    #[test]
+    fn amounts_agree_within_a_share_and_a_little() {
+        let of = |a, b| {
+            let [a, b] = [a, b].map(|it| attempt(vec![pour(1.0, it)], Vec::new()));
+            agreement(a, b)
+        };
+        let close = of(20.0, 22.9);
+        assert_eq!(close.beyond, [""; 0]);
+        assert!((close.volume_m3 - 2.9e-6).abs() < 1e-12);
+        assert_eq!(of(20.0, 23.5).beyond.len(), 1);
+        // Less than the least that counts, and more.
+        let none = attempt(Vec::new(), Vec::new());
+        let some = |it| attempt(vec![pour(1.0, it)], Vec::new());
+        assert!(agreement(none.clone(), some(0.9)).beyond.is_empty());
+        assert_eq!(agreement(none, some(1.5)).beyond.len(), 1);
+        assert_eq!(of(20.0, f64::NAN).beyond.len(), 1);
+    }
+
+    #[test]
+    fn a_tolerance_is_three_numbers() {
+        let default = Tolerance::default();
+        assert_eq!("0.5,20,1".parse(), Ok(default));
+        for wrong in [
+            "",
+            "0.5",
+            "0.5,20",
+            "0.5,20,1,1",
+            "-1,20,1",
+            "nan,20,1",
+            "a,b,c",
+        ] {
+            assert!(wrong.parse::<Tolerance>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn one_pour_may_be_two_on_another_device() {
+        let one = attempt(vec![pour(1.0, 20.0)], Vec::new());
+        let two = attempt(vec![pour(1.1, 12.0), pour(3.0, 8.0)], Vec::new());
+        let agreement = agreement(one, two);
+        assert!(agreement.beyond.is_empty(), "{agreement:?}");
+        assert!((agreement.time_s - 0.1).abs() < 1e-9);
+    }
+
+    #[test]
+    fn moments_kinds_and_flasks_are_told_apart() {
+        let of = |a, b| {
+            let [a, b] = [a, b].map(|it| attempt(Vec::new(), it));
+            agreement(a, b).beyond
+        };
+        assert_eq!(of(vec![hot("a", 1.0)], vec![hot("a", 1.4)]), [""; 0]);
+        assert_eq!(of(vec![hot("a", 1.0)], vec![hot("a", 1.6)]).len(), 1);
+        assert_eq!(of(vec![hot("a", 1.0)], vec![hot("b", 1.0)]).len(), 2);
+        assert_eq!(of(vec![hot("a", 1.0)], Vec::new()).len(), 1);
+        let dropped = |broke| {
+            let (flask, speed_m_s) = ("a".to_owned(), 3.0);
+            vec![incident(
+                1.0,
+                What::Dropped {
+                    flask,
+                    speed_m_s,
+                    broke,
+                },
+            )]
+        };
+        assert_eq!(of(dropped(true), dropped(false)).len(), 2);
+        let none: [Attempt; 0] = [];
+        let one = [attempt(Vec::new(), Vec::new())];
+        assert_eq!(Agreement::of(&none, &one, LIMITS).beyond.len(), 1);
+    }
+}

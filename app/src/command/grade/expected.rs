@@ -1,0 +1,93 @@
+//! What must hold of a track that is graded. It comes from the command line; what a track says of itself is only compared with
+//! it, since a student could have diluted "acid" in a scene of the same name.
+
+use serde::{Deserialize, Serialize};
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
+use vitriol_experiment::track::PRESET;
+use vitriol_experiment::{Blame, Failure, Scenes, in_a_line};
+use vitriol_lesson::{Attempt, Rubric};
+use vitriol_record::Uuid;
+use vitriol_sim::scene::Preset;
+use vitriol_xr::track::Track;
+
+/// What must hold of a track, and how it is scored.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// What is asked for.
+    pub asked: Asked,
+    /// Text of the scene.
+    text: String,
+}
+
+/// What is asked for, as a result keeps it: one that was made for something else is made anew.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Asked {
+    /// Name of the scene.
+    pub scene: String,
+    /// Follows from the scene's text alone.
+    pub scene_id: String,
+    /// The preset, where only one will do.
+    pub preset: Option<String>,
+    /// What is scored.
+    pub rubric: Rubric,
+}
+
+impl Expected {
+    /// That a track was made with this scene, by name or file, and preset.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where there is no such scene, or something is wrong with it.
+    pub fn new(scene: &str, preset: Option<Preset>) -> Result<Self, Failure> {
+        let mut scenes = Scenes::default();
+        let name = scenes.open(scene)?;
+        scenes.get(&name)?;
+        let text = scenes.text(&name).ok_or("the scene has no text").other()?;
+        Ok(Self {
+            asked: Asked {
+                scene_id: Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).to_string(),
+                preset: preset.map(|it| it.name().to_owned()),
+                rubric: Rubric::default(),
+                scene: name,
+            },
+            text: text.to_owned(),
+        })
+    }
+
+    /// In what the track was made otherwise, in a few words; `None` where nothing is known.
+    pub fn otherwise(&self, track: &Track, attempts: &[Attempt]) -> Option<String> {
+        let (asked, made) = (&self.asked, &track.metadata);
+        let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+        let brought_up = switches
+            .filter(|it| [SWITCH_SCENE, SWITCH_START].contains(&&*it.key))
+            .map(|it| &it.value);
+        let mut scenes = std::iter::once(&made.scene)
+            .chain(brought_up)
+            .chain(attempts.iter().map(|it| &it.scene));
+        if let Some(other) = scenes.find(|name| **name != asked.scene) {
+            let other = if other.is_empty() {
+                "one without a name".into()
+            } else {
+                in_a_line(other)
+            };
+            return Some(format!("made with another scene: {other}"));
+        }
+        match made.scenes.get(&asked.scene) {
+            Some(text) if *text == self.text => {}
+            Some(_) => {
+                let name = in_a_line(&asked.scene);
+                return Some(format!("made with another scene: {name} of another text"));
+            }
+            None => {
+                return Some("made with a scene whose text it does not carry".into());
+            }
+        }
+        let preset = made.parameters.get(PRESET);
+        match (&asked.preset, preset) {
+            (Some(asked), Some(made)) if asked != made => {
+                Some(format!("made with another preset: {}", in_a_line(made)))
+            }
+            (Some(_), None) => Some("made with a preset that it does not name".into()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What is kept of a graded track: a file for each, by which a later call goes on.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use vitriol_experiment::output::write_over;
+use vitriol_experiment::{Blame, Failure};
+use vitriol_lesson::{Attempt, Score};
+
+use super::agreement::Tolerance;
+use super::expected::Asked;
+use super::verify::Verified;
+
+/// The version of [`Graded`]'s layout. It goes up where a field goes, or means something else.
+const LAYOUT: u32 = 1;
+
+/// Program and version: another one may find and score otherwise.
+const PROGRAM: &str = concat!("vitriol ", env!("CARGO_PKG_VERSION"));
+
+/// A graded track.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Graded {
+    layout: u32,
+    program: String,
+    /// The track's file, without its folder.
+    pub track: String,
+    /// Follows from the track's content alone: the identifier of its sitting.
+    pub content: String,
+    /// What it was graded by.
+    pub asked: Asked,
+    /// Whether only what is whole of it was taken.
+    pub truncated: bool,
+    /// What was read in it.
+    pub found: Found,
+    /// What simulating it again came to; `None` where nobody asked.
+    pub verified: Option<Verified>,
+}
+
+/// What was read in a track.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Found {
+    /// What its student did.
+    Attempts(Vec<Scored>),
+    /// It was made otherwise than was asked for, in these words, and is not graded.
+    Otherwise(String),
+}
+
+/// An attempt and its points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scored {
+    /// What was done.
+    pub attempt: Attempt,
+    /// What it was worth.
+    pub score: Score,
+}
+
+impl Graded {
+    /// Of a track of that name and content.
+    pub fn new(
+        (track, content): (String, String),
+        asked: &Asked,
+        truncated: bool,
+        found: Found,
+    ) -> Self {
+        Self {
+            layout: LAYOUT,
+            program: PROGRAM.into(),
+            track,
+            content,
+            asked: asked.clone(),
+            truncated,
+            found,
+            verified: None,
+        }
+    }
+
+    /// The file of a track's result.
+    pub fn file(out: &Path, stem: &str) -> PathBuf {
+        out.join(format!("{stem}.grade.json"))
+    }
+
+    /// What an earlier call left of a track of this content, if it will do: with `verified`, one that was verified by that tolerance. What is no result, or one of something else, is none.
+    pub fn earlier(
+        file: &Path,
+        content: &str,
+        asked: &Asked,
+        verified: Option<Tolerance>,
+    ) -> Option<Self> {
+        let found: Self = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
+        let same = found.layout == LAYOUT
+            && found.program == PROGRAM
+            && found.content == content
+            && found.asked == *asked;
+        let enough = match (verified, &found.found) {
+            (None, _) | (_, Found::Otherwise(_)) => true,
+            (Some(by), Found::Attempts(_)) => {
+                found.verified.as_ref().is_some_and(|it| it.tolerance == by)
+            }
+        };
+        (same && enough).then_some(found)
+    }
+
+    /// Keeps it, in place of what an earlier call left.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where it cannot be written.
+    pub fn keep(&self, file: &Path) -> Result<(), Failure> {
+        write_over(file, &serde_json::to_vec_pretty(self).other()?)
+    }
+}
