@@ -187,7 +187,7 @@ fn what_is_shown_is_what_was_drawn() {
         assert_eq!(picture[..3], [0, 0, 0]);
     }
     if let Some(keep) = std::env::var_os("VITRIOL_KEEP_PICTURES") {
-        let file = std::path::Path::new(&keep).join("stand-in.png");
+        let file = Path::new(&keep).join("stand-in.png");
         image::save_buffer(file, &colour, 96, 128, image::ColorType::Rgba8).unwrap();
     }
 }
