@@ -428,7 +428,7 @@ fn a_simulation_confirms_or_refutes() {
         (
             "other-device",
             2.0,
-            2.2,
+            2.08,
             "another",
             Verdict::WithinTolerance,
         ),
@@ -454,7 +454,7 @@ fn a_simulation_confirms_or_refutes() {
         assert_eq!(found.verified, Some(verdict), "{name}: {}", found.note);
         assert_eq!(found.note.is_empty(), verdict == Verdict::ToTheBit);
         if name == "other-device" {
-            assert!(found.note.contains("0.00 s and 0.20 mL"), "{}", found.note);
+            assert!(found.note.contains("0.00 s and 0.08 mL"), "{}", found.note);
         }
         // Points are the recording's: who reads the table sees that they are not confirmed.
         assert_eq!(found.incidents.is_empty(), said == 0.0);
@@ -469,10 +469,10 @@ fn a_simulation_confirms_or_refutes() {
     let again = [&more[..], &["--verify"]].concat();
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
     // By another tolerance it is judged anew.
-    let strict = [&again[..], &["--tolerance", "0.5,1,0.1"]].concat();
+    let strict = [&again[..], &["--tolerance", "0.2,0,0.01"]].concat();
     let toy = |_: &Setup<'_>| -> Made {
         Ok(Box::new(Toy {
-            events: events(2.2),
+            events: events(2.08),
             driver: "another",
         }))
     };

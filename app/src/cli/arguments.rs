@@ -372,7 +372,7 @@ pub struct GradeArgs {
     #[arg(long)]
     pub verify: bool,
     /// How far what happens on another device may be from what a track says: a moment, a share of a volume, and a volume
-    /// beside that; without it 0.5,20,1
+    /// beside that; without it 0.2,5,0.1
     #[arg(long, value_name = "S,%,ML", requires = "verify")]
     pub tolerance: Option<Tolerance>,
     /// Device for that: its number or a part of its name (see `vitriol doctor`)
