@@ -14,10 +14,12 @@ pub struct HubAddress {
     pub(crate) key: Secret,
 }
 
-/// What stands there is no hub's address.
+/// What stands there is no hub's address. It is not repeated: it may have a key.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no hub's address: copy what the hub prints, HOST:PORT#FINGERPRINT.KEY, whole")]
-pub struct NoHubAddress(String);
+#[error(
+    "this is no hub's address: copy what the hub prints, HOST:PORT#FINGERPRINT.KEY, whole and alone"
+)]
+pub struct NoHubAddress;
 
 impl HubAddress {
     /// Host and port.
@@ -72,7 +74,7 @@ impl FromStr for HubAddress {
                 key: Secret::from_text(key)?,
             })
         };
-        parse().ok_or_else(|| NoHubAddress(text.to_owned()))
+        parse().ok_or(NoHubAddress)
     }
 }
 

@@ -226,8 +226,11 @@ impl Dialler {
                     "the connection to the hub broke".to_owned()
                 }
             };
-            tracing::debug!(lost, "no connection to the console's hub");
-            *lock(&self.status) = LinkStatus::Lost(lost);
+            let now = LinkStatus::Lost(lost.clone());
+            let before = std::mem::replace(&mut *lock(&self.status), now.clone());
+            if before != now {
+                tracing::warn!("nobody directs this program: {lost}; it is tried again");
+            }
             sleep(pause).await;
             pause = (2 * pause).min(PAUSES[1]);
         }

@@ -285,7 +285,15 @@ impl Laboratory {
         };
         let instruction = instruction.input()?;
         match &instruction {
-            Instruction::Intensity(value) => self.world.set_intensity(*value).input()?,
+            // A replay in another scene.
+            Instruction::Intensity(value) if self.world.intensity().is_none() => {
+                tracing::warn!("a switch of k_v to {value} is left out: this scene has none");
+            }
+            Instruction::Intensity(value) => {
+                let set = self.world.set_intensity(*value);
+                set.map_err(|error| format!("a switch of k_v to {value}: {error}"))
+                    .input()?;
+            }
             Instruction::Spare(on) => {
                 self.muted = *on;
                 self.audible.mute_boiling(*on);

@@ -86,7 +86,9 @@ fn describe(report: &HubReport, qr: Option<String>) -> String {
         text += &format!("its certificate has the fingerprint {fingerprint}\n");
     }
     if let Some(students) = &report.students {
-        text += &format!("students' programs: vitriol vr --hub {students}\n");
+        text += &format!(
+            "students' programs: keep the next line in a file, for vitriol vr --hub FILE\n{students}\n"
+        );
     }
     text + "Enter lets another browser in, Ctrl-C ends."
 }

@@ -172,7 +172,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         Timestamps::None
     };
     if format == Format::Text && std::io::stdin().is_terminal() {
-        eprintln!("{}", menu::lines());
+        let invites = !args.no_console && args.console.hub.is_none();
+        eprintln!("{}", menu::lines(invites));
     }
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;

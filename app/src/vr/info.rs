@@ -59,8 +59,8 @@ pub struct Shown {
 /// What the instructor says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Told {
-    /// What she did last, or holds up.
-    pub done: Option<String>,
+    /// What she holds up, and did last.
+    pub done: Vec<String>,
     /// Her message.
     pub message: Option<String>,
 }

@@ -53,15 +53,18 @@ pub fn decision(key: char) -> Option<Decision> {
     }
 }
 
-/// The keys and what they do, for a terminal.
-pub fn lines() -> String {
+/// The keys and what they do, for a terminal; whether one lets a browser in.
+pub fn lines(invites: bool) -> String {
     let mut text = String::from("keys, each with Enter:");
     for Choice { key, title, .. } in CHOICES {
         text += &format!("\n  {key}  {title}");
     }
-    text + &format!(
-        "\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened\n  {INVITE}  let a browser into the console\n  {END}  end, pressed twice"
-    )
+    text +=
+        &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened");
+    if invites {
+        text += &format!("\n  {INVITE}  let a browser into the console");
+    }
+    text + &format!("\n  {END}  end, pressed twice")
 }
 
 #[cfg(test)]

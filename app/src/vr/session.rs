@@ -160,8 +160,8 @@ pub struct Session {
     joints: [Option<Joints>; 2],
     /// Steps that are due.
     steps: Steps,
-    /// Looks at the bench before, of which some are under way.
-    ending: Option<Looks>,
+    /// Looks at the bench before, of which some are under way, and its scene.
+    ending: Option<(String, Looks)>,
     /// The recording, with simulated time and the switches of the next step.
     track: SessionTrack,
     /// What the panel says of the flasks.
@@ -233,6 +233,8 @@ impl Session {
         let scene = benches.current.world.scene();
         let steps = Steps::new(&benches.current.plan.scene, scene);
         let sounds = Sounds::new(options.sound, scene, options.plan.seed);
+        let made_for = (gpu, &*benches.library, benches.eyes.extent);
+        let instructor = Instructor::new(options.console, made_for)?;
         Ok(Self {
             benches,
             choices: Choices::new(decisions),
@@ -253,7 +255,7 @@ impl Session {
             gloves: [const { Vec::new() }; 2],
             panel,
             guide: Guide::new(options.course, &options.plan.scene)?,
-            instructor: Instructor::new(options.console)?,
+            instructor,
             mirror: None,
             pacing,
             counts: Counts::new(tally),
@@ -376,7 +378,7 @@ impl Session {
         self.counts.tally.restart();
         self.steps.submitted();
         self.steps.looks.forget();
-        if let Some(looks) = &mut self.ending {
+        if let Some((_, looks)) = &mut self.ending {
             looks.forget();
         }
         // What a lost device has left due belongs to the hands as they were before.
@@ -388,6 +390,7 @@ impl Session {
     }
 
     fn finish(mut self) -> Result<SessionOutcome, Failure> {
+        self.step_for_switches();
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
         self.take_looks(1e-9 * self.shown_at() as f64, true)?;
         let events = self.steps.looks.end();

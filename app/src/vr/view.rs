@@ -1,5 +1,7 @@
 //! What the left eye sees, for the console: shrunk on the device and coded on a thread of its own. Nothing here waits.
 
+use std::time::Instant;
+
 use vitriol_console::Port;
 use vitriol_experiment::Failure;
 use vitriol_gpu::{Gpu, Image};
@@ -17,8 +19,8 @@ pub struct View {
     coder: Coder,
     /// Display time of the next picture, ns.
     due: i64,
-    /// Display time of the first, ns.
-    began: Option<i64>,
+    /// When it began: a runtime that is found again has another clock.
+    began: Instant,
 }
 
 impl View {
@@ -31,7 +33,7 @@ impl View {
             shrink: Shrink::new(gpu, library, eye)?,
             coder: Coder::new(port)?,
             due: i64::MIN,
-            began: None,
+            began: Instant::now(),
         })
     }
 
@@ -56,8 +58,7 @@ impl View {
             return Ok(());
         }
         self.due = time.max(self.due.saturating_add(EVERY));
-        self.began.get_or_insert(time);
-        self.shrink.begin(picture, drawn, [VIEW_SIDE; 2], time)
+        self.shrink.begin(picture, drawn, [VIEW_SIDE; 2])
     }
 
     /// Hands over what the device is done with.
@@ -66,10 +67,7 @@ impl View {
     /// What the device says.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         while let Some(shrunk) = self.shrink.done()? {
-            let since = shrunk
-                .time
-                .saturating_sub(self.began.unwrap_or(shrunk.time));
-            let time_us = u64::try_from(since / 1000).unwrap_or(0);
+            let time_us = u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX);
             self.coder.give(Picture::Shrunk(shrunk), time_us);
         }
         Ok(())

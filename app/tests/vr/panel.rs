@@ -245,7 +245,7 @@ fn what_an_instructor_says_is_over_all_and_hides_no_button() {
     let said: String = said.chars().cycle().take(MESSAGE).collect();
     let info = Info {
         told: Told {
-            done: Some("Paused by your instructor".into()),
+            done: vec!["Paused by your instructor".into()],
             message: Some(format!("Your instructor: {said}")),
         },
         holding: None,

@@ -121,7 +121,7 @@ function showState(state) {
   page.state = state;
   showControls(state);
   const { step, hints, incidents } = state;
-  write($("step"), step ? `Step ${step.number} of ${step.of}: ${step.title}` : "This scene has no procedure.");
+  write($("step"), step ? (step.number > step.of ? `Done: ${step.title}` : `Step ${step.number} of ${step.of}: ${step.title}`) : "This scene has no procedure.");
   $("progress").hidden = !step;
   if (step) Object.assign($("progress"), { max: Math.max(step.of, 1), value: Math.max(step.number - 1, 0) });
   entries($("hints"), hints);

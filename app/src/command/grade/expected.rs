@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::track::PRESET;
-use vitriol_experiment::{Blame, Failure, Scenes, in_a_line};
+use vitriol_experiment::{Blame, Failure, Instruction, Scenes, in_a_line};
 use vitriol_lesson::{Attempt, Rubric};
 use vitriol_record::Uuid;
 use vitriol_sim::scene::Preset;
@@ -80,6 +80,13 @@ impl Expected {
             None => {
                 return Some("made with a scene whose text it does not carry".into());
             }
+        }
+        let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+        if let Some(k_v) = switches.find_map(|it| match Instruction::of(it) {
+            Some(Ok(Instruction::Intensity(k_v))) => Some(k_v),
+            _ => None,
+        }) {
+            return Some(format!("made with another k_v: {k_v}"));
         }
         let preset = made.parameters.get(PRESET);
         match (&asked.preset, preset) {

@@ -71,7 +71,7 @@ impl Mirror {
             return Ok(());
         }
         self.due = time.max(self.due.saturating_add(EVERY));
-        self.shrink.begin(picture, drawn, extent, time)
+        self.shrink.begin(picture, drawn, extent)
     }
 
     /// Hands over what the device is done with; does not wait.

@@ -21,8 +21,6 @@ pub struct Shrunk {
     pixels: Arc<Buffer>,
     /// Width and height, pixels.
     pub extent: [u32; 2],
-    /// Display time, ns.
-    pub time: i64,
 }
 
 impl Shrunk {
@@ -69,7 +67,7 @@ impl Shrink {
     }
 
     /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size,
-    /// behind what was submitted before; they are shown at `time` (ns). Does nothing where no slot is free.
+    /// behind what was submitted before. Does nothing where no slot is free.
     ///
     /// # Errors
     /// What the device says.
@@ -78,7 +76,6 @@ impl Shrink {
         picture: &Image,
         drawn: [u32; 2],
         window: [u32; 2],
-        time: i64,
     ) -> Result<(), Failure> {
         let mut slots = self.slots.iter_mut();
         let Some(pixels) =
@@ -102,12 +99,8 @@ impl Shrink {
         };
         rec.copy(&self.shrunk, &pixels, &[all]).other()?;
         let ticket = self.gpu.submit(rec).other()?;
-        let shrunk = Shrunk {
-            pixels,
-            extent,
-            time,
-        };
-        self.under_way.push_back((ticket, shrunk));
+        self.under_way
+            .push_back((ticket, Shrunk { pixels, extent }));
         Ok(())
     }
 

@@ -104,14 +104,15 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
     seen
 }
 
-/// What the instructor says, and the lesson, over all else. A message takes the hint's place.
+/// What the instructor says, or else the lesson, over all else: both together would leave no room for the buttons.
 fn told(context: &Context, info: &Info) {
     let Info { told, lesson, .. } = info;
     let mut lines: Vec<(&String, Color32)> = Vec::new();
-    if let Some(shown) = lesson {
+    if let (Some(shown), None) = (lesson, &told.message) {
         lines.push((&shown.step, WHITE));
-        let hint = shown.hint.iter().filter(|_| told.message.is_none());
-        lines.extend(shown.failed.iter().chain(hint).map(|line| (line, WARNING)));
+        // Why something failed, before how to do it.
+        let more = shown.failed.as_ref().or(shown.hint.as_ref());
+        lines.extend(more.map(|line| (line, WARNING)));
     }
     let said = told.message.iter().chain(&told.done);
     lines.extend(said.map(|line| (line, WHITE)));

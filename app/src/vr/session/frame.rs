@@ -168,6 +168,7 @@ impl Session {
     /// Goes on with the bench that was built meanwhile, if one was. The picture is dark.
     fn replace_bench(&mut self) -> Result<(), Failure> {
         let resolution = self.pacing.setting(&self.benches.current).resolution;
+        let before = self.benches.current.plan.scene.clone();
         if let Some(switch) = self.benches.replace_if_built() {
             let same = switch.key == SWITCH_START;
             self.fade.close();
@@ -181,7 +182,7 @@ impl Session {
                 self.benches.current.world.scene(),
             );
             let looks = std::mem::replace(&mut self.steps.looks, Looks::of(name, scene));
-            self.ending = Some(looks);
+            self.ending = Some((before, looks));
             let muted = self.instructor.mutes_boiling();
             self.sounds.begin(self.benches.current.world.scene(), muted);
             self.instructor.begin();
@@ -213,7 +214,10 @@ impl Session {
         for side in Side::BOTH {
             let now = self.shown_at();
             let said = self.instructor.felt(now).max(self.spills.felt(side, now));
-            let stirs = held_by(world, side).filter(|_| !self.instructor.mutes_boiling());
+            // What stirred in the last step stirs no more while time is held.
+            let instructor = &self.instructor;
+            let stands = instructor.mutes_boiling() || instructor.holds_time();
+            let stirs = held_by(world, side).filter(|_| !stands);
             let felt = stirs
                 .map(|flask| haptics::amplitude(world.stirring(flask), scale))
                 .fold(said, f32::max);
@@ -370,11 +374,14 @@ impl Session {
     /// Takes in the looks that have come, in the frame that is shown at `time` (s); or all, where `wait`.
     pub(super) fn take_looks(&mut self, time: f64, wait: bool) -> Result<(), Failure> {
         // Of the bench before: what is found there is said before what is found here.
-        if let Some(mut looks) = self.ending.take() {
+        if let Some((scene, mut looks)) = self.ending.take() {
             while let Some(looked) = looks.wait()? {
+                self.guide.looked(&scene, &looked);
                 self.track.found(looked.events);
             }
-            self.track.found(looks.end());
+            let events = looks.end();
+            self.guide.ended(&scene, &events);
+            self.track.found(events);
         }
         loop {
             let looks = &mut self.steps.looks;
@@ -438,7 +445,7 @@ impl Session {
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
             ends,
             happened,
-            lesson: self.guide.shown(&self.texts.lesson),
+            lesson: self.guide.shown(&bench.plan.scene, &self.texts.lesson),
             told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
         }
     }

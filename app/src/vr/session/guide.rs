@@ -94,9 +94,14 @@ impl Guide {
         }
     }
 
-    /// The step that is to be done, as the console shows it.
-    pub fn step(&self) -> Option<Step> {
-        let (course, judge) = self.course.as_ref()?;
+    /// The lesson, where the scene of that name is its own.
+    fn of(&self, scene: &str) -> Option<&(Course, Procedure)> {
+        self.course.as_ref().filter(|_| self.scene == scene)
+    }
+
+    /// The step that is to be done in that scene, as the console shows it.
+    pub fn step(&self, scene: &str) -> Option<Step> {
+        let (course, judge) = self.of(scene)?;
         let state = judge.state();
         let texts = course.lesson.texts(course.language);
         let id = state.number.and_then(|number| state.steps.get(number - 1));
@@ -117,9 +122,9 @@ impl Guide {
         })
     }
 
-    /// What the panel shows of it.
-    pub fn shown(&self, words: &LessonTexts) -> Option<Shown> {
-        let (course, judge) = self.course.as_ref()?;
+    /// What the panel shows of it in that scene.
+    pub fn shown(&self, scene: &str, words: &LessonTexts) -> Option<Shown> {
+        let (course, judge) = self.of(scene)?;
         let state = judge.state();
         let texts = course.lesson.texts(course.language);
         if state.over {

@@ -5,8 +5,8 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use vitriol_console::{Command, Controls, Frames, List, Port, Said, State, Step, Student, Text};
-use vitriol_experiment::{Failure, Instruction};
+use vitriol_console::{Command, Controls, Frames, List, Said, State, Step, Student, Text};
+use vitriol_experiment::{Blame, Failure, Instruction};
 use vitriol_gpu::{Gpu, Image};
 use vitriol_lesson::{Event, Texts};
 use vitriol_shaders::Library;
@@ -69,8 +69,8 @@ pub(super) struct Instructor {
     controls: Controls,
     /// The last order that was taken up.
     done: u64,
-    /// What the panel says of the last one, and the display time at which it was said, ns.
-    said: Option<(String, i64)>,
+    /// What the panel says of the last one, and the display time of the first frame that did, ns.
+    said: Option<(String, Option<i64>)>,
     /// By flask, at the last look.
     flasks: Vec<Held>,
     /// Of the last frames, s.
@@ -80,15 +80,20 @@ pub(super) struct Instructor {
 }
 
 impl Instructor {
-    /// Of a session with that console, or with none.
+    /// Of a session with that console, or with none, whose pictures have `eye` pixels.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
-    pub fn new(console: Option<Console>) -> Result<Self, Failure> {
-        use vitriol_experiment::Blame;
+    pub fn new(
+        console: Option<Console>,
+        (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
+    ) -> Result<Self, Failure> {
+        // Now, and not when somebody looks: a pipeline takes longer than a frame.
+        let view = console.as_ref();
+        let view = view.map(|it| View::new(gpu, library, eye, &it.port));
         Ok(Self {
+            view: view.transpose()?,
             console,
-            view: None,
             texts: Texts::english().other()?,
             controls: Controls::default(),
             done: 0,
@@ -116,9 +121,9 @@ impl Instructor {
         self.done = self.done.max(order);
     }
 
-    /// Shows on the panel what was done, in the frame that is shown at `now` (ns).
-    pub fn announce(&mut self, text: String, now: i64) {
-        self.said = Some((text, now));
+    /// Shows on the panel what was done, from the next frame on.
+    pub fn announce(&mut self, text: String) {
+        self.said = Some((text, None));
     }
 
     /// An instruction counts from now on.
@@ -146,20 +151,29 @@ impl Instructor {
 
     /// How strongly both hands feel at `now` (ns) that something is said, 0 to 1.
     pub fn felt(&self, now: i64) -> f32 {
-        let said = self.said.as_ref();
-        said.filter(|(_, at)| (0..FELT).contains(&(now - at)))
-            .map_or(0.0, |_| STRENGTH)
+        let at = self.said.as_ref().and_then(|(_, at)| *at);
+        match at {
+            Some(at) if (0..FELT).contains(&(now - at)) => STRENGTH,
+            _ => 0.0,
+        }
     }
 
-    /// What the panel says at `now` (ns).
-    pub fn told(&self, words: &InstructorTexts, now: i64) -> Told {
-        let said = self.said.as_ref();
-        let lately = said.filter(|(_, at)| (0..SAID).contains(&(now - at)));
-        let held = self.controls.paused.then(|| words.held.clone());
+    /// What the panel says in the frame that is shown at `now` (ns).
+    pub fn told(&mut self, words: &InstructorTexts, now: i64) -> Told {
+        if let Some((_, at)) = &mut self.said {
+            at.get_or_insert(now);
+        }
+        let lately =
+            |(_, at): &&(String, Option<i64>)| at.is_none_or(|at| (0..SAID).contains(&(now - at)));
+        let lately = self.said.as_ref().filter(lately).map(|(text, _)| text);
+        let held = self.controls.paused.then_some(&words.held);
         let message = &self.controls.message;
+        // A message is shown as such.
+        let shown = words.message(message);
+        let lately = lately.filter(|text| Some(*text) != held && **text != shown);
         Told {
-            done: held.or_else(|| lately.map(|(text, _)| text.clone())),
-            message: (!message.is_empty()).then(|| words.message(message)),
+            done: held.into_iter().chain(lately).cloned().collect(),
+            message: (!message.is_empty()).then_some(shown),
         }
     }
 
@@ -249,23 +263,11 @@ impl Instructor {
         }
     }
 
-    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), of pictures of `eye` pixels, where somebody looks.
+    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), where somebody looks.
     ///
     /// # Errors
     /// What the device says.
-    pub fn take(
-        &mut self,
-        (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
-        picture: &Image,
-        drawn: [u32; 2],
-        time: i64,
-    ) -> Result<(), Failure> {
-        let Some(port) = self.console.as_ref().map(|console| &console.port) else {
-            return Ok(());
-        };
-        if self.view.is_none() && looks(port) {
-            self.view = Some(View::new(gpu, library, eye, port)?);
-        }
+    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         match &mut self.view {
             Some(view) => view.take(picture, drawn, time),
             None => Ok(()),
@@ -279,12 +281,6 @@ impl Instructor {
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         self.view.as_mut().map_or(Ok(()), View::hand_over)
     }
-}
-
-/// Whether somebody looks.
-fn looks(port: &Port) -> bool {
-    let wanted = port.wanted();
-    wanted.h264 || wanted.jpeg
 }
 
 /// `None` of what this program cannot do.

@@ -190,7 +190,8 @@ impl Pacing {
         let times = FrameTimes {
             times: [steps * load.solve_ms / load.steps as f64, load.picture_ms],
             period,
-            since: std::mem::take(&mut self.since),
+            // While time is held nothing is learnt.
+            since: std::mem::take(&mut self.since).min(1.0),
         };
         let missed = std::mem::take(&mut self.missed);
         let decided = governor.take(&times, missed);

@@ -71,6 +71,13 @@ impl Steps {
         }
     }
 
+    /// One more step is due, in which the hands are as in `now`.
+    pub fn once_more(&mut self, now: &PoseFrame, placement: &Placement, scene: &Scene) {
+        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
+        let poses = placement::in_scene(now, &placement.stage_from_scene());
+        self.due.push_back(placement::shifted(poses, origin));
+    }
+
     /// Takes the steps that are due as far as the device has got: a step needs the push on the flasks of two
     /// steps ago, and a frame that is open waits for nothing. The rest is for [`Steps::take_rest`].
     pub fn take_ready(

@@ -39,7 +39,7 @@ impl Session {
             };
             if let Some(said) = said {
                 tracing::info!("{said}");
-                self.instructor.announce(said, self.shown_at());
+                self.instructor.announce(said);
             }
             self.instructor.taken_up(order);
         }
@@ -66,6 +66,25 @@ impl Session {
         true
     }
 
+    /// A replay does what was switched before the step that came next. Where none would, one more is taken.
+    pub(super) fn step_for_switches(&mut self) {
+        let last = self.placement.last.clone();
+        let (Some(now), true) = (last, self.track.awaits_step()) else {
+            return;
+        };
+        if self.instructor.holds_time() {
+            // As where time goes on.
+            self.placement.interrupt();
+            if let Some(switch) = self.placement.place(&now, false) {
+                self.track.switch(switch);
+                self.benches.current.world.hands_leap();
+            }
+            self.placement.last = Some(now.clone());
+        }
+        let scene = self.benches.current.world.scene();
+        self.steps.once_more(&now, &self.placement, scene);
+    }
+
     /// Tells the instructor how it is.
     pub(super) fn tell(&mut self, ended: bool) {
         let bench = &self.benches.current;
@@ -80,7 +99,7 @@ impl Session {
             events: &self.track.events,
             period: period.map(|info| 1e-9 * info.period_ns as f64),
             missed: self.counts.skipped,
-            step: self.guide.step(),
+            step: self.guide.step(&bench.plan.scene),
             hints: List::clipped(self.guide.hints()),
             ended,
         });
@@ -88,10 +107,7 @@ impl Session {
 
     /// Shows the instructor what the left eye sees.
     pub(super) fn show_instructor(&mut self, shown: &Shown, time: i64) -> Result<(), Failure> {
-        let benches = &self.benches;
-        let bench = &benches.current;
-        let made_for = (bench.world.gpu(), &*benches.library, benches.eyes.extent);
-        let picture = bench.picture.image();
-        self.instructor.take(made_for, picture, shown.extent, time)
+        let picture = self.benches.current.picture.image();
+        self.instructor.take(picture, shown.extent, time)
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
-use vitriol_experiment::{DeviceStatement, Failure, SimulatedTime, track};
+use vitriol_experiment::{DeviceStatement, Failure, Instruction, SimulatedTime, track};
 use vitriol_lesson::Event;
 use vitriol_xr::track::TrackMetadata;
 use vitriol_xr::{Pose, PoseFrame, Switch};
@@ -41,6 +42,14 @@ impl SessionTrack {
     /// Something was switched, which the next step is the first to be taken with.
     pub fn switch(&mut self, switch: Switch) {
         self.switches.push(switch);
+    }
+
+    /// Whether something was switched since the last step that a replay has to do as well: another bench, or what an instructor did.
+    pub fn awaits_step(&self) -> bool {
+        let counts = |it: &Switch| {
+            [SWITCH_SCENE, SWITCH_START].contains(&&*it.key) || Instruction::of(it).is_some()
+        };
+        self.switches.iter().any(counts)
     }
 
     /// A step of `frame_time` (s) was taken, which consumed `poses`; `flasks` are those after it.
