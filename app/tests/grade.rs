@@ -295,6 +295,10 @@ fn another_scene_is_listed_and_never_graded() {
     switched.frames[9].scenario = vec![switch("scene", "two-flasks")];
     put(here, "switched.mcap", &switched);
 
+    let mut calm = clean.clone();
+    calm.frames[9].scenario = vec![switch("k_v", "0")];
+    put(here, "calm.mcap", &calm);
+
     let mut bare = clean.clone();
     bare.metadata.scenes.clear();
     put(here, "bare.mcap", &bare);
@@ -315,11 +319,12 @@ fn another_scene_is_listed_and_never_graded() {
     })
     .unwrap();
     assert!(failure.is_none());
-    assert_eq!((class.graded, class.otherwise), (1, 5));
+    assert_eq!((class.graded, class.otherwise), (1, 6));
     for (student, part) in [
         ("diluted", "of another text"),
         ("other", "beaker"),
         ("switched", "two-flasks"),
+        ("calm", "k_v: 0"),
         ("bare", "does not carry"),
         ("elsewhere", "beaker"),
     ] {
@@ -341,7 +346,7 @@ fn another_scene_is_listed_and_never_graded() {
     let told: serde_json::Value = serde_json::from_str(&output).unwrap();
     assert_eq!(
         (&told["graded"], &told["otherwise"]),
-        (&0.into(), &6.into())
+        (&0.into(), &7.into())
     );
 }
 

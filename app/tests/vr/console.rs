@@ -142,6 +142,7 @@ fn soup(folder: &Path) -> String {
     file.to_str().unwrap().to_owned()
 }
 
+const BYE: &str = "That is all.";
 const MESSAGE: &str = "Slowly, please: “ä”!";
 
 /// Each control does what it says from the next frame on; the panel says so, the page shows it, and the recording has it, so that a
@@ -172,7 +173,10 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         click(48, "unsay", &reads("shown", "nothing")),
         click(52, "reset", &reads("k-v-now", "0.75")),
         click(60, "spare", &pressed("spare", false)),
-        click(66, "end-now", &reads("said", "The session is over.")),
+        // What is done while time is held, right before the end, is kept too.
+        click(64, "pause", &pressed("pause", true)),
+        send(66, "message", BYE, &reads("shown", BYE)),
+        click(68, "end-now", &reads("said", "The session is over.")),
     ];
     let soup = soup(folder.path());
     let Some((_hub, instructor, mut options)) = directed(folder.path(), deeds) else {
@@ -205,6 +209,8 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
             Speed(1.0),
             Message(String::new()),
             Spare(false),
+            Pause(true),
+            Message(BYE.into()),
         ]
     );
     // Nothing was simulated in the pause.
