@@ -73,6 +73,7 @@ fn nothing_grows_in_a_long_session() {
         driver.finish(&mut program);
     }
     let warm = WARM_UP as usize / WINDOW + 1;
+    assert!(program.held.len() > warm + 4, "{:?}", program.held);
     let sizes = program.held.split_off(warm);
     let (report, _) = program.end();
     eprintln!("{:#}, {sizes:?}", report["holdings"]);

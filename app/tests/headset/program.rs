@@ -150,15 +150,28 @@ impl Program {
         let line = line.unwrap_or_else(|error| panic!("the program says nothing: {error}"));
         let seen = Seen::of(&line);
         if seen.is_some() && self.seen.len().is_multiple_of(WINDOW) {
-            self.held.extend(self.memory());
+            self.held.extend(Self::memory());
         }
         self.seen.extend(seen);
         line
     }
 
     /// What it holds of memory, bytes; `None` once it has ended, of which the log tells later.
-    fn memory(&self) -> Option<f64> {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
+    fn memory() -> Option<f64> {
+        // The rig numbers processes anew and has the system's /proc, so it is found there as a child of this one.
+        let of = |stat: &str| -> Option<(String, String, String)> {
+            let (pid, rest) = stat.split_once(" (")?;
+            let (name, rest) = rest.rsplit_once(") ")?;
+            let parent = rest.split(' ').nth(1)?;
+            Some((pid.to_owned(), name.to_owned(), parent.to_owned()))
+        };
+        let stat = |path: &Path| of(&std::fs::read_to_string(path.join("stat")).ok()?);
+        let (own, ..) = stat(Path::new("/proc/self"))?;
+        let all = std::fs::read_dir("/proc").ok()?.map_while(Result::ok);
+        let mut found = all.map(|entry| entry.path()).filter(|path| {
+            stat(path).is_some_and(|(_, name, parent)| name == "vitriol" && parent == own)
+        });
+        let status = std::fs::read_to_string(found.next()?.join("status")).ok()?;
         let mut lines = status.lines();
         let line = lines.find_map(|line| line.strip_prefix("VmRSS:"))?;
         let kilobytes: f64 = line.trim().trim_end_matches(" kB").parse().ok()?;
