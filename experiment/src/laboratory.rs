@@ -1,19 +1,21 @@
 //! The simulated world and its picture on a Vulkan device, as the loop drives
 //! them.
 
-use std::collections::BTreeMap;
+mod sampled;
+mod switched;
+
 use std::sync::Arc;
 
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson as lesson;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
-use vitriol_sim::measure::{Departures, HeatMeasurement, Ledger};
+use vitriol_sim::measure::{Departures, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::solver::Held;
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_sound::Event;
-use vitriol_xr::{Pose, PoseFrame, Switch};
+use vitriol_xr::{Pose, PoseFrame};
 
 use crate::audible::Audible;
 use crate::camera::{Camera, Colour, Shot};
@@ -23,12 +25,11 @@ use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
 use crate::failure::{Blame, Failure};
 use crate::instruction::Instruction;
 use crate::looks::{Looked, Looks};
-use crate::sample::{HeatSample, LedgerSample, MassByPlace, Sample};
+use crate::sample::{MassByPlace, Sample};
 use crate::scenes::Scenes;
 use crate::stage::hands;
-use crate::switches::{
-    self, GLASS, SWITCH_GLASS, SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START,
-};
+
+use sampled::{by_flask, of_heat};
 
 /// What an experiment is made of.
 #[derive(Debug)]
@@ -238,89 +239,6 @@ impl Laboratory {
         Ok(())
     }
 
-    /// Does what the switches say, in their order; whether that brought up a scene.
-    fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
-        let mut anew = false;
-        for switch in switches {
-            match switch.key.as_str() {
-                SWITCH_SCENE | SWITCH_START => {
-                    self.bring_up(&switch.value)?;
-                    anew = true;
-                }
-                SWITCH_SOLVER => self.change_solver(&switch.value)?,
-                SWITCH_PLACEMENT => self.world.hands_leap(),
-                SWITCH_GLASS => self.change_glass(&switch.value)?,
-                _ => self.follow(switch)?,
-            }
-        }
-        Ok(anew)
-    }
-
-    /// Solves from the next step on as a session's governor did.
-    fn change_solver(&mut self, value: &str) -> Result<(), Failure> {
-        let effort = switches::pair(value);
-        let effort = effort.map_err(|error| format!("a switch to the solver {value:?}: {error}"));
-        let effort = effort.input()?;
-        self.solver_changes += u64::from(effort != self.world.effort());
-        self.world.set_effort(effort).input()?;
-        Ok(())
-    }
-
-    fn change_glass(&mut self, value: &str) -> Result<(), Failure> {
-        let Some(breaks) = GLASS.iter().position(|name| *name == value) else {
-            return Err(format!(
-                "a switch of the glass to {value:?}: it holds or breaks"
-            ))
-            .input();
-        };
-        self.breakable = breaks == 1;
-        self.world.set_breakable(self.breakable);
-        Ok(())
-    }
-
-    /// Does what an instructor did, where the switch is of one.
-    fn follow(&mut self, switch: &Switch) -> Result<(), Failure> {
-        let Some(instruction) = Instruction::of(switch) else {
-            return Ok(());
-        };
-        let instruction = instruction.input()?;
-        match &instruction {
-            // A replay in another scene.
-            Instruction::Intensity(value) if self.world.intensity().is_none() => {
-                tracing::warn!("a switch of k_v to {value} is left out: this scene has none");
-            }
-            Instruction::Intensity(value) => {
-                let set = self.world.set_intensity(*value);
-                set.map_err(|error| format!("a switch of k_v to {value}: {error}"))
-                    .input()?;
-            }
-            Instruction::Spare(on) => {
-                self.muted = *on;
-                self.audible.mute_boiling(*on);
-            }
-            // Between two steps, where nothing is simulated.
-            Instruction::Pause(_) | Instruction::Speed(_) | Instruction::Message(_) => {}
-        }
-        let said = (self.time.seconds(), instruction);
-        self.instructions.push(said);
-        Ok(())
-    }
-
-    fn bring_up(&mut self, name: &str) -> Result<(), Failure> {
-        let scene = self.scenes.get(name)?.with_preset(self.preset);
-        let gpu = self.world.gpu().clone();
-        self.world = World::new(&gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
-        self.world.set_breakable(self.breakable);
-        self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
-        (self.departures, self.start) = (Departures::default(), None);
-        self.end_attempt()?;
-        self.audible = Audible::of(&scene);
-        self.audible.mute_boiling(self.muted);
-        self.looks = Looks::of(name, &scene);
-        self.switched = Some(name.to_owned());
-        Ok(())
-    }
-
     /// Takes in the looks that are older than the newest ones, so many of them; waits for the device.
     fn collect_looks(&mut self, newest: usize) -> Result<(), Failure> {
         while self.looks.under_way() > newest {
@@ -513,52 +431,6 @@ impl Experiment for Laboratory {
                     .collect(),
             },
         })
-    }
-}
-
-fn by_flask<T: Copy>(scene: &Scene, values: &[T]) -> BTreeMap<String, T> {
-    let names = scene.flasks.iter().map(|flask| flask.name.clone());
-    names.zip(values.iter().copied()).collect()
-}
-
-fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> HeatSample {
-    let superheat = heat.superheat.as_ref();
-    let boiling_in_flasks = superheat.map(|superheat| {
-        let mut counts = superheat.in_flasks.clone();
-        counts.resize(scene.flasks.len(), 0);
-        by_flask(scene, &counts)
-    });
-    HeatSample {
-        temperature_mean_c: heat.temperature_mean,
-        temperature_p99_c: heat.temperature_p99,
-        temperature_max_c: heat.temperature_max,
-        temperatures_in_flasks_c: by_flask(scene, &heat.temperatures_in_flasks)
-            .into_iter()
-            .filter(|(_, [least, most])| least <= most)
-            .collect(),
-        temperatures_of_glass_c: by_flask(scene, &heat.temperatures_of_glass),
-        acid_mean: heat.acid_mean,
-        acid_min: heat.acid_min,
-        acid_max: heat.acid_max,
-        superheat_max_k: superheat.map(|superheat| superheat.max),
-        boiling_particles: superheat.map(|superheat| superheat.particles),
-        boiling_in_flasks: boiling_in_flasks.unwrap_or_default(),
-        ledger: heat.ledger.map(|ledger| LedgerSample {
-            initial_j: start.balance(),
-            exchanged_j: ledger.exchanged,
-            held_j: ledger.held,
-            steam_j: ledger.steam_enthalpy,
-            closure: ledger.closure(start),
-            steam_kg: ledger.steam,
-            mist_kg: ledger.mist,
-            vapour_kg: ledger.vapour,
-            spray_kg: ledger.spray,
-            spray_fallen_kg: ledger.spray_fallen,
-            air_kg: ledger.air,
-            air_held_kg: ledger.air_held,
-            bubbles_m3: ledger.gas,
-            foam_m3: ledger.foam,
-        }),
     }
 }
 

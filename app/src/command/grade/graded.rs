@@ -81,12 +81,13 @@ impl Graded {
         out.join(format!("{stem}.grade.json"))
     }
 
-    /// What an earlier call left of a track of this content, if it will do: with `verified`, one that was verified by that tolerance. What is no result, or one of something else, is none.
+    /// What an earlier call left of a track of this content, if it will do: with `verified`, one that was verified by that tolerance, on the device that was
+    /// asked for. What is no result, or one of something else, is none.
     pub fn earlier(
         file: &Path,
         content: &str,
         asked: &Asked,
-        verified: Option<Tolerance>,
+        verified: Option<(Tolerance, Option<&str>)>,
     ) -> Option<Self> {
         let found: Self = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
         let same = found.layout == LAYOUT
@@ -95,9 +96,8 @@ impl Graded {
             && found.asked == *asked;
         let enough = match (verified, &found.found) {
             (None, _) | (_, Found::Otherwise(_)) => true,
-            (Some(by), Found::Attempts(_)) => {
-                found.verified.as_ref().is_some_and(|it| it.tolerance == by)
-            }
+            (Some((by, device)), Found::Attempts(_)) => (found.verified.as_ref())
+                .is_some_and(|it| it.tolerance == by && it.asked_device.as_deref() == device),
         };
         (same && enough).then_some(found)
     }

@@ -20,6 +20,8 @@ use crate::command::recorded::{differences, recorded_events};
 pub struct Verified {
     /// The device.
     pub device: DeviceStatement,
+    /// What it was asked for by.
+    pub asked_device: Option<String>,
     /// In what this run is known to differ from the session, such as the device; its bits may differ then.
     pub differs: Vec<String>,
     /// Whether all that happened is the same, to the bit.
@@ -109,6 +111,7 @@ impl Verified {
         let points = found.iter().map(|it| Score::of(it, rubric, &texts));
         Ok(Self {
             device: outcome.device,
+            asked_device: args.device.clone(),
             differs,
             to_the_bit,
             agreement: Agreement::of(&Attempt::all(events), &found, tolerance),
