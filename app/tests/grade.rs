@@ -473,7 +473,15 @@ fn a_simulation_confirms_or_refutes() {
     }
     let again = [&more[..], &["--verify"]].concat();
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
-    // By another tolerance it is judged anew.
+    // For another device it is simulated anew, as by another tolerance.
+    let elsewhere = [&again[..], &["--device", "1"]].concat();
+    let toy = |_: &Setup<'_>| -> Made {
+        Ok(Box::new(Toy {
+            events: events(2.0),
+            driver: DEVICE[1],
+        }))
+    };
+    assert_eq!(graded(here, &elsewhere, toy).unwrap().0.taken, 0);
     let strict = [&again[..], &["--tolerance", "0.2,0,0.01"]].concat();
     let toy = |_: &Setup<'_>| -> Made {
         Ok(Box::new(Toy {

@@ -185,6 +185,9 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
     options.plan.scene = options.plan.scenes.open(&soup).unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 100, instructor);
     let (outcome, track) = session_with(&mut headset, options, nobody());
+    // Both hands have felt that something was said; they hold nothing.
+    let felt = |hands: &[f32; 2]| hands.iter().all(|it| *it >= 0.5);
+    assert!(headset.felt.iter().any(felt));
     // The end is the last deed; its page may not have been told before the loop ended.
     assert!(headset.trouble.deeds.borrow().len() <= 1);
     assert!(outcome.frames < 100 + 3000, "{}", outcome.frames);
