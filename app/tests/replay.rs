@@ -479,6 +479,16 @@ fn a_report_of_attempts_is_read_again() {
     // Without a film there is nothing to go to.
     assert!(page.contains("What happened") && !page.contains("href=\"#t="));
     assert!(page.contains("<span class=\"moment\">1.9\u{a0}s</span>"));
+    assert!(page.contains("id=\"score-1\""));
+
+    // Of what cannot be judged there is no table of points.
+    let mut idle = report;
+    let texts = Texts::english().unwrap();
+    idle.attempts[0].pours.clear();
+    idle.attempts[0].incidents.clear();
+    idle.judge(&Rubric::default(), &texts);
+    let page = idle.to_html(&texts);
+    assert!(page.contains("No points") && !page.contains("id=\"score-1\""));
 }
 
 #[test]

@@ -25,7 +25,8 @@ impl Report {
                     (self.instructed(film))
                 }
             }
-            @for (number, (attempt, score)) in attempts() {
+            // One that nothing can be judged of has said so above.
+            @for (number, (attempt, score)) in attempts().filter(|(_, (_, score))| score.of > 0) {
                 section id=(format!("score-{number}")) {
                     h2 {
                         "Score"

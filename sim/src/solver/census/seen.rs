@@ -152,7 +152,7 @@ pub struct Census {
     pub table: Held,
     /// Lying on the floor.
     pub floor: Held,
-    /// By [`Skin::ALL`]: of the liquid of no flask that is harmful ([`HARMFUL`]) how much touches it and what came to it anew.
+    /// By [`Skin::ALL`]: of the liquid of no flask that is harmful ([`HARMFUL`](super::HARMFUL)) how much touches it and what came to it anew.
     pub skin: [Touching; 3],
     /// By place and flask, as [`Census::moved`] says; empty where nothing did.
     pub moves: Vec<Moved>,
