@@ -171,9 +171,7 @@ fn points(own: [u32; 2]) -> Vec<[u32; 2]> {
 /// `budget`, the least of them and `false`: it is over already.
 fn calibrate(gpu: &Gpu, scene: &Scene, budget: f64) -> Result<(f64, bool), Failure> {
     let mut world = World::new(gpu, &Library::embedded(), scene, 0).input()?;
-    let input = StepInput {
-        hands: [Hand::ABSENT; 2],
-    };
+    let input = StepInput::of_hands([Hand::ABSENT; 2]);
     let [warm, counted] = FRAMES;
     let mut times = Vec::new();
     for frame in 0..warm + counted {

@@ -18,6 +18,7 @@ use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards};
+use crate::tools::tools;
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -101,6 +102,8 @@ pub struct Camera {
     gloves: Gloves,
     /// The user's hands, where it shows what the head sees.
     hands: [Hand; 2],
+    /// What a thermometer shows, °C.
+    celsius: f64,
 }
 
 impl Camera {
@@ -128,6 +131,7 @@ impl Camera {
             temperatures: temperatures(scene),
             gloves: Gloves::of(scene),
             hands: Default::default(),
+            celsius: 20.0,
         })
     }
 
@@ -155,6 +159,11 @@ impl Camera {
     /// Shows these hands, in the scene's stage, real metres.
     pub fn show_hands(&mut self, hands: [Hand; 2]) {
         self.hands = hands;
+    }
+
+    /// Shows a thermometer at this temperature, °C.
+    pub fn show_temperature(&mut self, celsius: f64) {
+        self.celsius = celsius;
     }
 
     /// The world as it is now, coloured by speed where it has not what is asked
@@ -246,6 +255,7 @@ impl Camera {
         };
         let liquid = (colour == Colour::Liquid).then(|| liquid_of(world));
         let bones = self.gloves.worn(world, &self.hands, &[None; 2]);
+        let tools = tools(world, self.celsius);
         let frame = FrameDesc {
             extent: None,
             views: &self.views(),
@@ -253,6 +263,7 @@ impl Camera {
             shards: &shards(world),
             particles: liquid.is_none().then_some(particles),
             hands: bones.each_ref().map(Vec::as_slice),
+            tools: &tools,
             liquid,
             steam: solver
                 .puffs()

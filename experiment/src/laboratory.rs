@@ -13,7 +13,7 @@ use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
 use vitriol_sim::scene::{PictureFilter, Preset, Scene};
 use vitriol_sim::solver::Held;
-use vitriol_sim::world::{StepInput, World, WorldError};
+use vitriol_sim::world::{World, WorldError};
 use vitriol_sound::Event;
 use vitriol_xr::{Pose, PoseFrame};
 
@@ -27,7 +27,7 @@ use crate::instruction::Instruction;
 use crate::looks::{Looked, Looks};
 use crate::sample::{MassByPlace, Sample};
 use crate::scenes::Scenes;
-use crate::stage::hands;
+use crate::stage;
 
 use sampled::{by_flask, of_heat};
 
@@ -264,6 +264,9 @@ impl Laboratory {
                 self.heard.extend(heard);
             }
         }
+        if let Some(camera) = &mut self.film {
+            camera.show_temperature(self.looks.thermometer());
+        }
         Ok(())
     }
 
@@ -305,8 +308,8 @@ impl Experiment for Laboratory {
             camera.show_hands(hands);
         }
         let scale = self.world.scene().scale;
-        let hands = hands(&frame.hands, self.world.scene());
-        self.world.step(&StepInput { hands }).map_err(blame_world)?;
+        let input = stage::input(frame, self.world.scene());
+        self.world.step(&input).map_err(blame_world)?;
         self.substeps += u64::from(self.world.scene().solver.substeps);
         self.flasks_broken += self.world.breaks().len() as u64;
         self.time.advance(scale.frame_time);

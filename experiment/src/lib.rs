@@ -33,6 +33,8 @@ mod skin;
 mod soundtrack;
 pub mod stage;
 pub mod switches;
+mod thermometer;
+mod tools;
 pub mod track;
 pub mod units;
 
@@ -55,3 +57,4 @@ pub use rank::Ranks;
 pub use run::run;
 pub use sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 pub use scenes::Scenes;
+pub use tools::tools;

@@ -5,9 +5,9 @@
 use std::collections::VecDeque;
 
 use vitriol_gpu::{QueueKind, Ticket};
-use vitriol_lesson::{Event, Finder, Limits, Seen, Sight};
+use vitriol_lesson::{Dipped, Event, Finder, Limits, Seen, Sight};
 use vitriol_render::Bone;
-use vitriol_sim::bodies::{Break, Strike};
+use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::Census;
@@ -17,6 +17,7 @@ use vitriol_xr::PoseFrame;
 use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::skin::skin;
+use crate::thermometer::Thermometer;
 
 /// A look that is under way, and what was done in its step.
 struct UnderWay {
@@ -26,6 +27,8 @@ struct UnderWay {
     held: Vec<bool>,
     strikes: Vec<Strike>,
     breaks: Vec<Break>,
+    worn: Worn,
+    dipped: Vec<Dipped>,
     hands: [Vec<Bone>; 2],
 }
 
@@ -51,6 +54,7 @@ pub struct Looked {
 pub struct Looks {
     gloves: Gloves,
     finder: Finder,
+    thermometer: Thermometer,
     under_way: VecDeque<UnderWay>,
 }
 
@@ -60,6 +64,7 @@ impl Looks {
         Self {
             gloves: Gloves::of(scene),
             finder: Finder::new(name, scene, Limits::default()),
+            thermometer: Thermometer::of(scene),
             under_way: VecDeque::new(),
         }
     }
@@ -97,6 +102,8 @@ impl Looks {
             held: flasks.map(|flask| world.holder(flask).is_some()).collect(),
             strikes: world.strikes().to_vec(),
             breaks: world.breaks().to_vec(),
+            worn: world.worn(),
+            dipped: dipped(world),
             hands,
         });
         Ok(ticket)
@@ -129,6 +136,11 @@ impl Looks {
         Ok(Some(self.seen(oldest, census)))
     }
 
+    /// What the thermometer shows, °C.
+    pub fn thermometer(&self) -> f64 {
+        self.thermometer.celsius()
+    }
+
     /// Looks that are not collected yet.
     pub fn under_way(&self) -> usize {
         self.under_way.len()
@@ -159,9 +171,12 @@ impl Looks {
             held: &of.held,
             strikes: &of.strikes,
             breaks: &of.breaks,
+            worn: of.worn,
+            dipped: &of.dipped,
         };
         let events = self.finder.looked(&seen);
         let sight = self.finder.sight(&seen);
+        self.thermometer.looked(&sight, elapsed);
         Looked {
             census,
             t: of.t,
@@ -172,4 +187,17 @@ impl Looks {
             sight,
         }
     }
+}
+
+/// What of the world's tools is dipped.
+fn dipped(world: &World) -> Vec<Dipped> {
+    let tools = world.scene().tools.iter().zip(world.tools()).enumerate();
+    tools
+        .filter(|(_, (tool, _))| tool.kind.is_dipped())
+        .map(|(index, (tool, pose))| Dipped {
+            kind: tool.kind,
+            tip: pose.position,
+            speed: world.tool_speed(index),
+        })
+        .collect()
 }

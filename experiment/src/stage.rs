@@ -4,8 +4,18 @@
 use vitriol_sim::bodies;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::World;
-use vitriol_xr::Hand;
+use vitriol_sim::world::{StepInput, World};
+use vitriol_xr::{Hand, PoseFrame};
+
+/// A recorded frame as a step's input, where the scene is near its own origin.
+pub fn input(frame: &PoseFrame, scene: &Scene) -> StepInput {
+    let head = &frame.stage_from_view;
+    let position = head.position / scene.scale.length_scale as f32 - scene.origin.as_vec3();
+    StepInput {
+        hands: hands(&frame.hands, scene),
+        head: Some(Pose::new(position, head.orientation)),
+    }
+}
 
 /// Recorded hands in the simulation's terms, where the scene is near its own origin.
 pub fn hands(hands: &[Hand; 2], scene: &Scene) -> [bodies::Hand; 2] {

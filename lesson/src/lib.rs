@@ -23,7 +23,7 @@ pub use attempt::Attempt;
 pub use event::{
     Cause, Content, Contents, Ending, Event, Hottest, Incident, Pour, Skin, Surface, What,
 };
-pub use finder::{Finder, Seen};
+pub use finder::{Dipped, Finder, Seen};
 pub use language::{Language, LanguageError};
 pub use limits::Limits;
 pub use procedure::{Lesson, LessonError, Mode, Procedure, SceneFacts, Sight};

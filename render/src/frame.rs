@@ -77,6 +77,8 @@ pub struct FrameDesc<'a> {
     /// The bones of the user's left and right hand, at most [`MOST_BONES`] each, in any order; none of a hand that
     /// is not seen.
     pub hands: [&'a [Bone]; 2],
+    /// Those of the tools, together at most as many.
+    pub tools: &'a [Bone],
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,
@@ -123,7 +125,8 @@ impl FrameDesc<'_> {
                 });
             }
         }
-        if let Some(hand) = self.hands.iter().find(|hand| hand.len() > MOST_BONES) {
+        let groups = [self.hands[0], self.hands[1], self.tools];
+        if let Some(hand) = groups.iter().find(|hand| hand.len() > MOST_BONES) {
             let (given, most) = (hand.len(), MOST_BONES);
             return Err(RenderError::TooManyBones { given, most });
         }

@@ -1,4 +1,4 @@
-//! Hands as gloves: round cones about their bones, joined smoothly.
+//! Hands, and the tools that they handle: round cones about their bones, joined smoothly.
 
 use glam::Vec3;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
@@ -10,7 +10,7 @@ use crate::frame::FrameDesc;
 use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
-/// Bones that a hand has at most, as in `common/picture/bones.wgsl`.
+/// Bones that a hand has at most, and tools in all, as in `common/picture/bones.wgsl`.
 pub const MOST_BONES: usize = 32;
 
 /// Distance over which the bones of a hand join smoothly, metres: they add up to a quarter of it where they meet, 1 mm. With
@@ -33,6 +33,18 @@ pub enum Finish {
     Handle,
     /// The same while a hand is at it.
     HandleAtHand,
+    /// A hand without a glove.
+    Skin,
+    /// A glass rod, and a thermometer above its column.
+    Rod,
+    /// A thermometer's column.
+    Column,
+    /// Frame and strap of goggles.
+    Frame,
+    /// Woven cotton.
+    Cloth,
+    /// A box of card.
+    Card,
 }
 
 impl Finish {
@@ -46,6 +58,12 @@ impl Finish {
             Self::Ray => ([0.90, 0.52, 0.11], 1.0),
             Self::Handle => ([0.55, 0.28, 0.05], 0.0),
             Self::HandleAtHand => ([0.90, 0.52, 0.11], 0.6),
+            Self::Skin => ([0.420, 0.220, 0.140], 0.0),
+            Self::Rod => ([0.550, 0.610, 0.620], 0.0),
+            Self::Column => ([0.450, 0.020, 0.020], 0.0),
+            Self::Frame => ([0.060, 0.075, 0.085], 0.0),
+            Self::Cloth => ([0.620, 0.560, 0.300], 0.0),
+            Self::Card => ([0.480, 0.480, 0.460], 0.0),
         }
     }
 }
@@ -74,7 +92,7 @@ pub(crate) struct Hands {
 impl Hands {
     pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
         let class = ("CLASS", f64::from(Class::Hands as u32));
-        let bytes = bytes_of_elements::<layout::Bone>(2 * MOST_BONES);
+        let bytes = bytes_of_elements::<layout::Bone>(GROUPS * MOST_BONES);
         Ok(Self {
             mark_pass: compute(gpu, library, hands::MARK, &[])?,
             light_pass: compute(gpu, library, hands::LIGHT, &[class])?,
@@ -98,8 +116,8 @@ impl Hands {
         frame: &FrameDesc<'_>,
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
-        let mut bones = [layout::Bone::default(); 2 * MOST_BONES];
-        for (slots, hand) in bones.chunks_mut(MOST_BONES).zip(frame.hands) {
+        let mut bones = [layout::Bone::default(); GROUPS * MOST_BONES];
+        for (slots, hand) in bones.chunks_mut(MOST_BONES).zip(groups(frame)) {
             for (slot, bone) in slots.iter_mut().zip(drawn(hand)) {
                 let [a, b] = bone.ends.map(|end| (end / frame.length_scale).to_array());
                 let [radius_a, radius_b] = bone.radii.map(|radius| radius / frame.length_scale);
@@ -124,7 +142,7 @@ impl Hands {
                 .read("bones", &self.bones)
                 .write("tiles", tiles.marks())
                 .constants(&run(frame))
-                .workgroups([2 * MOST_BONES as u32, self.views, 1])
+                .workgroups([(GROUPS * MOST_BONES) as u32, self.views, 1])
         })
     }
 
@@ -151,11 +169,19 @@ impl Hands {
     }
 }
 
+/// The left hand, the right one, and tools, as in `common/picture/bones.wgsl`.
+const GROUPS: usize = 3;
+
+fn groups<'a>(frame: &FrameDesc<'a>) -> [&'a [Bone]; GROUPS] {
+    let [left, right] = frame.hands;
+    [left, right, frame.tools]
+}
+
 fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
-    let bones = || frame.hands.into_iter().flat_map(drawn);
+    let bones = || groups(frame).into_iter().flat_map(drawn);
     let thinnest = bones().flat_map(|bone| bone.radii).fold(FARTHEST, f32::min);
     layout::HandsRun {
-        counts: frame.hands.map(|hand| drawn(hand).count() as u32),
+        counts: groups(frame).map(|hand| drawn(hand).count() as u32),
         joined: JOINED / frame.length_scale,
         over: frame.particles.is_some().into(),
         thinnest: thinnest / frame.length_scale,

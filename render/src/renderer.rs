@@ -488,5 +488,6 @@ fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
 
 /// Whether a frame shows any hand.
 fn has_hands(frame: &FrameDesc<'_>) -> bool {
-    frame.hands.iter().any(|bones| !bones.is_empty())
+    let groups = [frame.hands[0], frame.hands[1], frame.tools];
+    groups.iter().any(|bones| !bones.is_empty())
 }

@@ -4,6 +4,7 @@
 mod lifeline;
 mod look;
 mod start;
+mod tools;
 
 pub use lifeline::{Kept, Lifeline, StateRecord};
 pub use look::Look;
@@ -39,6 +40,15 @@ pub struct StepInput {
     /// Left and right hand at the step's end, in the scene's frame
     /// ([`Scene::origin`]).
     pub hands: [Hand; 2],
+    /// The middle between the user's eyes then, who looks along −z, likewise; `None` where it is not known. Nothing but goggles asks for it.
+    pub head: Option<Pose>,
+}
+
+impl StepInput {
+    /// Of hands alone.
+    pub const fn of_hands(hands: [Hand; 2]) -> Self {
+        Self { hands, head: None }
+    }
 }
 
 /// Why a world could not be made or could not go on.
@@ -156,6 +166,7 @@ impl World {
             ground: ground(scene),
             particles: &particles,
             loads: scene.flasks.iter().any(|flask| !flask.fixed),
+            tools: !scene.tools.is_empty(),
             constraint,
             lanes: None,
         };
@@ -194,6 +205,7 @@ impl World {
         }
         let loads = self.due_loads()?;
         let mut before = self.bodies.poses().to_vec();
+        self.bodies.set_head(input.head);
         self.bodies.step(&input.hands, &loads);
         let mut rec = self.gpu.recorder(queue)?;
         for leap in self.bodies.leaps() {
@@ -204,6 +216,7 @@ impl World {
             self.solver.release(&mut rec, broken.flask)?;
             before[broken.flask] = self.bodies.poses()[broken.flask];
         }
+        self.handle(&mut rec)?;
         self.follow_walls(&before)?;
         let record = self.solver.record(&mut rec, &before, self.bodies.poses())?;
         let ticket = self.gpu.submit(rec)?;

@@ -348,6 +348,7 @@ impl Vessel {
                     acid_fraction: feed.acid,
                 })
                 .collect(),
+            tools: Vec::new(),
             table: None,
             floor: Floor {
                 height: -100.0 * self.height,

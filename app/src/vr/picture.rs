@@ -78,6 +78,8 @@ pub struct Sight<'a> {
     pub views: [View; 2],
     /// The bones of the hands.
     pub hands: [&'a [Bone]; 2],
+    /// Those of the tools.
+    pub tools: &'a [Bone],
     /// The panel.
     pub panel: Option<Panel<'a>>,
     /// A sign.
@@ -248,6 +250,7 @@ impl Picture {
             shards: &shards(world),
             particles: None,
             hands: sight.map_or([&[]; 2], |sight| sight.hands),
+            tools: sight.map_or(&[], |sight| sight.tools),
             liquid: Some(liquid_of(world)),
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
                 puffs: &puffs[self.drawn % 2],

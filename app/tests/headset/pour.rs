@@ -176,7 +176,7 @@ pub fn replay(track: &Track) -> Replayed {
             world.hands_leap();
         }
         let hands = stage::hands(&frame.hands, &scene);
-        world.step(&StepInput { hands }).unwrap();
+        world.step(&StepInput::of_hands(hands)).unwrap();
         assert_eq!(&stage::flasks(&world), flasks, "step {}", frame.step);
         lifted = lifted.max(flasks[0].position.y);
     }

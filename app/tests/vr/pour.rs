@@ -40,7 +40,7 @@ fn replayed(gpu: &vitriol_gpu::Gpu, track: &Track) -> u64 {
             squeeze: hand.squeeze.max(hand.trigger),
             present: hand.active && hand.valid,
         });
-        world.step(&StepInput { hands }).unwrap();
+        world.step(&StepInput::of_hands(hands)).unwrap();
         assert_eq!(flasks.len(), world.poses().len());
         for (recorded, pose) in flasks.iter().zip(world.poses()) {
             assert_eq!(recorded.position, pose.position, "step {}", frame.step);

@@ -10,7 +10,7 @@ mod posture;
 #[cfg(test)]
 mod tests;
 
-use vitriol_render::Bone;
+use vitriol_render::{Bone, Finish};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Pose, Side};
@@ -19,6 +19,15 @@ pub use bones::{JOINTS, Joints, bones_of};
 pub use glass::Glass;
 pub use grasp::{Grasp, closed_on};
 pub use posture::{Posture, joints_of};
+
+/// The same hand without its glove.
+fn bare(mut bones: Vec<Bone>) -> Vec<Bone> {
+    bones.retain(|bone| bone.finish != Finish::Cuff);
+    for bone in &mut bones {
+        bone.finish = Finish::Skin;
+    }
+    bones
+}
 
 /// The gloves of a scene's user.
 #[derive(Clone, Debug)]
@@ -47,13 +56,16 @@ impl Gloves {
     ) -> [Vec<Bone>; 2] {
         Side::BOTH.map(|side| {
             let hand = &hands[side as usize];
-            if let Some(joints) = &joints[side as usize] {
-                return bones_of(joints);
+            let joints = match &joints[side as usize] {
+                Some(joints) => *joints,
+                None if hand.active && hand.valid => self.of_controller(world, hand, side),
+                None => return Vec::new(),
+            };
+            let bones = bones_of(&joints);
+            match world.worn().gloves {
+                Some(gloves) if !gloves[side as usize] => bare(bones),
+                _ => bones,
             }
-            if !(hand.active && hand.valid) {
-                return Vec::new();
-            }
-            bones_of(&self.of_controller(world, hand, side))
         })
     }
 

@@ -16,9 +16,10 @@ mod spills;
 mod tests;
 mod thrown;
 
-use vitriol_sim::bodies::{Break, Strike};
+use vitriol_sim::bodies::{Break, Strike, Worn};
+use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Feature, Scene, TableTop};
+use vitriol_sim::scene::{Feature, Scene, TableTop, ToolKind};
 use vitriol_sim::solver::{Census, Held};
 
 use crate::event::{Content, Contents, Ending, Event};
@@ -55,6 +56,21 @@ pub struct Seen<'a> {
     pub strikes: &'a [Strike],
     /// Flasks that broke.
     pub breaks: &'a [Break],
+    /// What the user wears.
+    pub worn: Worn,
+    /// What is dipped.
+    pub dipped: &'a [Dipped],
+}
+
+/// A rod or a thermometer after the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dipped {
+    /// What it is.
+    pub kind: ToolKind,
+    /// Where its lower end is, in the world.
+    pub tip: glam::Vec3,
+    /// How fast that moves, m/s of the scene.
+    pub speed: f32,
 }
 
 /// What of a scene matters here.
@@ -67,6 +83,8 @@ pub(crate) struct Bench {
     pub heated: Vec<bool>,
     /// Height of the rim over the flask's origin, m of the scene.
     pub rims: Vec<f64>,
+    /// The flasks' shapes, m of the scene.
+    pub profiles: Vec<Profile>,
     /// Whether steam is in bubbles.
     pub bubbles: bool,
     /// Real metres for one of the scene.
@@ -88,6 +106,7 @@ impl Bench {
             lifted: flasks.iter().map(|flask| !flask.fixed).collect(),
             heated: flasks.iter().map(|flask| flask.heater > 0.0).collect(),
             rims: flasks.iter().map(|it| it.profile.rim_height()).collect(),
+            profiles: flasks.iter().map(|it| it.profile.clone()).collect(),
             bubbles: scene.models(Feature::Bubbles),
             scale: scene.scale.length_scale,
             gravity: scene.scale.gravity,
@@ -156,6 +175,10 @@ pub struct Finder {
     contents: Contents,
     /// What lies on bench and floor, real m³.
     lying: [f64; 2],
+    /// Water that came to the left and the right hand since the start, real m³.
+    rinsed: [f64; 2],
+    /// Whether hands can be rinsed.
+    rinsing: bool,
     t: f64,
 }
 
@@ -175,6 +198,8 @@ impl Finder {
             falls: GlassFalls::default(),
             contents: Contents::default(),
             lying: [0.0; 2],
+            rinsed: [0.0; 2],
+            rinsing: scene.tool(ToolKind::Gloves).is_some(),
             t: 0.0,
         }
     }
@@ -201,6 +226,9 @@ impl Finder {
         self.falls.looked(bench, seen, &mut said);
         self.contents = contents;
         self.lying = [&seen.census.table, &seen.census.floor].map(|it| bench.volume(it.volume));
+        for (rinsed, touching) in self.rinsed.iter_mut().zip(&seen.census.skin) {
+            *rinsed += bench.volume(touching.rinsed);
+        }
         self.t = seen.t;
         said
     }

@@ -3,9 +3,10 @@
 use glam::Vec3;
 use vitriol_sim::bodies;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::ToolKind;
 
 use super::{Bench, Finder, Seen};
-use crate::procedure::{FlaskSight, Sight};
+use crate::procedure::{Dip, FlaskSight, Sight};
 
 /// Tilt up to which a flask stands, as the cosine of its axis with the vertical: 5°, which rounding of the table's contact does not reach.
 /// Our choice.
@@ -26,9 +27,23 @@ impl Bench {
     }
 }
 
+impl Bench {
+    /// Whether a place in the world is in the liquid of a flask that holds so much of it (m³ of the scene), as it would stand in the upright
+    /// flask.
+    fn is_in_liquid(&self, flask: usize, volume: f64, pose: &Pose, place: Vec3) -> bool {
+        let Some(profile) = self.profiles.get(flask).filter(|_| volume > 0.0) else {
+            return false;
+        };
+        let local = pose.inverse().transform_point(place).as_dvec3();
+        let level = profile.level_for_volume(volume);
+        let level = level.unwrap_or_else(|| profile.rim_height());
+        local.y < level && profile.is_inside(local.x.hypot(local.z), local.y)
+    }
+}
+
 impl Finder {
-    /// What a look shows, for [`Procedure::advance`](crate::Procedure::advance) with the events of the same look. Bodies that no scene has
-    /// yet are `None`.
+    /// What a look shows, for [`Procedure::advance`](crate::Procedure::advance) with the events of the same look, which
+    /// [`Finder::looked`] has taken in. What a scene does not have is `None`.
     pub fn sight(&self, seen: &Seen<'_>) -> Sight {
         let bench = &self.bench;
         let flasks = bench.names.iter().enumerate().map(|(flask, name)| {
@@ -50,8 +65,29 @@ impl Finder {
             flasks: flasks.collect(),
             bench_m3: bench.volume(seen.census.table.volume),
             floor_m3: bench.volume(seen.census.floor.volume),
-            ..Sight::default()
+            goggles: seen.worn.goggles,
+            gloves: seen.worn.gloves.map(|on| on == [true; 2]),
+            sash_m: None,
+            rod: self.dip(seen, ToolKind::Rod),
+            thermometer: self.dip(seen, ToolKind::Thermometer),
+            rinsed_m3: self.rinsing.then_some(self.rinsed),
         }
+    }
+
+    fn dip(&self, seen: &Seen<'_>, kind: ToolKind) -> Option<Dip> {
+        let dipped = seen.dipped.iter().find(|it| it.kind == kind)?;
+        let bench = &self.bench;
+        let flasks = 0..bench.names.len();
+        let in_flask = flasks.into_iter().find(|&flask| {
+            let held = seen.census.flasks.get(flask);
+            let volume = held.map_or(0.0, |held| held.volume);
+            let pose = seen.poses.get(flask);
+            pose.is_some_and(|pose| bench.is_in_liquid(flask, volume, pose, dipped.tip))
+        });
+        Some(Dip {
+            flask: in_flask.map(|flask| bench.name(flask)),
+            speed_m_s: bench.speed(dipped.speed.into()),
+        })
     }
 }
 
@@ -59,11 +95,13 @@ impl Finder {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use glam::Quat;
+    use vitriol_sim::bodies::Worn;
     use vitriol_sim::scene::Scene;
     use vitriol_sim::solver::{Census, Held};
 
     use super::*;
     use crate::Limits;
+    use crate::finder::Dipped;
 
     /// The first flask of a scene at its start, after `change`.
     fn seen(scene: &str, held: bool, change: &dyn Fn(&mut Pose)) -> Sight {
@@ -96,6 +134,8 @@ mod tests {
             held: &[held, false],
             strikes: &[],
             breaks: &[],
+            worn: Worn::default(),
+            dipped: &[],
         })
     }
 
@@ -114,7 +154,9 @@ mod tests {
             assert_eq!((flask.acid, flask.temperature_c), (0.5, Some(30.0)));
             assert_eq!((sight.t_s, sight.flasks.len()), (3.0, 2));
             assert_eq!(sight.flasks[1].temperature_c, None);
-            assert_eq!((sight.goggles, sight.rinsed_m3), (None, None));
+            // The first has gloves to take off, the second has none.
+            let rinsed = (scene == "acid-into-water").then_some([0.0; 2]);
+            assert_eq!((sight.goggles, sight.rinsed_m3), (None, rinsed));
         }
     }
 
@@ -145,5 +187,57 @@ mod tests {
         assert!(finder.bench.stands(&pose));
         finder.bench.table = None;
         assert!(!finder.bench.stands(&pose));
+    }
+
+    /// 160 mL in a beaker of 400 mL stand 35 mm high over its base of 2 mm: π · 38² mm² · 35.3 mm.
+    #[test]
+    fn what_is_dipped_is_in_the_liquid_of_a_flask() {
+        let scene = Scene::builtin("acid-into-water").unwrap();
+        let finder = Finder::new("scene", &scene, Limits::default());
+        let poses: Vec<Pose> = scene.flasks.iter().map(|it| it.stage_from_flask).collect();
+        let census = Census {
+            flasks: vec![
+                Held::default(),
+                Held {
+                    particles: 10,
+                    volume: 160e-6,
+                    ..Held::default()
+                },
+            ],
+            ..Census::default()
+        };
+        let dip = |aside: f32, height: f32| {
+            let tip = poses[1].position + Vec3::new(aside, height, 0.0);
+            let dipped = [Dipped {
+                kind: ToolKind::Rod,
+                tip,
+                speed: 0.2,
+            }];
+            let sight = finder.sight(&Seen {
+                t: 3.0,
+                elapsed: 0.1,
+                census: &census,
+                poses: &poses,
+                held: &[false; 2],
+                strikes: &[],
+                breaks: &[],
+                worn: Worn {
+                    goggles: Some(true),
+                    gloves: Some([true, false]),
+                },
+                dipped: &dipped,
+            });
+            assert_eq!(sight.thermometer, None);
+            assert_eq!((sight.goggles, sight.gloves), (Some(true), Some(false)));
+            let dip = sight.rod.unwrap();
+            assert!((dip.speed_m_s - 0.2).abs() < 1e-6);
+            dip.flask
+        };
+        assert_eq!(dip(0.0, 0.036).as_deref(), Some("target"));
+        assert_eq!(dip(0.0, 0.039), None, "above it");
+        assert_eq!(dip(0.037, 0.01).as_deref(), Some("target"));
+        assert_eq!(dip(0.039, 0.01), None, "in the glass");
+        assert_eq!(dip(0.0, 0.001), None, "in the base");
+        assert_eq!(dip(-0.24, 0.01), None, "in an empty beaker");
     }
 }

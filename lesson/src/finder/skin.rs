@@ -1,5 +1,6 @@
 //! Acid or hot liquid that comes to the user.
 
+use vitriol_sim::bodies::Worn;
 use vitriol_sim::solver::{Place, Skin as Part};
 
 use super::amount::{Amount, Bit};
@@ -7,10 +8,19 @@ use super::leaving::Leavings;
 use super::{Bench, PAUSE, Seen};
 use crate::event::{Cause, Event, Incident, Skin, What};
 
+/// What came to a part.
+#[derive(Clone, Debug)]
+struct Touch {
+    amount: Amount,
+    cause: Cause,
+    /// Whether glove or goggles kept all of it off.
+    protected: bool,
+}
+
 /// By part.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Touches {
-    open: [Option<(Amount, Cause)>; 3],
+    open: [Option<Touch>; 3],
 }
 
 fn part(skin: Part) -> Skin {
@@ -18,6 +28,16 @@ fn part(skin: Part) -> Skin {
         Part::Left => Skin::LeftHand,
         Part::Right => Skin::RightHand,
         Part::Face => Skin::Face,
+    }
+}
+
+/// Where a scene has neither gloves nor goggles to put on, everybody wears them.
+fn is_protected(worn: Worn, skin: Part) -> bool {
+    let of_hand = |hand: usize| worn.gloves.is_none_or(|on| on[hand]);
+    match skin {
+        Part::Left => of_hand(0),
+        Part::Right => of_hand(1),
+        Part::Face => worn.goggles != Some(false),
     }
 }
 
@@ -35,7 +55,7 @@ impl Touches {
             if came.particles == 0 {
                 continue;
             }
-            let (amount, _) = open.get_or_insert_with(|| {
+            let touch = open.get_or_insert_with(|| {
                 let flasks = 0..bench.names.len();
                 let most = flasks.max_by(|&a, &b| {
                     let [a, b] = [a, b].map(|it| seen.census.moved(Place::Skin(skin), it).volume);
@@ -44,9 +64,14 @@ impl Touches {
                 let from =
                     most.filter(|&it| seen.census.moved(Place::Skin(skin), it).particles > 0);
                 let cause = from.map(|flask| leavings.cause(bench, flask, seen.t));
-                (Amount::at(seen.t), cause.unwrap_or(Cause::Unknown))
+                Touch {
+                    amount: Amount::at(seen.t),
+                    cause: cause.unwrap_or(Cause::Unknown),
+                    protected: true,
+                }
             });
-            amount.add(
+            touch.protected &= is_protected(seen.worn, skin);
+            touch.amount.add(
                 seen.t,
                 &Bit {
                     volume: bench.volume(came.volume),
@@ -62,9 +87,14 @@ impl Touches {
     /// Says what is over at `now`. However little it is: a drop in an eye is enough.
     pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
         for (skin, open) in Part::ALL.into_iter().zip(&mut self.open) {
-            let Some((amount, cause)) = open.take_if(|(it, _)| it.is_over(now, PAUSE)) else {
+            let Some(touch) = open.take_if(|it| it.amount.is_over(now, PAUSE)) else {
                 continue;
             };
+            let Touch {
+                amount,
+                cause,
+                protected,
+            } = touch;
             said.push(Event::Incident(Incident {
                 t_s: amount.begun,
                 until_s: amount.last,
@@ -73,8 +103,7 @@ impl Touches {
                     volume_m3: amount.volume,
                     acid: amount.acid(),
                     temperature_c: amount.temperature(),
-                    // Everybody wears gloves and goggles.
-                    protected: true,
+                    protected,
                 },
                 cause,
                 place_m: bench.place(amount.place()),

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use glam::{DVec3, Quat, Vec3};
-use vitriol_sim::bodies::{Break, Strike};
+use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{
@@ -26,6 +26,7 @@ struct Arranged {
     poses: [Pose; 2],
     hands: [bool; 2],
     sprayed: [f64; 2],
+    worn: Worn,
     said: Vec<Event>,
 }
 
@@ -51,6 +52,7 @@ impl Arranged {
             poses,
             hands: [true, false],
             sprayed: [0.0; 2],
+            worn: Worn::default(),
             said: Vec::new(),
         };
         arranged.looks(1, &|census| census);
@@ -76,6 +78,8 @@ impl Arranged {
                 ..Census::default()
             });
             self.said.extend(self.finder.looked(&Seen {
+                worn: self.worn,
+                dipped: &[],
                 t: self.t,
                 elapsed: STEP,
                 census: &census,

@@ -28,7 +28,7 @@ const LONGEST_ID: usize = 40;
 const LONGEST_TIME: f64 = 3600.0;
 
 /// The lessons that come with the program: name and text.
-const BUILTIN: [(&str, &str); 3] = [
+const BUILTIN: [(&str, &str); 4] = [
     ("dilute", include_str!("../../lessons/dilute.toml")),
     (
         "wrong-order",
@@ -38,6 +38,7 @@ const BUILTIN: [(&str, &str); 3] = [
         "examination",
         include_str!("../../lessons/examination.toml"),
     ),
+    ("emergency", include_str!("../../lessons/emergency.toml")),
 ];
 
 #[derive(Deserialize)]

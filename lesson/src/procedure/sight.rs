@@ -1,6 +1,6 @@
 //! What the judge sees, and what a scene has that can be seen.
 
-use vitriol_sim::scene::{Feature, Scene};
+use vitriol_sim::scene::{Feature, Scene, ToolKind};
 
 /// Liquid in a flask, and where the flask is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -97,19 +97,27 @@ pub struct SceneFacts {
 }
 
 impl SceneFacts {
-    /// Those of a scene that is called `name`. Scenes have flasks and liquid alone so far: goggles and gloves are always worn.
+    /// Those of a scene that is called `name`.
     pub fn of(name: &str, scene: &Scene) -> Self {
         let flasks = scene.flasks.iter().map(|flask| FlaskFacts {
             name: flask.name.clone(),
             lifted: !flask.fixed,
         });
+        let has = |kind| scene.tool(kind).is_some();
         let of_scene: f64 = scene.liquids.iter().map(|liquid| liquid.volume).sum();
         Self {
             name: name.to_owned(),
             flasks: flasks.collect(),
             liquid_m3: scene.scale.length_scale.powi(3) * of_scene,
             heat: scene.models(Feature::Heat),
-            ..Self::default()
+            goggles: has(ToolKind::Goggles),
+            gloves: has(ToolKind::Gloves),
+            sash: false,
+            rod: has(ToolKind::Rod),
+            thermometer: has(ToolKind::Thermometer),
+            cloth: has(ToolKind::Cloth),
+            // Bare hands are rinsed as gloves are; where there are none to take off, nobody looks.
+            rinsing: has(ToolKind::Gloves),
         }
     }
 }

@@ -137,6 +137,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         shards: &[],
         particles: None,
         hands: [&[]; 2],
+        tools: &[],
         liquid: None,
         steam: None,
         panel: None,

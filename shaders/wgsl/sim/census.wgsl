@@ -30,7 +30,7 @@ const SKIN = 3u;
 const SKINS = 3u;
 
 /// Words of a place: what is there, what came there from elsewhere, and its bubbles.
-const WORDS = 22u;
+const WORDS = 23u;
 const HERE = 0u;
 const VOLUME_HERE = 1u;
 const WARMTH = 2u;
@@ -54,6 +54,8 @@ const CAME_WARMTH = 18u;
 const HOTTEST = 19u;
 const SUPERHEAT = 20u;
 const BUBBLES_VOLUME = 21u;
+/// Of skin: what came to it that is as good as water.
+const RINSED = 22u;
 
 /// Behind the places, by place and flask: what came there from elsewhere and had been in that flask last.
 const MOVED_WORDS = 3u;
@@ -118,7 +120,7 @@ var<immediate> run: CensusRun;
 @group(0) @binding(5) var<storage, read> bubbles: array<Bubble>;
 @group(0) @binding(6) var<storage, read> drops: array<Drops>;
 @group(0) @binding(7) var<storage, read> limbs: array<Limb>;
-/// By identity: the place; from bit 16 on whom it has touched, and whether it has lain since it was in a flask; from bit 21 on
+/// By identity: the place; from bit 13 on whom it has rinsed, from bit 16 on whom it has touched, and whether it has lain since it was in a flask; from bit 21 on
 /// the number of the flask in which it was last, from 1 on.
 @group(0) @binding(8) var<storage, read_write> places_before: array<u32>;
 @group(0) @binding(9) var<storage, read_write> bubbles_before: array<BubbleBefore>;
@@ -128,13 +130,18 @@ var<immediate> run: CensusRun;
 const LOOKS = 500.0;
 const MOST_LOOKS = 8.0;
 
+/// Whether the user's hands can be rinsed.
+override RINSING: bool = false;
+
+const PLACE: u32 = 0x1fffu;
+const WETTED: u32 = 13u;
 const TOUCHED: u32 = 16u;
 const LAIN: u32 = 19u;
 const ORIGIN: u32 = 21u;
 const MOST_ORIGINS: u32 = 2047u;
 /// Places whose sums a workgroup makes by itself; the rest, of scenes with many flasks, go one by one.
 const NEAR_PLACES = 16u;
-var<workgroup> near: array<atomic<u32>, 352>;
+var<workgroup> near: array<atomic<u32>, 368>;
 
 fn tally(place: u32, word: u32, amount: u32) {
     let index = place * WORDS + word;
@@ -243,10 +250,11 @@ fn count_particle(i: u32) {
         largest(place, SUPERHEAT, share(celsius - boiling_point(acid), SUPERHEATS.x, SUPERHEATS.y));
     }
     let before = select(places_before[tag.y], 0u, run.first != 0u);
+    var wetted = (before >> WETTED) & 7u;
     var touched = (before >> TOUCHED) & 7u;
     var lain = (before >> LAIN) & 1u;
     var origin = before >> ORIGIN;
-    if (run.first == 0u && (before & 0xffffu) != place) {
+    if (run.first == 0u && (before & PLACE) != place) {
         came(place, x, v, volume, acid, celsius);
         // What bounces on a table, or runs off it, comes to lie once.
         let lies = place > FLASKS + IN_AIR;
@@ -257,10 +265,11 @@ fn count_particle(i: u32) {
         origin = min(place + 1u, MOST_ORIGINS);
         lain = 0u;
         touched = 0u;
+        wetted = 0u;
     }
     if (tag.x == NOBODYS && (acid >= HARMFUL || (HEAT && celsius >= SCALDS))) {
         let now = touched_at(x);
-        let way = touched_on_way(x, v, run.first == 0u && (before & 0xffffu) >= FLASKS);
+        let way = touched_on_way(x, v, run.first == 0u && (before & PLACE) >= FLASKS);
         for (var whose = 0u; whose < SKINS; whose++) {
             let bit = 1u << whose;
             let part = FLASKS + SKIN + whose;
@@ -271,8 +280,15 @@ fn count_particle(i: u32) {
             }
         }
         touched |= now | way;
+    } else if (RINSING && tag.x == NOBODYS) {
+        let was_free = run.first == 0u && (before & PLACE) >= FLASKS;
+        let reached = touched_at(x) | touched_on_way(x, v, was_free);
+        for (var whose = 0u; whose < SKINS; whose++) {
+            if ((reached & ~wetted & (1u << whose)) != 0u) { tally(FLASKS + SKIN + whose, RINSED, share(volume, 0.0, VOLUMES)); }
+        }
+        wetted |= reached;
     }
-    places_before[tag.y] = place | touched << TOUCHED | lain << LAIN | origin << ORIGIN;
+    places_before[tag.y] = place | wetted << WETTED | touched << TOUCHED | lain << LAIN | origin << ORIGIN;
 }
 
 fn count_bubble(slot: u32) {

@@ -3,12 +3,13 @@
 use glam::{Vec2, Vec3};
 use rapier3d::na::Unit;
 use rapier3d::prelude::{
-    ColliderBuilder, MassProperties, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+    ColliderBuilder, Group, InteractionGroups, InteractionTestMode, MassProperties, PhysicsWorld,
+    RigidBodyBuilder, RigidBodyHandle,
 };
 
 use crate::scene::TableTop;
 
-use super::spec::{BodiesError, BodiesSpec, BodySpec, Table};
+use super::spec::{BodiesError, BodiesSpec, BodySpec, Role, Table};
 use super::units::{UNIT, Units};
 use super::{shell, solid};
 
@@ -30,7 +31,14 @@ const CONTACT_FREQUENCY: f32 = 200.0;
 /// Thickness of the table top (m, at real size).
 const TABLE_THICKNESS: f32 = TableTop::THICKNESS as f32;
 
-/// What of a flask never changes.
+/// Damping of a tool's spin, 1/s: our choice.
+const TOOL_DAMPING: f32 = 3.0;
+
+/// Of which bodies a collider is; table, floor and shards are of all.
+const FLASKS: Group = Group::GROUP_1;
+const TOOLS: Group = Group::GROUP_2;
+
+/// What of a body never changes: of a flask, or of a tool.
 pub(super) struct Flask {
     pub body: RigidBodyHandle,
     /// As in [`BodySpec::outline`] (m).
@@ -40,9 +48,11 @@ pub(super) struct Flask {
     /// Greatest outer radius, in rapier's unit.
     pub radius: f32,
     pub fixed: bool,
+    /// `None` of a flask.
+    pub role: Option<Role>,
 }
 
-/// rapier's world and the flasks in it, at rest where `spec` puts them.
+/// rapier's world and the bodies in it, the flasks first, at rest where `spec` puts them.
 pub(super) fn build(spec: &BodiesSpec) -> Result<(PhysicsWorld, Vec<Flask>), BodiesError> {
     check_world(spec)?;
     let units = Units::new(spec.length_scale);
@@ -66,8 +76,10 @@ pub(super) fn build(spec: &BodiesSpec) -> Result<(PhysicsWorld, Vec<Flask>), Bod
         rapier.insert_collider(table_top(table, units), None);
     }
     let mut flasks = Vec::with_capacity(spec.flasks.len());
-    for (index, body) in spec.flasks.iter().enumerate() {
-        flasks.push(insert_flask(&mut rapier, index, body, units)?);
+    let tools = spec.tools.iter().map(|it| (&it.body, Some(it.role)));
+    let all = spec.flasks.iter().map(|it| (it, None)).chain(tools);
+    for (index, (body, role)) in all.enumerate() {
+        flasks.push(insert(&mut rapier, index, (body, role), units)?);
     }
     Ok((rapier, flasks))
 }
@@ -139,10 +151,10 @@ fn check_flask(flask: usize, spec: &BodySpec) -> Result<(), BodiesError> {
     )
 }
 
-fn insert_flask(
+fn insert(
     rapier: &mut PhysicsWorld,
     index: usize,
-    spec: &BodySpec,
+    (spec, role): (&BodySpec, Option<Role>),
     units: Units,
 ) -> Result<Flask, BodiesError> {
     check_flask(index, spec)?;
@@ -151,7 +163,11 @@ fn insert_flask(
         .iter()
         .map(|point| Vec2::from(point.map(|metres| units.length(metres))))
         .collect();
-    let pieces = solid::pieces(&outline).ok_or(BodiesError::Flask {
+    let pieces = match role {
+        None => solid::pieces(&outline),
+        Some(_) => solid::block(&outline),
+    };
+    let pieces = pieces.ok_or(BodiesError::Flask {
         flask: index,
         what: "the outline",
         must: "the surface of a solid, not of a disc or a line",
@@ -161,9 +177,12 @@ fn insert_flask(
         RigidBodyBuilder::fixed()
     } else {
         // Without sleep: liquid that is poured into a sleeping flask would have to wake it.
-        RigidBodyBuilder::dynamic()
-            .can_sleep(false)
-            .ccd_enabled(true)
+        let builder = RigidBodyBuilder::dynamic().ccd_enabled(true);
+        match role {
+            None => builder.can_sleep(false),
+            // A tool bears no liquid. Asleep it does not creep, and damped it does not roll off the bench.
+            Some(_) => builder.angular_damping(TOOL_DAMPING),
+        }
     };
     let body = rapier.insert_body(
         builder
@@ -174,7 +193,8 @@ fn insert_flask(
         let collider = ColliderBuilder::new(shape)
             .position(flask_from_piece)
             .density(0.0);
-        rapier.insert_collider(surface(collider), Some(body));
+        let collider = surface(collider).collision_groups(groups(role));
+        rapier.insert_collider(collider, Some(body));
     }
     Ok(Flask {
         body,
@@ -184,7 +204,17 @@ fn insert_flask(
             .iter()
             .fold(0.0, |widest, point| point.x.max(widest)),
         fixed: spec.fixed,
+        role,
     })
+}
+
+/// Flasks and tools do not meet.
+fn groups(role: Option<Role>) -> InteractionGroups {
+    let (own, other) = match role {
+        None => (FLASKS, TOOLS),
+        Some(_) => (TOOLS, FLASKS | TOOLS),
+    };
+    InteractionGroups::new(own, !other, InteractionTestMode::And)
 }
 
 fn table_top(table: Table, units: Units) -> ColliderBuilder {

@@ -54,6 +54,11 @@ impl GripState {
         self.took
     }
 
+    /// Whether it closed in this step, and on nothing that it holds.
+    pub(super) fn closes_on_nothing(&self) -> bool {
+        self.took && self.held.is_none()
+    }
+
     /// That flask is no more: a hand that held it holds nothing, and must open before it takes hold again.
     pub(super) fn lose(&mut self, flask: usize) {
         self.held = self.held.filter(|held| held.flask != flask);

@@ -1,4 +1,4 @@
-//! Rigid bodies: flasks, the table and the floor, and the hands that grip them.
+//! Rigid bodies: flasks and tools, the table and the floor, and the hands that grip them.
 //!
 //! rapier3d does the mechanics; this module says what a flask is to it (a
 //! solid of convex pieces with the inertia of a glass shell), what a
@@ -19,6 +19,7 @@ mod solid;
 mod spec;
 mod strikes;
 mod units;
+mod wear;
 mod world;
 
 #[cfg(test)]
@@ -26,6 +27,7 @@ mod tests;
 
 pub use grip::{GRIP_CLOSES, GRIP_OPENS, GRIP_REACH, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 pub use shards::{BASE_SHARE, BREAKS_AT, Break, NOWHERE, SHARDS, Shard, is_nowhere};
-pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Table, Velocity};
+pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Role, Table, ToolSpec, Velocity};
 pub use strikes::Strike;
+pub use wear::Worn;
 pub use world::{Bodies, Leap};

@@ -146,6 +146,16 @@ fn hull(run: &[Vec2], lowest: f32, highest: f32) -> Option<SharedShape> {
     SharedShape::convex_hull(&points)
 }
 
+/// A block about the outline, of a tool: a thin rod rolls for ever on a round side, and the corners of its ends are too near to each other
+/// for parry (see [`UNIT`](super::units::UNIT)).
+pub(super) fn block(outline: &[Vec2]) -> Option<Vec<Piece>> {
+    let radius = outline.iter().fold(0.0_f32, |widest, it| it.x.max(widest));
+    let half = 0.5 * outline.last()?.y;
+    let solid = radius > 0.0 && half > 0.0;
+    let shape = SharedShape::cuboid(radius, half, radius);
+    solid.then(|| vec![(shape, Pose3::from_translation(half * Vec3::Y))])
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]

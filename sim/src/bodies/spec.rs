@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 use thiserror::Error;
 
+use super::wear::Worn;
 use crate::pose::Pose;
 
 /// The surroundings of the flasks.
@@ -23,6 +24,31 @@ pub struct BodiesSpec {
     /// The flasks, in the order in which every per-flask slice of this module
     /// names them.
     pub flasks: Vec<BodySpec>,
+    /// What else a hand can grip, or reach into. It meets table and floor, and no glass: a rod that a flask's solid pushed away
+    /// could not be dipped.
+    pub tools: Vec<ToolSpec>,
+    /// What is worn at the start.
+    pub worn: Worn,
+}
+
+/// What a body beside the flasks is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Held and let go.
+    Tool,
+    /// Worn before the eyes.
+    Goggles,
+    /// A box of gloves, which stays where it is.
+    Gloves,
+}
+
+/// A body beside the flasks.
+#[derive(Clone, Debug)]
+pub struct ToolSpec {
+    /// Its shape, and where it starts.
+    pub body: BodySpec,
+    /// What it is.
+    pub role: Role,
 }
 
 /// A rectangular table top, level in the stage frame.

@@ -8,6 +8,7 @@ mod held;
 mod setup;
 mod shards;
 mod strikes;
+mod worn;
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -62,6 +63,8 @@ fn world(flasks: Vec<BodySpec>) -> Bodies {
         }),
         floor: 0.0,
         flasks,
+        tools: Vec::new(),
+        worn: super::Worn::default(),
     })
     .unwrap()
 }
@@ -79,6 +82,8 @@ fn twenty_times(height: f32) -> Bodies {
         table: None,
         floor: 0.0,
         flasks: vec![flask],
+        tools: Vec::new(),
+        worn: super::Worn::default(),
     })
     .unwrap()
 }

@@ -13,6 +13,7 @@ use super::shards::{BREAKS_AT, Break, Breakage, NOWHERE, Shard};
 use super::spec::{BodiesError, BodiesSpec, Hand, Load, Velocity};
 use super::strikes::{Memory, Strike, Strikes};
 use super::units::Units;
+use super::wear::{Wearing, Worn};
 use crate::pose::Pose;
 
 /// Speed (m/s, at real size) above which a held flask's motion is a leap of the
@@ -35,6 +36,7 @@ struct State {
     past: Vec<PastPoses>,
     /// Whether the hands leap before the next step.
     hands_leap: bool,
+    wearing: Wearing,
     glass: Breakage,
 }
 
@@ -46,9 +48,14 @@ struct State {
 /// from a [snapshot](Bodies::snapshot).
 pub struct Bodies {
     rapier: PhysicsWorld,
+    /// The flasks, then the tools.
     flasks: Vec<Flask>,
+    /// How many are flasks.
+    count: usize,
     state: State,
     poses: Vec<Pose>,
+    /// See [`Bodies::set_head`].
+    head: Option<Pose>,
     leaps: Vec<Leap>,
     breaks: Vec<Break>,
     strikes: Strikes,
@@ -65,21 +72,22 @@ impl Bodies {
     /// [`BodiesError::World`] and [`BodiesError::Flask`] name what is out of range.
     pub fn new(spec: &BodiesSpec) -> Result<Self, BodiesError> {
         let (rapier, flasks) = build::build(spec)?;
-        let poses: Vec<Pose> = spec
-            .flasks
-            .iter()
-            .map(|body| body.stage_from_flask)
-            .collect();
+        let tools = spec.tools.iter().map(|it| &it.body);
+        let all = spec.flasks.iter().chain(tools);
+        let poses: Vec<Pose> = all.map(|body| body.stage_from_flask).collect();
         Ok(Self {
             rapier,
             flasks,
+            count: spec.flasks.len(),
             state: State {
                 grips: [GripState::default(); 2],
                 past: poses.iter().map(|&pose| [pose; 4]).collect(),
                 hands_leap: false,
-                glass: Breakage::of(spec.flasks.len()),
+                wearing: Wearing::of(spec.worn),
+                glass: Breakage::of(poses.len()),
             },
             poses,
+            head: None,
             leaps: Vec::new(),
             breaks: Vec::new(),
             strikes: Strikes::new(spec),
@@ -88,6 +96,12 @@ impl Bodies {
             units: Units::new(spec.length_scale),
             length_scale: spec.length_scale,
         })
+    }
+
+    /// Where the middle between the user's eyes is from the next step on, who looks along −z; not known where it is `None` or not
+    /// [valid](Pose::is_valid). Nothing but goggles asks for it.
+    pub fn set_head(&mut self, head: Option<Pose>) {
+        self.head = head.filter(|head| head.is_valid());
     }
 
     /// Advances by one simulation step.
@@ -100,11 +114,14 @@ impl Bodies {
         self.take_breaks();
         let grips = &mut self.state.grips;
         grip::advance(grips, hands, &self.flasks, &self.poses, reach);
+        let all = (&self.flasks[..], &self.poses[..]);
+        let wearing = &mut self.state.wearing;
+        wearing.advance((grips, hands), self.head, all, self.length_scale);
         self.strikes.begin();
         self.take_leaps();
         for index in 0..self.flasks.len() {
             let load = coupling::checked(loads.get(index).copied().unwrap_or_default());
-            if self.holder(index).is_some() {
+            if self.target(index).is_some() {
                 self.hold(index);
             } else if !self.flasks[index].fixed && !self.is_broken(index) {
                 self.free(index, &load);
@@ -113,7 +130,8 @@ impl Bodies {
         for substep in 1..=SUBSTEPS {
             self.move_held(substep as f32 / SUBSTEPS as f32);
             self.rapier.step();
-            self.strikes.take(&self.rapier, &self.flasks, self.units);
+            let flasks = &self.flasks[..self.count];
+            self.strikes.take(&self.rapier, flasks, self.units);
         }
         self.read_poses();
         if self.state.glass.on {
@@ -127,7 +145,33 @@ impl Bodies {
 
     /// `stage_from_flask` of every flask after the last step.
     pub fn poses(&self) -> &[Pose] {
-        &self.poses
+        &self.poses[..self.count]
+    }
+
+    /// `stage_from_tool` of every tool after the last step.
+    pub fn tools(&self) -> &[Pose] {
+        &self.poses[self.count..]
+    }
+
+    /// `stage_from_tool` of every tool before the last step.
+    pub fn tools_before(&self) -> impl Iterator<Item = Pose> {
+        self.state.past[self.count..].iter().map(|past| past[1])
+    }
+
+    /// The hand that holds a tool.
+    pub fn tool_holder(&self, tool: usize) -> Option<usize> {
+        self.holder(self.count + tool)
+    }
+
+    /// What the user wears.
+    pub fn worn(&self) -> Worn {
+        self.state.wearing.worn
+    }
+
+    /// Where a body is to be at the step's end, whatever rapier says: in a hand, or on the head.
+    fn target(&self, index: usize) -> Option<Pose> {
+        let held = grip::holder(&self.state.grips, index).map(|(_, pose)| pose);
+        held.or_else(|| self.state.wearing.place(self.flasks.get(index)?))
     }
 
     /// Between the last step and the next the hands do not come to where they are by moving: what they hold leaps. So
@@ -231,7 +275,7 @@ impl Bodies {
         let count = self.flasks.len();
         let same = state.past.len() == count
             && state.glass.is_of(count)
-            && strikes.is_of(count)
+            && strikes.is_of(self.count)
             && self
                 .flasks
                 .iter()
@@ -273,6 +317,9 @@ impl Bodies {
         let Some(body) = self.rapier.bodies.get_mut(flask.body) else {
             return;
         };
+        if flask.role.is_some() && body.is_dynamic() {
+            return;
+        }
         let (linear, angular) = if body.is_dynamic() {
             // rapier's velocity is that of the centre of mass, which the liquid moves.
             let centre = past[0].transform_point(loaded.local_com);
@@ -368,6 +415,10 @@ impl Bodies {
             if let Some(body) = self.rapier.bodies.get_mut(flask.body) {
                 body.set_position(self.units.pose(past[0]), true);
             }
+            // Nothing is in a tool that would leap with it.
+            if index >= self.count {
+                continue;
+            }
             self.strikes.forget_held(index);
             self.leaps.push(Leap {
                 flask: index,
@@ -379,7 +430,7 @@ impl Bodies {
     /// Brings the held flasks to `fraction` of the way of this step.
     fn move_held(&mut self, fraction: f32) {
         for (index, flask) in self.flasks.iter().enumerate() {
-            let Some((_, target)) = grip::holder(&self.state.grips, index) else {
+            let Some(target) = self.target(index) else {
                 continue;
             };
             let Some(body) = self.rapier.bodies.get_mut(flask.body) else {
@@ -396,8 +447,10 @@ impl Bodies {
                 continue;
             }
             // A held flask is exactly where the hand has it, whatever rapier rounds it to.
-            let held = grip::holder(&self.state.grips, index).map(|(_, pose)| pose);
-            self.strikes.take_held(index, flask, held, self.step);
+            let held = self.target(index);
+            if index < self.count {
+                self.strikes.take_held(index, flask, held, self.step);
+            }
             let pose = held.or_else(|| {
                 let body = self.rapier.bodies.get(flask.body)?;
                 (!flask.fixed).then(|| self.units.pose_to_si(body.translation(), *body.rotation()))

@@ -34,6 +34,7 @@ enum Shape {
     Cylinder,
     Conical,
     Round,
+    Bottle,
 }
 
 const fn glass(name: &'static str, shape: Shape, [diameter, neck, height]: [f64; 3]) -> Glass {
@@ -48,7 +49,7 @@ const fn glass(name: &'static str, shape: Shape, [diameter, neck, height]: [f64;
 }
 
 /// All named vessels.
-pub const GLASSWARE: [Glass; 7] = [
+pub const GLASSWARE: [Glass; 9] = [
     // ISO 3819, low form, 250, 400 and 600 mL.
     glass("beaker-250", Shape::Cylinder, [0.070, 0.070, 0.095]),
     glass("beaker-400", Shape::Cylinder, [0.080, 0.080, 0.110]),
@@ -59,6 +60,9 @@ pub const GLASSWARE: [Glass; 7] = [
     glass("erlenmeyer-250", Shape::Conical, [0.085, 0.034, 0.145]),
     // ISO 1773, round-bottomed boiling flask, narrow neck, 250 mL.
     glass("round-bottom-250", Shape::Round, [0.085, 0.034, 0.140]),
+    // ISO 4796-1, laboratory bottles of 250 and 500 mL, with the neck within the thread of a GL 45 cap.
+    glass("bottle-250", Shape::Bottle, [0.070, 0.040, 0.138]),
+    glass("bottle-500", Shape::Bottle, [0.086, 0.040, 0.176]),
     // A common cooking pot, 16 cm by 10 cm inside: our choice.
     Glass {
         density: STAINLESS_STEEL,
@@ -81,6 +85,7 @@ impl Glass {
             Shape::Cylinder => vec![[0.0, body], [height, body]],
             Shape::Conical => conical(body, neck, height),
             Shape::Round => round(body, neck, height),
+            Shape::Bottle => bottle(body, neck, height),
         }
     }
 
@@ -96,6 +101,16 @@ impl Glass {
             .collect();
         Profile::new(&points, WALL * times)
     }
+}
+
+/// Straight up to seven tenths of the height, a shoulder, and a neck of the uppermost fifth: ours, by the look of such bottles.
+fn bottle(body: f64, neck: f64, height: f64) -> Vec<[f64; 2]> {
+    vec![
+        [0.0, body],
+        [0.7 * height, body],
+        [0.8 * height, neck],
+        [height, neck],
+    ]
 }
 
 /// Rounded base edge, cone, neck of a quarter of the height.

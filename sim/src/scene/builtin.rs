@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 11] = [
+pub(super) const BUILTIN: [(&str, &str); 12] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -32,6 +32,10 @@ pub(super) const BUILTIN: [(&str, &str); 11] = [
     (
         "boiling-water",
         include_str!("../../scenes/boiling-water.toml"),
+    ),
+    (
+        "acid-on-glove",
+        include_str!("../../scenes/acid-on-glove.toml"),
     ),
     ("vr-dilution", include_str!("../../scenes/vr-dilution.toml")),
 ];

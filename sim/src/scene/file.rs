@@ -9,6 +9,7 @@ use super::preset::Preset;
 use super::settings::{
     Floor, PictureSettings, PresetOverrides, Scale, SolverSettings, TableTop, finite,
 };
+use super::tool::ToolEntry;
 use crate::fill;
 use crate::flask::{Profile, glass};
 use crate::pose::Pose;
@@ -37,6 +38,8 @@ pub(super) struct SceneFile {
     pub flask: Vec<FlaskEntry>,
     #[serde(default)]
     pub liquid: Vec<LiquidEntry>,
+    #[serde(default)]
+    pub tool: Vec<ToolEntry>,
     pub table: Option<TableTop>,
     pub floor: Floor,
     #[serde(default)]

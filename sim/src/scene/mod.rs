@@ -12,6 +12,7 @@ mod limits;
 mod overlap;
 mod preset;
 mod settings;
+mod tool;
 
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,8 @@ pub use settings::{
     Boundary, Floor, PictureFilter, PictureSettings, PresetOverrides, RelaxationKind, Scale,
     SolverSettings, TableTop,
 };
+
+pub use tool::{Tool, ToolKind};
 
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
@@ -58,6 +61,8 @@ pub struct Scene {
     pub flasks: Vec<Flask>,
     /// Liquids, lower ones first where they share a flask.
     pub liquids: Vec<Liquid>,
+    /// What lies beside them and is handled, one of a kind.
+    pub tools: Vec<Tool>,
     /// The table, if there is one.
     pub table: Option<TableTop>,
     /// The floor.
@@ -128,6 +133,11 @@ impl Scene {
             scene.scale.spacing = spacing.unwrap_or(scene.scale.spacing);
         }
         scene
+    }
+
+    /// Its tool of that kind.
+    pub fn tool(&self, kind: ToolKind) -> Option<&Tool> {
+        self.tools.iter().find(|tool| tool.kind == kind)
     }
 
     /// Whether `feature` is modelled.
@@ -255,6 +265,11 @@ impl Scene {
             .zip(raw.liquid)
             .map(|(index, entry)| entry.build(index, &scale, &flasks, hottest))
             .collect::<Result<Vec<_>, _>>()?;
+        let tools = (0..)
+            .zip(raw.tool)
+            .map(|(index, entry)| entry.build(index, &scale))
+            .collect::<Result<Vec<_>, _>>()?;
+        tool::check_tools(&tools)?;
         let scene = Self {
             name: raw.name,
             description: raw.description,
@@ -266,6 +281,7 @@ impl Scene {
             physical: raw.physical,
             flasks,
             liquids,
+            tools,
             table: raw.table,
             floor: raw.floor,
             picture: raw.picture,

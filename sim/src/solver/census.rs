@@ -37,7 +37,7 @@ pub const LYING: f64 = 2.0;
 
 /// As in `census.wgsl`.
 const PLACES: usize = 6;
-const WORDS: usize = 22;
+const WORDS: usize = 23;
 const MOVED_WORDS: usize = 3;
 const WARMTHS: [f64; 2] = [-50.0, 350.0];
 const SUPERHEATS: [f64; 2] = [-350.0, 150.0];
@@ -94,7 +94,7 @@ impl Looks {
         library: &Library,
         parameters: &Parameters,
         [count, flasks]: [usize; 2],
-        scale: f64,
+        (scale, rinsing): (f64, bool),
         (constants, buffers): (&Constants, &Buffers),
     ) -> Result<Self, SolverError> {
         let whole = (u32::MAX as usize / count.max(1)).min(65_536);
@@ -115,6 +115,7 @@ impl Looks {
             ("REST_DENSITY", parameters.rest_density),
             ("TOUCHES", 0.5 * parameters.particle_volume().cbrt()),
             ("PAPERS_BOILING_POINT", papers_boiling_point(parameters)),
+            ("RINSING", f64::from(u8::from(rinsing))),
         ];
         Ok(Self {
             pass: constants.pass(gpu, library, &all, sim::CENSUS, &extra)?,
@@ -271,21 +272,18 @@ impl CensusRecord {
         let (of_places, of_moves) = tallies.split_at(places.min(tallies.len()));
         let (of_places, _) = of_places.as_chunks::<WORDS>();
         let (of_moves, _) = of_moves.as_chunks::<MOVED_WORDS>();
-        let mut places = of_places.iter().map(|words| units.held(words));
-        let mut next = || places.next().unwrap_or_default();
+        let mut places = of_places.iter();
+        let mut row = || places.next().copied().unwrap_or([0; WORDS]);
         let quanta = match &self.sprayed {
             Some(sprayed) => sprayed.get::<u32>()?,
             None => Vec::new(),
         };
         Ok(Census {
-            flasks: (0..units.flasks).map(|_| next()).collect(),
-            air: next(),
-            table: next(),
-            floor: next(),
-            skin: [next(), next(), next()].map(|held| Touching {
-                particles: held.particles,
-                came: held.came,
-            }),
+            flasks: (0..units.flasks).map(|_| units.held(&row())).collect(),
+            air: units.held(&row()),
+            table: units.held(&row()),
+            floor: units.held(&row()),
+            skin: [row(), row(), row()].map(|words| units.touching(&words)),
             moves: of_moves.iter().map(|words| units.moved(words)).collect(),
             sprayed: (0..units.flasks)
                 .map(|flask| units.volume * spray_left(quanta.get(flask)))
@@ -304,6 +302,18 @@ impl Units {
                 0 => 0.0,
                 _ => f64::from(acid) / f64::from(volume),
             },
+        }
+    }
+
+    fn touching(&self, words: &[u32; WORDS]) -> Touching {
+        let Held {
+            particles, came, ..
+        } = self.held(words);
+        let [.., rinsed] = *words;
+        Touching {
+            particles,
+            came,
+            rinsed: VOLUMES * self.volume * f64::from(rinsed) / self.whole,
         }
     }
 
@@ -332,6 +342,7 @@ impl Units {
             hottest,
             superheat,
             bubbles_volume,
+            _,
         ] = *words;
         let sum = |word: u32| f64::from(word) / self.whole;
         let mean = |word: u32, of: u32, [low, high]: [f64; 2]| match of {

@@ -40,4 +40,6 @@ pub struct Counters {
     pub gas_limited: u32,
     /// Jets and films whose drops were not thrown up, as those of the one before in their place still fly.
     pub spray_refused: u32,
+    /// Particles that a cloth took up.
+    pub wiped: u32,
 }

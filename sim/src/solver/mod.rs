@@ -19,6 +19,7 @@ mod counters;
 mod error;
 mod frame;
 mod glass;
+mod handle;
 mod lanes;
 mod matter;
 mod pipelines;
@@ -39,6 +40,7 @@ pub use census::{
 pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
+pub use handle::{ROD_DRAG, Touch};
 pub(crate) use snapshot::SolverStateRecord;
 pub use spec::{Ground, Particle, SolverSpec};
 pub use state::SolverState;
@@ -99,7 +101,7 @@ impl Solver {
             library,
             &spec.parameters,
             sizes,
-            spec.ground.scale,
+            (spec.ground.scale, spec.tools),
             (&constants, &buffers),
         )?;
         let solver = Self {

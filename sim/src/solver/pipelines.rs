@@ -60,6 +60,8 @@ impl Grid {
 pub(super) struct Pipelines {
     /// Where flasks can be lifted.
     pub(super) carry: Option<SolverPass>,
+    /// Where there are tools.
+    pub(super) handle: Option<SolverPass>,
     pub(super) predict: SolverPass,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
@@ -125,6 +127,7 @@ impl Pipelines {
                 starts
             },
         ];
+        let spacing = spec.parameters.particle_volume().cbrt();
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
         let vorticity = match spec.parameters.vorticity {
             0.0 => None,
@@ -156,6 +159,9 @@ impl Pipelines {
         };
         Ok(Self {
             carry: spec.loads.then(|| make(sim::CARRY, &[])).transpose()?,
+            handle: (spec.tools)
+                .then(|| make(sim::HANDLE, &[("SPACING", spacing)]))
+                .transpose()?,
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
             cell_scan: make(sim::CELL_SCAN, &[])?,

@@ -40,6 +40,8 @@ pub struct SolverSpec<'a> {
     pub particles: &'a [Particle],
     /// Whether the liquid's push on the flasks is summed up each frame.
     pub loads: bool,
+    /// Whether tools touch the liquid, and hands are rinsed.
+    pub tools: bool,
     /// Whether the flask constraint of section 5 acts. Without it walls are
     /// what they are to plain PBF: a density, and no more (Fig. 5).
     pub constraint: bool,

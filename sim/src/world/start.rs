@@ -1,9 +1,9 @@
 //! What a world begins with, of its scene: particles, ground and rigid bodies.
 
-use crate::bodies::{BodiesSpec, BodySpec, Table};
+use crate::bodies::{BodiesSpec, BodySpec, Role, Table, ToolSpec, Worn};
 use crate::chemistry::table::SolutionTable;
 use crate::fill::FillError;
-use crate::scene::{Feature, Scene, StartParticle};
+use crate::scene::{Feature, Scene, StartParticle, Tool, ToolKind};
 use crate::solver::{Ground, Particle};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -90,5 +90,31 @@ pub(super) fn bodies(scene: &Scene) -> BodiesSpec {
                 fixed: flask.fixed,
             })
             .collect(),
+        tools: (scene.tools.iter())
+            .map(|tool| of_tool(tool, scene.scale.length_scale))
+            .collect(),
+        worn: Worn {
+            goggles: scene.tool(ToolKind::Goggles).map(|it| it.worn),
+            gloves: scene.tool(ToolKind::Gloves).map(|it| [it.worn; 2]),
+        },
+    }
+}
+
+/// A tool as a body: a cylinder.
+fn of_tool(tool: &Tool, length_scale: f64) -> ToolSpec {
+    let [radius, height] = tool.kind.cylinder().map(|m| (m / length_scale) as f32);
+    ToolSpec {
+        body: BodySpec {
+            outline: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
+            // Its weight grows as the flasks' does, with the scene's volume.
+            glass_mass: (tool.kind.mass() / length_scale.powi(3)) as f32,
+            stage_from_flask: tool.stage_from_tool,
+            fixed: tool.kind == ToolKind::Gloves,
+        },
+        role: match tool.kind {
+            ToolKind::Goggles => Role::Goggles,
+            ToolKind::Gloves => Role::Gloves,
+            ToolKind::Cloth | ToolKind::Rod | ToolKind::Thermometer => Role::Tool,
+        },
     }
 }

@@ -39,9 +39,7 @@ fn hands(stood: Vec3, step: usize) -> StepInput {
         squeeze: f32::from(u8::from((1..LETS_GO).contains(&step))),
         present: true,
     };
-    StepInput {
-        hands: [hand, Hand::ABSENT],
-    }
+    StepInput::of_hands([hand, Hand::ABSENT])
 }
 
 /// Of the wall that moves with the glass one step after another: its liquid goes on as it fell and then lies about, where an

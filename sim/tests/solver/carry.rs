@@ -183,9 +183,7 @@ fn the_liquid_does_not_feel_a_leap() {
             squeeze: if step > 0 { 1.0 } else { 0.0 },
             present: true,
         };
-        StepInput {
-            hands: [held, Hand::ABSENT],
-        }
+        StepInput::of_hands([held, Hand::ABSENT])
     };
     for step in 0..30 {
         stays.step(&hand(step, Pose::IDENTITY)).unwrap();

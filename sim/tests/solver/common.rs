@@ -108,6 +108,7 @@ pub struct Setup {
     pub ground: Ground,
     pub particles: Vec<Particle>,
     pub loads: bool,
+    pub tools: bool,
     pub lanes: Option<u32>,
 }
 
@@ -120,6 +121,7 @@ impl Setup {
             ground: NOWHERE,
             particles,
             loads: false,
+            tools: false,
             lanes: Some(1),
         }
     }
@@ -135,6 +137,7 @@ impl Setup {
             solids: self.solids.as_deref(),
             ground: self.ground,
             particles: &self.particles,
+            tools: self.tools,
             loads: self.loads,
             constraint: true,
             lanes: self.lanes,

@@ -12,9 +12,7 @@ use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World, WorldError};
 use vitriol_tests::gpu;
 
-const AWAY: StepInput = StepInput {
-    hands: [Hand::ABSENT; 2],
-};
+const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
 
 /// `beaker` with twice its spacing and half its substeps, at which the substep is as near to its
 /// limit, and half its water: 880 particles.
@@ -100,9 +98,7 @@ fn it_is_as_if_it_had_been_made_so() {
             squeeze: if step > 0 { 1.0 } else { 0.0 },
             present: true,
         };
-        StepInput {
-            hands: [held, Hand::ABSENT],
-        }
+        StepInput::of_hands([held, Hand::ABSENT])
     };
     for step in 0..12 {
         changed.step(&hand(step)).unwrap();
@@ -174,7 +170,7 @@ fn shaken(gpu: &Gpu, wall_step: Option<f64>) -> (f64, u32) {
     let (mut most, mut substeps, mut furthest) = (0.0_f64, 0, 0.0_f32);
     for step in 1..=120 {
         let hands = [hand(f64::from(step) / 90.0), Hand::ABSENT];
-        world.step(&StepInput { hands }).unwrap();
+        world.step(&StepInput::of_hands(hands)).unwrap();
         let state = world.snapshot().unwrap().solver;
         let all = densities(gpu, world.solver());
         let inside = (0..all.len()).filter(|&slot| state.flask_of(slot).is_some());

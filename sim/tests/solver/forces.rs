@@ -268,7 +268,7 @@ fn no_strength_is_no_force() {
         let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
         for _ in 0..2 {
             let hands = [Hand::ABSENT; 2];
-            world.step(&StepInput { hands }).unwrap();
+            world.step(&StepInput::of_hands(hands)).unwrap();
         }
         let hash = world.snapshot().unwrap().solver.hash();
         (hash, world.solver().bytes_per_particle())

@@ -7,9 +7,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{MOST_INTENSITY, StepInput, World, WorldError};
 use vitriol_tests::gpu;
 
-const AWAY: StepInput = StepInput {
-    hands: [Hand::ABSENT; 2],
-};
+const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
 
 /// A pot of soup that starts above its boiling point, of twice the spacing and few substeps.
 fn world(gpu: &Gpu, intensity: f64) -> World {

@@ -7,9 +7,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{Kept, StepInput, World};
 use vitriol_tests::gpu;
 
-const AWAY: StepInput = StepInput {
-    hands: [Hand::ABSENT; 2],
-};
+const AWAY: StepInput = StepInput::of_hands([Hand::ABSENT; 2]);
 
 /// `beaker` with twice its spacing and half its water.
 fn world(gpu: &Gpu) -> World {

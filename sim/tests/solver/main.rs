@@ -13,6 +13,7 @@ mod chemistry;
 mod common;
 mod effort;
 mod forces;
+mod handle;
 mod intensity;
 mod leaning_glass;
 mod lifeline;

@@ -175,7 +175,7 @@ fn a_scene_may_ask_for_solids() {
         scene.solver.boundary = boundary;
         let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
         let hands = [Hand::ABSENT; 2];
-        world.step(&StepInput { hands }).unwrap();
+        world.step(&StepInput::of_hands(hands)).unwrap();
         let state = world.snapshot().unwrap().solver;
         let found = particles(&state);
         assert!(found.iter().all(|p| p.flask == Some(0)));

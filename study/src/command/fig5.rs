@@ -107,9 +107,7 @@ fn count(gpu: &Gpu, mut world: World, picture: Option<&Path>) -> Result<Count, F
             present: true,
         };
         world
-            .step(&StepInput {
-                hands: [Hand::ABSENT, hand],
-            })
+            .step(&StepInput::of_hands([Hand::ABSENT, hand]))
             .other()?;
         let state = world.snapshot().other()?.solver;
         inside.retain(|&id| !through.contains(&id) && !over.contains(&id));

@@ -86,9 +86,7 @@ pub(super) fn drive(
     for step in 1..=steps {
         let before = world.poses().to_vec();
         let hand = hand(case, scene, step as f64 * dt);
-        let input = StepInput {
-            hands: [hand, Hand::ABSENT],
-        };
+        let input = StepInput::of_hands([hand, Hand::ABSENT]);
         world.step(&input).other()?;
         watch.work(&world, &before)?;
         watch.late = 2 * step > active_steps + all;

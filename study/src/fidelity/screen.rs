@@ -102,6 +102,7 @@ impl Draw for Screen {
             shards: &[],
             particles: None,
             hands: [&[]; 2],
+            tools: &[],
             liquid: Some(liquid_of(&state.world)),
             steam: None,
             panel: None,

@@ -92,7 +92,7 @@ pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, F
                 break;
             };
             let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
-            world.step(&StepInput { hands }).other()?;
+            world.step(&StepInput::of_hands(hands)).other()?;
         }
         State::new(spec, world)
     };

@@ -130,7 +130,7 @@ pub fn boil(
         };
         let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
         let begin = std::time::Instant::now();
-        world.step(&StepInput { hands }).other()?;
+        world.step(&StepInput::of_hands(hands)).other()?;
         if let Some(ticket) = world.last_step() {
             ticket.wait().other()?;
         }

@@ -41,7 +41,7 @@ fn what_is_drawn_is_the_surface_of_its_particles() {
     let mut world = World::new(&device, &library, &scene, 1).unwrap();
     for _ in 0..20 {
         let hands = [Hand::ABSENT; 2];
-        world.step(&StepInput { hands }).unwrap();
+        world.step(&StepInput::of_hands(hands)).unwrap();
     }
     let spec = StateSpec {
         name: "coarse",

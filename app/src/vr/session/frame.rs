@@ -285,6 +285,7 @@ impl Session {
         let extent = scaled(self.benches.eyes.extent, &setting);
         let Workbench { world, picture, .. } = &mut self.benches.current;
         self.gloves = picture.gloves(world, seen.as_ref(), &self.joints);
+        self.spills.wears(world.worn());
         for side in Side::BOTH {
             self.spills.mark(side, &mut self.gloves[side as usize]);
         }
@@ -297,6 +298,7 @@ impl Session {
             bones.extend(handle);
         }
 
+        let tools = vitriol_experiment::tools(world, self.steps.looks.thermometer());
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
@@ -306,6 +308,7 @@ impl Session {
             extent,
             views: views.each_ref().map(|view| eye(view, &placed)),
             hands: drawn.each_ref().map(Vec::as_slice),
+            tools: &tools,
             panel: Some(picture::panel(&image)),
             sign: sign.as_ref().map(Drawn::panel),
             shown,

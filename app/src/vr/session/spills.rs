@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::Serialize;
 use vitriol_render::{Bone, MOST_BONES};
+use vitriol_sim::bodies::Worn;
 use vitriol_sim::solver::{Census, HARMFUL, Skin};
 use vitriol_xr::Side;
 
@@ -70,6 +71,8 @@ pub(super) struct Spills {
     face: f64,
     /// By skin, whether it was touched on this bench, and when last, ns.
     touched: [Option<i64>; 3],
+    /// What the user wears.
+    worn: Worn,
 }
 
 impl Spills {
@@ -77,8 +80,21 @@ impl Spills {
     pub fn clean(&mut self) {
         *self = Self {
             contacts: self.contacts,
+            worn: self.worn,
             ..Self::default()
         };
+    }
+
+    /// What the user wears now: a hand without its glove, or with another one, has no marks.
+    pub fn wears(&mut self, worn: Worn) {
+        let before = std::mem::replace(&mut self.worn, worn);
+        if let (Some(before), Some(now)) = (before.gloves, worn.gloves) {
+            for (stains, (before, now)) in self.stains.iter_mut().zip(before.into_iter().zip(now)) {
+                if before != now {
+                    *stains = [0.0; MOST_BONES];
+                }
+            }
+        }
     }
 
     /// Takes in a look, in the frame that is shown at `now` (ns). `length_scale` is the scene's, and `hands` are the bones that the
@@ -142,9 +158,9 @@ impl Spills {
         f32::from(u8::from(recent(own) || recent(Skin::Face)))
     }
 
-    /// How much of the goggles is covered, 0 to 1: a splash of six at once.
+    /// How much of the goggles is covered, 0 to 1: a splash of six at once; nothing is seen through while they are off.
     pub fn goggles(&self) -> f32 {
-        let touched = self.touched(Skin::Face);
+        let touched = self.touched(Skin::Face) && self.worn.goggles != Some(false);
         f32::from(u8::from(touched)) * (self.face / COVERED).clamp(1.0 / 6.0, 1.0) as f32
     }
 
@@ -210,6 +226,7 @@ mod tests {
                     ..Came::default()
                 },
                 particles: 4,
+                rinsed: 0.0,
             };
             census
         };
@@ -236,10 +253,24 @@ mod tests {
         assert_eq!(spills.contacts.right_hand.times, 1);
         spills.mark(Side::Right, &mut drawn);
         assert_eq!(drawn[1].stain, 1.0);
+        // Another glove is clean, and while none is on, or goggles are off, nothing is seen on them.
+        let worn = |glove, goggles| Worn {
+            goggles: Some(goggles),
+            gloves: Some([true, glove]),
+        };
+        spills.wears(worn(true, true));
+        spills.mark(Side::Right, &mut drawn);
+        assert_eq!(drawn[1].stain, 1.0);
+        spills.wears(worn(false, false));
+        spills.mark(Side::Right, &mut drawn);
+        assert_eq!(drawn[1].stain, 0.0);
         // The face is felt by both.
         let mut face = Census::default();
         face.skin[2] = splash(1e-6).skin[1];
         assert_eq!(spills.take(&face, 0.05, hands, 3 * SAME), [Skin::Face]);
+        assert_eq!(spills.goggles(), 0.0);
+        spills.wears(worn(false, true));
+        assert!(spills.goggles() > 0.1);
         assert_eq!(
             Side::BOTH.map(|side| spills.felt(side, 3 * SAME)),
             [1.0, 1.0]

@@ -6,7 +6,7 @@ use vitriol_experiment::{Blame, Failure, Looks, stage};
 use vitriol_gpu::{QueueKind, Ticket};
 use vitriol_sim::bodies::{Break, Strike};
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::{StepInput, World};
+use vitriol_sim::world::World;
 use vitriol_xr::PoseFrame;
 
 use super::ended::NoFrameOpen;
@@ -108,10 +108,8 @@ impl Steps {
         let Some(poses) = self.due.front().cloned() else {
             return Ok(());
         };
-        let hands = stage::hands(&poses.hands, world.scene());
-        world
-            .step_on(QueueKind::Async, &StepInput { hands })
-            .other()?;
+        let input = stage::input(&poses, world.scene());
+        world.step_on(QueueKind::Async, &input).other()?;
         // Where the device is lost in it, it is due on the next one.
         self.due.pop_front();
         self.blows.extend_from_slice(world.strikes());

@@ -113,6 +113,49 @@ fn what_sprays_out_boils_over() {
     );
 }
 
+/// Where there is something to wear it protects as long as it is worn: one bare touch, and the skin is what was touched.
+#[test]
+fn a_glove_protects_while_it_is_on() {
+    let on = |goggles: Option<bool>, gloves: Option<[bool; 2]>| Worn { goggles, gloves };
+    let never = Worn::default();
+    let all = on(Some(true), Some([true; 2]));
+    let bare = on(Some(false), Some([true, false]));
+    for (first, then, protected) in [
+        (never, never, [true, true, true]),
+        (all, all, [true, true, true]),
+        (bare, bare, [true, false, false]),
+        (all, bare, [true, false, false]),
+        (bare, all, [true, false, false]),
+    ] {
+        let mut arranged = Arranged::new([0.98, 0.0]);
+        for worn in [first, then] {
+            arranged.worn = worn;
+            arranged.looks(5, &|mut census| {
+                for touching in &mut census.skin {
+                    touching.came = Came {
+                        particles: 1,
+                        volume: BIT,
+                        acid: 0.98,
+                        ..Came::default()
+                    };
+                }
+                census
+            });
+        }
+        let (_, incidents) = arranged.end();
+        let found = [Skin::LeftHand, Skin::RightHand, Skin::Face].map(|part| {
+            let mut found = incidents.iter().filter_map(|it| match it.what {
+                What::OnSkin {
+                    skin, protected, ..
+                } if skin == part => Some(protected),
+                _ => None,
+            });
+            found.next().unwrap()
+        });
+        assert_eq!(found, protected, "{first:?}, {then:?}");
+    }
+}
+
 /// Acid on a hand and hot water in the face: whose, how much, how hot, and of which flask; however little it is.
 #[test]
 fn what_comes_to_somebody() {
@@ -129,6 +172,7 @@ fn what_comes_to_somebody() {
                 acid,
                 temperature: Some(temperature),
             },
+            rinsed: 0.0,
         };
         census.skin[0] = came(0.98, 30.0, BIT);
         census.skin[2] = came(0.0, 90.0, 0.01 * BIT);

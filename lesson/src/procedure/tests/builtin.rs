@@ -13,7 +13,7 @@ fn facts(scene: &str) -> SceneFacts {
 fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     assert_eq!(
         Lesson::builtin_names(),
-        ["dilute", "wrong-order", "examination"]
+        ["dilute", "wrong-order", "examination", "emergency"]
     );
     for name in Lesson::builtin_names() {
         let lesson = Lesson::builtin(name).unwrap();
@@ -45,7 +45,7 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
     }
     let error = Lesson::builtin("bake").unwrap_err().to_string();
     assert!(
-        error.contains("dilute, wrong-order, examination"),
+        error.contains("dilute, wrong-order, examination, emergency"),
         "{error}"
     );
 }
@@ -58,7 +58,10 @@ fn facts_are_those_of_the_scene() {
     let names: Vec<&str> = dilution.flasks.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["source", "target"]);
     assert!(dilution.flasks.iter().all(|it| it.lifted));
-    assert!(!dilution.goggles && !dilution.gloves && !dilution.rinsing);
+    assert!(dilution.goggles && dilution.gloves && dilution.rinsing && dilution.cloth);
+    assert!(dilution.rod && dilution.thermometer && !dilution.sash);
+    let bare = facts("vr-dilution");
+    assert!(!bare.goggles && !bare.gloves && !bare.rinsing && !bare.cloth && !bare.rod);
     let small = facts("vr-dilution").liquid_m3;
     assert!(
         (small / (13_000.0 * 0.0025_f64.powi(3)) - 1.0).abs() < 0.01,
@@ -116,7 +119,7 @@ fn texts_say_what_is_judged() {
     let of = |name: &str| Lesson::builtin(name).unwrap();
     let dilute = of("dilute");
     let texts = dilute.texts(Language::En);
-    let Condition::Poured(poured) = &dilute.steps[1].condition else {
+    let Condition::Poured(poured) = &dilute.steps[2].condition else {
         panic!()
     };
     let rate = poured.at_most_ml_s.unwrap();
@@ -126,7 +129,7 @@ fn texts_say_what_is_judged() {
             .contains(&format!("{rate}\u{a0}mL/s"))
     );
     assert_eq!(rate / 1e6, crate::Limits::default().rate_m3_s);
-    let Condition::Holds(holds) = &dilute.steps[3].condition else {
+    let Condition::Holds(holds) = &dilute.steps[6].condition else {
         panic!()
     };
     let range = format!(
@@ -145,7 +148,7 @@ fn texts_say_what_is_judged() {
         assert!(ml + 160.0 > holds.at_least_ml);
     }
     let wrong = of("wrong-order");
-    let Condition::Poured(poured) = &wrong.steps[1].condition else {
+    let Condition::Poured(poured) = &wrong.steps[2].condition else {
         panic!()
     };
     let texts = wrong.texts(Language::En);
@@ -184,11 +187,20 @@ fn who_dilutes_correctly_has_all_points() {
             ..pour
         });
         procedure.advance(&at(9.0, true, 179.0, 0.17), &[poured]);
-        for tenths in 0..80 {
-            procedure.advance(
-                &at(9.1 + f64::from(tenths) / 10.0, false, 179.0, 0.175),
-                &[],
-            );
+        for tenths in 0..160 {
+            let mut sight = at(9.1 + f64::from(tenths) / 10.0, false, 179.0, 0.175);
+            let dip = |speed_m_s: f64| {
+                Some(Dip {
+                    flask: Some("target".to_owned()),
+                    speed_m_s,
+                })
+            };
+            // First the rod, then the thermometer.
+            (sight.rod, sight.thermometer) = match tenths {
+                0..60 => (dip(0.1), None),
+                _ => (None, dip(0.0)),
+            };
+            procedure.advance(&sight, &[]);
         }
         let verdict = procedure.verdict();
         assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
@@ -223,35 +235,17 @@ fn the_wrong_order_is_seen_to_warm() {
     assert_eq!(procedure.verdict().points, 100);
 }
 
-/// It is refused by each scene that there is, and is judged where the bodies are.
+/// Acid is rinsed off the glove, then off the hand; what is poured over a gloved hand is not of the bare one.
 #[test]
-fn an_emergency_waits_for_a_scene_that_has_what_it_needs() {
-    let lesson = Lesson::parse(include_str!("emergency.toml"), "emergency.toml").unwrap();
-    assert_eq!(lesson.languages(), Language::ALL);
-    let error = lesson
-        .check(&facts("acid-into-water"))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("step[1].condition.rinsed") && error.contains("water to rinse"),
-        "{error}"
-    );
-    let all = SceneFacts {
-        gloves: true,
-        goggles: true,
-        cloth: true,
-        rinsing: true,
-        ..facts("acid-into-water")
-    };
-    lesson.check(&all).unwrap();
-
+fn an_emergency_is_gone_through() {
+    let lesson = Lesson::builtin("emergency").unwrap();
     let mut procedure = Procedure::new(lesson, Mode::Guided);
     let mut t = 0.0;
     let mut look = |held: bool, gloves: bool, rinsed_ml: f64, bench_ml: f64| {
         for _ in 0..10 {
             t += STEP;
             let mut sight = sight(t);
-            sight.flasks[0].name = "source".to_owned();
+            sight.flasks[0].name = "water".to_owned();
             (sight.flasks[0].held, sight.flasks[0].standing) = (held, !held);
             sight.gloves = Some(gloves);
             sight.rinsed_m3 = Some([0.0, rinsed_ml * 1e-6]);
@@ -262,12 +256,15 @@ fn an_emergency_waits_for_a_scene_that_has_what_it_needs() {
         done.iter().filter(|it| it.status == Status::Done).count()
     };
     assert_eq!(look(true, true, 0.0, 2.0), 0);
-    assert_eq!(look(false, true, 0.0, 2.0), 1);
-    assert_eq!(look(false, true, 99.0, 2.0), 1);
-    assert_eq!(look(false, true, 101.0, 2.0), 2);
-    assert_eq!(look(false, false, 101.0, 2.0), 3);
-    assert_eq!(look(false, false, 302.0, 2.0), 4);
-    assert_eq!(look(false, false, 302.0, 0.3), 5);
+    assert_eq!(look(true, true, 39.0, 2.0), 0);
+    assert_eq!(look(true, true, 41.0, 2.0), 1);
+    assert_eq!(look(true, false, 41.0, 2.0), 2);
+    assert_eq!(look(true, false, 90.0, 2.0), 2);
+    assert_eq!(look(true, false, 92.0, 2.0), 3);
+    assert_eq!(look(false, false, 92.0, 2.0), 4);
+    assert_eq!(look(false, false, 92.0, 0.3), 5);
+    let verdict = procedure.verdict();
+    assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
 }
 
 #[test]

@@ -27,4 +27,6 @@ struct Counters {
     gas_limited: atomic<u32>,
     /// Jets and films whose drops were not thrown: those of the one before still fly.
     spray_refused: atomic<u32>,
+    /// Particles that a cloth took up.
+    wiped: atomic<u32>,
 }

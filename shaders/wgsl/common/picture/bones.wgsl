@@ -1,4 +1,4 @@
-//! Gloves, and what hands point with and hold on to, as bones: round cones, each the convex hull of two spheres; and where one is seen.
+//! Gloves, what hands point with and hold on to, and tools, as bones: round cones, each the convex hull of two spheres; and where one is seen.
 
 //!include common/picture/frame.wgsl
 
@@ -19,8 +19,8 @@ struct Bone {
 }
 
 struct HandsRun {
-    /// Bones of the left hand and of the right one.
-    counts: vec2<u32>,
+    /// Bones of the left hand, of the right one, and of tools.
+    counts: vec3<u32>,
     /// Distance over which bones of one hand join smoothly, in the scene's unit.
     joined: f32,
     /// Whether coloured spheres were drawn before.
@@ -31,10 +31,12 @@ struct HandsRun {
 
 var<immediate> run: HandsRun;
 
-/// Most bones of a hand; the right one's begin behind so many.
+/// Most bones of a hand, and of tools; the right one's begin behind so many, and the tools' behind these.
 const BONES = 32u;
+/// The hands, and the tools, of which one joins another as a hand's bones do.
+const GROUPS = 3u;
 
-/// The left hand's bones, then the right one's.
+/// The left hand's bones, then the right one's, then the tools'.
 @group(0) @binding(2) var<storage, read> bones: array<Bone>;
 
 /// What the smooth union of two surfaces adds to them at most, over the distance of joining (`joined_at`).

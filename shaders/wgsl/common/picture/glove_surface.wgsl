@@ -22,8 +22,8 @@ struct Cone {
     greatest: f32,
 }
 
-/// Those of both hands, in the order of the bones, for the pixels of a workgroup.
-var<workgroup> cones: array<Cone, 64>;
+/// Those of hands and tools, in the order of the bones, for the pixels of a workgroup.
+var<workgroup> cones: array<Cone, 96>;
 
 fn cone_of(bone: Bone, eye: vec3<f32>) -> Cone {
     let along = bone.b - bone.a;

@@ -28,9 +28,9 @@ const SHADING = 4.0;
 const BLOCK = vec2<u32>(8u, 4u);
 const BLOCKS = 8u;
 /// Where each bone is seen as far as it has an effect on the surface, and then as far as it has one on its light.
-var<workgroup> seen_bones: array<Seen, 128>;
-/// By block and hand a bit for each bone that reaches it; the last two are the whole workgroup's for the light.
-var<workgroup> present: array<atomic<u32>, 18>;
+var<workgroup> seen_bones: array<Seen, 192>;
+/// By block and group a bit for each bone that reaches it; the last three are the whole workgroup's for the light.
+var<workgroup> present: array<atomic<u32>, 27>;
 
 /// From where to where a ray from the eye is in a capsule about a bone that is `grown` thicker; the second is 0 where it
 /// passes by.
@@ -100,42 +100,45 @@ fn main(
     // The last half of the invocations looks where light ends.
     let half = lane / 128u;
     let n = lane % 128u;
-    let is_bone = n < 2u * BONES && n % BONES < run.counts[min(n / BONES, 1u)];
-    if (lane < 18u) { atomicStore(&present[lane], 0u); }
+    let is_bone = n < GROUPS * BONES && n % BONES < run.counts[min(n / BONES, GROUPS - 1u)];
+    if (lane < 27u) { atomicStore(&present[lane], 0u); }
     if (is_bone) {
         let bone = bones[n];
         if (half == 0u) { cones[n] = cone_of(bone, frame.views[eye].eye); }
-        seen_bones[2u * BONES * half + n] = bone_seen(bone, eye, select(EFFECT, SHADING, half == 1u) * run.joined);
+        seen_bones[GROUPS * BONES * half + n] = bone_seen(bone, eye, select(EFFECT, SHADING, half == 1u) * run.joined);
     }
     workgroupBarrier();
     if (is_bone) {
         let low = vec2<f32>(place.pixel) - vec2<f32>(BLOCK * vec2<u32>(block % 4u, block / 4u) + in_block);
         let hand = n / BONES;
         let bit = 1u << (n % BONES);
-        let at = seen_bones[2u * BONES * half + n];
+        let at = seen_bones[GROUPS * BONES * half + n];
         if (half == 1u) {
-            if (reaches(at, low, low + vec2<f32>(32.0, 8.0))) { atomicOr(&present[2u * BLOCKS + hand], bit); }
+            if (reaches(at, low, low + vec2<f32>(32.0, 8.0))) { atomicOr(&present[GROUPS * BLOCKS + hand], bit); }
         } else {
             for (var other = 0u; other < BLOCKS; other++) {
                 let corner = low + vec2<f32>(BLOCK * vec2<u32>(other % 4u, other / 4u));
-                if (reaches(at, corner, corner + vec2<f32>(BLOCK))) { atomicOr(&present[2u * other + hand], bit); }
+                if (reaches(at, corner, corner + vec2<f32>(BLOCK))) { atomicOr(&present[GROUPS * other + hand], bit); }
             }
         }
     }
     workgroupBarrier();
     if (!place.inside) { return; }
-    let left = atomicLoad(&present[2u * block]);
-    let right = atomicLoad(&present[2u * block + 1u]);
+    var bits: array<u32, GROUPS>;
+    for (var hand = 0u; hand < GROUPS; hand++) { bits[hand] = atomicLoad(&present[GROUPS * block + hand]); }
 
     let seen = seen_along(eye, vec2<f32>(place.pixel) + 0.5);
     let stretch = length(seen);
     let ray = seen / stretch;
     let near = frame.views[eye].near * stretch;
-    let way_left = way_of(0u, left, ray);
-    let way_right = way_of(1u, right, ray);
-    let end = max(way_left.y, way_right.y);
-    var way = max(min(way_left.x, way_right.x), near);
-    var is_left = false;
+    var through = vec2<f32>(1e9, 0.0);
+    for (var hand = 0u; hand < GROUPS; hand++) {
+        let of_hand = way_of(hand, bits[hand], ray);
+        through = vec2<f32>(min(through.x, of_hand.x), max(through.y, of_hand.y));
+    }
+    let end = through.y;
+    var way = max(through.x, near);
+    var nearest_hand = 0u;
     let pixel = 1.0 / frame.views[eye].focal;
     var met = false;
     var apart = 1e9;
@@ -143,18 +146,30 @@ fn main(
     // length and less, squared, over the distance that has been gone, ends as close to the surface as needed.
     let last = 2.0 * run.thinnest * CLOSE * pixel;
     for (var stride = 0; stride < STRIDES && way < end; stride++) {
-        let to_left = stride_at(0u, left, way * ray, ray);
-        let to_right = stride_at(1u, right, way * ray, ray);
-        apart = min(to_left.distance, to_right.distance);
-        is_left = to_left.distance <= to_right.distance;
+        apart = 1e9;
+        var free = 1e9;
+        var is_straight = false;
+        var freest = 0u;
+        for (var hand = 0u; hand < GROUPS; hand++) {
+            if (bits[hand] == 0u) { continue; }
+            let stride_to = stride_at(hand, bits[hand], way * ray, ray);
+            if (stride_to.distance < apart) {
+                apart = stride_to.distance;
+                nearest_hand = hand;
+            }
+            if (stride_to.free < free) {
+                free = stride_to.free;
+                is_straight = stride_to.is_straight;
+                freest = hand;
+            }
+        }
         // A hand that the eye is in, or that reaches through the near plane, is not seen from within.
         if (apart < 0.0 && way == near) { break; }
         met = apart < CLOSE * pixel * way;
         if (met) { break; }
-        is_left = to_left.free <= to_right.free;
-        let free = min(to_left.free, to_right.free);
+        nearest_hand = freest;
         way += free;
-        met = select(to_right.is_straight, to_left.is_straight, is_left) && free * free < last * way;
+        met = is_straight && free * free < last * way;
         if (met) { break; }
     }
     // In the last corner of a crease strides are short; nothing is seen through it.
@@ -165,8 +180,8 @@ fn main(
     let reversed = select(0.0, near / way, met);
     if (reversed > before) {
         let at = way * ray;
-        let hand = select(1u, 0u, is_left);
-        let all = atomicLoad(&present[2u * BLOCKS + hand]);
+        let hand = nearest_hand;
+        let all = atomicLoad(&present[GROUPS * BLOCKS + hand]);
         let surface = hand_place(hand, all, at);
         // Between fingers less of the room is seen.
         let reach = SHADE * run.joined;

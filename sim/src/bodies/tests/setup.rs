@@ -11,6 +11,8 @@ fn spec(flasks: Vec<BodySpec>) -> BodiesSpec {
         table: None,
         floor: 0.0,
         flasks,
+        tools: Vec::new(),
+        worn: crate::bodies::Worn::default(),
     }
 }
 

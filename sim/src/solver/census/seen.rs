@@ -59,6 +59,8 @@ pub struct Touching {
     pub particles: u32,
     /// What came to it that had not touched it before.
     pub came: Came,
+    /// Volume of what is not harmful that came to it, likewise, m³ of the scene; 0 in a scene without tools.
+    pub rinsed: f64,
 }
 
 /// What came to a place since the last look; means are over particles.

@@ -12,9 +12,7 @@ fn soup(intensity: f64, frames: usize) -> f64 {
     scene.paper.as_mut().unwrap().k_v = Some(intensity);
     let device = gpu::device();
     let mut world = World::new(&device, &Library::watching(), &scene, 1).unwrap();
-    let idle = StepInput {
-        hands: [Hand::ABSENT; 2],
-    };
+    let idle = StepInput::of_hands([Hand::ABSENT; 2]);
     for _ in 0..frames {
         world.step(&idle).unwrap();
     }
@@ -50,9 +48,7 @@ fn figure_6_has_its_order() {
             .position(|flask| flask.name == name)
             .unwrap()
     });
-    let idle = StepInput {
-        hands: [Hand::ABSENT; 2],
-    };
+    let idle = StepInput::of_hands([Hand::ABSENT; 2]);
     let mut boiling = [0; 3];
     let mut hottest = [f64::NEG_INFINITY; 3];
     // 2.7 s: from a second on the two that boil differ by a factor of two and more.

@@ -1,0 +1,159 @@
+//! What lies on the bench beside the glass, as it is drawn: of bones, as hands are.
+
+use glam::Vec3;
+use vitriol_render::{Bone, Finish};
+use vitriol_sim::scene::ToolKind;
+use vitriol_sim::world::World;
+use vitriol_xr::Pose;
+
+/// What a thermometer's column shows between its bulb and its top, °C.
+const SHOWN: [f64; 2] = [-10.0, 150.0];
+/// Height of a thermometer's bulb, and by how much it is thicker than the stem, m.
+const BULB: f32 = 0.012;
+const BULB_OVER: f32 = 0.0015;
+/// By how much the column is thicker than the stem, so that it is seen, m.
+const COLUMN_OVER: f32 = 0.0004;
+
+/// One tool's parts in its own frame, real metres; `celsius` is what a thermometer shows.
+fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
+    let [radius, height] = kind.cylinder().map(|m| m as f32);
+    let part = |finish: Finish, ends: [Vec3; 2], radius: f32| Bone {
+        ends,
+        radii: [radius; 2],
+        finish,
+        stain: 0.0,
+    };
+    // Between two heights of the axis, round ends included.
+    let stem = |finish, from: f32, to: f32, radius: f32| {
+        part(
+            finish,
+            [from + radius, to - radius].map(|y| y * Vec3::Y),
+            radius,
+        )
+    };
+    match kind {
+        ToolKind::Rod => vec![stem(Finish::Rod, 0.0, height, radius)],
+        ToolKind::Thermometer => {
+            let share = ((celsius - SHOWN[0]) / (SHOWN[1] - SHOWN[0])).clamp(0.0, 1.0) as f32;
+            let level = BULB + share * (height - 2.0 * BULB);
+            vec![
+                stem(Finish::Column, 0.0, BULB, radius + BULB_OVER),
+                stem(Finish::Column, 0.0, level, radius + COLUMN_OVER),
+                stem(Finish::Rod, 0.0, height, radius),
+            ]
+        }
+        ToolKind::Cloth => {
+            let thick = 0.5 * height;
+            let fold = |n: i32| {
+                let z = thick * n as f32;
+                let half = (radius * radius - z * z).sqrt() - thick;
+                let end = |x: f32| Vec3::new(x, thick, z);
+                part(Finish::Cloth, [end(-half), end(half)], thick)
+            };
+            (-6..=6).step_by(2).map(fold).collect()
+        }
+        ToolKind::Gloves => {
+            let side = 0.5 * height;
+            let end = |x: f32, z: f32| Vec3::new(x, side, z);
+            let across = |z: f32| {
+                let half = radius - 0.6 * side;
+                part(Finish::Card, [end(-half, z), end(half, z)], side)
+            };
+            let tuft = [
+                Vec3::new(-0.02, height, 0.0),
+                Vec3::new(0.02, height + 0.012, 0.005),
+            ];
+            vec![
+                across(-0.3 * side),
+                across(0.3 * side),
+                part(Finish::Glove, tuft, 0.012),
+            ]
+        }
+        ToolKind::Goggles => goggles(),
+    }
+}
+
+/// Two rings about the lenses, and the bridge between them; lenses up.
+fn goggles() -> Vec<Bone> {
+    const SIDES: usize = 8;
+    /// Half axes of a lens, where its middle is to the side, and how thick its frame is, m. Our choice: 14 cm in all.
+    const LENS: [f32; 2] = [0.032, 0.024];
+    const ASIDE: f32 = 0.036;
+    const THICK: f32 = 0.006;
+    let ring = |side: f32| {
+        let at = move |n: usize| {
+            let angle = std::f32::consts::TAU * n as f32 / SIDES as f32;
+            let [x, z] = [LENS[0] * angle.cos(), LENS[1] * angle.sin()];
+            Vec3::new(side * ASIDE + x, 0.03, z)
+        };
+        (0..SIDES).map(move |n| [at(n), at(n + 1)])
+    };
+    let foot = |x: f32, z: f32| [Vec3::new(x, 0.03, z), Vec3::new(x, THICK, z)];
+    let feet = [-1.0, 1.0].map(|side| foot(side * (ASIDE + LENS[0]), 0.0));
+    (ring(-1.0).chain(ring(1.0)).chain(feet))
+        .map(|ends| Bone {
+            ends,
+            radii: [THICK; 2],
+            finish: Finish::Frame,
+            stain: 0.0,
+        })
+        .collect()
+}
+
+/// The tools of `world` in the scene's stage, real metres: none that is worn, since it is before the eyes. `celsius` is what the thermometer
+/// shows.
+pub fn tools(world: &World, celsius: f64) -> Vec<Bone> {
+    let scene = world.scene();
+    let scale = scene.scale.length_scale as f32;
+    let mut bones = Vec::new();
+    for (tool, pose) in scene.tools.iter().zip(world.tools()) {
+        if tool.kind == ToolKind::Goggles && world.worn().goggles == Some(true) {
+            continue;
+        }
+        let stage_from_tool = Pose::new(scale * pose.position, pose.orientation);
+        let mut parts = parts(tool.kind, celsius);
+        for end in parts.iter_mut().flat_map(|bone| &mut bone.ends) {
+            *end = stage_from_tool.transform_point(*end);
+        }
+        bones.extend(parts);
+    }
+    bones
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vitriol_render::MOST_BONES;
+
+    #[test]
+    fn all_tools_together_are_drawn() {
+        let all = ToolKind::ALL.map(|kind| parts(kind, 20.0).len());
+        assert!(all.iter().sum::<usize>() <= MOST_BONES, "{all:?}");
+        for kind in ToolKind::ALL {
+            let [radius, height] = kind.cylinder().map(|m| m as f32);
+            for bone in parts(kind, 80.0) {
+                for (end, thick) in bone.ends.iter().zip(bone.radii) {
+                    let aside = end.x.hypot(end.z) + thick;
+                    assert!(aside <= radius + 0.006, "{kind:?}: {aside} m");
+                    let over = [end.y - thick, height + 0.025 - end.y - thick];
+                    assert!(over.iter().all(|it| *it >= -1e-6), "{kind:?}: {over:?}");
+                }
+            }
+        }
+    }
+
+    /// Warmer is higher, from the bulb to below the top.
+    #[test]
+    fn a_column_rises_with_the_temperature() {
+        let top = |celsius: f64| {
+            let column = parts(ToolKind::Thermometer, celsius)[1];
+            column.ends[1].y + column.radii[1]
+        };
+        let length = ToolKind::Thermometer.cylinder()[1] as f32 - 2.0 * BULB;
+        let a_degree = length / 160.0;
+        assert!((top(60.0) - top(20.0) - 40.0 * a_degree).abs() < 1e-5);
+        assert_eq!(top(-10.0), top(-40.0));
+        assert!(top(150.0) <= ToolKind::Thermometer.cylinder()[1] as f32);
+        assert_eq!(top(150.0), top(300.0));
+    }
+}

@@ -1,0 +1,110 @@
+//! What the user wears: goggles, which go with the head, and gloves, which are on hands.
+
+use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+use super::build::Flask;
+use super::grip::{GripState, holder};
+use super::reach;
+use super::spec::{Hand, Role};
+use crate::pose::Pose;
+
+/// How near the eyes' middle (m, at real size) the middle of goggles must be when they are let go, to be worn: they are as broad as a
+/// face. Our choice.
+const AT_EYES: f32 = 0.15;
+/// How near another hand's palm (m, at real size) a hand takes hold of its glove: a hand is 0.19 m long (median of adults:
+/// NASA-STD-3000), and its wrist is half of that from the palm's middle.
+const AT_HAND: f32 = 0.12;
+
+/// What is worn, where a scene has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Worn {
+    /// Whether the goggles are.
+    pub goggles: Option<bool>,
+    /// Whether a glove is on the left and on the right hand.
+    pub gloves: Option<[bool; 2]>,
+}
+
+/// See the module.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct Wearing {
+    /// What the user has on.
+    pub worn: Worn,
+    /// Where the goggles are while they are worn and the head is known.
+    place: Option<Pose>,
+    /// Whether a hand held the goggles in the last step.
+    were_held: bool,
+}
+
+impl Wearing {
+    pub fn of(worn: Worn) -> Self {
+        Self {
+            worn,
+            place: None,
+            were_held: false,
+        }
+    }
+
+    /// Advances by a step, in which the grips were advanced; `flasks` and `poses` are of all bodies, poses those before the step.
+    pub fn advance(
+        &mut self,
+        (grips, hands): (&[GripState; 2], &[Hand; 2]),
+        head: Option<Pose>,
+        (flasks, poses): (&[Flask], &[Pose]),
+        scale: f32,
+    ) {
+        let of_role = |role| flasks.iter().position(|it| it.role == Some(role));
+        if let (Some(on), Some(goggles)) = (&mut self.worn.goggles, of_role(Role::Goggles)) {
+            let is_held = holder(grips, goggles).is_some();
+            let let_go = std::mem::replace(&mut self.were_held, is_held) && !is_held;
+            let near = head.is_some_and(|head| {
+                let middle = 0.5 * height(&flasks[goggles]) * Vec3::Y;
+                let apart = poses[goggles]
+                    .transform_point(middle)
+                    .distance(head.position);
+                apart <= AT_EYES * scale
+            });
+            *on = !is_held && (*on || (let_go && near));
+            self.place = match (*on, head) {
+                (true, Some(head)) => Some(head.compose(head_from_goggles())),
+                (true, None) => self.place,
+                (false, _) => None,
+            };
+        }
+        if let (Some(on), Some(gloves)) = (&mut self.worn.gloves, of_role(Role::Gloves)) {
+            for hand in 0..hands.len() {
+                if !grips[hand].closes_on_nothing() {
+                    continue;
+                }
+                let at = hands[hand].stage_from_grip.position;
+                let other = &hands[1 - hand];
+                let in_box = poses[gloves].inverse().transform_point(at);
+                let apart = other.stage_from_grip.position.distance(at);
+                if reach::signed_distance(&flasks[gloves].outline, in_box)
+                    <= super::GRIP_REACH * scale
+                {
+                    on[hand] = true;
+                } else if other.present && apart <= AT_HAND * scale {
+                    on[1 - hand] = false;
+                }
+            }
+        }
+    }
+
+    /// Where a body is that is worn.
+    pub fn place(&self, flask: &Flask) -> Option<Pose> {
+        self.place.filter(|_| flask.role == Some(Role::Goggles))
+    }
+}
+
+/// Goggles lie on the bench with their lenses up, +y; before eyes these look along −z.
+fn head_from_goggles() -> Pose {
+    Pose::new(
+        Vec3::ZERO,
+        Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+    )
+}
+
+fn height(flask: &Flask) -> f32 {
+    flask.outline.last().map_or(0.0, |top| top[1])
+}

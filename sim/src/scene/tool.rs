@@ -1,0 +1,135 @@
+//! What lies on the bench beside the flasks and is handled: what is worn, what is dipped, and what wipes.
+//!
+//! Each is a cylinder to the rigid bodies. Sizes are of real size; a scene that is drawn larger has them larger.
+
+use super::error::Problem;
+use super::fields::require;
+use super::settings::Scale;
+use crate::pose::Pose;
+use glam::{DQuat, DVec3, EulerRot};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
+
+/// What a tool is. A scene has one of each at most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToolKind {
+    /// Safety goggles: worn by letting go of them before the eyes.
+    Goggles,
+    /// A box of gloves: a hand that closes on it has one on. The other hand pulls it off.
+    Gloves,
+    /// A cloth that takes up the liquid that it lies on.
+    Cloth,
+    /// A stirring rod.
+    Rod,
+    /// A thermometer.
+    Thermometer,
+}
+
+impl ToolKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Goggles,
+        Self::Gloves,
+        Self::Cloth,
+        Self::Rod,
+        Self::Thermometer,
+    ];
+
+    /// Radius and height of its cylinder at real size, m. Goggles are as broad as a face (0.15 m: NASA-STD-3000); a rod is 7 mm by 250 mm and
+    /// a thermometer 6 mm by 260 mm, as they are sold; box and cloth, folded to a pad, are our choice.
+    pub fn cylinder(self) -> [f64; 2] {
+        match self {
+            Self::Goggles => [0.075, 0.06],
+            Self::Gloves => [0.08, 0.09],
+            Self::Cloth => [0.07, 0.02],
+            Self::Rod => [0.0035, 0.25],
+            Self::Thermometer => [0.003, 0.26],
+        }
+    }
+
+    /// Its mass at real size, kg: of rod and thermometer that of the glass, of the others our choice.
+    pub fn mass(self) -> f64 {
+        match self {
+            Self::Goggles => 0.09,
+            Self::Gloves => 0.5,
+            Self::Cloth => 0.04,
+            Self::Rod => 0.021,
+            Self::Thermometer => 0.016,
+        }
+    }
+
+    /// Whether it is long and thin, and lies on its side at the start. Its lower end, the one that is dipped, is its origin.
+    pub fn is_dipped(self) -> bool {
+        matches!(self, Self::Rod | Self::Thermometer)
+    }
+
+    /// Whether it can be worn.
+    pub fn is_worn(self) -> bool {
+        matches!(self, Self::Goggles | Self::Gloves)
+    }
+}
+
+/// A tool of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// What it is.
+    pub kind: ToolKind,
+    /// Where it is at the start: +y is its cylinder's axis, the origin the middle of its base.
+    pub stage_from_tool: Pose,
+    /// Whether it is worn at the start: gloves on both hands.
+    pub worn: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ToolEntry {
+    kind: ToolKind,
+    /// The middle of what it lies on, metres of the scene.
+    position: [f64; 3],
+    /// About the vertical, degrees; at 0 what lies on its side has its lower end to the right.
+    #[serde(default)]
+    yaw: f64,
+    #[serde(default)]
+    worn: bool,
+}
+
+impl ToolEntry {
+    pub fn build(self, index: usize, scale: &Scale) -> Result<Tool, Problem> {
+        let field = |name: &str| format!("tool[{index}].{name}");
+        for value in self.position {
+            require(&field("position"), value, true, "a finite number (metres)")?;
+        }
+        require(&field("yaw"), self.yaw, true, "a finite number (degrees)")?;
+        if self.worn && !self.kind.is_worn() {
+            let problem = "can only be worn by goggles and gloves; leave it out";
+            return Err(Problem::new(field("worn"), problem));
+        }
+        let [radius, height] = self.kind.cylinder().map(|m| m / scale.length_scale);
+        let turned = DQuat::from_rotation_y(self.yaw.to_radians());
+        let middle = DVec3::from_array(self.position);
+        let (place, orientation) = if self.kind.is_dipped() {
+            let lying = turned * DQuat::from_euler(EulerRot::XYZ, 0.0, 0.0, FRAC_PI_2);
+            let base = middle + radius * DVec3::Y - 0.5 * height * (lying * DVec3::Y);
+            (base, lying)
+        } else {
+            (middle, turned)
+        };
+        Ok(Tool {
+            kind: self.kind,
+            stage_from_tool: Pose::new(place.as_vec3(), orientation.as_quat()),
+            worn: self.worn,
+        })
+    }
+}
+
+/// One of each at most: a lesson and a picture name them by what they are.
+pub(super) fn check_tools(tools: &[Tool]) -> Result<(), Problem> {
+    for (index, tool) in tools.iter().enumerate() {
+        if tools[..index].iter().any(|it| it.kind == tool.kind) {
+            let problem = "is there already; a scene has one of each";
+            return Err(Problem::new(format!("tool[{index}].kind"), problem));
+        }
+    }
+    Ok(())
+}
