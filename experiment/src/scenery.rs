@@ -58,6 +58,9 @@ fn table(scene: &Scene) -> Option<BoxDesc> {
     })
 }
 
+/// Least distance between two marks, m: in a tray they would run into each other.
+const LEAST_APART: f64 = 0.004;
+
 /// Heights of a vessel's graduation marks: where whole multiples of a round
 /// volume, as drawn, would stand. A funnel, which hangs upside down, has none.
 fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
@@ -69,7 +72,7 @@ fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
         return Vec::new();
     };
     // The uppermost tenth is left free.
-    (1..)
+    let marks: Vec<f64> = (1..)
         .map(|n| f64::from(n) * step)
         .take_while(|volume| *volume < 0.9 * capacity)
         .filter_map(|volume| {
@@ -77,7 +80,12 @@ fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
                 .profile
                 .level_for_volume(volume / length_scale.powi(3))
         })
-        .collect()
+        .collect();
+    let close = |pair: &[f64]| length_scale * (pair[1] - pair[0]) < LEAST_APART;
+    match marks.windows(2).any(close) {
+        true => Vec::new(),
+        false => marks,
+    }
 }
 
 /// The scene's vessels on their table in the room.

@@ -56,12 +56,12 @@ fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
             let side = 0.5 * height;
             let end = |x: f32, z: f32| Vec3::new(x, side, z);
             let across = |z: f32| {
-                let half = radius - 0.6 * side;
+                let half = radius - side;
                 part(Finish::Card, [end(-half, z), end(half, z)], side)
             };
             let tuft = [
                 Vec3::new(-0.02, height, 0.0),
-                Vec3::new(0.02, height + 0.012, 0.005),
+                Vec3::new(0.02, height + 0.01, 0.005),
             ];
             vec![
                 across(-0.3 * side),

@@ -5,3 +5,4 @@ mod breaks;
 mod camera;
 mod common;
 mod reload;
+mod tools;

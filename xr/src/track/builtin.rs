@@ -6,13 +6,14 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 6] = [
+pub const NAMES: [&str; 7] = [
     "two-flasks",
     "shake",
     "three-flasks",
     "slow-pour",
     "dropped",
     "hands-off",
+    "emergency",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -24,6 +25,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "slow-pour" => Some(include_str!("../../tracks/slow-pour.toml")),
         "dropped" => Some(include_str!("../../tracks/dropped.toml")),
         "hands-off" => Some(include_str!("../../tracks/hands-off.toml")),
+        "emergency" => Some(include_str!("../../tracks/emergency.toml")),
         _ => None,
     }
 }
