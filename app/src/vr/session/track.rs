@@ -291,6 +291,22 @@ mod tests {
         assert_eq!(said, expected);
     }
 
+    /// What was asked of the lesson counts from the step on that it comes with, and not for a scene that is brought up meanwhile.
+    #[test]
+    fn what_is_asked_of_a_lesson_waits_for_a_step() {
+        let mut track = SessionTrack::new(None, (&plan(), None), &device()).unwrap();
+        track.step(poses(), 0.01, Vec::new);
+        track.switch(Wish::Finish.switch());
+        assert!(track.awaits_step() && track.asked().is_empty());
+        track.switch(switch("two-flasks"));
+        let hint = Wish::Hint("lift".into());
+        track.switch(hint.switch());
+        track.step(poses(), 0.01, Vec::new);
+        track.step(poses(), 0.01, Vec::new);
+        assert_eq!(track.asked(), [(0.01, hint)]);
+        assert!(!track.awaits_step() && track.asked().is_empty());
+    }
+
     #[test]
     fn a_recording_that_is_there_is_not_overwritten() {
         let folder = tempfile::tempdir().unwrap();

@@ -6,7 +6,7 @@ use super::*;
 /// A session in which all kinds of things happen: a failure and a second try, a hint, a step left out, a rule broken, another beginning.
 fn eventful(mode: Mode) -> (Lesson, Run) {
     let steps = [
-        ("one", format!("{POUR}\nhint_after_s = 1")),
+        ("one", POUR.to_owned()),
         ("two", LIFT.to_owned()),
         ("three", format!("{POUR}\ntime_limit_s = 20")),
         ("four", LIFT.to_owned()),
@@ -18,7 +18,7 @@ fn eventful(mode: Mode) -> (Lesson, Run) {
     ];
     let lesson = lesson(&steps, &rules);
     let mut run = Run::new(lesson.clone(), mode);
-    run.wait(3.0);
+    run.wait(6.0);
     // Too fast, and then not.
     run.hear(&[pour([run.t - 1.0, run.t], 9.0, 9.0, 0.98)]);
     run.hear(&[boiled_over(run.t)]);
