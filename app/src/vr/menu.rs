@@ -103,6 +103,9 @@ mod tests {
         assert_eq!(decision('B'), Some(Decision::Start));
         assert_eq!(decision('s'), Some(Decision::Summary));
         assert_eq!(decision('x'), None);
+        let acts = ['H', 'n', 'f'].map(decision);
+        let expected = [Act::Hint, Act::Skip, Act::Finish];
+        assert_eq!(acts, expected.map(|act| Some(Decision::Lesson(act))));
         let keys = [START, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE];
         let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
         let count = all.len();
