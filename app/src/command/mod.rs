@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+mod course;
 pub mod doctor;
 pub mod export;
 pub mod forget;
