@@ -245,8 +245,8 @@ pub struct VrArgs {
     /// How: guided, free or examination; without it as the lesson says
     #[arg(long, value_name = "MODE", requires = "lesson")]
     pub mode: Option<Mode>,
-    /// The lesson's language: en, de, es or zh
-    #[arg(long, value_name = "LANGUAGE", default_value_t, requires = "lesson")]
+    /// Language of the panel and of the lesson: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]

@@ -3,6 +3,8 @@
 //! It is drawn in the scene, and shown by a headset in a layer of its own under the picture (`xr/src/session/layers.rs`). A hand
 //! that points at it has a ray.
 
+#[cfg(test)]
+mod fits;
 mod view;
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};
@@ -17,6 +19,7 @@ use super::decision::Decision;
 use super::hold::Hold;
 use super::info::Info;
 use super::painter::{self, Painter};
+use super::texts::{PanelTexts, Texts};
 
 /// Width and height of the panel, pixels.
 pub const PANEL: [u32; 2] = [1024, 864];
@@ -41,6 +44,7 @@ const PRESSES: f32 = 0.6;
 
 /// See the module.
 pub struct Panel {
+    words: PanelTexts,
     context: egui::Context,
     painter: Painter,
     /// Its picture.
@@ -77,7 +81,7 @@ struct Shown {
 const RING: f32 = 20.0;
 
 impl Panel {
-    /// A panel that shows nothing yet.
+    /// A panel that shows nothing yet, in English.
     ///
     /// # Errors
     /// What the device says.
@@ -85,6 +89,7 @@ impl Panel {
         let context = egui::Context::default();
         view::style(&context);
         Ok(Self {
+            words: Texts::english()?.panel,
             context,
             painter: Painter::new(gpu, library, "panel")?,
             image: painter::image(gpu, "panel", PANEL)?,
@@ -98,6 +103,12 @@ impl Panel {
             pulled: [false; 2],
             shown: None,
         })
+    }
+
+    /// The same in the words of another language.
+    pub fn in_words(mut self, words: &PanelTexts) -> Self {
+        self.words = words.clone();
+        self
     }
 
     /// Takes in where the free hands point (in the scene's stage) in the frame that is shown at `now` (ns), shows `info`, and
@@ -197,7 +208,8 @@ impl Panel {
         let mut seen = view::Seen::default();
         let ring = shown.ring.map(|step| step as f32 / RING);
         let output = self.context.run(input, |context| {
-            seen = view::show(context, &shown.info, shown.pointer, ring);
+            let said = (&shown.info, &self.words);
+            seen = view::show(context, said, shown.pointer, ring);
         });
         let meshes = self.context.tessellate(output.shapes, 1.0);
         self.painter.take(meshes, output.textures_delta);
