@@ -6,8 +6,8 @@ mod arguments;
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs, LessonArgs,
-    PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, JudgeArgs, KeepArgs,
+    LessonArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by

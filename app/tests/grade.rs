@@ -2,6 +2,9 @@
 //! says to it, with an experiment whose answers are known.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "grade/lesson.rs"]
+mod lesson;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +13,10 @@ use std::process::{Command as Process, Stdio};
 use vitriol::cli::{Cli, Command};
 use vitriol::command::grade::{Class, Line, Status, Verdict, grade};
 use vitriol_experiment::{
-    Counters, DeviceStatement, Experiment, Failure, Format, Heard, MassByPlace, Outcome, Sample,
-    Setup, Taken,
+    Counters, DeviceStatement, Experiment, Failure, Format, Heard, Judging, MassByPlace, Outcome,
+    Sample, Setup, Taken,
 };
+use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Attempt, Cause, Content, Ending, Event, Incident, Pour, What};
 use vitriol_record::{Keeping, Scored, Session, Timestamp, keep};
 use vitriol_render::PassPicture;
@@ -118,6 +122,20 @@ fn class(folder: &Path, students: u32) {
 struct Toy {
     events: Vec<Event>,
     driver: &'static str,
+    /// What it says of a lesson, where it is asked to judge one.
+    progress: Vec<Progress>,
+    judges: bool,
+}
+
+impl Toy {
+    fn new(events: Vec<Event>, driver: &'static str) -> Self {
+        Self {
+            events,
+            driver,
+            progress: Vec::new(),
+            judges: false,
+        }
+    }
 }
 
 impl Experiment for Toy {
@@ -154,9 +172,17 @@ impl Experiment for Toy {
         Ok(Vec::new())
     }
 
+    fn judge(&mut self, _: Judging) {
+        self.judges = true;
+    }
+
     fn outcome(&mut self) -> Result<Outcome, Failure> {
         Ok(Outcome {
             events: self.events.clone(),
+            progress: match self.judges {
+                true => self.progress.clone(),
+                false => Vec::new(),
+            },
             instructions: Vec::new(),
             scene: None,
             effort: [8, 4],
@@ -312,10 +338,7 @@ fn another_scene_is_listed_and_never_graded() {
     put(here, "again.mcap", &again);
 
     let (class, failure) = graded(here, &["--verify"], |_| {
-        Ok(Box::new(Toy {
-            events: events(0.0),
-            driver: DEVICE[1],
-        }))
+        Ok(Box::new(Toy::new(events(0.0), DEVICE[1])))
     })
     .unwrap();
     assert!(failure.is_none());
@@ -448,10 +471,7 @@ fn a_simulation_confirms_or_refutes() {
         let more = ["--verify", "--out", out.to_str().unwrap()];
         let toy = |setup: &Setup<'_>| -> Made {
             assert_eq!((setup.scene_name, setup.preset.name()), (SCENE, "fast"));
-            Ok(Box::new(Toy {
-                events: events(truth),
-                driver,
-            }))
+            Ok(Box::new(Toy::new(events(truth), driver)))
         };
         let (class, failure) = graded(&file, &more, toy).unwrap();
         assert!(failure.is_none());
@@ -475,20 +495,10 @@ fn a_simulation_confirms_or_refutes() {
     assert_eq!(graded(here, &again, nobody).unwrap().0.taken, 4);
     // For another device it is simulated anew, as by another tolerance.
     let elsewhere = [&again[..], &["--device", "1"]].concat();
-    let toy = |_: &Setup<'_>| -> Made {
-        Ok(Box::new(Toy {
-            events: events(2.0),
-            driver: DEVICE[1],
-        }))
-    };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
     assert_eq!(graded(here, &elsewhere, toy).unwrap().0.taken, 0);
     let strict = [&again[..], &["--tolerance", "0.2,0,0.01"]].concat();
-    let toy = |_: &Setup<'_>| -> Made {
-        Ok(Box::new(Toy {
-            events: events(2.08),
-            driver: "another",
-        }))
-    };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.08), "another"))) };
     let (class, _) = graded(here, &strict, toy).unwrap();
     assert_eq!(class.taken, 0);
     let found = line(&class, "other-device");
@@ -496,12 +506,7 @@ fn a_simulation_confirms_or_refutes() {
     // What was only read is not.
     fs::remove_dir_all(&out).unwrap();
     read(here, &more);
-    let toy = |_: &Setup<'_>| -> Made {
-        Ok(Box::new(Toy {
-            events: events(2.0),
-            driver: DEVICE[1],
-        }))
-    };
+    let toy = |_: &Setup<'_>| -> Made { Ok(Box::new(Toy::new(events(2.0), DEVICE[1]))) };
     assert_eq!(graded(here, &again, toy).unwrap().0.taken, 0);
 }
 

@@ -11,7 +11,7 @@ use vitriol::command::replay::run;
 use vitriol::report::Report;
 use vitriol_experiment::{
     Blame, Colour, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
-    Instruction, LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
+    Instruction, Judging, LedgerSample, MassByPlace, Outcome, Sample, Setup, Taken,
 };
 
 use vitriol_lesson::{Attempt, Cause, Ending, Event, Incident, Rubric, Texts, What};
@@ -141,6 +141,8 @@ impl Experiment for Toy {
         Ok(Vec::new())
     }
 
+    fn judge(&mut self, _: Judging) {}
+
     fn outcome(&mut self) -> Result<Outcome, Failure> {
         if self.fails_at == 0 {
             return Err("the device was lost").other();
@@ -150,6 +152,7 @@ impl Experiment for Toy {
                 true => events(self.steps as f64 * FRAME_TIME),
                 false => Vec::new(),
             },
+            progress: Vec::new(),
             scene: None,
             effort: [8, 4],
             fluid_particles: 13_894,

@@ -13,6 +13,7 @@ use vitriol_xr::PoseFrame;
 use crate::device::DeviceStatement;
 use crate::failure::Failure;
 use crate::instruction::Instruction;
+use crate::judging::Judging;
 use crate::sample::Sample;
 
 /// What the loop drives: the simulated world, and the picture of it.
@@ -53,6 +54,9 @@ pub trait Experiment {
     /// # Errors
     /// What the device says.
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure>;
+
+    /// Has a lesson judged over what is seen from now on: asked before the first step, if at all.
+    fn judge(&mut self, lesson: Judging);
 
     /// How it is after the last step, for who watches; `None` where nobody can. Does not wait: what is measured is some steps old.
     fn glimpse(&self) -> Option<Glimpse<'_>> {
@@ -121,6 +125,8 @@ pub struct Outcome {
     pub device: DeviceStatement,
     /// What was found in looks at the liquid, over the whole run.
     pub events: Vec<vitriol_lesson::Event>,
+    /// What was said of the lesson that is judged; empty without one.
+    pub progress: Vec<vitriol_lesson::procedure::Progress>,
     /// What an instructor did, each with the run's time, s.
     pub instructions: Vec<(f64, Instruction)>,
     /// What was counted.

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson as lesson;
+use vitriol_lesson::procedure::Progress;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
@@ -24,6 +25,7 @@ use crate::device;
 use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
 use crate::failure::{Blame, Failure};
 use crate::instruction::Instruction;
+use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
 use crate::sample::{MassByPlace, Sample};
 use crate::scenes::Scenes;
@@ -108,7 +110,8 @@ pub struct Laboratory {
     shot: Option<Shot>,
     preset: Preset,
     scenes: Scenes,
-    /// The scene that a switch brought up.
+    /// The scene's name at the start, and that of the scene that a switch brought up.
+    begun_with: String,
     switched: Option<String>,
     follows_head: bool,
     /// Whether glass breaks.
@@ -134,6 +137,10 @@ pub struct Laboratory {
     heard: Vec<Event>,
     /// What was found so far.
     found: Vec<lesson::Event>,
+    /// The lesson that is judged, if one is.
+    judging: Option<Judging>,
+    /// What was said of it.
+    progress: Vec<Progress>,
     /// What an instructor did, and when, s.
     instructions: Vec<(f64, Instruction)>,
     /// Whether boiling is not heard.
@@ -174,6 +181,7 @@ impl Laboratory {
             shot,
             preset: setup.preset,
             scenes: setup.scenes.clone(),
+            begun_with: setup.scene_name.to_owned(),
             switched: None,
             follows_head: setup.head.is_some(),
             breakable: false,
@@ -192,6 +200,8 @@ impl Laboratory {
             looks: Looks::of(setup.scene_name, setup.scene),
             heard: Vec::new(),
             found: Vec::new(),
+            judging: None,
+            progress: Vec::new(),
             instructions: Vec::new(),
             muted: false,
             seen: (Vec::new(), [0.0; 2]),
@@ -245,6 +255,11 @@ impl Laboratory {
             let Some(looked) = self.looks.wait()? else {
                 break;
             };
+            if let Some(judging) = &mut self.judging {
+                let scene = self.switched.as_ref().unwrap_or(&self.begun_with);
+                let said = judging.looked(scene, &looked, || self.looks.so_far());
+                self.progress.extend(said);
+            }
             let Looked {
                 census,
                 elapsed,
@@ -270,7 +285,12 @@ impl Laboratory {
     /// What went on in the attempt is over.
     fn end_attempt(&mut self) -> Result<(), Failure> {
         self.collect_looks(0)?;
-        self.found.extend(self.looks.end());
+        let events = self.looks.end();
+        if let Some(judging) = &mut self.judging {
+            let scene = self.switched.as_ref().unwrap_or(&self.begun_with);
+            self.progress.extend(judging.ended(scene, &events));
+        }
+        self.found.extend(events);
         Ok(())
     }
 
@@ -376,6 +396,10 @@ impl Experiment for Laboratory {
         passes.unwrap_or_else(|| Ok(Vec::new()))
     }
 
+    fn judge(&mut self, lesson: Judging) {
+        self.judging = Some(lesson);
+    }
+
     fn glimpse(&self) -> Option<Glimpse<'_>> {
         Some(Glimpse {
             scene: (self.world.scene(), self.switched.as_deref()),
@@ -419,6 +443,7 @@ impl Experiment for Laboratory {
             state_hash: state.solver.hash(),
             device: device::statement(self.world.gpu()),
             events: self.found.clone(),
+            progress: self.progress.clone(),
             instructions: self.instructions.clone(),
             counters: Counters {
                 substeps: self.substeps,

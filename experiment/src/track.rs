@@ -11,6 +11,14 @@ pub const PRESET: &str = "preset";
 pub const DEVICE: &str = "device";
 /// Its driver and version.
 pub const DRIVER: &str = "driver";
+/// The lesson that it goes through.
+pub const LESSON: &str = "lesson";
+/// Hash of that lesson's text.
+pub const LESSON_HASH: &str = "lesson_hash";
+/// How it goes through it.
+pub const MODE: &str = "mode";
+/// In which language.
+pub const LANGUAGE: &str = "language";
 /// Hash of the final state, hexadecimal.
 pub const STATE_HASH: &str = "state_hash";
 

@@ -111,6 +111,7 @@ section!(LeftOut: nothing_poured no_acid no_heat);
 section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
     sash_open time_up skipped not_done);
 section!(ModeNames: guided free examination);
+section!(PanelTexts: hint skip finish steps more);
 
 /// The texts of one language: a file of `lesson/texts`, of which each key is used and none is missing.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -132,6 +133,7 @@ pub struct Texts {
     pub(crate) left_out: LeftOut,
     pub(crate) why: WhyTexts,
     pub(crate) mode: ModeNames,
+    pub(crate) panel: PanelTexts,
     /// By lesson: of those that come with the program.
     pub(crate) lesson: BTreeMap<String, LessonTexts>,
 }

@@ -96,6 +96,9 @@ pub struct ReplayArgs {
     /// Glass that is struck too hard breaks: by a fall of half a metre and more
     #[arg(long)]
     pub breakable: bool,
+    /// What is judged
+    #[command(flatten)]
+    pub judge: JudgeArgs,
     /// What is kept of a student
     #[command(flatten)]
     pub keep: KeepArgs,
@@ -361,6 +364,9 @@ pub struct GradeArgs {
     /// Likewise the preset; without it any will do
     #[arg(long, value_parser = preset())]
     pub preset: Option<Preset>,
+    /// Likewise the lesson
+    #[command(flatten)]
+    pub judge: JudgeArgs,
     /// Tracks at a time; without it as many as there are cores, and one with --verify
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
@@ -395,6 +401,17 @@ pub struct ForgetArgs {
     /// The class's file; without it the one in your folder for data
     #[arg(long, value_name = "FILE")]
     pub class: Option<PathBuf>,
+}
+
+/// A lesson that is judged.
+#[derive(Args, Clone, Debug, Default)]
+pub struct JudgeArgs {
+    /// Judge this lesson, of that scene: a built-in one's name (see `vitriol lesson`) or a TOML file
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Option<String>,
+    /// As it is gone through: guided, free or examination; without it as the lesson says
+    #[arg(long, value_name = "MODE", requires = "lesson")]
+    pub mode: Option<Mode>,
 }
 
 /// What is kept of a student. Nothing is without a pseudonym.
@@ -448,6 +465,23 @@ pub struct LessonArgs {
     /// The file of a built-in lesson, to begin an own one with
     #[arg(long, requires = "lesson")]
     pub toml: bool,
+    /// Make a film of the lesson as a track goes through it, with subtitles in each of its languages: this new MP4 file
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "lesson",
+        conflicts_with = "toml"
+    )]
+    pub film: Option<PathBuf>,
+    /// The film's track, by name or file; without it the built-in one that is made for the lesson's scene
+    #[arg(long, value_name = "TRACK", requires = "film")]
+    pub track: Option<String>,
+    /// The film's trade of speed for accuracy
+    #[arg(long, value_parser = preset(), requires = "film")]
+    pub preset: Option<Preset>,
+    /// Number, or part of the name, of the Vulkan device that the film is made on
+    #[arg(long, value_name = "DEVICE", requires = "film")]
+    pub device: Option<String>,
 }
 
 /// Arguments of `vitriol hub`.

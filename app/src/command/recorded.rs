@@ -5,6 +5,7 @@ use vitriol_experiment::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
 use vitriol_experiment::units::three_digits;
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_lesson::Event;
+use vitriol_lesson::procedure::Progress;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Hole, Track, TrackMetadata};
@@ -125,6 +126,13 @@ pub fn recorded_events(track: &Track) -> Vec<Event> {
     let events = track.events.iter();
     events
         .filter_map(|(_, json)| serde_json::from_str(json).ok())
+        .collect()
+}
+
+/// What was said of its lesson, likewise.
+pub fn recorded_progress(track: &Track) -> Vec<Progress> {
+    let said = track.progress.iter();
+    said.filter_map(|(_, json)| serde_json::from_str(json).ok())
         .collect()
 }
 

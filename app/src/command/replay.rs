@@ -18,6 +18,7 @@ use vitriol_experiment::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Scenes, Setup, emit, in_a_line,
 };
+use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
 use vitriol_record::{Session, Timestamp};
 use vitriol_shaders::Library;
@@ -25,9 +26,13 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{Track, TrackMetadata, TrackSource};
 
 use crate::cli::ReplayArgs;
+use crate::command::course;
+use crate::command::grade::AskedLesson;
 use crate::command::keeping::{self, Kept, Sitting};
 use crate::command::plan::{Ask, Plan};
-use crate::command::recorded::{differences, head, is_recording, recorded_events};
+use crate::command::recorded::{
+    differences, head, is_recording, recorded_events, recorded_progress,
+};
 use crate::command::stem;
 use crate::live::{Console, Live, Serving};
 use crate::report::{RecordingStatement, Report};
@@ -154,6 +159,12 @@ fn replay(
         span,
     } = Plan::new(&ask)?;
     let head = head(args.camera, name, &track)?;
+    let lesson = args.judge.chosen()?;
+    let judging = lesson.as_ref().map(|(lesson, mode)| {
+        let text = scenes.text(&name_of_start);
+        course::judging((lesson, *mode), (&name_of_start, text))
+    });
+    let judging = judging.transpose()?;
     let asked = ask.otherwise(&track);
     if let (true, Some(option)) = (args.keep.pseudonym.is_some(), asked.first()) {
         return Err(format!(
@@ -182,11 +193,19 @@ fn replay(
     if let Some(console) = live {
         experiment = Box::new(Live::new(experiment, console, &name_of_start)?);
     }
+    if let Some(judging) = judging {
+        experiment.judge(judging);
+    }
+    let went_through = lesson.as_ref().filter(|(lesson, mode)| {
+        let asked = AskedLesson::of(lesson, *mode);
+        asked.otherwise(&track).is_none()
+    });
     let recorded = is_recording(&track.metadata).then(|| Recorded {
         metadata: track.metadata.clone(),
         said: track.outcome.clone(),
         asked,
         events: recorded_events(&track),
+        progress: went_through.map(|_| recorded_progress(&track)),
     });
 
     let films = colours.iter().enumerate().map(|(index, _)| {
@@ -211,6 +230,7 @@ fn replay(
         None => (name_of_start.clone(), scene),
     };
     let scene = scene.with_effort(outcome.effort);
+    let retold = lesson.map(|(lesson, mode)| Verdict::retold(&lesson, mode, &outcome.progress));
     let recording = recorded.map(|recorded| recorded.against((&name_of_start, &scenes), &outcome));
     let mut report = assemble(
         (args, name, chosen),
@@ -222,6 +242,7 @@ fn replay(
         observations,
     )?;
     report.recording = recording;
+    report.lesson = retold.unwrap_or_default();
     let texts = Texts::english().other()?;
     report.judge(&Rubric::default(), &texts);
     // The page first and the numbers last: a folder with `report.json` is a whole run.
@@ -283,6 +304,8 @@ struct Recorded {
     said: BTreeMap<String, String>,
     asked: Vec<&'static str>,
     events: Vec<Event>,
+    /// What was said of the lesson, where it went through the one that is judged.
+    progress: Option<Vec<Progress>>,
 }
 
 impl Recorded {
@@ -293,6 +316,7 @@ impl Recorded {
             said,
             asked,
             events,
+            progress,
         } = self;
         let state_hash = said.get(STATE_HASH).cloned();
         let same = state_hash
@@ -305,6 +329,7 @@ impl Recorded {
             );
         }
         RecordingStatement {
+            same_progress: progress.map(|said| said == outcome.progress),
             same_events: (!events.is_empty()).then(|| events == outcome.events),
             program_version: metadata.program_version.clone(),
             device: metadata.parameters.get(DEVICE).cloned(),
@@ -373,6 +398,13 @@ fn describe(done: &Replayed) -> String {
         let Score { points, of, .. } = score;
         lines.push(format!(
             "attempt {number}, {scene}: {points} of {of} points"
+        ));
+    }
+    for (verdict, number) in report.lesson.iter().zip(1..) {
+        let Verdict { points, of, .. } = verdict;
+        let name = &verdict.lesson;
+        lines.push(format!(
+            "attempt {number}, lesson {name}: {points} of {of} points"
         ));
     }
     lines.push(String::new());

@@ -16,8 +16,8 @@ use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
 
 use crate::budget;
 use crate::cli::VrArgs;
+use crate::command::course;
 use crate::command::keeping::{self, Kept, Sitting};
-use crate::command::lesson;
 use crate::command::recorded::whole;
 use crate::live::{Serving, WatchReport, Watchers};
 use crate::vr::blame::blame;
@@ -174,7 +174,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     };
     if format == Format::Text && std::io::stdin().is_terminal() {
         let invites = !args.no_console && args.console.hub.is_none();
-        eprintln!("{}", menu::lines(invites));
+        let mode = options.course.as_ref().map(|it| it.mode);
+        eprintln!("{}", menu::lines(invites, mode));
     }
     let worn = |headset: &mut dyn Headset| -> Result<_, Failure> {
         let options = with_solver(args, options, headset.gpu())?;
@@ -243,13 +244,7 @@ fn course(args: &VrArgs) -> Result<Option<Course>, Failure> {
     let Some(name) = &args.lesson else {
         return Ok(None);
     };
-    let lesson = lesson::open(name)?;
-    let mode = args.mode.unwrap_or(lesson.default_mode());
-    if !lesson.modes.contains(&mode) {
-        let modes: Vec<_> = lesson.modes.iter().map(|mode| mode.name()).collect();
-        let modes = modes.join(", ");
-        return Err(format!("--mode {mode}: {name} has {modes}")).input();
-    }
+    let (lesson, mode) = course::named(name, args.mode)?;
     Ok(Some(Course {
         lesson,
         mode,

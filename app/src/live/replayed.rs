@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Order, State, Text};
 use vitriol_experiment::{
-    Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Instruction, Outcome, Sample,
+    Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Instruction, Judging, Outcome, Sample,
     SimulatedTime, Taken, interrupt,
 };
 use vitriol_lesson::Texts;
@@ -187,6 +187,10 @@ impl Experiment for Live {
 
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
         self.inner.passes()
+    }
+
+    fn judge(&mut self, lesson: Judging) {
+        self.inner.judge(lesson);
     }
 
     fn glimpse(&self) -> Option<Glimpse<'_>> {

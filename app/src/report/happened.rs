@@ -1,6 +1,7 @@
 //! The first screen: what happened, in words and points, each with its moment of the film.
 
 use maud::{Markup, html};
+use vitriol_lesson::procedure::{Verdict, VerdictLine};
 use vitriol_lesson::{Attempt, Score, ScoreLine, Sentence, Texts, Tone, sentences};
 
 use super::model::Report;
@@ -34,6 +35,47 @@ impl Report {
                     }
                     (points(score, texts, film))
                 }
+            }
+            @for (number, verdict) in (1..).zip(&self.lesson) {
+                section id=(format!("lesson-{number}")) {
+                    h2 {
+                        "Lesson " (verdict.lesson) ", " (texts.mode(verdict.mode))
+                        @if self.lesson.len() > 1 { ", begun for the " (number) ". time" }
+                    }
+                    (judged(verdict, texts, film))
+                }
+            }
+        }
+    }
+}
+
+/// A lesson's steps and rules, each with what became of it.
+fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
+    let row = |line: &VerdictLine| {
+        html! {
+            tr {
+                th scope="row" { (line.id) p.note { @if line.rule { "rule" } @else { "step" } } }
+                td { (line.points) " of " (line.of) (bar(line.points, line.of)) }
+                td {
+                    ul.said {
+                        li {
+                            (moment(line.evidence_s, film))
+                            p {
+                                (line.became().name())
+                                @if let Some(why) = line.why.as_ref() { ". " (texts.why(why)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    };
+    html! {
+        table.score {
+            thead { tr { th { "For" } th { "Points" } th { "Evidence" } } }
+            tbody { @for line in &verdict.lines { (row(line)) } }
+            tfoot {
+                tr { th scope="row" { "In all" } td { (verdict.points) " of " (verdict.of) } td {} }
             }
         }
     }

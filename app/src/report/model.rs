@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
+use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_sim::scene::Scene;
 
@@ -24,6 +25,9 @@ pub struct RecordingStatement {
     /// Whether the run found what the session did, to the bit; `None` of a recording that says nothing of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub same_events: Option<bool>,
+    /// Whether the lesson that is judged came to the same, to the bit; `None` of a recording that does not go through it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub same_progress: Option<bool>,
     /// In what the run is known to differ; its bits may differ then.
     pub differs: Vec<String>,
 }
@@ -48,6 +52,11 @@ impl RecordingStatement {
         text += match self.same_events {
             Some(true) => ", and so is all that happened",
             Some(false) => "; what happened is not what was recorded",
+            None => "",
+        };
+        text += match self.same_progress {
+            Some(true) => "; the lesson came to the same",
+            Some(false) => "; the lesson did not come to what was recorded",
             None => "",
         };
         if !self.differs.is_empty() {
@@ -132,6 +141,9 @@ pub struct Report {
     /// The score of each of `attempts`, in their order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub score: Vec<Score>,
+    /// What the lesson came to each time that it was begun, where one is judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lesson: Vec<Verdict>,
     /// The run over time. Empty in what `vitriol replay --json` prints, whole
     /// in `report.json`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

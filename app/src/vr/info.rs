@@ -2,6 +2,7 @@
 
 use vitriol_lesson::Tone;
 
+use super::decision::Act;
 use super::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
 
 /// A session's state in words and numbers.
@@ -52,10 +53,42 @@ pub struct Info {
 pub struct Shown {
     /// What is to be done, or what it came to.
     pub step: String,
+    /// Its steps, where they are listed.
+    pub steps: Vec<(Mark, String)>,
+    /// How many steps there are, or beside those that are listed.
+    pub note: Option<String>,
     /// How, for who does not get on.
     pub hint: Option<String>,
     /// Why something failed a short time ago.
     pub failed: Option<String>,
+    /// What can be asked for.
+    pub acts: Vec<ActLine>,
+    /// Whether nothing is told of what happened before the end.
+    pub quiet: bool,
+}
+
+/// How a step stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// It is done.
+    Done,
+    /// It was not done, and is not tried again.
+    Missed,
+    /// It is to be done.
+    Open,
+    /// Others come first.
+    Waiting,
+}
+
+/// A button of the lesson.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ActLine {
+    /// What it asks for.
+    pub act: Act,
+    /// What it says.
+    pub text: String,
+    /// Whether there is any now.
+    pub on: bool,
 }
 
 /// What the instructor says.

@@ -1,6 +1,9 @@
 //! What can be chosen while a session runs, on the panel and by the computer's keyboard.
 
-use super::decision::Decision;
+use vitriol_lesson::Mode;
+
+use super::decision::{Act, Decision};
+use super::listing::can_ask;
 
 /// A scene that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +32,12 @@ pub const START: char = 'b';
 pub const RECENTRE: char = 'a';
 /// Key of [`Decision::Summary`].
 pub const SUMMARY: char = 's';
+/// Key of [`Act::Hint`].
+pub const HINT: char = 'h';
+/// Key of [`Act::Skip`].
+pub const SKIP: char = 'n';
+/// Key of [`Act::Finish`].
+pub const FINISH: char = 'f';
 /// Key of [`Decision::AskEnd`].
 pub const END: char = 'q';
 /// The terminal's key that lets another browser into the console.
@@ -45,6 +54,9 @@ pub fn decision(key: char) -> Option<Decision> {
         START => Some(Decision::Start),
         RECENTRE => Some(Decision::Recentre),
         SUMMARY => Some(Decision::Summary),
+        HINT => Some(Decision::Lesson(Act::Hint)),
+        SKIP => Some(Decision::Lesson(Act::Skip)),
+        FINISH => Some(Decision::Lesson(Act::Finish)),
         END => Some(Decision::AskEnd),
         _ => {
             let chosen = CHOICES.iter().find(|choice| choice.key == key);
@@ -53,14 +65,22 @@ pub fn decision(key: char) -> Option<Decision> {
     }
 }
 
-/// The keys and what they do, for a terminal; whether one lets a browser in.
-pub fn lines(invites: bool) -> String {
+/// The keys and what they do, for a terminal; whether one lets a browser in, and how a lesson is gone through, if one is.
+pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
     let mut text = String::from("keys, each with Enter:");
     for Choice { key, title, .. } in CHOICES {
         text += &format!("\n  {key}  {title}");
     }
     text +=
         &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened");
+    for act in lesson.map_or(&[][..], can_ask) {
+        let (key, does) = match act {
+            Act::Hint => (HINT, "a hint"),
+            Act::Skip => (SKIP, "leave this step out"),
+            Act::Finish => (FINISH, "all is done: the lesson ends"),
+        };
+        text += &format!("\n  {key}  {does}");
+    }
     if invites {
         text += &format!("\n  {INVITE}  let a browser into the console");
     }
@@ -83,5 +103,21 @@ mod tests {
         assert_eq!(decision('B'), Some(Decision::Start));
         assert_eq!(decision('s'), Some(Decision::Summary));
         assert_eq!(decision('x'), None);
+        let keys = [START, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE];
+        let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), count);
+    }
+
+    #[test]
+    fn a_lessons_keys_are_those_of_its_mode() {
+        let has = |mode, key: char| lines(false, mode).contains(&format!("\n  {key}  "));
+        let keys = |mode| [HINT, SKIP, FINISH].map(|key| has(mode, key));
+        assert_eq!(keys(None), [false; 3]);
+        assert_eq!(keys(Some(Mode::Guided)), [true, true, false]);
+        assert_eq!(keys(Some(Mode::Free)), [true, false, true]);
+        assert_eq!(keys(Some(Mode::Examination)), [false, false, true]);
     }
 }

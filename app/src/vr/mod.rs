@@ -18,6 +18,7 @@ pub mod info;
 pub mod inputs;
 pub mod ladder;
 pub mod latch;
+mod listing;
 pub mod menu;
 pub mod mirror;
 mod painter;

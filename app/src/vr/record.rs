@@ -10,6 +10,7 @@ use std::time::Duration;
 use serde::Serialize;
 use vitriol_experiment::track::BROKEN_OFF;
 use vitriol_lesson::Event;
+use vitriol_lesson::procedure::Progress;
 use vitriol_xr::track::{Annex, Existing, TrackError, TrackMetadata, TrackWriter};
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
@@ -27,8 +28,17 @@ enum Entry {
     /// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
     /// end, which is no step.
     Step(Box<PoseFrame>, Option<Vec<Pose>>),
-    /// Something that was found: time of the track (ns), and an object as JSON.
-    Event(i64, String),
+    /// Something that was found or said, and the track's time, ns.
+    Note(i64, Note),
+}
+
+/// What is kept beside the steps: an object as JSON.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Note {
+    /// Something that was found.
+    Event(String),
+    /// Something that was said of the lesson.
+    Progress(String),
 }
 
 /// Where steps are written to.
@@ -39,11 +49,11 @@ pub trait Sink: Send {
     /// As for [`TrackWriter::write`]: after [`TrackError::Io`] it waits for the disk, else it was not taken.
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError>;
 
-    /// Takes something that was found at that time of the track (ns), an object as JSON.
+    /// Takes something that was found or said at that time of the track, ns.
     ///
     /// # Errors
     /// As for [`Sink::write`].
-    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError>;
+    fn add(&mut self, time_ns: i64, note: &Note) -> Result<(), TrackError>;
 
     /// Frames that are in the file.
     fn written(&self) -> u64;
@@ -63,10 +73,20 @@ impl Sink for TrackWriter {
         Self::write(self, frame, flasks)
     }
 
-    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError> {
-        static SCHEMA: LazyLock<String> = LazyLock::new(Event::schema);
-        let schema = &SCHEMA;
-        Self::add(self, time_ns, &Annex::Event { json, schema })
+    fn add(&mut self, time_ns: i64, note: &Note) -> Result<(), TrackError> {
+        static EVENT: LazyLock<String> = LazyLock::new(Event::schema);
+        static PROGRESS: LazyLock<String> = LazyLock::new(Progress::schema);
+        let annex = match note {
+            Note::Event(json) => Annex::Event {
+                json,
+                schema: &EVENT,
+            },
+            Note::Progress(json) => Annex::Progress {
+                json,
+                schema: &PROGRESS,
+            },
+        };
+        Self::add(self, time_ns, &annex)
     }
 
     fn written(&self) -> u64 {
@@ -113,8 +133,8 @@ pub struct TrackRecording {
     outcome: Arc<Mutex<Said>>,
     /// Switches of steps for which the queue was full. They go with the next step that is queued.
     switches: Vec<Switch>,
-    /// Likewise what was found meanwhile.
-    events: Vec<(i64, String)>,
+    /// Likewise what was found and said meanwhile.
+    notes: Vec<(i64, Note)>,
     /// The last step, for the frame that marks the end.
     last: Option<PoseFrame>,
 }
@@ -143,7 +163,7 @@ impl TrackRecording {
             done,
             outcome,
             switches: Vec::new(),
-            events: Vec::new(),
+            notes: Vec::new(),
             last: None,
         }
     }
@@ -159,7 +179,7 @@ impl TrackRecording {
             return;
         };
         let (entry, cause) = match queue.try_send(Entry::Step(Box::new(frame), Some(flasks))) {
-            Ok(()) => return self.queue_events(),
+            Ok(()) => return self.queue_notes(),
             Err(TrySendError::Full(entry)) => (entry, "the disk did not keep up"),
             Err(TrySendError::Disconnected(entry)) => (entry, BROKE_DOWN),
         };
@@ -169,26 +189,26 @@ impl TrackRecording {
         lock(&self.done).lose(cause.into());
     }
 
-    /// Queues something that was found at that time of the track (ns), an object as JSON; where the queue is full, it goes with the next
-    /// step that is queued. Does not wait.
-    pub fn found(&mut self, time_ns: i64, json: String) {
-        self.events.push((time_ns, json));
-        self.queue_events();
+    /// Queues something that was found or said at that time of the track, ns; where the queue is full, it goes with the next step that
+    /// is queued. Does not wait.
+    pub fn found(&mut self, time_ns: i64, note: Note) {
+        self.notes.push((time_ns, note));
+        self.queue_notes();
     }
 
-    fn queue_events(&mut self) {
+    fn queue_notes(&mut self) {
         let Some(queue) = &self.queue else {
             return;
         };
-        let mut events = std::mem::take(&mut self.events).into_iter();
-        for (time_ns, json) in events.by_ref() {
-            let sent = queue.try_send(Entry::Event(time_ns, json));
-            if let Err(TrySendError::Full(Entry::Event(time_ns, json))) = sent {
-                self.events.push((time_ns, json));
+        let mut notes = std::mem::take(&mut self.notes).into_iter();
+        for (time_ns, note) in notes.by_ref() {
+            let sent = queue.try_send(Entry::Note(time_ns, note));
+            if let Err(TrySendError::Full(Entry::Note(time_ns, note))) = sent {
+                self.notes.push((time_ns, note));
                 break;
             }
         }
-        self.events.extend(events);
+        self.notes.extend(notes);
     }
 
     /// How it stands.
@@ -210,8 +230,8 @@ impl TrackRecording {
             };
             // No frame is open any more, so it may wait. A thread that has ended has said why.
             let _ = queue.send(Entry::Step(Box::new(end), None));
-            for (time_ns, json) in std::mem::take(&mut self.events) {
-                let _ = queue.send(Entry::Event(time_ns, json));
+            for (time_ns, note) in std::mem::take(&mut self.notes) {
+                let _ = queue.send(Entry::Note(time_ns, note));
             }
         }
         self.close();
@@ -269,7 +289,7 @@ impl<'a> Recorder<'a> {
         for entry in entries {
             match entry {
                 Entry::Step(frame, flasks) => self.take(*frame, flasks),
-                Entry::Event(time_ns, json) => self.add(time_ns, &json),
+                Entry::Note(time_ns, note) => self.add(time_ns, &note),
             }
             self.count();
         }
@@ -331,12 +351,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    fn add(&mut self, time_ns: i64, json: &str) {
-        match self.sink.add(time_ns, json) {
+    fn add(&mut self, time_ns: i64, note: &Note) {
+        match self.sink.add(time_ns, note) {
             Ok(()) => {}
             Err(error @ TrackError::Io { .. }) => self.wait(&error),
             // A replay finds it again.
-            Err(error) => tracing::warn!("not recorded: {json}: {}", chain(&error)),
+            Err(error) => tracing::warn!("not recorded: {note:?}: {}", chain(&error)),
         }
     }
 

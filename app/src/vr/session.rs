@@ -224,8 +224,9 @@ impl Session {
         let toggles = options.grip == Grip::Toggle;
         let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
+        let goes_through = (&options.plan, options.course.as_ref());
         let mut track =
-            SessionTrack::new(options.record.as_deref(), &options.plan, &statement(gpu))?;
+            SessionTrack::new(options.record.as_deref(), goes_through, &statement(gpu))?;
         if options.plan.breakable {
             track.switch(Switch {
                 key: SWITCH_GLASS.into(),
@@ -397,8 +398,9 @@ impl Session {
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
         self.take_looks(1e-9 * self.shown_at() as f64, true)?;
         let events = self.steps.looks.end();
-        self.guide.ended(&self.benches.current.plan.scene, &events);
+        let said = self.guide.ended(&self.benches.current.plan.scene, &events);
         self.track.found(events);
+        self.track.progressed(&said);
         self.benches.current.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
         self.tell(true);

@@ -4,7 +4,9 @@ use crate::common::{Trouble, Worn, carried, hash, nobody, options, pour, session
 use std::sync::Arc;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{Instruction, Observer, Outcome, Progress, Setup, Span, on_device};
+use vitriol_experiment::{
+    Instruction, Judging, Observer, Outcome, Progress, Setup, Span, on_device,
+};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
 use vitriol_shaders::Library;
@@ -15,7 +17,7 @@ use vitriol_xr::{HeadsetFrame, Pause, Turn};
 
 /// Hash of the state that a replay of `track` ends in; it finds what the session found.
 pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
-    let (recorded, outcome) = replay_of(gpu, track);
+    let (recorded, outcome) = replay_of(gpu, track, None);
     assert_eq!(
         recorded, outcome.events,
         "what was found in session and replay"
@@ -25,14 +27,19 @@ pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
 
 /// The hash, and what an instructor did in the replay, with simulated times in ns.
 pub fn instructed(gpu: &Gpu, track: Track) -> (u64, Vec<(i64, Instruction)>) {
-    let (_, outcome) = replay_of(gpu, track);
+    let (_, outcome) = replay_of(gpu, track, None);
     let instructions = outcome.instructions.into_iter();
     let instructions = instructions.map(|(t, it)| ((1e9 * t).round() as i64, it));
     (outcome.state_hash, instructions.collect())
 }
 
+/// What came of a replay that judges a lesson.
+pub fn judged(gpu: &Gpu, track: Track, lesson: Judging) -> Outcome {
+    replay_of(gpu, track, Some(lesson)).1
+}
+
 /// What the session found, and what came of the replay.
-fn replay_of(gpu: &Gpu, track: Track) -> (Vec<Event>, Outcome) {
+fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, Outcome) {
     let name = track.metadata.scene.clone();
     let scenes = carried(&track);
     let scene = scenes.get(&name).unwrap();
@@ -54,6 +61,9 @@ fn replay_of(gpu: &Gpu, track: Track) -> (Vec<Event>, Outcome) {
         },
     )
     .unwrap();
+    if let Some(lesson) = lesson {
+        experiment.judge(lesson);
+    }
     let span = Span::covering(track.duration(), scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Progress::hidden());
     let recorded = track.events.iter();

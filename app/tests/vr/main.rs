@@ -11,6 +11,7 @@ mod first_minute;
 mod handle;
 mod hands;
 mod leap;
+mod lesson;
 mod loss;
 #[cfg(target_os = "linux")]
 mod mirror;

@@ -51,7 +51,7 @@ fn replayed(gpu: &vitriol_gpu::Gpu, track: &Track) -> u64 {
 }
 
 /// Lift, pour, pour slowly, and put down.
-fn lesson() -> Lesson {
+pub fn lesson() -> Lesson {
     let step = |id: &str, after: &str, condition: &str| {
         format!(
             "[[step]]\nid = \"{id}\"\nafter = [{after}]\npoints = 10\n[step.condition.{condition}\n"

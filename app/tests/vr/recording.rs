@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use vitriol::vr::record::{Said, Sink, TrackRecording};
+use vitriol::vr::record::{Note, Said, Sink, TrackRecording};
 use vitriol_tests::wait::own_time;
 use vitriol_xr::track::{Track, TrackError, TrackMetadata};
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};
@@ -15,7 +15,7 @@ struct Disk {
     asked: Sender<()>,
     allowed: Receiver<()>,
     written: Arc<Mutex<Vec<PoseFrame>>>,
-    found: Arc<Mutex<Vec<(i64, String)>>>,
+    found: Arc<Mutex<Vec<(i64, Note)>>>,
     full_after: usize,
 }
 
@@ -36,8 +36,8 @@ impl Sink for Disk {
         Ok(())
     }
 
-    fn add(&mut self, time_ns: i64, json: &str) -> Result<(), TrackError> {
-        self.found.lock().unwrap().push((time_ns, json.to_owned()));
+    fn add(&mut self, time_ns: i64, note: &Note) -> Result<(), TrackError> {
+        self.found.lock().unwrap().push((time_ns, note.clone()));
         Ok(())
     }
 
@@ -54,7 +54,7 @@ impl Sink for Disk {
 fn disk(full_after: usize) -> (Box<Disk>, Hold) {
     let ((ask, asked), (allow, allowed)) = (channel(), channel());
     let written = Arc::<Mutex<Vec<PoseFrame>>>::default();
-    let found = Arc::<Mutex<Vec<(i64, String)>>>::default();
+    let found = Arc::<Mutex<Vec<(i64, Note)>>>::default();
     let disk = Disk {
         asked: ask,
         allowed,
@@ -75,7 +75,7 @@ struct Hold {
     asked: Receiver<()>,
     allow: Sender<()>,
     written: Arc<Mutex<Vec<PoseFrame>>>,
-    found: Arc<Mutex<Vec<(i64, String)>>>,
+    found: Arc<Mutex<Vec<(i64, Note)>>>,
 }
 
 fn frame(step: u64, switched: Option<&str>) -> PoseFrame {
@@ -105,7 +105,12 @@ fn a_full_queue_delays_nobody_and_is_counted() {
     let ((), took) = own_time(|| {
         for step in 1..20 {
             recording.push(&frame(step, (step == 15).then_some("x")), Vec::new());
-            recording.found(step as i64, format!("{{\"n\":{step}}}"));
+            let json = format!("{{\"n\":{step}}}");
+            let note = match step % 2 {
+                0 => Note::Event(json),
+                _ => Note::Progress(json),
+            };
+            recording.found(step as i64, note);
         }
     });
     assert!(took < Duration::from_secs(1), "it took {took:?}");
@@ -157,7 +162,7 @@ impl Sink for FullAtTheEnd {
         Ok(())
     }
 
-    fn add(&mut self, _: i64, _: &str) -> Result<(), TrackError> {
+    fn add(&mut self, _: i64, _: &Note) -> Result<(), TrackError> {
         Ok(())
     }
 

@@ -11,6 +11,7 @@ use crate::looks::Looks;
 use crate::switches::{
     self, GLASS, SWITCH_GLASS, SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START,
 };
+use crate::wish::Wish;
 use vitriol_sim::measure::Departures;
 
 impl Laboratory {
@@ -26,7 +27,10 @@ impl Laboratory {
                 SWITCH_SOLVER => self.change_solver(&switch.value)?,
                 SWITCH_PLACEMENT => self.world.hands_leap(),
                 SWITCH_GLASS => self.change_glass(&switch.value)?,
-                _ => self.follow(switch)?,
+                _ => {
+                    self.grant(switch)?;
+                    self.follow(switch)?;
+                }
             }
         }
         Ok(anew)
@@ -51,6 +55,18 @@ impl Laboratory {
         };
         self.breakable = breaks == 1;
         self.world.set_breakable(self.breakable);
+        Ok(())
+    }
+
+    /// Tells the lesson that is judged what its student asked for, where the switch is of that.
+    fn grant(&mut self, switch: &Switch) -> Result<(), Failure> {
+        let Some(wish) = Wish::of(switch) else {
+            return Ok(());
+        };
+        let wish = wish.input()?;
+        if let Some(judging) = &mut self.judging {
+            judging.ask(self.time.seconds(), wish);
+        }
         Ok(())
     }
 
@@ -90,6 +106,9 @@ impl Laboratory {
         self.film = camera(&self.world, &self.shaders, self.shot, &self.colours)?;
         (self.departures, self.start) = (Departures::default(), None);
         self.end_attempt()?;
+        if let Some(judging) = &mut self.judging {
+            judging.bring_up();
+        }
         self.audible = Audible::of(&scene);
         self.audible.mute_boiling(self.muted);
         self.looks = Looks::of(name, &scene);

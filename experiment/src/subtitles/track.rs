@@ -6,8 +6,8 @@ use super::{Subtitles, SubtitlesError};
 /// Units of time in a second.
 pub const MILLISECONDS: u32 = 1000;
 
-/// Share of the picture's height that text has, from its bottom: three lines.
-const HEIGHT: f64 = 0.2;
+/// Share of the picture's height that text has, from its bottom: five lines.
+const HEIGHT: f64 = 0.3;
 /// Share of the picture's height that a line has.
 const LINE: f64 = 0.05;
 /// Tracks of one group are alternatives: a player shows one of them.

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use serde::Deserialize;
+use xxhash_rust::xxh3::xxh3_128;
 
 use super::condition::{Condition, Keep};
 use super::error::{LessonError, Problem, listed, within};
@@ -103,6 +104,7 @@ pub struct Lesson {
     /// What is kept throughout.
     pub rules: Vec<Rule>,
     file: String,
+    hash: String,
     english: LessonTexts,
     others: BTreeMap<Language, LessonTexts>,
 }
@@ -199,6 +201,7 @@ impl Lesson {
             steps: raw.step,
             rules: raw.rule,
             file: file.to_owned(),
+            hash: format!("{:032x}", xxh3_128(text.as_bytes())),
             english,
             others,
         })
@@ -223,6 +226,11 @@ impl Lesson {
             Ok(())
         };
         fits().map_err(|problem: Problem| problem.in_file(&self.file))
+    }
+
+    /// Hash of its file's text, XXH3 of 128 bits in hexadecimal: lessons of one name and hash ask for the same.
+    pub fn hash(&self) -> &str {
+        &self.hash
     }
 
     /// Its texts: those of English where it has none of that language.

@@ -10,7 +10,9 @@ mod fits;
 mod judge;
 mod keeping;
 mod mode;
+mod panel;
 mod progress;
+mod retold;
 mod sight;
 #[cfg(test)]
 mod tests;
@@ -27,5 +29,6 @@ pub use file::{Lesson, Rule, Step};
 pub use judge::Procedure;
 pub use mode::{Mode, ModeError};
 pub use progress::{Gear, Progress, State, Status, StepState, Verdict, VerdictLine, Why};
+pub use retold::Became;
 pub use sight::{Dip, FlaskFacts, FlaskSight, SceneFacts, Sight};
 pub use words::{LessonTexts, StepTexts};

@@ -42,6 +42,13 @@ pub enum Annex<'a> {
         /// Its JSON schema.
         schema: &'a str,
     },
+    /// Something that was said of a lesson, on `/lesson`: see [`Track::progress`](super::Track::progress).
+    Progress {
+        /// An object, as JSON.
+        json: &'a str,
+        /// Its JSON schema.
+        schema: &'a str,
+    },
 }
 
 /// A topic's name, schema and encoding.
@@ -79,6 +86,12 @@ impl Annex<'_> {
                 encodings: names::JSON,
                 schema_bytes: schema.as_bytes().into(),
             },
+            Self::Progress { schema, .. } => Topic {
+                name: names::LESSON,
+                schema: names::PROGRESS,
+                encodings: names::JSON,
+                schema_bytes: schema.as_bytes().into(),
+            },
         }
     }
 
@@ -92,7 +105,9 @@ impl Annex<'_> {
                 format: "h264".into(),
             }
             .encode_to_vec(),
-            Self::Measurement { json, .. } | Self::Event { json, .. } => json.as_bytes().to_vec(),
+            Self::Measurement { json, .. }
+            | Self::Event { json, .. }
+            | Self::Progress { json, .. } => json.as_bytes().to_vec(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Annex, Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
 
-/// JSON schema of what was found in a session, where a track is written again: its reader alone knows more.
+/// JSON schema of what was found in a session and said of its lesson, where a track is written again: its reader alone knows more.
 const ANY_OBJECT: &str = r#"{"type":"object"}"#;
 
 /// The track of that name: a built-in one, else a file, keyframes where its name ends in
@@ -53,6 +53,10 @@ fn fill(mut writer: TrackWriter, track: &Track) -> Result<Written, TrackError> {
     for (time_ns, json) in &track.events {
         let schema = ANY_OBJECT;
         writer.add(*time_ns, &Annex::Event { json, schema })?;
+    }
+    for (time_ns, json) in &track.progress {
+        let schema = ANY_OBJECT;
+        writer.add(*time_ns, &Annex::Progress { json, schema })?;
     }
     writer.conclude(&track.outcome)?;
     writer.finish()

@@ -18,7 +18,7 @@ pub const FLASKS: usize = 64;
 pub(super) const TRANSFORMS: usize = 256;
 /// Switches in all: each may bring up a scene.
 pub const SWITCHES: usize = 10_000;
-/// What was found in the session: some dozen an attempt.
+/// What was found in the session, and likewise what was said of its lesson: some dozen an attempt.
 pub const EVENTS: usize = 100_000;
 /// Scenes that it carries.
 pub const SCENES: usize = 64;

@@ -55,6 +55,8 @@ pub struct Track {
     /// What was found in the session, in the order in which it was said: time of the track (ns), and an object as JSON. Not what
     /// was done, so a replay does not read it.
     pub events: Vec<(i64, String)>,
+    /// Likewise what was said of a lesson that it goes through.
+    pub progress: Vec<(i64, String)>,
 }
 
 /// Steps that a recording lacks: those between two of its frames.
@@ -94,6 +96,7 @@ impl Track {
             self.outcome.clear();
             let end = self.frames.last().map_or(0, |frame| frame.time_ns);
             self.events.retain(|(time_ns, _)| *time_ns <= end);
+            self.progress.retain(|(time_ns, _)| *time_ns <= end);
         }
         self
     }
@@ -148,6 +151,8 @@ mod names {
     pub const CAMERA: &str = "camera";
     pub const EVENTS: &str = "/events";
     pub const EVENT: &str = "vitriol.Event";
+    pub const LESSON: &str = "/lesson";
+    pub const PROGRESS: &str = "vitriol.Progress";
     /// Encodings of a schema and of messages.
     pub const JSON: [&str; 2] = ["jsonschema", "json"];
 }

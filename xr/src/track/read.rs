@@ -88,6 +88,7 @@ impl<'a> Reading<'a> {
                 recovered: false,
                 outcome: BTreeMap::new(),
                 events: Vec::new(),
+                progress: Vec::new(),
             },
         }
     }
@@ -167,7 +168,9 @@ impl<'a> Reading<'a> {
             }
             Record::Message { header, data } => match self.channels.get(&header.channel_id) {
                 None | Some(&names::TF_STATIC) => Ok(()),
-                Some(&names::EVENTS) => self.event(header.log_time, &data),
+                Some(&topic @ (names::EVENTS | names::LESSON)) => {
+                    self.said(topic, header.log_time, &data)
+                }
                 Some(&topic) => self.message(topic, header.sequence, header.log_time, &data),
             },
             _ => Ok(()),
@@ -183,6 +186,7 @@ impl<'a> Reading<'a> {
             (names::INPUT[1], descriptor::INPUT, PROTOBUF),
             (names::SCENARIO, descriptor::SWITCH, PROTOBUF),
             (names::EVENTS, names::EVENT, names::JSON),
+            (names::LESSON, names::PROGRESS, names::JSON),
         ];
         let found = ours.iter().find(|(topic, ..)| *topic == channel.topic);
         let Some(&(topic, expected, encodings)) = found else {
@@ -208,17 +212,24 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Something that was found in the session.
-    fn event(&mut self, log_time: u64, data: &[u8]) -> Result<(), TrackError> {
-        if data.len() > limits::MESSAGE || self.track.events.len() >= limits::EVENTS {
+    /// Something that was found in the session, or said of its lesson.
+    fn said(&mut self, topic: &str, log_time: u64, data: &[u8]) -> Result<(), TrackError> {
+        let all = match topic {
+            names::LESSON => &self.track.progress,
+            _ => &self.track.events,
+        };
+        if data.len() > limits::MESSAGE || all.len() >= limits::EVENTS {
             let (most, longest) = (limits::EVENTS, limits::MESSAGE);
             return Err(self.damaged(format!(
-                "{} holds more than {most} messages, or one longer than {longest} bytes",
-                names::EVENTS
+                "{topic} holds more than {most} messages, or one longer than {longest} bytes"
             )));
         }
         let json = std::str::from_utf8(data).map_err(|error| self.damaged(error))?;
-        self.track.events.push((log_time as i64, json.to_owned()));
+        let said = (log_time as i64, json.to_owned());
+        match topic {
+            names::LESSON => self.track.progress.push(said),
+            _ => self.track.events.push(said),
+        }
         Ok(())
     }
 

@@ -54,6 +54,7 @@ impl Keyframes {
             .collect();
         Track {
             events: Vec::new(),
+            progress: Vec::new(),
             metadata: TrackMetadata {
                 scene: self.scene.clone(),
                 seed: self.seed,

@@ -142,6 +142,7 @@ fn what_is_said_is_within_the_limits() {
         let file = dir.path().join(format!("{parameters}-{said}.mcap"));
         let track = Track {
             events: Vec::new(),
+            progress: Vec::new(),
             metadata: TrackMetadata {
                 parameters: entries(parameters),
                 ..super::metadata()

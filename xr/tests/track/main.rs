@@ -107,6 +107,7 @@ pub fn track(frames: u64) -> Track {
     };
     Track {
         events: Vec::new(),
+        progress: Vec::new(),
         metadata: metadata(),
         stage_from_flasks: frames
             .iter()

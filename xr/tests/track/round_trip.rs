@@ -167,7 +167,7 @@ proptest! {
         }
         let (frames, stage_from_flasks) = frames.into_iter().unzip();
         let metadata = TrackMetadata { scene, seed, ..super::metadata() };
-        let track = Track { metadata, frames, stage_from_flasks, recovered: false, outcome: Default::default(), events: Vec::new() };
+        let track = Track { metadata, frames, stage_from_flasks, recovered: false, outcome: Default::default(), events: Vec::new(), progress: Vec::new() };
         let read = Track::parse(&super::bytes(&track), Path::new("x.mcap")).unwrap();
         prop_assert_eq!(&read, &track);
         for (a, b) in read.frames.iter().zip(&track.frames) {
@@ -191,6 +191,10 @@ fn what_was_found_goes_with_the_track() {
     ]
     .map(|(at, json)| (at, json.to_owned()))
     .to_vec();
+    // What was said of a lesson likewise, on a topic of its own.
+    track.progress = [(early, "{\"d\":4}"), (late, "{\"e\":5}")]
+        .map(|(at, json)| (at, json.to_owned()))
+        .to_vec();
     save(&track, &file, Existing::Refuse).unwrap();
     let read = Track::open(&file).unwrap();
     assert_eq!(read, track);
@@ -201,6 +205,7 @@ fn what_was_found_goes_with_the_track() {
     holed.stage_from_flasks.remove(2);
     let cut = holed.up_to_the_first_hole();
     assert_eq!(cut.events, track.events[..1]);
+    assert_eq!(cut.progress, track.progress[..1]);
     track.events[1].1 = format!("\"{}\"", "x".repeat(70_000));
     let long = dir.path().join("long.mcap");
     save(&track, &long, Existing::Refuse).unwrap();
@@ -209,4 +214,8 @@ fn what_was_found_goes_with_the_track() {
         error.contains("/events") && error.contains("65536"),
         "{error}"
     );
+    (track.events, track.progress[1].1) = (Vec::new(), format!("\"{}\"", "x".repeat(70_000)));
+    save(&track, &long, Existing::Replace).unwrap();
+    let error = Track::open(&long).unwrap_err().to_string();
+    assert!(error.contains("/lesson"), "{error}");
 }

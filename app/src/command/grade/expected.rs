@@ -5,16 +5,21 @@ use serde::{Deserialize, Serialize};
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::track::PRESET;
 use vitriol_experiment::{Blame, Failure, Instruction, Scenes, in_a_line};
-use vitriol_lesson::{Attempt, Rubric};
+use vitriol_lesson::{Attempt, Lesson, Mode, Rubric};
 use vitriol_record::Uuid;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::track::Track;
+
+use super::lesson::AskedLesson;
+use crate::command::course;
 
 /// What must hold of a track, and how it is scored.
 #[derive(Clone, Debug)]
 pub struct Expected {
     /// What is asked for.
     pub asked: Asked,
+    /// The lesson, and its mode.
+    pub lesson: Option<(Lesson, Mode)>,
     /// Text of the scene.
     text: String,
 }
@@ -30,26 +35,39 @@ pub struct Asked {
     pub preset: Option<String>,
     /// What is scored.
     pub rubric: Rubric,
+    /// The lesson, where one is judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lesson: Option<AskedLesson>,
 }
 
 impl Expected {
-    /// That a track was made with this scene, by name or file, and preset.
+    /// That a track was made with this scene, by name or file, preset and lesson.
     ///
     /// # Errors
-    /// [`Failure::Input`] where there is no such scene, or something is wrong with it.
-    pub fn new(scene: &str, preset: Option<Preset>) -> Result<Self, Failure> {
+    /// [`Failure::Input`] where there is no such scene, or something is wrong with it, or the lesson is of another one.
+    pub fn new(
+        scene: &str,
+        preset: Option<Preset>,
+        lesson: Option<(Lesson, Mode)>,
+    ) -> Result<Self, Failure> {
         let mut scenes = Scenes::default();
         let name = scenes.open(scene)?;
         scenes.get(&name)?;
         let text = scenes.text(&name).ok_or("the scene has no text").other()?;
+        if let Some((lesson, mode)) = &lesson {
+            course::judging((lesson, *mode), (&name, Some(text)))?;
+        }
+        let of_lesson = lesson.as_ref();
         Ok(Self {
             asked: Asked {
                 scene_id: Uuid::new_v5(&Uuid::NAMESPACE_OID, text.as_bytes()).to_string(),
                 preset: preset.map(|it| it.name().to_owned()),
                 rubric: Rubric::default(),
+                lesson: of_lesson.map(|(lesson, mode)| AskedLesson::of(lesson, *mode)),
                 scene: name,
             },
             text: text.to_owned(),
+            lesson,
         })
     }
 
@@ -87,6 +105,10 @@ impl Expected {
             _ => None,
         }) {
             return Some(format!("made with another k_v: {k_v}"));
+        }
+        let lesson = asked.lesson.as_ref();
+        if let Some(otherwise) = lesson.and_then(|it| it.otherwise(track)) {
+            return Some(otherwise);
         }
         let preset = made.parameters.get(PRESET);
         match (&asked.preset, preset) {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::output::write_over;
 use vitriol_experiment::{Blame, Failure};
+use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Score};
 
 use super::agreement::Tolerance;
@@ -33,6 +34,9 @@ pub struct Graded {
     pub truncated: bool,
     /// What was read in it.
     pub found: Found,
+    /// What the lesson came to in each attempt, where one is judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lesson: Vec<Verdict>,
     /// What simulating it again came to; `None` where nobody asked.
     pub verified: Option<Verified>,
 }
@@ -72,6 +76,7 @@ impl Graded {
             asked: asked.clone(),
             truncated,
             found,
+            lesson: Vec::new(),
             verified: None,
         }
     }

@@ -4,6 +4,7 @@
 mod agreement;
 mod expected;
 mod graded;
+mod lesson;
 mod table;
 mod verify;
 
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 use vitriol_experiment::output::write_over;
 use vitriol_experiment::progress::Runs;
 use vitriol_experiment::{Blame, Experiment, Failure, Format, Setup, emit, interrupt, track};
+use vitriol_lesson::procedure::Verdict as LessonVerdict;
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_record::store::Store;
 use vitriol_record::{Session, Timestamp};
@@ -22,12 +24,14 @@ use vitriol_xr::files;
 use vitriol_xr::track::{Track, limits};
 
 use crate::cli::GradeArgs;
-use crate::command::recorded::{recorded_events, whole};
+use crate::command::recorded::{recorded_events, recorded_progress, whole};
 use crate::command::stem;
 
 pub use self::agreement::Tolerance;
 use self::expected::Expected;
 use self::graded::{Found, Graded, Scored};
+pub use self::lesson::AskedLesson;
+use self::lesson::Columns;
 use self::table::Ended;
 pub use self::table::{Class, Line, Status};
 pub use self::verify::Verdict;
@@ -59,7 +63,7 @@ pub fn grade(
     format: Format,
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync,
 ) -> Result<(Class, Option<Failure>), Failure> {
-    let expected = Expected::new(&args.scene, args.preset)?;
+    let expected = Expected::new(&args.scene, args.preset, args.judge.chosen()?)?;
     let tracks = tracks(&args.tracks)?;
     let store = args.class.as_deref().map(Store::open_existing);
     let store = store.transpose().input()?;
@@ -90,6 +94,7 @@ pub fn grade(
 
     let mut class = Class {
         scene: expected.asked.scene.clone(),
+        lesson: (expected.lesson.as_ref()).map(|(lesson, mode)| Columns::of(lesson, *mode)),
         ..Class::default()
     };
     let mut failure = None;
@@ -197,12 +202,15 @@ impl<P: Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure> + Sync> Grading<'
         };
         let of = (file_name(file), content);
         let mut graded = Graded::new(of, asked, truncated, found);
+        if let (Some((lesson, mode)), Found::Attempts(_)) = (&self.expected.lesson, &graded.found) {
+            graded.lesson = LessonVerdict::retold(lesson, *mode, &recorded_progress(&track));
+        }
         if simulated {
             let of = (args, file);
             let verified = verify::Verified::of(
                 of,
                 (track, truncated),
-                &asked.rubric,
+                self.expected,
                 &self.bars,
                 self.prepare,
             )?;

@@ -8,6 +8,7 @@ use vitriol_experiment::{Blame, Failure, in_a_line};
 use vitriol_lesson::{Criterion, What, spreadsheet_text};
 
 use super::graded::{Found, Graded};
+use super::lesson::{Columns, OfLesson};
 use super::verify::Verdict;
 
 /// What `vitriol grade` prints.
@@ -15,6 +16,9 @@ use super::verify::Verdict;
 pub struct Class {
     /// The scene that they are graded by.
     pub scene: String,
+    /// The lesson that they are graded by, if they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lesson: Option<Columns>,
     /// Tracks that are graded.
     pub graded: usize,
     /// Tracks that were made otherwise.
@@ -51,6 +55,9 @@ pub struct Line {
     pub criteria: BTreeMap<Criterion, [u32; 2]>,
     /// How often what went wrong, by kind.
     pub incidents: BTreeMap<&'static str, u32>,
+    /// What the lesson came to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lesson: Option<OfLesson>,
     /// Whether a simulation found the same; `None` where none was asked for.
     pub verified: Option<Verdict>,
     /// What else there is to say.
@@ -109,7 +116,12 @@ impl Class {
         };
         self.graded += 1;
         let verified = graded.verified.as_ref();
-        for (number, scored) in (1..).zip(attempts) {
+        let lessons = graded
+            .lesson
+            .iter()
+            .map(Some)
+            .chain(std::iter::repeat(None));
+        for ((number, scored), lesson) in (1..).zip(attempts).zip(lessons) {
             let (attempt, score) = (&scored.attempt, &scored.score);
             let mut incidents = BTreeMap::new();
             for incident in &attempt.incidents {
@@ -124,6 +136,7 @@ impl Class {
                 finished: Some(attempt.ending.is_some()),
                 criteria: lines.map(|it| (it.criterion, [it.points, it.of])).collect(),
                 incidents,
+                lesson: lesson.map(OfLesson::of),
                 verified: verified.map(|it| it.verdict()),
                 ..line(Status::Graded, &said)
             });
@@ -175,6 +188,8 @@ pub fn text(class: &Class) -> String {
                 _ => format!("{kind} ×{count}"),
             })
             .collect();
+        let lesson = line.lesson.as_ref().map(OfLesson::text);
+        notes.splice(..0, lesson);
         if line.finished == Some(false) {
             notes.push("broken off".into());
         }
@@ -239,7 +254,10 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
     ];
     let tail = ["verified", "note"];
     let head = head.into_iter().chain(criteria.iter().map(String::as_str));
-    let head = head.chain(What::KINDS).chain(tail);
+    let of_lesson = class.lesson.as_ref();
+    let lesson = of_lesson.map(Columns::heads).unwrap_or_default();
+    let head = head.chain(What::KINDS);
+    let head = head.chain(lesson.iter().map(String::as_str)).chain(tail);
     writer.write_record(head).other()?;
     for line in &class.lines {
         let number = |value: Option<u32>| value.map_or_else(String::new, |it| it.to_string());
@@ -260,6 +278,11 @@ pub fn csv(class: &Class) -> Result<Vec<u8>, Failure> {
         let none = line.attempt.map(|_| 0);
         let count = |it: &str| number(line.incidents.get(it).copied().or(none));
         row.extend(What::KINDS.map(count));
+        row.extend(
+            of_lesson
+                .iter()
+                .flat_map(|it| it.cells(line.lesson.as_ref())),
+        );
         row.push(line.verified.map_or("", Verdict::name).to_owned());
         row.push(spreadsheet_text(&line.note));
         writer.write_record(row).other()?;

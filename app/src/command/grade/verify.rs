@@ -6,14 +6,17 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::progress::Runs;
 use vitriol_experiment::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
-use vitriol_lesson::{Attempt, Rubric, Score, Texts};
+use vitriol_lesson::procedure::Verdict as LessonVerdict;
+use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{Track, TrackSource};
 
 use super::agreement::{Agreement, Tolerance};
+use super::expected::Expected;
 use crate::cli::GradeArgs;
+use crate::command::course;
 use crate::command::plan::{Ask, Plan};
-use crate::command::recorded::{differences, recorded_events};
+use crate::command::recorded::{differences, recorded_events, recorded_progress};
 
 /// What simulating a track again came to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +35,9 @@ pub struct Verified {
     pub tolerance: Tolerance,
     /// Points of each attempt that was found, and of how many.
     pub points: Vec<[u32; 2]>,
+    /// What was found of the lesson in each, where one is judged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lesson: Vec<LessonVerdict>,
 }
 
 /// Whether a recording says what happened.
@@ -65,7 +71,7 @@ impl Verified {
     pub fn of(
         (args, file): (&GradeArgs, &Path),
         (track, truncated): (Track, bool),
-        rubric: &Rubric,
+        expected: &Expected,
         bars: &Runs,
         prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
     ) -> Result<Self, Failure> {
@@ -79,7 +85,7 @@ impl Verified {
             accept_truncated: args.accept_truncated,
             ..Ask::default()
         };
-        let events = recorded_events(&track);
+        let (events, progress) = (recorded_events(&track), recorded_progress(&track));
         let metadata = track.metadata.clone();
         let plan = Plan::of(&ask, track)?;
         let mut experiment = prepare(&Setup {
@@ -96,6 +102,10 @@ impl Verified {
             head: None,
             shaders: Arc::new(Library::embedded()),
         })?;
+        if let Some((lesson, mode)) = &expected.lesson {
+            let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));
+            experiment.judge(course::judging((lesson, *mode), scene)?);
+        }
         let mut observer = Observer::new(plan.span, Vec::new(), bars.of(&name, plan.span));
         let mut source = TrackSource::new(plan.track);
         vitriol_experiment::run(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
@@ -104,19 +114,29 @@ impl Verified {
         // What was not yet over where a recording breaks off is not in it.
         let asked = truncated.then_some("--accept-truncated");
         let differs = differences(&metadata, scene, Some(&outcome.device), asked.as_slice());
-        let to_the_bit = events == outcome.events;
+        let judged = expected.lesson.is_none() || progress == outcome.progress;
+        let to_the_bit = events == outcome.events && judged;
+        let retold = |said: &[_]| {
+            let lesson = expected.lesson.as_ref();
+            let retold = lesson.map(|(lesson, mode)| LessonVerdict::retold(lesson, *mode, said));
+            retold.unwrap_or_default()
+        };
+        let lessons = [retold(&progress), retold(&outcome.progress)];
         let found = Attempt::all(outcome.events);
         let tolerance = args.tolerance.unwrap_or_default();
         let texts = Texts::english().other()?;
-        let points = found.iter().map(|it| Score::of(it, rubric, &texts));
+        let points = found.iter();
+        let points = points.map(|it| Score::of(it, &expected.asked.rubric, &texts));
+        let agreement = Agreement::of(&Attempt::all(events), &found, tolerance);
         Ok(Self {
             device: outcome.device,
             asked_device: args.device.clone(),
             differs,
             to_the_bit,
-            agreement: Agreement::of(&Attempt::all(events), &found, tolerance),
+            agreement: agreement.with_lesson(&lessons[0], &lessons[1], tolerance),
             tolerance,
             points: points.map(|it| [it.points, it.of]).collect(),
+            lesson: lessons.into_iter().next_back().unwrap_or_default(),
         })
     }
 

@@ -79,6 +79,7 @@ pub(super) fn assemble(
         solver: SolverStatement::of(scene),
         counters: outcome.counters,
         recording: None,
+        lesson: Vec::new(),
         scenes_before: observations.scenes_before,
         attempts: Attempt::all(outcome.events),
         instructor: said(&outcome.instructions)?,
@@ -129,6 +130,8 @@ fn command_line(
         ("camera", head),
         ("colour", args.colour.map(|it| it.name().to_owned())),
         ("filter", args.filter.map(|it| it.name().to_owned())),
+        ("lesson", args.judge.lesson.as_deref().map(quoted)),
+        ("mode", args.judge.mode.map(|it| it.name().to_owned())),
     ];
     let truncated = if args.accept_truncated {
         " --accept-truncated"

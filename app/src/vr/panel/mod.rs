@@ -5,6 +5,7 @@
 
 #[cfg(test)]
 mod fits;
+mod lesson;
 mod view;
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2};

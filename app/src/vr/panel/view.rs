@@ -10,6 +10,7 @@ use std::f32::consts::TAU;
 use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
+use super::lesson;
 use crate::vr::decision::Decision;
 use crate::vr::info::{FlaskLine, Happened, Info, burns_text};
 use crate::vr::menu::{self, CHOICES};
@@ -17,14 +18,14 @@ use crate::vr::texts::PanelTexts;
 
 /// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
 /// on the panel (`lines_are_seen_at_one_degree_and_a_fifth`): three times what print at arm's length has.
-const TEXT: f32 = 30.0;
+pub(super) const TEXT: f32 = 30.0;
 const HEADING: f32 = 34.0;
 
-const WHITE: Color32 = Color32::from_gray(235);
-const FAINT: Color32 = Color32::from_gray(165);
-const WARNING: Color32 = Color32::from_rgb(255, 176, 60);
+pub(super) const WHITE: Color32 = Color32::from_gray(235);
+pub(super) const FAINT: Color32 = Color32::from_gray(165);
+pub(super) const WARNING: Color32 = Color32::from_rgb(255, 176, 60);
 const RECORDING: Color32 = Color32::from_rgb(255, 132, 122);
-const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
+pub(super) const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
 const COLD: Color32 = Color32::from_rgb(80, 150, 230);
 /// Ground of what the instructor says.
 const SAID: Color32 = Color32::from_rgb(54, 34, 84);
@@ -112,25 +113,21 @@ pub fn show(
 
 /// What the instructor says, or else the lesson, over all else: both together would leave no room for the buttons.
 fn told(context: &Context, info: &Info) {
-    let Info { told, lesson, .. } = info;
-    let mut lines: Vec<(&String, Color32)> = Vec::new();
-    if let (Some(shown), None) = (lesson, &told.message) {
-        lines.push((&shown.step, WHITE));
-        // Why something failed, before how to do it.
-        let more = shown.failed.as_ref().or(shown.hint.as_ref());
-        lines.extend(more.map(|line| (line, WARNING)));
-    }
-    let said = told.message.iter().chain(&told.done);
-    lines.extend(said.map(|line| (line, WHITE)));
-    if lines.is_empty() {
+    let told = &info.told;
+    let shown = info.lesson.as_ref().filter(|_| told.message.is_none());
+    let said: Vec<&String> = told.message.iter().chain(&told.done).collect();
+    if shown.is_none() && said.is_empty() {
         return;
     }
     let margin = Margin::symmetric(22, 10);
     let frame = Frame::new().inner_margin(margin).fill(SAID);
     let strip = TopBottomPanel::top("told").frame(frame);
     strip.show_separator_line(false).show(context, |ui| {
-        for (line, colour) in lines {
-            ui.label(RichText::new(line).color(colour));
+        if let Some(shown) = shown {
+            lesson::told(ui, shown);
+        }
+        for line in said {
+            ui.label(RichText::new(line).color(WHITE));
         }
     });
 }
@@ -312,7 +309,15 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
         }
     };
     ui.label(RichText::new(&words.hold).color(FAINT));
-    for choice in CHOICES {
+    let shown = info.lesson.as_ref();
+    let asks = shown.into_iter().flat_map(lesson::asks);
+    let asks: Vec<_> = asks.collect();
+    // In a lesson its own buttons stand in place of the scenes'.
+    let scenes = if asks.is_empty() { &CHOICES[..] } else { &[] };
+    for (text, on, decision) in asks {
+        ui.add_enabled_ui(on, |ui| button(ui, text, false, decision));
+    }
+    for choice in scenes {
         let text = format!("{}   {}", choice.key, words.scene(choice.scene));
         let decision = Decision::Scene(choice.scene.into());
         button(ui, text, info.scene == choice.scene, decision);
@@ -323,8 +328,10 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     ui.add_space(10.0);
     let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
     button(ui, recentre, false, Decision::Recentre);
-    let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
-    button(ui, summary, false, Decision::Summary);
+    if !shown.is_some_and(|it| it.quiet) {
+        let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
+        button(ui, summary, false, Decision::Summary);
+    }
     state(ui, info, words);
 }
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use vitriol_xr::Hand;
 
-use crate::vr::decision::Decision;
+use crate::vr::decision::{Act, Decision};
 use crate::vr::inputs::Buttons;
 
 /// Within this time the end must be asked for again.
@@ -31,6 +31,8 @@ pub(super) struct Chosen {
     pub recentre: bool,
     /// What happened is asked for, or enough of it.
     pub summary: bool,
+    /// What is asked of the lesson, in its order.
+    pub acts: Vec<Act>,
 }
 
 impl Choices {
@@ -82,6 +84,7 @@ impl Choices {
             scene: pressed.start.then(|| present.to_owned()),
             recentre: pressed.recentre,
             summary: false,
+            acts: Vec::new(),
         };
         for decision in std::mem::take(&mut self.wanted) {
             match decision {
@@ -89,6 +92,7 @@ impl Choices {
                 Decision::Start => chosen.scene = Some(present.to_owned()),
                 Decision::Recentre => chosen.recentre = true,
                 Decision::Summary => chosen.summary ^= true,
+                Decision::Lesson(act) => chosen.acts.push(act),
                 // `hear` has taken them.
                 Decision::End | Decision::AskEnd => {}
             }
@@ -112,7 +116,8 @@ mod tests {
         let (keys, elsewhere) = channel();
         let mut choices = Choices::new(elsewhere);
         let hands = [Hand::default(), Hand::default()];
-        for decision in [scene("first"), Decision::Recentre, scene("second")] {
+        let hint = Decision::Lesson(Act::Hint);
+        for decision in [scene("first"), Decision::Recentre, hint, scene("second")] {
             keys.send(decision).unwrap();
         }
         assert!(!choices.hear(Instant::now()));
@@ -122,6 +127,7 @@ mod tests {
             scene,
             recentre: true,
             summary: false,
+            acts: vec![Act::Hint],
         };
         assert_eq!(chosen, expected);
         assert_eq!(choices.take(&hands, 0, "present"), Chosen::default());

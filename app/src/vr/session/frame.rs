@@ -136,9 +136,12 @@ impl Session {
     fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
         let present = &self.benches.current.plan.scene;
         let chosen = self.choices.take(&now.hands, now.info.xr_time, present);
-        if chosen.summary {
+        if chosen.summary && self.guide.tells(present) {
             self.summary.toggle();
         }
+        let wishes = chosen.acts.iter();
+        let wishes = wishes.filter_map(|act| self.guide.wish(present, *act));
+        wishes.for_each(|wish| self.track.switch(wish.switch()));
         if let Some(scene) = chosen.scene {
             self.benches.build(headset.gpu(), scene);
         }
@@ -373,15 +376,18 @@ impl Session {
 
     /// Takes in the looks that have come, in the frame that is shown at `time` (s); or all, where `wait`.
     pub(super) fn take_looks(&mut self, time: f64, wait: bool) -> Result<(), Failure> {
+        self.guide.asked(self.track.asked());
         // Of the bench before: what is found there is said before what is found here.
         if let Some((scene, mut looks)) = self.ending.take() {
             while let Some(looked) = looks.wait()? {
-                self.guide.looked(&scene, &looked);
+                let said = self.guide.looked(&scene, &looked, || looks.so_far());
                 self.track.found(looked.events);
+                self.track.progressed(&said);
             }
             let events = looks.end();
-            self.guide.ended(&scene, &events);
+            let said = self.guide.ended(&scene, &events);
             self.track.found(events);
+            self.track.progressed(&said);
         }
         loop {
             let looks = &mut self.steps.looks;
@@ -403,8 +409,10 @@ impl Session {
                 .take(&looked.census, scale, hands, self.shown_at());
             self.sounds.looked(world, &looked, &burnt, time);
             self.hints.looked(world, &looked.census, time);
-            self.guide.looked(&self.benches.current.plan.scene, &looked);
+            let (scene, looks) = (&self.benches.current.plan.scene, &self.steps.looks);
+            let said = self.guide.looked(scene, &looked, || looks.so_far());
             self.track.found(looked.events);
+            self.track.progressed(&said);
         }
     }
 
@@ -419,11 +427,12 @@ impl Session {
     /// What panel and window title say.
     pub(super) fn info(&mut self) -> Info {
         let ends = self.choices.asks_to_end(Instant::now());
+        let bench = &self.benches.current;
         let happened = {
             let words = &self.texts.summary;
+            let ends = ends && self.guide.tells(&bench.plan.scene);
             (self.summary).shown(words, &self.track.events, &self.steps.looks, ends)
         };
-        let bench = &self.benches.current;
         let scene = bench.world.scene();
         let recorded = self.track.state();
         Info {

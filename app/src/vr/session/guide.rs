@@ -1,11 +1,13 @@
 //! The lesson that a session goes through: its steps are judged look by look, and panel and console show the same.
 
 use vitriol_console::{Said, Step, Text};
-use vitriol_experiment::{Blame, Failure, Looked};
-use vitriol_lesson::procedure::{Progress, Status, Verdict};
-use vitriol_lesson::{Event, Language, Lesson, Mode, Procedure, Sight, Texts};
+use vitriol_experiment::{Blame, Failure, Judging, Looked, Wish};
+use vitriol_lesson::procedure::{Progress, Verdict};
+use vitriol_lesson::{Event, Language, Lesson, Mode, Texts};
 
+use crate::vr::decision::Act;
 use crate::vr::info::Shown;
+use crate::vr::listing::{self, Words};
 use crate::vr::texts::LessonTexts;
 
 /// How long the panel says why a step failed, simulated s. Our choice: it is read twice in that.
@@ -24,14 +26,12 @@ pub struct Course {
 
 /// See the module. Without a lesson it says nothing.
 pub(super) struct Guide {
-    course: Option<(Course, Procedure)>,
-    /// Its scene, by the session's name of it.
-    scene: String,
+    course: Option<(Course, Judging)>,
     texts: Texts,
-    /// The last look.
-    sight: Sight,
     /// Hints that were given, each with its time, s.
     hints: Vec<(f64, String)>,
+    /// The step whose hint was given last.
+    hinted: Option<String>,
     /// Why a step failed last, and when that was said, s.
     failed: Option<(f64, String)>,
 }
@@ -45,64 +45,111 @@ impl Guide {
         let language = course.as_ref().map_or(Language::En, |it| it.language);
         Ok(Self {
             course: course.map(|course| {
-                let judge = Procedure::new(course.lesson.clone(), course.mode);
-                (course, judge)
+                let judging = Judging::new(course.lesson.clone(), course.mode, scene);
+                (course, judging)
             }),
-            scene: scene.to_owned(),
             texts: Texts::of(language).other()?,
-            sight: Sight::default(),
             hints: Vec::new(),
+            hinted: None,
             failed: None,
         })
     }
 
-    /// Takes in a look at the scene of that name; of another one than the lesson's nothing is judged.
-    pub fn looked(&mut self, scene: &str, looked: &Looked) {
-        self.sight.clone_from(&looked.sight);
-        self.judge(scene, &looked.events);
-    }
-
-    /// What was found last, when the attempt ended.
-    pub fn ended(&mut self, scene: &str, events: &[Event]) {
-        self.judge(scene, events);
-    }
-
-    fn judge(&mut self, scene: &str, events: &[Event]) {
-        let Some((course, judge)) = &mut self.course else {
-            return;
-        };
-        if self.scene != scene {
-            return;
+    /// What the user asks for in the scene of that name, as a track keeps it; `None` where the mode has no such thing, or there is no step
+    /// that it is of.
+    pub fn wish(&self, scene: &str, act: Act) -> Option<Wish> {
+        let (course, judging) = self.of(scene)?;
+        let state = judging.procedure().state();
+        if state.over || !listing::can_ask(course.mode).contains(&act) {
+            return None;
         }
-        let texts = course.lesson.texts(course.language);
-        for progress in judge.advance(&self.sight, events) {
-            match progress {
-                Progress::Begun { .. } => {
-                    self.hints.clear();
-                    self.failed = None;
-                }
-                Progress::HintDue { t_s, id, .. } => {
-                    if let Some(step) = texts.step.get(&id) {
-                        self.hints.push((t_s, step.hint.clone()));
-                    }
-                }
-                Progress::StepFailed { t_s, why, .. } | Progress::RuleBroken { t_s, why, .. } => {
-                    self.failed = Some((t_s, self.texts.why(&why)));
-                }
-                Progress::StepBegun { .. } | Progress::StepDone { .. } | Progress::Over { .. } => {}
+        let step = |id: &str| id.to_owned();
+        match act {
+            Act::Hint => {
+                let id = listing::to_hint(&state, self.hinted.as_deref());
+                id.map(step).map(Wish::Hint)
+            }
+            Act::Skip => {
+                let open = state.steps.get(state.number? - 1);
+                open.map(|it| Wish::Skip(step(&it.id)))
+            }
+            Act::Finish => Some(Wish::Finish),
+        }
+    }
+
+    /// These were asked for, each at its simulated time before a step that was taken, s.
+    pub fn asked(&mut self, asked: Vec<(f64, Wish)>) {
+        if let Some((_, judging)) = &mut self.course {
+            for (t_s, wish) in asked {
+                judging.ask(t_s, wish);
             }
         }
     }
 
+    /// Takes in a look at the scene of that name; of another one than the lesson's nothing is judged. `so_far` says what the attempt would
+    /// end with now. What was said of it.
+    pub fn looked(
+        &mut self,
+        scene: &str,
+        looked: &Looked,
+        so_far: impl Fn() -> Vec<Event>,
+    ) -> Vec<Progress> {
+        let judging = self.course.as_mut().map(|(_, judging)| judging);
+        let said = judging.map(|it| it.looked(scene, looked, so_far));
+        self.hear(said.unwrap_or_default())
+    }
+
+    /// What was found last, when the attempt ended. What was said of that.
+    pub fn ended(&mut self, scene: &str, events: &[Event]) -> Vec<Progress> {
+        let judging = self.course.as_mut().map(|(_, judging)| judging);
+        let said = judging.map(|it| it.ended(scene, events));
+        self.hear(said.unwrap_or_default())
+    }
+
+    /// Remembers what panel and console show of it.
+    fn hear(&mut self, said: Vec<Progress>) -> Vec<Progress> {
+        let Some((course, _)) = &self.course else {
+            return said;
+        };
+        let texts = course.lesson.texts(course.language);
+        for progress in &said {
+            match progress {
+                Progress::Begun { .. } => {
+                    self.hints.clear();
+                    (self.hinted, self.failed) = (None, None);
+                }
+                Progress::HintDue { t_s, id, .. } => {
+                    if let Some(step) = texts.step.get(id) {
+                        self.hints.push((*t_s, step.hint.clone()));
+                    }
+                    self.hinted = Some(id.clone());
+                }
+                Progress::StepFailed { t_s, why, .. } | Progress::RuleBroken { t_s, why, .. } => {
+                    self.failed = Some((*t_s, self.texts.why(why)));
+                }
+                Progress::StepBegun { .. } | Progress::StepDone { .. } | Progress::Over { .. } => {}
+            }
+        }
+        said
+    }
+
     /// The lesson, where the scene of that name is its own.
-    fn of(&self, scene: &str) -> Option<&(Course, Procedure)> {
-        self.course.as_ref().filter(|_| self.scene == scene)
+    fn of(&self, scene: &str) -> Option<&(Course, Judging)> {
+        let course = self.course.as_ref();
+        course.filter(|(_, judging)| judging.is_of(scene))
+    }
+
+    /// Whether a user in that scene is told what was done and what went wrong: not who is examined, before the end.
+    pub fn tells(&self, scene: &str) -> bool {
+        let course = self.of(scene);
+        course
+            .is_none_or(|(course, judging)| course.mode.tells() || judging.procedure().state().over)
     }
 
     /// The step that is to be done in that scene, as the console shows it.
     pub fn step(&self, scene: &str) -> Option<Step> {
-        let (course, judge) = self.of(scene)?;
-        let state = judge.state();
+        let (course, judging) = self.of(scene)?;
+        let state = judging.procedure().state();
         let texts = course.lesson.texts(course.language);
         let id = state.number.and_then(|number| state.steps.get(number - 1));
         let title = id.and_then(|step| texts.step.get(&step.id));
@@ -123,40 +170,23 @@ impl Guide {
     }
 
     /// What the panel shows of it in that scene.
-    pub fn shown(&self, scene: &str, words: &LessonTexts) -> Option<Shown> {
-        let (course, judge) = self.of(scene)?;
-        let state = judge.state();
-        let texts = course.lesson.texts(course.language);
-        if state.over {
-            let verdict = judge.verdict();
-            let points = words.points(verdict.points, verdict.of);
-            return Some(Shown {
-                step: format!("{}: {points}", texts.title),
-                ..Shown::default()
-            });
-        }
-        if !state.mode.tells() {
-            // Who is examined is told the task, and no step.
-            return Some(Shown {
-                step: format!("{}: {}", texts.title, texts.summary),
-                ..Shown::default()
-            });
-        }
-        let open = (state.steps.iter()).filter(|step| step.status == Status::Open);
-        let mut all = open.filter_map(|step| Some((step, texts.step.get(&step.id)?)));
-        let (step, text) = all.next()?;
-        let number = state.number.unwrap_or(1);
-        let lately = self.sight.t_s - SAID;
+    pub fn shown(&self, scene: &str, around: &LessonTexts) -> Option<Shown> {
+        let (course, judging) = self.of(scene)?;
+        let words = Words {
+            around,
+            texts: &self.texts,
+            language: course.language,
+        };
+        let lately = judging.time() - SAID;
         let failed = self.failed.as_ref().filter(|(at, _)| *at >= lately);
-        Some(Shown {
-            step: words.step(number, state.steps.len(), &text.text),
-            hint: step.hint.then(|| text.hint.clone()),
-            failed: failed.map(|(_, why)| why.clone()),
-        })
+        let failed = failed.map(|(_, why)| why.as_str());
+        let hinted = self.hinted.as_deref();
+        Some(listing::shown(judging.procedure(), words, hinted, failed))
     }
 
     /// What it comes to; `None` without a lesson.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.course.as_ref().map(|(_, judge)| judge.verdict())
+        let judging = self.course.as_ref().map(|(_, judging)| judging);
+        judging.map(|it| it.procedure().verdict())
     }
 }

@@ -3,14 +3,18 @@
 use std::path::Path;
 
 use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
-use vitriol_experiment::track::{DEVICE, DRIVER, PRESET, STATE_HASH};
-use vitriol_experiment::{DeviceStatement, Failure, Instruction, SimulatedTime, track};
+use vitriol_experiment::track::{
+    DEVICE, DRIVER, LANGUAGE, LESSON, LESSON_HASH, MODE, PRESET, STATE_HASH,
+};
+use vitriol_experiment::{DeviceStatement, Failure, Instruction, SimulatedTime, Wish, track};
 use vitriol_lesson::Event;
+use vitriol_lesson::procedure::Progress;
 use vitriol_xr::track::TrackMetadata;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
+use super::guide::Course;
 use crate::vr::menu;
-use crate::vr::record::{RecordingStatus, TrackRecording};
+use crate::vr::record::{Note, RecordingStatus, TrackRecording};
 use crate::vr::workbench::Plan;
 
 /// Numbers the steps, gives each what was switched before it, and records it where there is a recording.
@@ -21,18 +25,21 @@ pub(super) struct SessionTrack {
     /// Switches since the last step. They go with the next one, before which a replay does them.
     switches: Vec<Switch>,
     time: SimulatedTime,
+    /// What was asked of the lesson before steps that were taken, each with simulated time before its step, s.
+    asked: Vec<(f64, Wish)>,
     /// What was found so far.
     pub events: Vec<Event>,
 }
 
 impl SessionTrack {
-    /// The track of a session that begins with `plan` on `device`, recorded to a new `file` if one is named.
+    /// The track of a session that begins with `plan` on `device` and goes through `course`, recorded to a new `file` if one is named.
     pub fn new(
         file: Option<&Path>,
-        plan: &Plan,
+        (plan, course): (&Plan, Option<&Course>),
         device: &DeviceStatement,
     ) -> Result<Self, Failure> {
-        let recording = file.map(|file| TrackRecording::create(file, &metadata(plan, device)));
+        let metadata = || metadata(plan, course, device);
+        let recording = file.map(|file| TrackRecording::create(file, &metadata()));
         Ok(Self {
             recording: recording.transpose().map_err(track::blame)?,
             ..Self::default()
@@ -44,11 +51,11 @@ impl SessionTrack {
         self.switches.push(switch);
     }
 
-    /// Whether something was switched since the last step that a replay has to do as well: another bench, or what an instructor did.
+    /// Whether something was switched since the last step that a replay has to do as well: another bench, or what an
+    /// instructor did, or what was asked of the lesson.
     pub fn awaits_step(&self) -> bool {
-        let counts = |it: &Switch| {
-            [SWITCH_SCENE, SWITCH_START].contains(&&*it.key) || Instruction::of(it).is_some()
-        };
+        let counts =
+            |it: &Switch| brings_up(it) || Instruction::of(it).is_some() || Wish::of(it).is_some();
         self.switches.iter().any(counts)
     }
 
@@ -63,6 +70,16 @@ impl SessionTrack {
         if let Some(recording) = &mut self.recording {
             recording.push(&step, flasks());
         }
+        let mut asked = Vec::new();
+        for switch in &step.scenario {
+            if brings_up(switch) {
+                // What was asked before that is of no step that was taken.
+                asked.clear();
+            } else if let Some(Ok(wish)) = Wish::of(switch) {
+                asked.push((self.time.seconds(), wish));
+            }
+        }
+        self.asked.append(&mut asked);
         self.time.advance(frame_time);
     }
 
@@ -77,10 +94,25 @@ impl SessionTrack {
             for event in &events {
                 // A struct of numbers and texts has a JSON; what is not finite becomes null.
                 let json = serde_json::to_string(event).unwrap_or_default();
-                recording.found(nanoseconds(&self.time), json);
+                recording.found(nanoseconds(&self.time), Note::Event(json));
             }
         }
         self.events.extend(events);
+    }
+
+    /// What was asked of the lesson before steps that were taken since the last call, each with simulated time before its step, s.
+    pub fn asked(&mut self) -> Vec<(f64, Wish)> {
+        std::mem::take(&mut self.asked)
+    }
+
+    /// Something was said of the lesson, which goes into the recording where there is one.
+    pub fn progressed(&mut self, said: &[Progress]) {
+        if let Some(recording) = &mut self.recording {
+            for progress in said {
+                let json = serde_json::to_string(progress).unwrap_or_default();
+                recording.found(nanoseconds(&self.time), Note::Progress(json));
+            }
+        }
     }
 
     /// Seconds that were recorded, and how the recording stands; `None` without one.
@@ -121,8 +153,13 @@ pub(super) struct Finished {
     pub recorded: Option<RecordingStatus>,
 }
 
+/// Whether it brings up a scene from its start.
+fn brings_up(switch: &Switch) -> bool {
+    [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key)
+}
+
 /// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
-fn metadata(plan: &Plan, device: &DeviceStatement) -> TrackMetadata {
+fn metadata(plan: &Plan, course: Option<&Course>, device: &DeviceStatement) -> TrackMetadata {
     let choices = menu::CHOICES.iter().map(|choice| choice.scene);
     let scenes = choices
         .chain(plan.scenes.own())
@@ -136,12 +173,23 @@ fn metadata(plan: &Plan, device: &DeviceStatement) -> TrackMetadata {
         (DEVICE, &device.name),
         (DRIVER, &device.driver),
     ];
+    let of_course = course.map(|it| {
+        [
+            (LESSON, it.lesson.name.as_str()),
+            (LESSON_HASH, it.lesson.hash()),
+            (MODE, it.mode.name()),
+            (LANGUAGE, it.language.code()),
+        ]
+    });
+    let parameters = parameters
+        .into_iter()
+        .chain(of_course.into_iter().flatten());
     TrackMetadata {
         scene: plan.scene.clone(),
         seed: plan.seed,
         parameters: parameters
             .map(|(name, value)| (name.to_owned(), value.to_owned()))
-            .into(),
+            .collect(),
         program_version: env!("CARGO_PKG_VERSION").into(),
         scenes: scenes.collect(),
     }
@@ -203,7 +251,7 @@ mod tests {
     fn steps_are_numbered_and_carry_what_was_switched_before_them() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("x.mcap");
-        let mut track = SessionTrack::new(Some(&file), &plan(), &device()).unwrap();
+        let mut track = SessionTrack::new(Some(&file), (&plan(), None), &device()).unwrap();
         track.switch(switch("a"));
         track.step(poses(), 0.01, Vec::new);
         track.step(poses(), 0.01, Vec::new);
@@ -243,12 +291,28 @@ mod tests {
         assert_eq!(said, expected);
     }
 
+    /// What was asked of the lesson counts from the step on that it comes with, and not for a scene that is brought up meanwhile.
+    #[test]
+    fn what_is_asked_of_a_lesson_waits_for_a_step() {
+        let mut track = SessionTrack::new(None, (&plan(), None), &device()).unwrap();
+        track.step(poses(), 0.01, Vec::new);
+        track.switch(Wish::Finish.switch());
+        assert!(track.awaits_step() && track.asked().is_empty());
+        track.switch(switch("two-flasks"));
+        let hint = Wish::Hint("lift".into());
+        track.switch(hint.switch());
+        track.step(poses(), 0.01, Vec::new);
+        track.step(poses(), 0.01, Vec::new);
+        assert_eq!(track.asked(), [(0.01, hint)]);
+        assert!(!track.awaits_step() && track.asked().is_empty());
+    }
+
     #[test]
     fn a_recording_that_is_there_is_not_overwritten() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("x.mcap");
         std::fs::write(&file, "mine").unwrap();
-        let made = SessionTrack::new(Some(&file), &plan(), &device());
+        let made = SessionTrack::new(Some(&file), (&plan(), None), &device());
         assert!(matches!(made.err(), Some(Failure::Input(_))));
         assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
     }

@@ -2,8 +2,8 @@
 
 use super::*;
 
-const LIFT: &str = "condition = { lifted = { flask = \"a\" } }\nhint_after_s = 5";
-const POUR: &str = "condition = { poured = { from = \"a\", into = \"b\", at_least_ml = 5, at_most_ml_s = 4 } }\nhint_after_s = 5";
+pub(super) const LIFT: &str = "condition = { lifted = { flask = \"a\" } }\nhint_after_s = 5";
+pub(super) const POUR: &str = "condition = { poured = { from = \"a\", into = \"b\", at_least_ml = 5, at_most_ml_s = 4 } }\nhint_after_s = 5";
 
 fn lifts(it: &mut Sight) {
     it.flasks[0].held = true;

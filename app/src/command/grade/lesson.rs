@@ -1,0 +1,273 @@
+//! The lesson that a class is graded by: what a track says of it, and how that agrees with what a simulation finds.
+
+use serde::{Deserialize, Serialize};
+use vitriol_experiment::in_a_line;
+use vitriol_experiment::track::{LESSON, LESSON_HASH, MODE};
+use vitriol_lesson::procedure::{Progress, Verdict, VerdictLine};
+use vitriol_lesson::{Lesson, Mode};
+use vitriol_xr::track::Track;
+
+use super::agreement::{Agreement, Tolerance};
+use crate::command::recorded::recorded_progress;
+
+/// The lesson that is asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AskedLesson {
+    /// Its name.
+    pub name: String,
+    /// Hash of its text.
+    pub hash: String,
+    /// How it was to be gone through.
+    pub mode: Mode,
+}
+
+impl AskedLesson {
+    /// That of a lesson.
+    pub fn of(lesson: &Lesson, mode: Mode) -> Self {
+        Self {
+            name: lesson.name.clone(),
+            hash: lesson.hash().to_owned(),
+            mode,
+        }
+    }
+
+    /// In what the track was made otherwise, in a few words; `None` where it went through this lesson in this mode.
+    pub fn otherwise(&self, track: &Track) -> Option<String> {
+        let made = |key: &str| track.metadata.parameters.get(key).map(String::as_str);
+        let Some(name) = made(LESSON) else {
+            return Some("made without a lesson".into());
+        };
+        let another = || Some(format!("made with another lesson: {}", in_a_line(name)));
+        if name != self.name {
+            return another();
+        }
+        if made(LESSON_HASH) != Some(&self.hash) {
+            return another().map(|text| text + " of another text");
+        }
+        let mode = made(MODE).unwrap_or_default();
+        if mode != self.mode.name() {
+            return Some(format!("made in another mode: {}", in_a_line(mode)));
+        }
+        // What it says is to be of that as well.
+        let other = |it: &Progress| match it {
+            Progress::Begun { lesson, mode, .. } => (lesson, *mode) != (&self.name, self.mode),
+            _ => false,
+        };
+        let other = recorded_progress(track).iter().any(other);
+        other.then(|| "what it says is of another lesson or mode".into())
+    }
+}
+
+/// A lesson's part of a line of the table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct OfLesson {
+    /// Points.
+    pub points: u32,
+    /// Of how many.
+    pub of: u32,
+    /// By step, then by rule, in the order of the lesson's file.
+    pub items: Vec<Item>,
+}
+
+/// What became of a step or a rule.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Item {
+    /// Its id.
+    pub id: String,
+    /// In a word: a step was done, failed or missed, a rule kept or broken.
+    pub became: &'static str,
+    /// Points.
+    pub points: u32,
+    /// Of how many.
+    pub of: u32,
+}
+
+impl OfLesson {
+    /// Of a verdict.
+    pub fn of(verdict: &Verdict) -> Self {
+        let item = |line: &VerdictLine| Item {
+            id: line.id.clone(),
+            became: line.became().name(),
+            points: line.points,
+            of: line.of,
+        };
+        Self {
+            points: verdict.points,
+            of: verdict.of,
+            items: verdict.lines.iter().map(item).collect(),
+        }
+    }
+
+    /// In a few words: points, and what was not done or kept.
+    pub fn text(&self) -> String {
+        let bad = self.items.iter();
+        let bad = bad.filter(|it| !["done", "kept"].contains(&it.became));
+        let bad: Vec<String> = bad.map(|it| format!("{} {}", it.id, it.became)).collect();
+        let points = format!("lesson {} of {}", self.points, self.of);
+        match bad.is_empty() {
+            true => points,
+            false => format!("{points} ({})", bad.join(", ")),
+        }
+    }
+}
+
+/// A lesson's columns of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Columns {
+    /// Its name.
+    pub name: String,
+    /// How it was to be gone through.
+    pub mode: Mode,
+    /// Ids of its steps, then of its rules.
+    pub items: Vec<String>,
+    /// How many of these are steps.
+    pub steps: usize,
+}
+
+impl Columns {
+    /// Those of a lesson.
+    pub fn of(lesson: &Lesson, mode: Mode) -> Self {
+        let steps = lesson.steps.iter().map(|step| step.id.clone());
+        let rules = lesson.rules.iter().map(|rule| rule.id.clone());
+        Self {
+            name: lesson.name.clone(),
+            mode,
+            items: steps.chain(rules).collect(),
+            steps: lesson.steps.len(),
+        }
+    }
+
+    /// Their heads.
+    pub fn heads(&self) -> Vec<String> {
+        let item = |(at, id): (usize, &String)| match at < self.steps {
+            true => format!("step {id}"),
+            false => format!("rule {id}"),
+        };
+        let items = self.items.iter().enumerate().map(item);
+        let points = ["lesson [points]", "lesson of"].map(str::to_owned);
+        points.into_iter().chain(items).collect()
+    }
+
+    /// Their cells in a line: empty where it has none.
+    pub fn cells(&self, line: Option<&OfLesson>) -> Vec<String> {
+        let Some(line) = line else {
+            return vec![String::new(); 2 + self.items.len()];
+        };
+        let cell = |id: &String| {
+            let item = line.items.iter().find(|it| it.id == *id);
+            item.map_or_else(String::new, |it| it.became.to_owned())
+        };
+        let points = [line.points, line.of].map(|it| it.to_string());
+        points
+            .into_iter()
+            .chain(self.items.iter().map(cell))
+            .collect()
+    }
+}
+
+impl Agreement {
+    /// Beside what happened, how what a recording says of the lesson agrees with what was found.
+    pub fn with_lesson(
+        mut self,
+        recorded: &[Verdict],
+        found: &[Verdict],
+        tolerance: Tolerance,
+    ) -> Self {
+        let [a, b] = [recorded, found].map(<[Verdict]>::len);
+        if a != b {
+            let text = format!("the lesson was begun {a} times in the recording, {b} times found");
+            self.beyond.push(text);
+        }
+        for (attempt, (recorded, found)) in (1..).zip(recorded.iter().zip(found)) {
+            for (recorded, found) in recorded.lines.iter().zip(&found.lines) {
+                self.compare_line(attempt, recorded, found, tolerance);
+            }
+        }
+        self
+    }
+
+    fn compare_line(
+        &mut self,
+        attempt: u32,
+        recorded: &VerdictLine,
+        found: &VerdictLine,
+        tolerance: Tolerance,
+    ) {
+        let both = [recorded, found];
+        let kind = if recorded.rule { "rule" } else { "step" };
+        let mut beyond = |text: String| {
+            let id = &recorded.id;
+            self.beyond
+                .push(format!("attempt {attempt}, {kind} {id}: {text}"));
+        };
+        let [a, b] = both.map(|it| it.became().name());
+        if a != b {
+            beyond(format!("{a} in the recording, {b} found"));
+            return;
+        }
+        let [a, b] = both.map(|it| it.points);
+        // A rule's are a share of the steps'.
+        if a != b && !recorded.rule {
+            beyond(format!("{a} points in the recording, {b} found"));
+            return;
+        }
+        if let [Some(a), Some(b)] = both.map(|it| it.evidence_s) {
+            let within = (a - b).abs() <= tolerance.time_s;
+            if !within {
+                beyond(format!("at {a:.2} s in the recording, at {b:.2} s found"));
+            }
+            self.time_s = self.time_s.max((a - b).abs());
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn verdict(change: &dyn Fn(&mut VerdictLine)) -> Vec<Verdict> {
+        let mut line = VerdictLine {
+            id: "pour".into(),
+            rule: false,
+            met: true,
+            evidence_s: Some(5.0),
+            why: None,
+            failures: 0,
+            hints: 0,
+            points: 10,
+            of: 10,
+        };
+        change(&mut line);
+        vec![Verdict {
+            lesson: "own".into(),
+            mode: Mode::Free,
+            points: line.points,
+            of: 10,
+            lines: vec![line],
+        }]
+    }
+
+    #[test]
+    fn what_a_lesson_came_to_agrees_or_not() {
+        let said = verdict(&|_| {});
+        let agreement = |found: &[Verdict]| {
+            Agreement::default().with_lesson(&said, found, Tolerance::default())
+        };
+        let later = agreement(&verdict(&|it| it.evidence_s = Some(5.15)));
+        assert!(later.beyond.is_empty() && (later.time_s - 0.15).abs() < 1e-9);
+        let beyond = |change: &dyn Fn(&mut VerdictLine)| {
+            let beyond = agreement(&verdict(change)).beyond;
+            assert_eq!(beyond.len(), 1, "{beyond:?}");
+            beyond.concat()
+        };
+        let text = beyond(&|it| it.evidence_s = Some(5.5));
+        assert_eq!(
+            text,
+            "attempt 1, step pour: at 5.00 s in the recording, at 5.50 s found"
+        );
+        assert!(beyond(&|it| it.points = 5).ends_with("10 points in the recording, 5 found"));
+        assert!(beyond(&|it| it.met = false).ends_with("done in the recording, missed found"));
+        assert!(agreement(&[]).beyond[0].contains("begun 1 times in the recording, 0 times found"));
+    }
+}

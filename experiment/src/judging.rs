@@ -1,0 +1,106 @@
+//! A lesson that is judged look by look, in a session and in its replay alike.
+//!
+//! What a student asks for counts behind the look of the first step after it: a track keeps it with that step, and both come to it at the
+//! same look.
+
+use std::collections::VecDeque;
+
+use vitriol_lesson::procedure::Progress;
+use vitriol_lesson::{Event, Lesson, Mode, Procedure, Sight};
+
+use crate::looks::Looked;
+use crate::wish::Wish;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Judging {
+    procedure: Procedure,
+    /// The lesson's scene, by the run's name of it.
+    scene: String,
+    /// The last look.
+    sight: Sight,
+    /// What was asked for and has not come to its look, each with the run's time, s.
+    asked: VecDeque<(f64, Wish)>,
+}
+
+impl Judging {
+    /// A lesson at its beginning; the run calls its scene by that name.
+    pub fn new(lesson: Lesson, mode: Mode, scene: &str) -> Self {
+        Self {
+            procedure: Procedure::new(lesson, mode),
+            scene: scene.to_owned(),
+            sight: Sight::default(),
+            asked: VecDeque::new(),
+        }
+    }
+
+    /// How it stands.
+    pub fn procedure(&self) -> &Procedure {
+        &self.procedure
+    }
+
+    /// Whether the scene of that name is the lesson's.
+    pub fn is_of(&self, scene: &str) -> bool {
+        self.scene == scene
+    }
+
+    /// Time of the last look at its scene, s.
+    pub fn time(&self) -> f64 {
+        self.sight.t_s
+    }
+
+    /// Something was asked for at the run's time `t_s`, before the step that comes next.
+    pub fn ask(&mut self, t_s: f64, wish: Wish) {
+        self.asked.push_back((t_s, wish));
+    }
+
+    /// A scene is brought up before the next step: what was asked for since the last one was of the scene before.
+    pub fn bring_up(&mut self) {
+        self.asked.clear();
+    }
+
+    /// Takes in a look at the scene of that name; of another one than the lesson's nothing is judged. `so_far` says what the attempt would
+    /// end with now: who says that all is done has what is under way counted.
+    pub fn looked(
+        &mut self,
+        scene: &str,
+        looked: &Looked,
+        so_far: impl Fn() -> Vec<Event>,
+    ) -> Vec<Progress> {
+        let mut said = Vec::new();
+        if self.is_of(scene) {
+            self.sight.clone_from(&looked.sight);
+            said = self.procedure.advance(&self.sight, &looked.events);
+        }
+        while let Some((t_s, _)) = self.asked.front()
+            && *t_s < looked.t
+            && let Some((_, wish)) = self.asked.pop_front()
+        {
+            if self.is_of(scene) {
+                said.extend(self.grant(&wish, looked.t, &so_far));
+            }
+        }
+        said
+    }
+
+    fn grant(&mut self, wish: &Wish, t_s: f64, so_far: impl Fn() -> Vec<Event>) -> Vec<Progress> {
+        let judge = &mut self.procedure;
+        match wish {
+            Wish::Hint(step) => judge.ask_hint(step, t_s).into_iter().collect(),
+            Wish::Skip(step) => judge.skip(step, t_s),
+            Wish::Finish => {
+                let mut said = judge.advance(&self.sight, &so_far());
+                said.extend(judge.finish(t_s));
+                said
+            }
+        }
+    }
+
+    /// What was found last in the scene of that name, when the attempt ended.
+    pub fn ended(&mut self, scene: &str, events: &[Event]) -> Vec<Progress> {
+        match self.is_of(scene) {
+            true => self.procedure.advance(&self.sight, events),
+            false => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What a lesson comes to by what was said of it, as a recording keeps that.
+
+use super::file::Lesson;
+use super::judge::{Procedure, Tried};
+use super::mode::Mode;
+use super::progress::{Progress, Status, Verdict, VerdictLine, Why};
+
+impl Verdict {
+    /// What each time comes to that the lesson was begun, in their order: the same as who judged it said, [`Procedure::verdict`]. What is
+    /// said of steps that the lesson does not have counts for nothing.
+    pub fn retold(lesson: &Lesson, mode: Mode, said: &[Progress]) -> Vec<Self> {
+        let begins = |it: &Progress| matches!(it, Progress::Begun { .. });
+        let first = said.iter().position(begins).unwrap_or(said.len());
+        let runs = said[first..].chunk_by(|_, next| !begins(next));
+        let verdict = |run: &[Progress]| {
+            let mut procedure = Procedure::new(lesson.clone(), mode);
+            run.iter().for_each(|it| procedure.retell(it));
+            procedure.verdict()
+        };
+        runs.map(verdict).collect()
+    }
+}
+
+impl Procedure {
+    fn retell(&mut self, said: &Progress) {
+        match said {
+            Progress::Begun { .. } | Progress::Over { .. } => {}
+            Progress::StepBegun { id, .. } => {
+                if let Some(step) = self.step(id) {
+                    step.status = Status::Open;
+                }
+            }
+            Progress::StepDone { id, evidence_s, .. } => {
+                if let Some(step) = self.step(id) {
+                    (step.status, step.evidence) = (Status::Done, Some(*evidence_s));
+                }
+            }
+            Progress::StepFailed {
+                id,
+                evidence_s,
+                why,
+                missed,
+                ..
+            } => {
+                if let Some(step) = self.step(id) {
+                    step.failures += 1;
+                    step.why = Some(why.clone());
+                    if *missed {
+                        (step.status, step.evidence) = (Status::Missed, Some(*evidence_s));
+                    }
+                }
+            }
+            Progress::HintDue { id, .. } => {
+                if let Some(step) = self.step(id) {
+                    step.hints += 1;
+                }
+            }
+            Progress::RuleBroken {
+                id,
+                evidence_s,
+                why,
+                ..
+            } => {
+                let at = self.lesson.rules.iter().position(|rule| rule.id == *id);
+                if let Some(rule) = at.and_then(|at| self.rules.get_mut(at)) {
+                    let broken = (*evidence_s, why.clone());
+                    rule.broken.get_or_insert(broken);
+                }
+            }
+        }
+    }
+
+    fn step(&mut self, id: &str) -> Option<&mut Tried> {
+        let at = self.lesson.steps.iter().position(|step| step.id == id)?;
+        self.steps.get_mut(at)
+    }
+}
+
+/// What became of a step or a rule, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Became {
+    /// A step was done.
+    Done,
+    /// Something went wrong in a step, and it was not done after that.
+    Failed,
+    /// A step was not done: left out, out of time, or not come to.
+    Missed,
+    /// A rule was kept.
+    Kept,
+    /// A rule was broken.
+    Broken,
+}
+
+impl Became {
+    /// The word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Failed => "failed",
+            Self::Missed => "missed",
+            Self::Kept => "kept",
+            Self::Broken => "broken",
+        }
+    }
+}
+
+impl VerdictLine {
+    /// What became of it.
+    pub fn became(&self) -> Became {
+        // The last failure of a step that is left out, out of time or not done before the end is that.
+        let given_up = |why: &Why| matches!(why, Why::Skipped | Why::NotDone | Why::TimeUp { .. });
+        let given_up = u32::from(self.why.as_ref().is_some_and(given_up));
+        match (self.rule, self.met) {
+            (true, true) => Became::Kept,
+            (true, false) => Became::Broken,
+            (false, true) => Became::Done,
+            (false, false) if self.failures > given_up => Became::Failed,
+            (false, false) => Became::Missed,
+        }
+    }
+}
