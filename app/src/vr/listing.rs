@@ -1,6 +1,6 @@
 //! What the panel says of a lesson: its steps as the mode allows, and what the user can ask for.
 
-use vitriol_lesson::procedure::{State, Status};
+use vitriol_lesson::procedure::{State, Status, StepState};
 use vitriol_lesson::{Language, Lesson, Mode, Procedure, Texts};
 
 use super::decision::Act;
@@ -89,7 +89,7 @@ pub fn shown(
 /// The step whose hint is asked for now: the open one behind that whose hint was given last, or else the first. `None` where there is none
 /// but the one that is shown.
 pub fn to_hint<'a>(state: &'a State, hinted: Option<&str>) -> Option<&'a str> {
-    let open = |it: &&vitriol_lesson::procedure::StepState| it.status == Status::Open;
+    let open = |it: &&StepState| it.status == Status::Open;
     if !state.mode.hints_are_given() {
         return None;
     }
@@ -97,13 +97,13 @@ pub fn to_hint<'a>(state: &'a State, hinted: Option<&str>) -> Option<&'a str> {
     let behind = last.map_or(0, |at| at + 1);
     let (before, after) = state.steps.split_at(behind.min(state.steps.len()));
     let next = after.iter().chain(before).find(open)?;
-    let is_shown = next.hint && hint_of(state, hinted) == Some(&next.id);
-    (!is_shown).then_some(&next.id)
+    let is_shown = next.hint && hint_of(state, hinted) == Some(next.id.as_str());
+    (!is_shown).then_some(next.id.as_str())
 }
 
 /// The step whose hint is shown.
 fn hint_of<'a>(state: &'a State, hinted: Option<&str>) -> Option<&'a str> {
-    let shows = |it: &&vitriol_lesson::procedure::StepState| it.status == Status::Open && it.hint;
+    let shows = |it: &&StepState| it.status == Status::Open && it.hint;
     let last = state.steps.iter().find(|it| Some(&*it.id) == hinted);
     let found = last.filter(shows);
     let found = found.or_else(|| state.steps.iter().find(shows));
@@ -163,19 +163,20 @@ fn fitting(
     let left_open = |(mark, _): &(Mark, String)| matches!(mark, Mark::Open | Mark::Waiting);
     let first = all.iter().position(left_open).unwrap_or(0);
     let mut chosen = first..first;
-    for at in first..count {
-        if takes[at] > left {
+    let (decided, open) = takes.split_at(first);
+    for takes in open {
+        if *takes > left {
             break;
         }
-        left -= takes[at];
-        chosen.end = at + 1;
+        left -= takes;
+        chosen.end += 1;
     }
-    for at in (0..first).rev() {
-        if takes[at] > left {
+    for takes in decided.iter().rev() {
+        if *takes > left {
             break;
         }
-        left -= takes[at];
-        chosen.start = at;
+        left -= takes;
+        chosen.start -= 1;
     }
     let more = count - chosen.len();
     (all[chosen].to_vec(), more)

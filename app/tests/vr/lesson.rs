@@ -89,8 +89,8 @@ fn hint_and_skip_are_recorded_and_replay() {
         (8, Act::Hint),
         (10, Act::Finish),
         (12, Act::Skip),
-        // With the last frame, behind which no step would come.
-        (40, Act::Skip),
+        // It comes with the last frame.
+        (39, Act::Skip),
     ];
     let (outcome, track) = taught(&gpu, folder.path(), Mode::Guided, 41, &acts);
     let step = str::to_owned;

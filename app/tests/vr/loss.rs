@@ -193,7 +193,7 @@ fn lost_devices_in_mid_pour_lose_nothing() {
     // It was poured out, over the bench, which recentrings moved away from under it.
     assert!(measured.in_flasks[0] < 0.1, "{measured:?}");
     // One device, never lost, comes to the same bits.
-    let (recorded, replay) = replay_of(&devices[3], track);
+    let (recorded, replay) = replay_of(&devices[3], track, None);
     let found = replay.events;
     assert_eq!(replay.state_hash, hash(&outcome));
     // What happens is the same. Looks under way go with the device, and so does what knew whence the drops in the air came: amounts

@@ -188,8 +188,9 @@ pub fn text(class: &Class) -> String {
                 _ => format!("{kind} ×{count}"),
             })
             .collect();
-        let lesson = line.lesson.as_ref().map(OfLesson::text);
-        notes.splice(..0, lesson);
+        if let Some(lesson) = &line.lesson {
+            notes.insert(0, lesson.text());
+        }
         if line.finished == Some(false) {
             notes.push("broken off".into());
         }

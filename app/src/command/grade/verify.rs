@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::progress::Runs;
 use vitriol_experiment::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
-use vitriol_lesson::procedure::Verdict as LessonVerdict;
+use vitriol_lesson::procedure::{Progress, Verdict as LessonVerdict};
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{Track, TrackSource};
@@ -116,7 +116,7 @@ impl Verified {
         let differs = differences(&metadata, scene, Some(&outcome.device), asked.as_slice());
         let judged = expected.lesson.is_none() || progress == outcome.progress;
         let to_the_bit = events == outcome.events && judged;
-        let retold = |said: &[_]| {
+        let retold = |said: &[Progress]| {
             let lesson = expected.lesson.as_ref();
             let retold = lesson.map(|(lesson, mode)| LessonVerdict::retold(lesson, *mode, said));
             retold.unwrap_or_default()

@@ -50,7 +50,7 @@ pub fn asks(shown: &Shown) -> impl Iterator<Item = (String, bool, Decision)> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use super::super::{PANEL, view};
     use super::*;
@@ -178,6 +178,20 @@ mod tests {
             for (_, text) in &shown.steps {
                 assert!(place(text).height() < 46.0, "{language}: {text}");
             }
+        }
+    }
+
+    #[test]
+    fn each_sign_can_be_shown() {
+        let context = Context::default();
+        view::style(&context);
+        let _ = context.run(RawInput::default(), |_| {});
+        let font = egui::FontId::proportional(TEXT);
+        for sign in ['✔', '✖', '▶', '•'] {
+            assert!(
+                context.fonts_mut(|fonts| fonts.has_glyph(&font, sign)),
+                "{sign}"
+            );
         }
     }
 
