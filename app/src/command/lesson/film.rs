@@ -173,3 +173,25 @@ fn code(language: Language) -> [u8; 3] {
         Language::Zh => b"zho",
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_film_shows_the_track_of_the_lessons_scene() {
+        let usual = |name| usual(&Lesson::builtin(name).unwrap());
+        assert_eq!(usual("dilute").unwrap(), "dilute");
+        assert_eq!(usual("examination").unwrap(), "dilute");
+        let none = usual("wrong-order").unwrap_err().to_string();
+        assert!(none.contains("water-into-acid"), "{none}");
+    }
+
+    /// Of ISO 639-2's two codes that of the language's own name.
+    #[test]
+    fn each_language_has_a_code_of_its_own() {
+        let codes = Language::ALL.map(code);
+        assert_eq!(codes, [*b"eng", *b"deu", *b"spa", *b"zho"]);
+    }
+}
