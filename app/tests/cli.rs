@@ -293,6 +293,12 @@ fn lessons_are_listed_shown_and_checked() {
     let examined = [&stand_in[..], &["dilute", "--mode", "examination"]].concat();
     refuses(here, &examined, 2, &["examination", "guided"]);
     refuses(here, &["lesson", "nowhere"], 2, &["nowhere", "dilute"]);
+    // The panel's language needs no lesson; this one is refused for its track alone.
+    let stand_in = ["vr", "--no-console", "--stand-in", "nowhere"];
+    let in_german = [&stand_in[..], &["--language", "de"]].concat();
+    refuses(here, &in_german, 2, &["nowhere", "two-flasks"]);
+    let in_french = [&stand_in[..], &["--language", "fr"]].concat();
+    refuses(here, &in_french, 2, &["fr", "en, de, es, zh"]);
 }
 
 #[test]

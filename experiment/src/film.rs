@@ -14,6 +14,7 @@ use std::thread::JoinHandle;
 use crate::h264::{H264, MOST_BITS};
 use crate::output::Staged;
 use crate::soundtrack::Soundtrack;
+use crate::subtitles::{self, Subtitles, SubtitlesError};
 use muxide::api::{AudioCodec, Muxer, MuxerBuilder, MuxerError, VideoCodec};
 use vitriol_sound::{OpusError, RATE};
 
@@ -69,6 +70,9 @@ pub enum FilmError {
     /// Sound could not be encoded.
     #[error("the film's sound could not be encoded")]
     Sound(#[from] OpusError),
+    /// Subtitles could not be added.
+    #[error("the film's subtitles could not be added")]
+    Subtitles(#[from] SubtitlesError),
     /// Samples came for a film without a track for them.
     #[error("the film was begun without sound, and sound was given to it")]
     Mute,
@@ -92,6 +96,7 @@ pub enum FilmError {
 #[derive(Debug)]
 pub struct Film {
     frame_bytes: usize,
+    size: [u32; 2],
     sounds: bool,
     parts: Option<SyncSender<Part>>,
     spent: Receiver<Vec<u8>>,
@@ -157,6 +162,7 @@ impl Film {
             .map_err(unwritten(path))?;
         Ok(Self {
             frame_bytes: width as usize * height as usize * 4,
+            size: [width, height],
             sounds,
             parts: Some(parts),
             spent,
@@ -207,9 +213,19 @@ impl Film {
     /// [`FilmError::Empty`] without a frame, else what the encoder, the muxer
     /// or the file system said; also where a film of that name has appeared
     /// meanwhile, which is kept.
-    pub fn finish(mut self) -> Result<PathBuf, FilmError> {
+    pub fn finish(self) -> Result<PathBuf, FilmError> {
+        self.finish_with(&[])
+    }
+
+    /// The same with a track of text for each of these languages.
+    ///
+    /// # Errors
+    /// As [`Film::finish`], and [`FilmError::Subtitles`].
+    pub fn finish_with(mut self, texts: &[Subtitles]) -> Result<PathBuf, FilmError> {
         let staged = self.end()?;
         let path = staged.path.clone();
+        let mut file = staged.try_clone().map_err(unwritten(&path))?;
+        subtitles::add(&mut file, self.size, texts)?;
         staged.keep().map_err(unwritten(&path))?;
         Ok(path)
     }

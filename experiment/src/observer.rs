@@ -10,6 +10,7 @@ use crate::film::Film;
 use crate::moment::{Moment, Watch};
 use crate::progress::Progress;
 use crate::sample::Sample;
+use crate::subtitles::Subtitles;
 use vitriol_sound::{Mixer, RATE};
 
 /// Frame rate of the film, Hz.
@@ -77,9 +78,18 @@ impl Observer {
     ///
     /// # Errors
     /// What a film says.
-    pub fn finish(mut self) -> Result<Observations, Failure> {
+    pub fn finish(self) -> Result<Observations, Failure> {
+        self.finish_with(&[])
+    }
+
+    /// The same, and each film has these subtitles.
+    ///
+    /// # Errors
+    /// What a film says.
+    pub fn finish_with(mut self, texts: &[Subtitles]) -> Result<Observations, Failure> {
         self.sound(self.film_frames)?;
-        let films: Result<_, _> = self.films.into_iter().map(Film::finish).collect();
+        let films = self.films.into_iter().map(|film| film.finish_with(texts));
+        let films: Result<_, _> = films.collect();
         Ok(Observations {
             films: films.other()?,
             film_frames: self.film_frames,

@@ -248,8 +248,8 @@ pub struct VrArgs {
     /// How: guided, free or examination; without it as the lesson says
     #[arg(long, value_name = "MODE", requires = "lesson")]
     pub mode: Option<Mode>,
-    /// The lesson's language: en, de, es or zh
-    #[arg(long, value_name = "LANGUAGE", default_value_t, requires = "lesson")]
+    /// Language of the panel and of the lesson: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
     pub language: Language,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
@@ -465,6 +465,23 @@ pub struct LessonArgs {
     /// The file of a built-in lesson, to begin an own one with
     #[arg(long, requires = "lesson")]
     pub toml: bool,
+    /// Make a film of the lesson as a track goes through it, with subtitles in each of its languages: this new MP4 file
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "lesson",
+        conflicts_with = "toml"
+    )]
+    pub film: Option<PathBuf>,
+    /// The film's track, by name or file; without it the built-in one that is made for the lesson's scene
+    #[arg(long, value_name = "TRACK", requires = "film")]
+    pub track: Option<String>,
+    /// The film's trade of speed for accuracy
+    #[arg(long, value_parser = preset(), requires = "film")]
+    pub preset: Option<Preset>,
+    /// Number, or part of the name, of the Vulkan device that the film is made on
+    #[arg(long, value_name = "DEVICE", requires = "film")]
+    pub device: Option<String>,
 }
 
 /// Arguments of `vitriol hub`.

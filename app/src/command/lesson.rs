@@ -1,9 +1,12 @@
-//! `vitriol lesson`: the lessons, and what one asks for.
+//! `vitriol lesson`: the lessons, what one asks for, and its film.
+
+mod film;
+mod subtitles;
 
 use std::path::Path;
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Failure, Format, Scenes, emit};
+use vitriol_experiment::{Blame, Experiment, Failure, Format, Scenes, Setup, emit};
 use vitriol_lesson::{Language, Lesson, SceneFacts, Texts};
 
 use crate::cli::LessonArgs;
@@ -38,11 +41,16 @@ struct All {
     lessons: Vec<Told>,
 }
 
-/// Runs `vitriol lesson`.
+/// Runs `vitriol lesson`; `prepare` makes the experiment of a film.
 ///
 /// # Errors
-/// [`Failure::Input`] for a lesson that is not there, is spoiled, or asks for what its scene does not have.
-pub fn run(args: &LessonArgs, format: Format) -> Result<(), Failure> {
+/// [`Failure::Input`] for a lesson that is not there, is spoiled, or asks for what its scene does not have; of a film also
+/// [`Failure::NoDevice`] and [`Failure::Other`], and no file is left of it then.
+pub fn run(
+    args: &LessonArgs,
+    format: Format,
+    prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
+) -> Result<(), Failure> {
     let texts = Texts::of(args.language).other()?;
     let modes = |told: &Told, lesson: &Lesson| -> String {
         let names = lesson.modes.iter().map(|mode| texts.mode(*mode));
@@ -65,6 +73,9 @@ pub fn run(args: &LessonArgs, format: Format) -> Result<(), Failure> {
         return emit(format, &text.input()?, |text| (*text).to_owned());
     }
     let lesson = open(name)?;
+    if let Some(film) = &args.film {
+        return film::make((args, film), &lesson, format, prepare);
+    }
     emit(format, &of(&lesson, args.language), |told| {
         let mut text = format!(
             "{}\n{}\n{}\nscene {}, {} points\n",

@@ -45,7 +45,7 @@ pub fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Vr(args) => vr::run(args, format),
         Command::Hub(args) => hub::run(args, format),
         Command::Study(command) => vitriol_study::command::run(command, format),
-        Command::Lesson(args) => lesson::run(args, format),
+        Command::Lesson(args) => lesson::run(args, format, prepare),
         Command::Forget(args) => forget::run(args, format),
         Command::Doctor => doctor::run(format),
         Command::Pages(args) => pages::run(args, format),

@@ -150,6 +150,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         hints: !args.no_hints,
         console: None,
         course,
+        language: args.language,
     };
     // Before the headset is waited for, so that who directs the session may come in meanwhile.
     let serving = match args.no_console {

@@ -3,6 +3,7 @@
 use vitriol_lesson::Tone;
 
 use super::decision::Act;
+use super::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
 
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -132,31 +133,34 @@ impl Lying {
     }
 
     /// In a sentence; `None` where all is in its place.
-    pub fn text(&self) -> Option<String> {
-        let places = [(self.bench, "on the bench"), (self.floor, "on the floor")];
+    pub fn text(&self, words: &SpiltTexts) -> Option<String> {
+        let places = [(self.bench, &words.bench), (self.floor, &words.floor)];
         let said = places.into_iter().filter(|(tenths, _)| *tenths > 0);
         let parts: Vec<_> = said
-            .map(|(tenths, place)| match tenths {
-                // A drop has some 0.05 mL.
-                ..10 => format!("0.{tenths} mL {place}"),
-                _ => format!("{} mL {place}", (tenths + 5) / 10),
+            .map(|(tenths, place)| {
+                let volume = match tenths {
+                    // A drop has some 0.05 mL.
+                    ..10 => format!("0{}{tenths}", words.decimal),
+                    _ => ((tenths + 5) / 10).to_string(),
+                };
+                place.replace("{volume}", &volume)
             })
             .collect();
-        (!parts.is_empty()).then(|| format!("spilt: {}", parts.join(", ")))
+        (!parts.is_empty()).then(|| words.text.replace("{places}", &parts.join(&words.next)))
     }
 }
 
 /// Where acid has touched the user, in a sentence, of left hand, right hand and face; `None` where nowhere.
-pub fn burns_text(burns: [bool; 3]) -> Option<String> {
-    let places = ["the left glove", "the right glove", "your face"];
+pub fn burns_text(burns: [bool; 3], words: &AcidOnTexts) -> Option<String> {
+    let places = [&words.left, &words.right, &words.face].map(String::as_str);
     let touched: Vec<_> = (places.into_iter().zip(burns))
         .filter_map(|(place, touched)| touched.then_some(place))
         .collect();
-    match touched.split_last() {
-        None => None,
-        Some((last, [])) => Some(format!("acid on {last}")),
-        Some((last, rest)) => Some(format!("acid on {} and {last}", rest.join(", "))),
-    }
+    let places = match touched.split_last()? {
+        (last, []) => (*last).to_owned(),
+        (last, rest) => format!("{}{}{last}", rest.join(&words.next), words.last),
+    };
+    Some(words.text.replace("{places}", &places))
 }
 
 /// A flask's line.
@@ -191,35 +195,43 @@ pub struct Effort {
 
 impl Effort {
     /// In a sentence that names only what is less than was asked for.
-    pub fn text(&self) -> String {
+    pub fn text(&self, words: &EffortTexts) -> String {
         let mut parts = Vec::new();
         if self.solver != self.asked {
-            let ([substeps, iterations], [of, by]) = (self.solver, self.asked);
-            parts.push(format!(
-                "{substeps} × {iterations} substeps × iterations of {of} × {by}"
-            ));
+            let pair = |[substeps, iterations]: [u32; 2]| format!("{substeps} × {iterations}");
+            let solver = words.solver.replace("{now}", &pair(self.solver));
+            parts.push(solver.replace("{asked}", &pair(self.asked)));
         }
         if self.other_filter {
-            parts.push("a plainer surface".into());
+            parts.push(words.surface.clone());
         }
         if self.picture < 100 {
-            parts.push(format!("picture {} %", self.picture));
+            let percent = self.picture.to_string();
+            parts.push(words.picture.replace("{percent}", &percent));
         }
         if let Some(rate) = self.rate {
-            parts.push(format!("display {rate} Hz"));
+            parts.push(words.display.replace("{rate}", &rate.to_string()));
         }
-        let how = if self.finer { "finer again" } else { "coarser" };
-        format!("{how}: {}", parts.join(", "))
+        let how = if self.finer {
+            &words.finer
+        } else {
+            &words.coarser
+        };
+        how.replace("{parts}", &parts.join(&words.next))
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::vr::texts::Texts;
+    use vitriol_lesson::Language;
 
     #[test]
     fn what_is_spilt_is_said_to_the_drop_and_then_to_the_millilitre() {
-        let text = |bench, floor| Lying::of(bench, floor).text();
+        let words = Texts::english().unwrap().panel.spilt;
+        let text = |bench, floor| Lying::of(bench, floor).text(&words);
         assert_eq!(text(0.0, 0.04), None);
         assert_eq!(
             text(0.31, 0.0).as_deref(),
@@ -227,14 +239,18 @@ mod tests {
         );
         let both = Some("spilt: 12 mL on the bench, 2 mL on the floor");
         assert_eq!(text(12.4, 1.5).as_deref(), both);
+        let german = Texts::of(Language::De).unwrap().panel.spilt;
+        let comma = Lying::of(0.31, 0.0).text(&german);
+        assert_eq!(comma.as_deref(), Some("verschüttet: 0,3 mL auf dem Tisch"));
     }
 
     #[test]
     fn where_acid_is_is_said() {
-        assert_eq!(burns_text([false; 3]), None);
-        let one = burns_text([false, false, true]);
+        let words = Texts::english().unwrap().panel.acid_on;
+        assert_eq!(burns_text([false; 3], &words), None);
+        let one = burns_text([false, false, true], &words);
         assert_eq!(one.as_deref(), Some("acid on your face"));
-        let all = burns_text([true; 3]);
+        let all = burns_text([true; 3], &words);
         let said = "acid on the left glove, the right glove and your face";
         assert_eq!(all.as_deref(), Some(said));
     }

@@ -30,8 +30,8 @@ use vitriol_experiment::hands::Joints;
 use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
 use vitriol_experiment::{Blame, Failure, Looks};
 use vitriol_gpu::Timestamps;
-use vitriol_lesson::Attempt;
 use vitriol_lesson::procedure::Verdict;
+use vitriol_lesson::{Attempt, Language};
 use vitriol_render::Bone;
 use vitriol_sound::Device;
 use vitriol_xr::{Headset, Pause, Switch, Turn};
@@ -98,6 +98,8 @@ pub struct Options {
     pub console: Option<Console>,
     /// The lesson that it goes through, if it does.
     pub course: Option<Course>,
+    /// Of what panel and announcements say.
+    pub language: Language,
 }
 
 /// A session as it ends.
@@ -217,7 +219,8 @@ impl Session {
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
         let tally = Tally::new(counts, timed && (counts || pacing.report.on));
-        let panel = Panel::new(gpu, &benches.library)?;
+        let texts = Texts::of(options.language)?;
+        let panel = Panel::new(gpu, &benches.library)?.in_words(&texts.panel);
         let toggles = options.grip == Grip::Toggle;
         let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
@@ -250,7 +253,7 @@ impl Session {
             readings: Readings::default(),
             sounds,
             hints,
-            summary: Summary::new()?,
+            summary: Summary::new(options.language)?,
             keeper: Keeper::default(),
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],
@@ -263,7 +266,7 @@ impl Session {
             most: options.frames.map(|frames| WARM_UP + frames),
             renewals: 0,
             losses: Losses::default(),
-            texts: Texts::english()?,
+            texts,
             broken: 0,
         })
     }
@@ -367,7 +370,7 @@ impl Session {
         }
         self.keeper.forget();
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
-        self.panel = Panel::new(gpu, library)?;
+        self.panel = Panel::new(gpu, library)?.in_words(&self.texts.panel);
         self.hints.move_to(gpu, library)?;
         if let Some(mirror) = &mut self.mirror {
             mirror.move_to(gpu, library, eyes.extent)?;

@@ -1,8 +1,11 @@
 //! The string table: what is said to a user, in the user's language.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use vitriol_experiment::units::three_digits;
 use vitriol_experiment::{Blame, Failure, Instruction};
+use vitriol_lesson::Language;
 use vitriol_sound::Caption;
 
 /// The texts of one language: a file of `app/texts`, of which each key is used and none is missing.
@@ -16,6 +19,148 @@ pub struct Texts {
     pub lesson: LessonTexts,
     /// Around what is said of an attempt.
     pub summary: SummaryTexts,
+    /// Of the panel itself.
+    pub panel: PanelTexts,
+}
+
+/// Of the panel itself.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PanelTexts {
+    /// Over buttons that take a hold.
+    pub hold: String,
+    /// Of the button that starts a scene anew.
+    pub start: String,
+    /// In the ring that fills meanwhile.
+    pub starting: String,
+    /// Of the button that brings the bench before the user.
+    pub recentre: String,
+    /// Of the button that asks what happened.
+    pub happened: String,
+    coming: String,
+    ends: String,
+    recording: String,
+    /// The disk is full.
+    pub waits: String,
+    unwritten: String,
+    /// Another device took over.
+    pub device_lost: String,
+    slow: String,
+    missed: String,
+    /// Of a flask.
+    pub broken: String,
+    acid: String,
+    /// What its tint stands for.
+    pub water: String,
+    /// What its tint stands for.
+    pub sulfuric_acid: String,
+    /// That the tints are artificial.
+    pub tints: String,
+    /// What lies beside the flasks.
+    pub spilt: SpiltTexts,
+    /// What acid has touched.
+    pub acid_on: AcidOnTexts,
+    /// What is solved and drawn with.
+    pub effort: EffortTexts,
+    /// By scene: what it is.
+    scene: BTreeMap<String, String>,
+}
+
+/// What lies beside the flasks.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpiltTexts {
+    /// Around the places.
+    pub text: String,
+    /// A volume on the bench.
+    pub bench: String,
+    /// A volume on the floor.
+    pub floor: String,
+    /// Between two places.
+    pub next: String,
+    /// The decimal point.
+    pub decimal: String,
+}
+
+/// What acid has touched.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AcidOnTexts {
+    /// Around the places.
+    pub text: String,
+    /// The left glove.
+    pub left: String,
+    /// The right glove.
+    pub right: String,
+    /// The face.
+    pub face: String,
+    /// Between two places.
+    pub next: String,
+    /// Before the last one.
+    pub last: String,
+}
+
+/// What is solved and drawn with, where that is less than was asked for.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EffortTexts {
+    /// Around its parts, after a change for the better.
+    pub finer: String,
+    /// Around its parts, after one for the worse.
+    pub coarser: String,
+    /// Substeps and iterations.
+    pub solver: String,
+    /// Another filter draws the liquid's surface.
+    pub surface: String,
+    /// The picture's size.
+    pub picture: String,
+    /// The display's rate.
+    pub display: String,
+    /// Between two parts.
+    pub next: String,
+}
+
+impl PanelTexts {
+    /// A scene is being set up.
+    pub fn coming(&self, scene: &str) -> String {
+        self.coming.replace("{scene}", scene)
+    }
+
+    /// That key ends the session.
+    pub fn ends(&self, key: char) -> String {
+        self.ends.replace("{key}", &key.to_string())
+    }
+
+    /// So many seconds are recorded.
+    pub fn recording(&self, seconds: u64) -> String {
+        let text = (self.recording).replace("{minutes}", &(seconds / 60).to_string());
+        text.replace("{seconds}", &format!("{:02}", seconds % 60))
+    }
+
+    /// So many steps could not be recorded.
+    pub fn unwritten(&self, steps: u64) -> String {
+        self.unwritten.replace("{number}", &steps.to_string())
+    }
+
+    /// At so many per cent of real time.
+    pub fn slow(&self, per_cent: u32) -> String {
+        self.slow.replace("{percent}", &per_cent.to_string())
+    }
+
+    /// Display periods without a frame.
+    pub fn missed(&self, pictures: u64) -> String {
+        self.missed.replace("{number}", &pictures.to_string())
+    }
+
+    /// Acid by mass, whole per cent.
+    pub fn acid(&self, per_cent: i32) -> String {
+        self.acid.replace("{percent}", &per_cent.to_string())
+    }
+
+    /// What a scene is; of one without a text its name.
+    pub fn scene<'a>(&'a self, name: &'a str) -> &'a str {
+        self.scene.get(name).map_or(name, String::as_str)
+    }
 }
 
 /// Around a lesson's own texts.
@@ -122,6 +267,16 @@ impl SummaryTexts {
     }
 }
 
+/// The table of a language.
+fn table(language: Language) -> &'static str {
+    match language {
+        Language::En => include_str!("../../texts/en.toml"),
+        Language::De => include_str!("../../texts/de.toml"),
+        Language::Es => include_str!("../../texts/es.toml"),
+        Language::Zh => include_str!("../../texts/zh.toml"),
+    }
+}
+
 /// Sounds in words.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -139,12 +294,20 @@ struct Heard {
 }
 
 impl Texts {
-    /// Those of English, which the program carries.
+    /// Those of English.
+    ///
+    /// # Errors
+    /// As for [`Texts::of`].
+    pub fn english() -> Result<Self, Failure> {
+        Self::of(Language::En)
+    }
+
+    /// Those of that language, which the program carries.
     ///
     /// # Errors
     /// [`Failure::Other`] where a key is missing or unknown, which a test rules out.
-    pub fn english() -> Result<Self, Failure> {
-        toml::from_str(include_str!("../../texts/en.toml")).other()
+    pub fn of(language: Language) -> Result<Self, Failure> {
+        toml::from_str(table(language)).other()
     }
 
     /// Sounds, for who does not hear them; `None` in silence.
@@ -177,6 +340,7 @@ impl Texts {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::vr::menu::CHOICES;
     use std::collections::BTreeSet;
 
     #[test]
@@ -199,10 +363,78 @@ mod tests {
         assert_eq!(both.as_deref(), Some("[pouring, drops fall]"));
     }
 
+    /// A text's holes, in the order of their names.
+    fn holes(text: &str) -> BTreeSet<&str> {
+        let parts = text.split('{').skip(1);
+        parts.map(|part| part.split('}').next().unwrap()).collect()
+    }
+
+    /// All texts of a table, each by its key.
+    fn leaves(prefix: &str, value: &toml::Value, found: &mut BTreeMap<String, String>) {
+        match value {
+            toml::Value::Table(table) => {
+                for (key, value) in table {
+                    leaves(&format!("{prefix}.{key}"), value, found);
+                }
+            }
+            other => {
+                found.insert(prefix.to_owned(), other.as_str().unwrap().to_owned());
+            }
+        }
+    }
+
+    /// Each language has each key of English, with its holes, and says it in words of its own.
+    #[test]
+    fn each_language_says_all_that_english_says() {
+        let of = |language| {
+            let mut found = BTreeMap::new();
+            let value: toml::Value = toml::from_str(table(language)).unwrap();
+            leaves("", &value, &mut found);
+            assert!(Texts::of(language).is_ok(), "{language}");
+            found
+        };
+        let english = of(Language::En);
+        for language in Language::ALL {
+            let other = of(language);
+            assert!(other.keys().eq(english.keys()), "{language}");
+            let mut same = Vec::new();
+            for (key, text) in &english {
+                assert_eq!(holes(&other[key]), holes(text), "{language} {key}");
+                assert!(!other[key].is_empty(), "{language} {key}");
+                // What has no word in it is the same in each language.
+                let worded = text.chars().filter(|it| it.is_alphabetic()).count() > 4;
+                if worded && &other[key] == text {
+                    same.push(key);
+                }
+            }
+            // {number} / {of}   {text}, {points} / {of}
+            same.retain(|key| !key.starts_with(".lesson."));
+            assert!(
+                same.is_empty() || language == Language::En,
+                "{language}: {same:?}"
+            );
+        }
+    }
+
+    /// Each scene that can be chosen has its text, and no other has one.
+    #[test]
+    fn each_choice_has_its_text() {
+        let choices: BTreeSet<&str> = CHOICES.iter().map(|choice| choice.scene).collect();
+        for language in Language::ALL {
+            let words = Texts::of(language).unwrap().panel.scene;
+            let named: BTreeSet<&str> = words.keys().map(String::as_str).collect();
+            assert_eq!(named, choices, "{language}");
+        }
+        let english = Texts::english().unwrap().panel;
+        for choice in CHOICES {
+            assert_eq!(english.scene(choice.scene), choice.title);
+        }
+    }
+
     #[test]
     fn a_table_lacks_nothing_and_has_nothing_else() {
-        let text = include_str!("../../texts/en.toml");
+        let text = table(Language::En);
         assert!(toml::from_str::<Texts>(&text.replace("knock =", "# knock =")).is_err());
-        assert!(toml::from_str::<Texts>(&format!("{text}\nbang = \"a bang\"\n")).is_err());
+        assert!(toml::from_str::<Texts>(&format!("bang = \"a bang\"\n{text}")).is_err());
     }
 }

@@ -16,6 +16,7 @@ use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
 use vitriol::vr::workbench::Plan;
 use vitriol_experiment::Scenes;
 use vitriol_gpu::Gpu;
+use vitriol_lesson::Language;
 use vitriol_sim::scene::Preset;
 use vitriol_sound::Device;
 use vitriol_tests::wait::PATIENCE;
@@ -234,6 +235,7 @@ pub fn options(folder: &Path) -> Options {
         hints: false,
         console: None,
         course: None,
+        language: Language::En,
     }
 }
 

@@ -6,8 +6,9 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 7] = [
+pub const NAMES: [&str; 8] = [
     "two-flasks",
+    "dilute",
     "shake",
     "three-flasks",
     "slow-pour",
@@ -20,6 +21,7 @@ pub const NAMES: [&str; 7] = [
 pub fn text(name: &str) -> Option<&'static str> {
     match name {
         "two-flasks" => Some(include_str!("../../tracks/two-flasks.toml")),
+        "dilute" => Some(include_str!("../../tracks/dilute.toml")),
         "shake" => Some(include_str!("../../tracks/shake.toml")),
         "three-flasks" => Some(include_str!("../../tracks/three-flasks.toml")),
         "slow-pour" => Some(include_str!("../../tracks/slow-pour.toml")),

@@ -76,6 +76,7 @@ mod tests {
             lesson: Some(lesson),
             ..Info::default()
         };
+        let words = crate::vr::texts::Texts::english().unwrap().panel;
         let context = Context::default();
         view::style(&context);
         let [width, height] = PANEL.map(|side| side as f32);
@@ -87,7 +88,7 @@ mod tests {
         let mut shapes = Vec::new();
         for _ in 0..2 {
             let output = context.run(input(), |context| {
-                view::show(context, &info, None, None);
+                view::show(context, (&info, &words), None, None);
             });
             shapes = output.shapes;
         }

@@ -3,6 +3,8 @@
 //! It is drawn in the scene, and shown by a headset in a layer of its own under the picture (`xr/src/session/layers.rs`). A hand
 //! that points at it has a ray.
 
+#[cfg(test)]
+mod fits;
 mod lesson;
 mod view;
 
@@ -18,6 +20,7 @@ use super::decision::Decision;
 use super::hold::Hold;
 use super::info::Info;
 use super::painter::{self, Painter};
+use super::texts::{PanelTexts, Texts};
 
 /// Width and height of the panel, pixels.
 pub const PANEL: [u32; 2] = [1024, 864];
@@ -42,6 +45,7 @@ const PRESSES: f32 = 0.6;
 
 /// See the module.
 pub struct Panel {
+    words: PanelTexts,
     context: egui::Context,
     painter: Painter,
     /// Its picture.
@@ -78,7 +82,7 @@ struct Shown {
 const RING: f32 = 20.0;
 
 impl Panel {
-    /// A panel that shows nothing yet.
+    /// A panel that shows nothing yet, in English.
     ///
     /// # Errors
     /// What the device says.
@@ -86,6 +90,7 @@ impl Panel {
         let context = egui::Context::default();
         view::style(&context);
         Ok(Self {
+            words: Texts::english()?.panel,
             context,
             painter: Painter::new(gpu, library, "panel")?,
             image: painter::image(gpu, "panel", PANEL)?,
@@ -99,6 +104,12 @@ impl Panel {
             pulled: [false; 2],
             shown: None,
         })
+    }
+
+    /// The same in the words of another language.
+    pub fn in_words(mut self, words: &PanelTexts) -> Self {
+        self.words = words.clone();
+        self
     }
 
     /// Takes in where the free hands point (in the scene's stage) in the frame that is shown at `now` (ns), shows `info`, and
@@ -198,7 +209,8 @@ impl Panel {
         let mut seen = view::Seen::default();
         let ring = shown.ring.map(|step| step as f32 / RING);
         let output = self.context.run(input, |context| {
-            seen = view::show(context, &shown.info, shown.pointer, ring);
+            let said = (&shown.info, &self.words);
+            seen = view::show(context, said, shown.pointer, ring);
         });
         let meshes = self.context.tessellate(output.shapes, 1.0);
         self.painter.take(meshes, output.textures_delta);

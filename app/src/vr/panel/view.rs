@@ -12,8 +12,9 @@ use vitriol_render::tints;
 
 use super::lesson;
 use crate::vr::decision::Decision;
-use crate::vr::info::{Effort, FlaskLine, Happened, Info, burns_text};
+use crate::vr::info::{FlaskLine, Happened, Info, burns_text};
 use crate::vr::menu::{self, CHOICES};
+use crate::vr::texts::PanelTexts;
 
 /// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
 /// on the panel (`lines_are_seen_at_one_degree_and_a_fifth`): three times what print at arm's length has.
@@ -73,16 +74,21 @@ pub struct Seen {
 }
 
 /// Lays the panel out; `ring` is how far a button that is held has come, 0 to 1.
-pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<f32>) -> Seen {
+pub fn show(
+    context: &Context,
+    (info, words): (&Info, &PanelTexts),
+    pointer: Option<Pos2>,
+    ring: Option<f32>,
+) -> Seen {
     let mut seen = Seen::default();
     told(context, info);
     let frame = Frame::new().inner_margin(Margin::same(22));
     CentralPanel::default().frame(frame).show(context, |ui| {
         match &info.happened {
-            Some(happened) => summary(ui, info, happened, &mut seen),
+            Some(happened) => summary(ui, (info, words), happened, &mut seen),
             None => ui.columns(2, |columns| {
-                readings(&mut columns[0], info);
-                buttons(&mut columns[1], info, &mut seen);
+                readings(&mut columns[0], info, words);
+                buttons(&mut columns[1], (info, words), &mut seen);
             }),
         }
         let painter = ui.painter();
@@ -99,7 +105,7 @@ pub fn show(context: &Context, info: &Info, pointer: Option<Pos2>, ring: Option<
             painter.circle_filled(middle, 152.0, ground);
             filling(painter, middle, 134.0, per_cent as f32 / 100.0);
             let font = FontId::proportional(HEADING);
-            painter.text(middle, Align2::CENTER_CENTER, "from the start", font, WHITE);
+            painter.text(middle, Align2::CENTER_CENTER, &words.starting, font, WHITE);
         }
     });
     seen
@@ -141,7 +147,7 @@ fn filling(painter: &Painter, middle: Pos2, radius: f32, share: f32) {
 }
 
 /// What happened, over the whole panel.
-fn summary(ui: &mut Ui, info: &Info, happened: &Happened, seen: &mut Seen) {
+fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened, seen: &mut Seen) {
     ui.horizontal(|ui| {
         ui.heading(&happened.title);
         if let Some(points) = &happened.points {
@@ -168,7 +174,7 @@ fn summary(ui: &mut Ui, info: &Info, happened: &Happened, seen: &mut Seen) {
     }
     lines(ui, [happened.more.clone()], FAINT);
     ui.add_space(8.0);
-    let ends = (info.ends).then(|| format!("{} again ends the session", menu::END));
+    let ends = (info.ends).then(|| words.ends(menu::END));
     lines(ui, [ends], WARNING);
     let size = vec2(0.5 * ui.available_width(), 46.0);
     let key = menu::SUMMARY.to_ascii_uppercase();
@@ -178,27 +184,27 @@ fn summary(ui: &mut Ui, info: &Info, happened: &Happened, seen: &mut Seen) {
     }
 }
 
-fn readings(ui: &mut Ui, info: &Info) {
+fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     ui.heading(&info.scene);
     ui.add_space(6.0);
     for flask in &info.flasks {
-        thermometer(ui, flask);
+        thermometer(ui, flask, words);
     }
     ui.add_space(8.0);
     if info.acid {
-        legend(ui);
+        legend(ui, words);
     }
     ui.add_space(8.0);
     let slow = info.slow;
     let notes = [
-        info.spilt.text(),
-        burns_text(info.burns),
-        (info.device_lost).then(|| "the graphics card failed; nothing was lost".into()),
-        slow.map(|per_cent| format!("slow motion: {per_cent} % of real time")),
-        info.effort.as_ref().map(Effort::text),
+        info.spilt.text(&words.spilt),
+        burns_text(info.burns, &words.acid_on),
+        (info.device_lost).then(|| words.device_lost.clone()),
+        slow.map(|per_cent| words.slow(per_cent)),
+        info.effort.as_ref().map(|it| it.text(&words.effort)),
     ];
     lines(ui, notes, WARNING);
-    let missed = (info.missed > 0).then(|| format!("{} pictures missed", info.missed));
+    let missed = (info.missed > 0).then(|| words.missed(info.missed));
     lines(ui, [missed], FAINT);
 }
 
@@ -212,28 +218,27 @@ fn lines<const N: usize>(ui: &mut Ui, texts: [Option<String>; N], colour: Color3
 }
 
 /// What the session does beside the bench.
-fn state(ui: &mut Ui, info: &Info) {
+fn state(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     let coming = info.coming.as_ref();
     let ends = info.ends;
     let before = [
-        coming.map(|coming| format!("setting up {coming} …")),
-        ends.then(|| format!("{} again ends the session", menu::END)),
+        coming.map(|coming| words.coming(coming)),
+        ends.then(|| words.ends(menu::END)),
     ];
     lines(ui, before, WARNING);
     lines(ui, [info.heard.clone()], WHITE);
     let seconds = info.recording;
-    let recording =
-        seconds.map(|seconds| format!("recording, {} min {:02} s", seconds / 60, seconds % 60));
+    let recording = seconds.map(|seconds| words.recording(seconds));
     lines(ui, [recording], RECORDING);
     let unwritten = info.unwritten;
     let trouble = [
-        (info.waits_for_disk).then(|| "the recording waits: make room on the disk".into()),
-        (unwritten > 0).then(|| format!("{unwritten} steps not recorded")),
+        (info.waits_for_disk).then(|| words.waits.clone()),
+        (unwritten > 0).then(|| words.unwritten(unwritten)),
     ];
     lines(ui, trouble, WARNING);
 }
 
-fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
+fn thermometer(ui: &mut Ui, flask: &FlaskLine, words: &PanelTexts) {
     ui.label(RichText::new(&flask.name).color(FAINT));
     let wide = ui.available_width();
     let (rect, _) = ui.allocate_exact_size(vec2(wide, 34.0), Sense::hover());
@@ -257,7 +262,7 @@ fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
     }
     let celsius = flask.temperature;
     let text = match celsius {
-        _ if flask.broken => "broken".to_owned(),
+        _ if flask.broken => words.broken.clone(),
         None => "–".to_owned(),
         Some(celsius) => format!("{celsius} °C"),
     };
@@ -266,15 +271,19 @@ fn thermometer(ui: &mut Ui, flask: &FlaskLine) {
     painter.text(at, Align2::LEFT_CENTER, text, font, WHITE);
     if let Some(acid) = flask.acid {
         let at = pos2(rect.max.x, tube.center().y);
-        let (text, font) = (format!("{acid} % acid"), FontId::proportional(TEXT));
+        let (text, font) = (words.acid(acid), FontId::proportional(TEXT));
         painter.text(at, Align2::RIGHT_CENTER, text, font, FAINT);
     }
 }
 
 /// The tints, and that they are artificial.
-fn legend(ui: &mut Ui) {
+fn legend(ui: &mut Ui, words: &PanelTexts) {
     ui.horizontal(|ui| {
-        for (tint, name) in [(tints::WATER, "water"), (tints::ACID, "sulfuric acid")] {
+        let tinted = [
+            (tints::WATER, &words.water),
+            (tints::ACID, &words.sulfuric_acid),
+        ];
+        for (tint, name) in tinted {
             let channels = tints::seen_through(tint);
             let [r, g, b] = channels.map(|share| (255.0 * share).round() as u8);
             let (rect, _) = ui.allocate_exact_size(Vec2::splat(24.0), Sense::hover());
@@ -283,10 +292,10 @@ fn legend(ui: &mut Ui) {
             ui.label(name);
         }
     });
-    ui.label(RichText::new("the tints are artificial").color(FAINT));
+    ui.label(RichText::new(&words.tints).color(FAINT));
 }
 
-fn buttons(ui: &mut Ui, info: &Info, seen: &mut Seen) {
+fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     let size = vec2(ui.available_width(), 46.0);
     let mut button = |ui: &mut Ui, text: String, chosen: bool, decision: Decision| {
         let button = Button::new(text).min_size(size).selected(chosen);
@@ -299,7 +308,7 @@ fn buttons(ui: &mut Ui, info: &Info, seen: &mut Seen) {
             seen.clicked = Some(decision);
         }
     };
-    ui.label(RichText::new("hold for a second").color(FAINT));
+    ui.label(RichText::new(&words.hold).color(FAINT));
     let shown = info.lesson.as_ref();
     let asks = shown.into_iter().flat_map(lesson::asks);
     let asks: Vec<_> = asks.collect();
@@ -309,21 +318,21 @@ fn buttons(ui: &mut Ui, info: &Info, seen: &mut Seen) {
         ui.add_enabled_ui(on, |ui| button(ui, text, false, decision));
     }
     for choice in scenes {
-        let text = format!("{}   {}", choice.key, choice.title);
+        let text = format!("{}   {}", choice.key, words.scene(choice.scene));
         let decision = Decision::Scene(choice.scene.into());
         button(ui, text, info.scene == choice.scene, decision);
     }
     let key = |key: char| key.to_ascii_uppercase();
-    let start = format!("{}   From the start", key(menu::START));
+    let start = format!("{}   {}", key(menu::START), words.start);
     button(ui, start, false, Decision::Start);
     ui.add_space(10.0);
-    let recentre = format!("{}   Bench before me", key(menu::RECENTRE));
+    let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
     button(ui, recentre, false, Decision::Recentre);
     if !shown.is_some_and(|it| it.quiet) {
-        let summary = format!("{}   What happened", key(menu::SUMMARY));
+        let summary = format!("{}   {}", key(menu::SUMMARY), words.happened);
         button(ui, summary, false, Decision::Summary);
     }
-    state(ui, info);
+    state(ui, info, words);
 }
 
 #[cfg(test)]

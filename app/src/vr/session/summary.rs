@@ -1,7 +1,7 @@
 //! What happened in the attempt, for who asks on the panel.
 
 use vitriol_experiment::{Blame, Failure, Looks};
-use vitriol_lesson::{Attempt, Event, Rubric, Score, Sentence, Texts, Tone, sentences};
+use vitriol_lesson::{Attempt, Event, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
 
 use crate::vr::info::Happened;
 use crate::vr::texts::SummaryTexts;
@@ -21,13 +21,13 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// Not asked for yet.
+    /// Not asked for yet, in that language.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
-    pub fn new() -> Result<Self, Failure> {
+    pub fn new(language: Language) -> Result<Self, Failure> {
         Ok(Self {
-            texts: Texts::english().other()?,
+            texts: Texts::of(language).other()?,
             rubric: Rubric::default(),
             asked: false,
             shown: None,
@@ -94,7 +94,7 @@ impl Summary {
 
 /// Those that fit, in their order, and how many do not: what went wrong before what went well, and that before the rest.
 fn fitting(all: Vec<Sentence>) -> (Vec<Sentence>, usize) {
-    let lines = |it: &Sentence| it.text.chars().count().div_ceil(LINE);
+    let lines = |it: &Sentence| columns(&it.text).div_ceil(LINE);
     let mut chosen = vec![false; all.len()];
     let mut left = LINES;
     for tone in [Tone::Bad, Tone::Good, Tone::Plain] {
@@ -113,10 +113,27 @@ fn fitting(all: Vec<Sentence>) -> (Vec<Sentence>, usize) {
     (said, more)
 }
 
+/// Width of a text in Latin characters: a Chinese one, and its full stop, are twice as wide.
+fn columns(text: &str) -> usize {
+    text.chars()
+        .map(|it| if it >= '\u{2e80}' { 2 } else { 1 })
+        .sum()
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_chinese_character_is_twice_as_wide() {
+        let long = |count| Sentence {
+            text: "酸".repeat(count),
+            ..sentence(Tone::Bad, 0)
+        };
+        assert_eq!(fitting(vec![long(LINES * LINE / 2)]).1, 0);
+        assert_eq!(fitting(vec![long(LINES * LINE / 2 + 1)]).1, 1);
+    }
 
     fn sentence(tone: Tone, length: usize) -> Sentence {
         Sentence {

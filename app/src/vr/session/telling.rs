@@ -7,7 +7,6 @@ use vitriol_xr::Shown;
 use super::Session;
 use super::instructor::{Asked, Now};
 use crate::vr::decision::Decision;
-use crate::vr::menu::CHOICES;
 
 impl Session {
     /// Does what the instructor asked for; whether that is to end.
@@ -18,10 +17,7 @@ impl Session {
             let said = match asked {
                 Some(Asked::Decided(decision)) => {
                     let said = match &decision {
-                        Decision::Scene(name) => {
-                            let titled = CHOICES.iter().find(|choice| choice.scene == name);
-                            words.scene(titled.map_or(name, |choice| choice.title))
-                        }
+                        Decision::Scene(name) => words.scene(self.texts.panel.scene(name)),
                         _ => words.start.clone(),
                     };
                     self.choices.add(Some(decision));

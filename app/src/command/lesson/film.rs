@@ -1,0 +1,197 @@
+//! A lesson's film, to be seen before the headset goes on: a track goes through the lesson, and subtitles say what is to be done and what
+//! happens.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::Serialize;
+use vitriol_experiment::progress::Runs;
+use vitriol_experiment::{
+    Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
+    Setup, Subtitles, emit, in_a_line, output,
+};
+use vitriol_lesson::procedure::Verdict;
+use vitriol_lesson::{Attempt, Language, Lesson, Mode, Texts};
+use vitriol_shaders::Library;
+use vitriol_xr::track::{TrackSource, builtin, load};
+
+use super::subtitles::{Told, Words, cues};
+use crate::cli::LessonArgs;
+use crate::command::course;
+use crate::command::plan::{Ask, Plan};
+use crate::vr::texts::Texts as Around;
+
+/// How the film goes through a lesson, whatever its modes: each step is shown while it is to be done.
+const MODE: Mode = Mode::Guided;
+
+/// What is printed of a film.
+#[derive(Debug, Serialize)]
+struct Filmed {
+    film: String,
+    lesson: String,
+    track: String,
+    simulated_s: f64,
+    subtitles: Vec<&'static str>,
+    /// What the track's pour comes to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verdict: Option<Verdict>,
+}
+
+/// Makes the film of that lesson.
+///
+/// # Errors
+/// [`Failure::Input`] for a file that exists or a bad track, [`Failure::NoDevice`], [`Failure::Other`].
+pub fn make(
+    (args, path): (&LessonArgs, &Path),
+    lesson: &Lesson,
+    format: Format,
+    prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
+) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let file = path.file_name().and_then(|name| name.to_str());
+    let file = file.ok_or_else(|| format!("--film {}: names no file", path.display()));
+    output::new_file(folder, file.input()?)?;
+    let track = match &args.track {
+        Some(track) => track.clone(),
+        None => usual(lesson)?,
+    };
+    let ask = Ask {
+        track: &track,
+        scene: Some(&lesson.scene),
+        preset: args.preset,
+        device: args.device.as_deref(),
+        ..Ask::default()
+    };
+    let plan = Plan::new(&ask)?;
+    let mut experiment = prepare(&Setup {
+        scene: &plan.scene,
+        scene_name: &plan.name,
+        scenes: &plan.scenes,
+        preset: plan.preset,
+        seed: plan.seed,
+        device: args.device.as_deref(),
+        picture: Some(FILM_SIZE),
+        colours: vec![Colour::Liquid],
+        eyes: 1,
+        filter: None,
+        head: None,
+        shaders: Arc::new(Library::embedded()),
+    })?;
+    let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));
+    experiment.judge(course::judging((lesson, MODE), scene)?);
+
+    std::fs::create_dir_all(folder).other()?;
+    let film = Film::with_sound(path, FILM_SIZE, FILM_FPS).other()?;
+    let shown = Runs::new(format).of(&track, plan.span);
+    let mut observer = Observer::new(plan.span, vec![film], shown);
+    let mut source = TrackSource::new(plan.track);
+    vitriol_experiment::run(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
+    let outcome = experiment.outcome()?;
+    let verdict = Verdict::retold(lesson, MODE, &outcome.progress).pop();
+    let seconds = plan.span.seconds();
+    let subtitles = subtitles(lesson, args.language, (&outcome, verdict.as_ref()), seconds)?;
+    observer.finish_with(&subtitles)?;
+
+    let filmed = Filmed {
+        film: path.display().to_string(),
+        lesson: lesson.name.clone(),
+        track,
+        simulated_s: seconds,
+        subtitles: lesson.languages().into_iter().map(Language::code).collect(),
+        verdict,
+    };
+    let around = Around::of(args.language)?.summary;
+    emit(format, &filmed, |filmed| {
+        let points = filmed.verdict.as_ref();
+        let points = points.map(|it| format!("\n{}", around.points(it.points, it.of)));
+        format!(
+            "{}{}\nsubtitles: {}\n",
+            in_a_line(&filmed.film),
+            points.unwrap_or_default(),
+            filmed.subtitles.join(", ")
+        )
+    })
+}
+
+/// The built-in track that is made for the lesson's scene.
+fn usual(lesson: &Lesson) -> Result<String, Failure> {
+    for name in builtin::NAMES {
+        if load(name).other()?.metadata.scene == lesson.scene {
+            return Ok(name.to_owned());
+        }
+    }
+    let scene = &lesson.scene;
+    Err(format!("--track: no built-in track is made for the scene {scene}; name one, such as dilute or a recording"))
+        .input()
+}
+
+/// Those of each of the lesson's languages; a player shows those of `shown` unasked.
+fn subtitles(
+    lesson: &Lesson,
+    shown: Language,
+    (outcome, verdict): (&Outcome, Option<&Verdict>),
+    seconds: f64,
+) -> Result<Vec<Subtitles>, Failure> {
+    let attempts = Attempt::all(outcome.events.iter().cloned());
+    let told = Told {
+        progress: &outcome.progress,
+        attempts: &attempts,
+        verdict,
+        seconds,
+    };
+    let languages = lesson.languages();
+    // English stands in for a language that the lesson does not have.
+    let shown = *languages
+        .iter()
+        .find(|it| **it == shown)
+        .unwrap_or(&Language::En);
+    let of = |language| {
+        let (texts, around) = (Texts::of(language).other()?, Around::of(language)?);
+        let words = Words {
+            lesson: lesson.texts(language),
+            texts: &texts,
+            summary: &around.summary,
+        };
+        Ok(Subtitles {
+            language: code(language),
+            shown: language == shown,
+            cues: cues(&words, &told),
+        })
+    };
+    languages.into_iter().map(of).collect()
+}
+
+/// ISO 639-2/T.
+fn code(language: Language) -> [u8; 3] {
+    *match language {
+        Language::En => b"eng",
+        Language::De => b"deu",
+        Language::Es => b"spa",
+        Language::Zh => b"zho",
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_film_shows_the_track_of_the_lessons_scene() {
+        let usual = |name| usual(&Lesson::builtin(name).unwrap());
+        assert_eq!(usual("dilute").unwrap(), "dilute");
+        assert_eq!(usual("examination").unwrap(), "dilute");
+        let none = usual("wrong-order").unwrap_err().to_string();
+        assert!(none.contains("water-into-acid"), "{none}");
+    }
+
+    /// Of ISO 639-2's two codes that of the language's own name.
+    #[test]
+    fn each_language_has_a_code_of_its_own() {
+        let codes = Language::ALL.map(code);
+        assert_eq!(codes, [*b"eng", *b"deu", *b"spa", *b"zho"]);
+    }
+}
