@@ -224,7 +224,7 @@ mod tests {
         shown.acts.iter().map(|it| (it.act, it.on)).collect()
     }
 
-    /// All steps of each lesson are listed whole in each language.
+    /// Steps of each lesson are listed whole in each language; of a lesson with more than fit, those that are to be done first.
     #[test]
     fn each_lesson_fits_in_each_language() {
         for name in Lesson::builtin_names() {
@@ -234,7 +234,9 @@ mod tests {
                 let all = listed(&lesson, &state, language);
                 let (steps, more) = fitting(all.clone(), LINES, language);
                 let count = lesson.steps.len();
-                assert_eq!((steps.len(), more), (count, 0), "{name} {language}");
+                assert_eq!(steps.len() + more, count, "{name} {language}");
+                assert!(steps.len() >= count.min(3), "{name} {language}: {more}");
+                assert_eq!(steps[0].1, all[0].1);
                 // With a hint there may be less room: what is to be done is there.
                 let hints = lesson.texts(language).step.values();
                 let hint = hints.map(|step| lines(&step.hint, language)).max();
@@ -250,19 +252,30 @@ mod tests {
         let shown = said(&judge, None);
         let marks = |shown: &Shown| shown.steps.iter().map(|it| it.0).collect::<Vec<_>>();
         use Mark::{Done, Missed, Open, Waiting};
-        assert_eq!(marks(&shown), [Open, Waiting, Waiting, Waiting]);
-        assert!(shown.steps[1].1.starts_with("Pour the acid"));
-        assert_eq!((shown.note.as_deref(), shown.quiet), (None, false));
+        // Six of eight fit, with a line that says so.
+        let (first, rest) = (marks(&shown)[0], &marks(&shown)[1..]);
+        assert_eq!((first, rest), (Open, &[Waiting; 5][..]));
+        assert!(shown.steps[2].1.starts_with("Pour the acid"));
+        assert_eq!(shown.note.as_deref(), Some("More steps: 2"));
+        assert!(!shown.quiet);
         assert_eq!(acts(&shown), [(Act::Hint, true), (Act::Finish, true)]);
-        judge.skip("lift", 1.0);
-        assert_eq!(marks(&said(&judge, None)), [Missed, Open, Waiting, Waiting]);
+        judge.skip("dress", 1.0);
+        assert_eq!(marks(&said(&judge, None))[..3], [Missed, Open, Waiting]);
         let mut sight = Sight::default();
         sight.flasks.push(Default::default());
         sight.flasks[0].name = "source".into();
         sight.flasks[0].held = true;
+        (sight.goggles, sight.gloves) = (Some(true), Some(true));
         let mut judge = begun("dilute", Mode::Free);
         judge.advance(&sight, &[]);
-        assert_eq!(marks(&said(&judge, None)), [Done, Open, Waiting, Waiting]);
+        // What is done makes room for what is to be done.
+        let shown = said(&judge, None);
+        assert_eq!(marks(&shown)[..3], [Open, Waiting, Waiting]);
+        assert!(shown.steps[0].1.starts_with("Pour the acid"));
+        let state = judge.state().steps;
+        assert_eq!(state[1].status, Status::Done);
+        let listed = listed(judge.lesson(), &judge.state(), Language::En);
+        assert_eq!(listed[0].0, Done);
     }
 
     #[test]
@@ -274,7 +287,7 @@ mod tests {
                 .step
                 .starts_with("Examination: diluting sulfuric acid: Dilute the 98")
         );
-        assert_eq!(shown.note.as_deref(), Some("Number of steps: 3"));
+        assert_eq!(shown.note.as_deref(), Some("Number of steps: 5"));
         assert_eq!(acts(&shown), [(Act::Finish, true)]);
         assert!(shown.quiet && shown.steps.is_empty() && shown.hint.is_none());
         // Whatever was done or failed.
@@ -302,15 +315,15 @@ mod tests {
             acts(&said(&judge, None)),
             [(Act::Hint, true), (Act::Skip, true)]
         );
-        assert_eq!(to_hint(&judge.state(), None), Some("lift"));
-        judge.ask_hint("lift", 1.0).unwrap();
+        assert_eq!(to_hint(&judge.state(), None), Some("dress"));
+        judge.ask_hint("dress", 1.0).unwrap();
         // It is shown: there is no other.
-        let shown = said(&judge, Some("lift"));
+        let shown = said(&judge, Some("dress"));
         assert_eq!(acts(&shown), [(Act::Hint, false), (Act::Skip, true)]);
-        assert!(shown.hint.unwrap().starts_with("Bring a hand"));
-        judge.skip("lift", 2.0);
-        assert_eq!(to_hint(&judge.state(), Some("lift")), Some("pour"));
-        assert_eq!(said(&judge, Some("lift")).hint, None);
+        assert!(shown.hint.unwrap().starts_with("Bring the goggles"));
+        judge.skip("dress", 2.0);
+        assert_eq!(to_hint(&judge.state(), Some("dress")), Some("lift"));
+        assert_eq!(said(&judge, Some("dress")).hint, None);
         assert_eq!(
             to_hint(&begun("examination", Mode::Examination).state(), None),
             None
@@ -324,14 +337,19 @@ mod tests {
         judge.advance(&Sight::default(), &[]);
         let mut hinted: Option<String> = None;
         let mut order = Vec::new();
-        for t in 0..5 {
+        for t in 0..9 {
             let state = judge.state();
             let id = to_hint(&state, hinted.as_deref()).unwrap().to_owned();
             judge.ask_hint(&id, f64::from(t)).unwrap();
             order.push(id.clone());
             hinted = Some(id);
         }
-        assert_eq!(order, ["lift", "pour", "put-down", "concentration", "lift"]);
+        let ids = judge.lesson().steps.iter().map(|step| step.id.clone());
+        let mut all: Vec<String> = ids.collect();
+        // What lies nowhere is wiped.
+        all.retain(|id| id != "wipe");
+        assert_eq!(order[..7], all);
+        assert_eq!(order[7..], all[..2]);
     }
 
     /// Fifty long steps do not fit: those that are still to be done come first.

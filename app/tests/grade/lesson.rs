@@ -35,6 +35,11 @@ fn progress(put_down_s: Option<f64>) -> Vec<Progress> {
             lesson: id("dilute"),
             mode: Mode::Free,
         },
+        Progress::StepDone {
+            t_s: 0.05,
+            id: id("dress"),
+            evidence_s: 0.05,
+        },
         Progress::StepBegun {
             t_s: 0.0,
             id: id("lift"),
@@ -68,7 +73,10 @@ fn progress(put_down_s: Option<f64>) -> Vec<Progress> {
                 limit_m3: 1e-6,
             },
         },
+        missed("stir"),
+        missed("measure"),
         missed("concentration"),
+        missed("wipe"),
         Progress::Over { t_s: 0.5 },
     ]
 }
@@ -134,16 +142,16 @@ fn a_class_is_graded_by_its_lesson() {
             line.note
         );
     }
-    // 5 of 5, and half of 35 at the second try: 22 of 60, and as much of 10 for each of three rules that were kept.
+    // 15 of 15, and half of 25 at the second try: 27 of 70, and as much of 10, 10 and 5 for three rules that were kept.
     let ada = line(&class, "ada").lesson.as_ref().unwrap();
-    assert_eq!((ada.points, ada.of), (5 + 17 + 3 * 3, 100));
+    assert_eq!((ada.points, ada.of), (10 + 5 + 12 + 3 + 3 + 1, 100));
     assert!(
         ada.text()
-            .contains("put-down missed, concentration missed, clean broken")
+            .contains("put-down missed, stir missed, measure missed, concentration missed, wipe missed, clean broken")
     );
-    // 27 of 60.
+    // 32 of 70, which the rules' points are in proportion to.
     let bob = line(&class, "bob").lesson.as_ref().unwrap();
-    assert_eq!((bob.points, bob.of), (5 + 17 + 5 + 3 * 4, 100));
+    assert_eq!((bob.points, bob.of), (10 + 5 + 12 + 5 + 4 + 4 + 2, 100));
     // The class's other score is as without a lesson.
     assert_eq!(
         line(&class, "ada").points,
@@ -152,12 +160,15 @@ fn a_class_is_graded_by_its_lesson() {
 
     let table = fs::read_to_string(out.join("grades.csv")).unwrap();
     let row = |start: &str| table.lines().find(|it| it.starts_with(start)).unwrap();
-    let columns = "lesson [points],lesson of,step lift,step pour,step put-down,step concentration,\
-        rule order,rule cool,rule inside,rule clean,verified,note";
+    let columns = "lesson [points],lesson of,step dress,step lift,step pour,step put-down,step stir,step measure,\
+        step concentration,step wipe,rule order,rule cool,rule inside,rule clean,verified,note";
     assert!(row("student,").ends_with(columns), "{table}");
-    let cells = ",31,100,done,done,missed,missed,kept,kept,kept,broken,,";
+    let cells = ",34,100,done,done,done,missed,missed,missed,missed,missed,kept,kept,kept,broken,,";
     assert!(row("ada,").ends_with(cells), "{table}");
-    assert!(row("none,").contains(",,,,,,,,,,,made without"), "{table}");
+    assert!(
+        row("none,").contains(",,,,,,,,,,,,,,,made without"),
+        "{table}"
+    );
     let widths: Vec<usize> = table.lines().map(|it| it.matches(',').count()).collect();
     assert!(widths.iter().all(|it| *it == widths[0]), "{widths:?}");
 
@@ -273,7 +284,7 @@ fn a_replay_judges_a_lesson() {
     let lesson = &report["lesson"][0];
     assert_eq!(
         (&lesson["points"], &lesson["of"]),
-        (&39.into(), &100.into())
+        (&42.into(), &100.into())
     );
     assert_eq!(report["recording"]["same_progress"], true);
     let command = report["command"].as_str().unwrap();
@@ -284,7 +295,7 @@ fn a_replay_judges_a_lesson() {
     let bare = put(folder.path(), "bare.mcap", &recording(&events(1.5)));
     let report = replayed(&bare, &said, &BY).unwrap();
     assert!(report["recording"].get("same_progress").is_none());
-    assert_eq!(report["lesson"][0]["points"], 39);
+    assert_eq!(report["lesson"][0]["points"], 42);
     assert!(
         replayed(&track, &said, &[])
             .unwrap()
