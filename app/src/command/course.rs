@@ -25,7 +25,7 @@ impl JudgeArgs {
     /// The lesson that is asked for, if one is.
     ///
     /// # Errors
-    /// As for [`named`].
+    /// [`Failure::Input`] where there is no such lesson, it is spoiled, or has no such mode.
     pub fn chosen(&self) -> Result<Option<(Lesson, Mode)>, Failure> {
         let lesson = self.lesson.as_deref();
         lesson.map(|name| named(name, self.mode)).transpose()
