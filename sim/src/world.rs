@@ -10,7 +10,7 @@ pub use lifeline::{Kept, Lifeline, StateRecord};
 pub use look::Look;
 pub use start::{ground, particles};
 
-use crate::bodies::{Bodies, BodiesError, Break, Hand, Load, Shard, Strike};
+use crate::bodies::{Bodies, BodiesError, Break, GRIP_REACH, Hand, Load, Shard, Strike};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
@@ -402,6 +402,22 @@ impl World {
     /// What is left of the flasks that have broken.
     pub fn shards(&self) -> Vec<Shard> {
         self.bodies.shards()
+    }
+
+    /// Whether a hand holds anything, a flask or a tool.
+    pub fn holds(&self, hand: usize) -> bool {
+        let tools = 0..self.scene.tools.len();
+        let flasks = 0..self.scene.flasks.len();
+        (flasks.into_iter()).any(|flask| self.holder(flask) == Some(hand))
+            || (tools.into_iter()).any(|tool| self.tool_holder(tool) == Some(hand))
+    }
+
+    /// Whether a hand that closes at a point in the scene's frame would take something.
+    pub fn is_in_reach(&self, point: Vec3) -> bool {
+        let reach = GRIP_REACH / self.scene.scale.length_scale as f32;
+        let bodies = 0..self.scene.flasks.len() + self.scene.tools.len();
+        let mut distances = bodies.filter_map(|body| self.bodies.distance(body, point));
+        distances.any(|distance| distance <= reach)
     }
 
     /// Index of the hand that holds a flask.

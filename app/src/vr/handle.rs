@@ -84,6 +84,7 @@ impl Handles {
         self.touched = [false; 2];
         let middles = middles(world.scene())?;
         let scene_from_stage = stage_from_scene.inverse();
+        let scale = world.scene().scale.length_scale as f32;
         for side in Side::BOTH {
             let hand = now.hand(side);
             // Of a hand that is not seen nothing is known.
@@ -95,11 +96,11 @@ impl Handles {
             }
             let closes = self.closes(side, hand);
             let at = scene_from_stage.transform_point(hand.stage_from_grip.position);
-            let busy = holds_flask(world, side);
+            let busy = world.holds(side as usize);
             let reaches = |&n: &usize| distance(middles[n], at) <= GRIP_REACH;
             let near = (0..2)
                 .filter(reaches)
-                .find(|_| !busy && !is_at_flask(world, at));
+                .find(|_| !busy && !world.is_in_reach(at / scale));
             if let Some(handle) = near {
                 self.touched[handle] = true;
             }
@@ -172,20 +173,4 @@ impl Handles {
             vec![bone([-end, end], RADIUS), post(-inner), post(inner)]
         })
     }
-}
-
-/// Whether the hand holds a flask.
-fn holds_flask(world: &World, side: Side) -> bool {
-    let mut flasks = 0..world.scene().flasks.len();
-    flasks.any(|flask| world.holder(flask) == Some(side as usize))
-}
-
-/// Whether a hand there would grip a flask, which comes before a handle.
-fn is_at_flask(world: &World, at: Vec3) -> bool {
-    let scale = world.scene().scale.length_scale as f32;
-    let mut flasks = 0..world.scene().flasks.len();
-    flasks.any(|flask| {
-        let distance = world.distance(flask, at / scale);
-        distance.is_some_and(|distance| scale * distance <= GRIP_REACH)
-    })
 }

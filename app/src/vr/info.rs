@@ -251,7 +251,7 @@ mod tests {
         let one = burns_text([false, false, true], &words);
         assert_eq!(one.as_deref(), Some("acid on your face"));
         let all = burns_text([true; 3], &words);
-        let said = "acid on the left glove, the right glove and your face";
+        let said = "acid on your left hand, your right hand and your face";
         assert_eq!(all.as_deref(), Some(said));
     }
 }

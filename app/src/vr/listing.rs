@@ -265,7 +265,7 @@ mod tests {
         sight.flasks.push(Default::default());
         sight.flasks[0].name = "source".into();
         sight.flasks[0].held = true;
-        (sight.goggles, sight.gloves) = (Some(true), Some(true));
+        (sight.goggles, sight.gloves) = (Some(true), Some([true; 2]));
         let mut judge = begun("dilute", Mode::Free);
         judge.advance(&sight, &[]);
         // What is done makes room for what is to be done.

@@ -88,9 +88,9 @@ pub struct SpiltTexts {
 pub struct AcidOnTexts {
     /// Around the places.
     pub text: String,
-    /// The left glove.
+    /// The left hand.
     pub left: String,
-    /// The right glove.
+    /// The right hand.
     pub right: String,
     /// The face.
     pub face: String,

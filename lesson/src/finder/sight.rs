@@ -66,7 +66,7 @@ impl Finder {
             bench_m3: bench.volume(seen.census.table.volume),
             floor_m3: bench.volume(seen.census.floor.volume),
             goggles: seen.worn.goggles,
-            gloves: seen.worn.gloves.map(|on| on == [true; 2]),
+            gloves: seen.worn.gloves,
             sash_m: None,
             rod: self.dip(seen, ToolKind::Rod),
             thermometer: self.dip(seen, ToolKind::Thermometer),
@@ -228,7 +228,8 @@ mod tests {
                 dipped: &dipped,
             });
             assert_eq!(sight.thermometer, None);
-            assert_eq!((sight.goggles, sight.gloves), (Some(true), Some(false)));
+            let worn = (sight.goggles, sight.gloves);
+            assert_eq!(worn, (Some(true), Some([true, false])));
             let dip = sight.rod.unwrap();
             assert!((dip.speed_m_s - 0.2).abs() < 1e-6);
             dip.flask

@@ -40,7 +40,7 @@ pub enum Condition {
     /// Goggles are worn, or not.
     Goggles(Worn),
     /// Gloves are worn, or not.
-    Gloves(Worn),
+    Gloves(GlovesAre),
     /// The hood's sash is open so far.
     Sash(SashIs),
     /// A rod was moved in a flask's liquid.
@@ -144,6 +144,16 @@ pub struct TemperatureIs {
 pub struct Worn {
     /// It is; else it is taken off.
     pub on: bool,
+}
+
+/// See [`Condition::Gloves`].
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GlovesAre {
+    /// They are on; else they are taken off.
+    pub on: bool,
+    /// On that hand; on both without it.
+    pub hand: Option<HandName>,
 }
 
 /// See [`Condition::Sash`].

@@ -58,7 +58,7 @@ fn is_breached(keep: &Keep, sight: &Sight) -> Option<Why> {
             })
         }
         Keep::Goggles => bare(sight.goggles, Gear::Goggles),
-        Keep::Gloves => bare(sight.gloves, Gear::Gloves),
+        Keep::Gloves => bare(sight.gloves.map(|on| on == [true; 2]), Gear::Gloves),
         Keep::Sash(it) => {
             let height_m = sight.sash_m?;
             (height_m > it.at_most_m).then_some(Why::SashOpen {

@@ -41,8 +41,8 @@ pub struct Sight {
     pub floor_m3: f64,
     /// Whether goggles are worn.
     pub goggles: Option<bool>,
-    /// Whether gloves are worn, on both hands.
-    pub gloves: Option<bool>,
+    /// Whether a glove is on the left and on the right hand.
+    pub gloves: Option<[bool; 2]>,
     /// How far the hood's sash is open: its lower edge over the bench, m.
     pub sash_m: Option<f64>,
     /// The stirring rod.

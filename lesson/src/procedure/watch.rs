@@ -193,7 +193,13 @@ fn sees(
             leaf.lasts(fits, t, 0.0);
         }
         Condition::Goggles(it) => leaf.lasts(sight.goggles == Some(it.on), t, 0.0),
-        Condition::Gloves(it) => leaf.lasts(sight.gloves == Some(it.on), t, 0.0),
+        Condition::Gloves(it) => {
+            let so = sight.gloves.is_some_and(|gloves| match it.hand {
+                Some(hand) => gloves[hand.index()] == it.on,
+                None => gloves == [it.on; 2],
+            });
+            leaf.lasts(so, t, 0.0);
+        }
         Condition::Sash(SashIs {
             at_least_m,
             at_most_m,

@@ -54,6 +54,11 @@ impl GripState {
         self.took
     }
 
+    /// Whether it is closed.
+    pub(super) fn is_closed(&self) -> bool {
+        self.closed
+    }
+
     /// Whether it closed in this step, and on nothing that it holds.
     pub(super) fn closes_on_nothing(&self) -> bool {
         self.took && self.held.is_none()

@@ -15,6 +15,9 @@ const AT_EYES: f32 = 0.15;
 /// How near another hand's palm (m, at real size) a hand takes hold of its glove: a hand is 0.19 m long (median of adults:
 /// NASA-STD-3000), and its wrist is half of that from the palm's middle.
 const AT_HAND: f32 = 0.12;
+/// How far it must go from there (m, at real size), closed, until the glove is off: a hand that closes beside the other one, at a button or a
+/// flask, pulls nothing. A glove is 0.24 m long.
+const PULLED: f32 = 0.22;
 
 /// What is worn, where a scene has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,6 +37,8 @@ pub(super) struct Wearing {
     place: Option<Pose>,
     /// Whether a hand held the goggles in the last step.
     were_held: bool,
+    /// By hand, whether it has hold of the other's glove.
+    pulls: [bool; 2],
 }
 
 impl Wearing {
@@ -42,6 +47,7 @@ impl Wearing {
             worn,
             place: None,
             were_held: false,
+            pulls: [false; 2],
         }
     }
 
@@ -73,19 +79,27 @@ impl Wearing {
         }
         if let (Some(on), Some(gloves)) = (&mut self.worn.gloves, of_role(Role::Gloves)) {
             for hand in 0..hands.len() {
+                let (own, other) = (&hands[hand], &hands[1 - hand]);
+                if !(own.present && other.present && grips[hand].is_closed()) {
+                    self.pulls[hand] = false;
+                }
+                if !own.present {
+                    continue;
+                }
+                let at = own.stage_from_grip.position;
+                let apart = other.stage_from_grip.position.distance(at);
+                if self.pulls[hand] && apart > PULLED * scale {
+                    (self.pulls[hand], on[1 - hand]) = (false, false);
+                }
                 if !grips[hand].closes_on_nothing() {
                     continue;
                 }
-                let at = hands[hand].stage_from_grip.position;
-                let other = &hands[1 - hand];
                 let in_box = poses[gloves].inverse().transform_point(at);
-                let apart = other.stage_from_grip.position.distance(at);
-                if reach::signed_distance(&flasks[gloves].outline, in_box)
-                    <= super::GRIP_REACH * scale
-                {
+                let from_box = reach::signed_distance(&flasks[gloves].outline, in_box);
+                if from_box <= super::GRIP_REACH * scale {
                     on[hand] = true;
-                } else if other.present && apart <= AT_HAND * scale {
-                    on[1 - hand] = false;
+                } else {
+                    self.pulls[hand] = other.present && on[1 - hand] && apart <= AT_HAND * scale;
                 }
             }
         }

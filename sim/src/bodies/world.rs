@@ -241,7 +241,7 @@ impl Bodies {
         grip::holder(&self.state.grips, flask).map(|(hand, _)| hand)
     }
 
-    /// Distance (m) of a point of the stage from a flask's outer surface, which is closed at the rim; negative within. `None` of
+    /// Distance (m) of a point of the stage from the outer surface of a flask, or of a tool, which are counted behind the flasks, which is closed at the rim; negative within. `None` of
     /// a flask that nobody can grip, that is broken or not there.
     pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
         let shape = self.flasks.get(flask).filter(|shape| !shape.fixed)?;
@@ -338,6 +338,10 @@ impl Bodies {
         body.recompute_mass_properties_from_colliders(&self.rapier.colliders);
         body.set_linvel(linear, true);
         body.set_angvel(angular, true);
+        // Forces last until they are reset, and a tool bears none.
+        if flask.role.is_some() {
+            return;
+        }
 
         let (force, torque) = coupling::push(
             load,

@@ -10,6 +10,9 @@ use glam::{DQuat, DVec3, EulerRot};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
+/// How far a tool may be from the scene's origin along an axis, m: single precision knows a millimetre there.
+const FARTHEST: f64 = 1e4;
+
 /// What a tool is. A scene has one of each at most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -98,7 +101,11 @@ impl ToolEntry {
     pub fn build(self, index: usize, scale: &Scale) -> Result<Tool, Problem> {
         let field = |name: &str| format!("tool[{index}].{name}");
         for value in self.position {
-            require(&field("position"), value, true, "a finite number (metres)")?;
+            let (fits, must) = (
+                value.abs() <= FARTHEST,
+                "within 10 km of the origin (metres)",
+            );
+            require(&field("position"), value, fits, must)?;
         }
         require(&field("yaw"), self.yaw, true, "a finite number (degrees)")?;
         if self.worn && !self.kind.is_worn() {

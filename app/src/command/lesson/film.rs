@@ -77,7 +77,8 @@ pub fn make(
         colours: vec![Colour::Liquid],
         eyes: 1,
         filter: None,
-        head: None,
+        // Hands show how it is done, and only the head's view shows hands.
+        head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         shaders: Arc::new(Library::embedded()),
     })?;
     let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));

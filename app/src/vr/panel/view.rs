@@ -187,8 +187,15 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
 fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     ui.heading(&info.scene);
     ui.add_space(6.0);
+    // Who is examined is told nothing that it is judged by.
+    let quiet = info.lesson.as_ref().is_some_and(|it| it.quiet);
     for flask in &info.flasks {
-        thermometer(ui, flask, words);
+        let acid = flask.acid.filter(|_| !quiet);
+        let flask = FlaskLine {
+            acid,
+            ..flask.clone()
+        };
+        thermometer(ui, &flask, words);
     }
     ui.add_space(8.0);
     if info.acid {
@@ -197,8 +204,8 @@ fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     ui.add_space(8.0);
     let slow = info.slow;
     let notes = [
-        info.spilt.text(&words.spilt),
-        burns_text(info.burns, &words.acid_on),
+        info.spilt.text(&words.spilt).filter(|_| !quiet),
+        burns_text(info.burns, &words.acid_on).filter(|_| !quiet),
         (info.device_lost).then(|| words.device_lost.clone()),
         slow.map(|per_cent| words.slow(per_cent)),
         info.effort.as_ref().map(|it| it.text(&words.effort)),

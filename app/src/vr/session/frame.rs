@@ -67,7 +67,7 @@ impl Session {
                 .into_iter()
                 .filter(|side| frame.joints[*side as usize].is_none())
             {
-                let holds = held_by(world, side).next().is_some() || self.handles.is_held_by(side);
+                let holds = world.holds(side as usize) || self.handles.is_held_by(side);
                 latches.apply(side, &mut now.hands[side as usize], holds);
             }
         }
@@ -235,7 +235,7 @@ impl Session {
         let seen = self.placement.seen();
         let pointing = |side: Side| -> Option<&Hand> {
             let hand = seen.as_ref()?.hand(side);
-            let holds = held_by(world, side).next().is_some() || self.handles.is_held_by(side);
+            let holds = world.holds(side as usize) || self.handles.is_held_by(side);
             (hand.active && hand.valid && !holds).then_some(hand)
         };
         let hands = Side::BOTH.map(pointing);

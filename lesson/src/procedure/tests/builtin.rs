@@ -176,7 +176,13 @@ fn who_dilutes_correctly_has_all_points() {
             (sight.flasks[1].volume_m3, sight.flasks[1].acid) = (volume_ml * 1e-6, acid);
             sight
         };
-        procedure.advance(&at(0.0, false, 160.0, 0.0), &[]);
+        // Goggles and gloves lie there at first.
+        let mut bare = at(0.0, false, 160.0, 0.0);
+        (bare.goggles, bare.gloves) = (Some(false), Some([false; 2]));
+        procedure.advance(&bare, &[]);
+        (bare.t_s, bare.goggles) = (0.5, Some(true));
+        procedure.advance(&bare, &[]);
+        procedure.advance(&at(0.8, false, 160.0, 0.0), &[]);
         procedure.advance(&at(1.0, true, 160.0, 0.0), &[]);
         let Event::Poured(pour) = pour([2.0, 8.0], 19.0, 4.5, 0.98) else {
             panic!()
@@ -241,7 +247,7 @@ fn an_emergency_is_gone_through() {
     let lesson = Lesson::builtin("emergency").unwrap();
     let mut procedure = Procedure::new(lesson, Mode::Guided);
     let mut t = 0.0;
-    let mut look = |held: bool, gloves: bool, rinsed_ml: f64, bench_ml: f64| {
+    let mut look = |held: bool, gloves: [bool; 2], rinsed_ml: f64, bench_ml: f64| {
         for _ in 0..10 {
             t += STEP;
             let mut sight = sight(t);
@@ -255,14 +261,15 @@ fn an_emergency_is_gone_through() {
         let done = procedure.state().steps;
         done.iter().filter(|it| it.status == Status::Done).count()
     };
-    assert_eq!(look(true, true, 0.0, 2.0), 0);
-    assert_eq!(look(true, true, 39.0, 2.0), 0);
-    assert_eq!(look(true, true, 41.0, 2.0), 1);
-    assert_eq!(look(true, false, 41.0, 2.0), 2);
-    assert_eq!(look(true, false, 90.0, 2.0), 2);
-    assert_eq!(look(true, false, 92.0, 2.0), 3);
-    assert_eq!(look(false, false, 92.0, 2.0), 4);
-    assert_eq!(look(false, false, 92.0, 0.3), 5);
+    assert_eq!(look(true, [true; 2], 0.0, 2.0), 0);
+    assert_eq!(look(true, [true; 2], 39.0, 2.0), 0);
+    assert_eq!(look(true, [true; 2], 41.0, 2.0), 1);
+    assert_eq!(look(true, [false, true], 41.0, 2.0), 1, "the other glove");
+    assert_eq!(look(true, [true, false], 41.0, 2.0), 2);
+    assert_eq!(look(true, [true, false], 90.0, 2.0), 2);
+    assert_eq!(look(true, [true, false], 92.0, 2.0), 3);
+    assert_eq!(look(false, [true, false], 92.0, 2.0), 4);
+    assert_eq!(look(false, [true, false], 92.0, 0.3), 5);
     let verdict = procedure.verdict();
     assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
 }

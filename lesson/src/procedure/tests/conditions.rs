@@ -185,7 +185,7 @@ type Set<'a> = &'a dyn Fn(&mut Sight, Option<bool>);
 fn what_is_worn_is_on_or_off() {
     let set: [(&str, Set<'_>); 2] = [
         ("goggles", &|it, on| it.goggles = on),
-        ("gloves", &|it, on| it.gloves = on),
+        ("gloves", &|it, on| it.gloves = on.map(|on| [on; 2])),
     ];
     for (gear, set) in set {
         for on in [true, false] {

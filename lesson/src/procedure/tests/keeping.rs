@@ -113,11 +113,11 @@ fn gear_and_sash_are_kept() {
         1
     );
     assert_eq!(
-        broken("\"goggles\"", &|it| it.gloves = Some(false), &[]).len(),
+        broken("\"goggles\"", &|it| it.gloves = Some([true, false]), &[]).len(),
         0
     );
     assert_eq!(
-        broken("\"gloves\"", &|it| it.gloves = Some(false), &[]).len(),
+        broken("\"gloves\"", &|it| it.gloves = Some([true, false]), &[]).len(),
         1
     );
     assert_eq!(

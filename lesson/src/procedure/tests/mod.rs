@@ -55,7 +55,7 @@ fn sight(t_s: f64) -> Sight {
         t_s,
         flasks: vec![flask("a", 20e-6, 0.98), flask("b", 160e-6, 0.0)],
         goggles: Some(true),
-        gloves: Some(true),
+        gloves: Some([true; 2]),
         sash_m: Some(0.4),
         rod: Some(Dip::default()),
         thermometer: Some(Dip::default()),

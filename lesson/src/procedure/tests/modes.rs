@@ -210,7 +210,7 @@ fn the_same_looks_give_the_same_progress_which_is_kept_as_json() {
             run.wait(7.0);
             run.look(STEP, &lifts);
             run.hear(&[pour([11.0, 12.0], 6.0, 9.0, 0.98), boiled_over(11.5)]);
-            run.look(1.0, &|it| it.gloves = Some(false));
+            run.look(1.0, &|it| it.gloves = Some([false; 2]));
             run.hear(&[pour([18.2, 19.0], 6.0, 2.0, 0.98), spilt(18.5, 2.0)]);
             run.hear(&[ended(run.t)]);
             said.push((run.said, run.procedure.verdict(), run.procedure.state()));

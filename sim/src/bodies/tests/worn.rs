@@ -165,11 +165,17 @@ fn gloves_come_from_their_box_and_go_by_the_other_hand() {
     );
     both(left(far, 0.0), left(away, 0.0));
     let near = far + Vec3::X * 0.11;
-    assert_eq!(
-        both(left(far, 1.0), left(near, 0.0)),
-        [true, false],
-        "pulled off"
-    );
+    let by = |x: f32| far - Vec3::X * x;
+    for (to, squeeze, expected) in [
+        (by(0.10), 1.0, [true, true]),
+        (by(0.13), 0.0, [true, true]),
+        (by(0.13), 1.0, [true, false]),
+    ] {
+        both(left(far, 0.0), left(near, 0.0));
+        assert_eq!(both(left(far, 1.0), left(near, 0.0)), [true, true]);
+        // 0.21 and 0.24 m apart, the second time with an open hand.
+        assert_eq!(both(left(to, squeeze), left(near, 0.0)), expected, "{to}");
+    }
     // Nobody is at an absent hand.
     both(left(far, 0.0), Hand::ABSENT);
     assert_eq!(both(Hand::ABSENT, left(near, 1.0)), [true, false]);
