@@ -213,6 +213,12 @@ fn overturned(folder: &Path, fraction: &str) -> std::path::PathBuf {
         assert!(scene.contains(from));
         scene = scene.replacen(from, to, 1);
     }
+    // She wears what the scene has to put on.
+    for kind in ["goggles", "gloves"] {
+        let tool = format!("kind = \"{kind}\"\n");
+        assert!(scene.contains(&tool));
+        scene = scene.replacen(&tool, &format!("{tool}worn = true\n"), 1);
+    }
     std::fs::write(&file, scene).unwrap();
     file
 }

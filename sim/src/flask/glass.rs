@@ -103,12 +103,12 @@ impl Glass {
     }
 }
 
-/// Straight up to seven tenths of the height, a shoulder, and a neck of the uppermost fifth: ours, by the look of such bottles.
+/// Straight up to half of the height and a little more, a shoulder, and a neck of the uppermost quarter: ours, by the look of such bottles.
 fn bottle(body: f64, neck: f64, height: f64) -> Vec<[f64; 2]> {
     vec![
         [0.0, body],
-        [0.7 * height, body],
-        [0.8 * height, neck],
+        [0.55 * height, body],
+        [0.72 * height, neck],
         [height, neck],
     ]
 }
@@ -148,7 +148,9 @@ mod tests {
 
     #[test]
     fn holds_what_its_name_says() {
-        let nominal_ml = [250.0, 400.0, 600.0, 100.0, 250.0, 250.0, 2000.0];
+        let nominal_ml = [
+            250.0, 400.0, 600.0, 100.0, 250.0, 250.0, 250.0, 500.0, 2000.0,
+        ];
         assert_eq!(GLASSWARE.len(), nominal_ml.len());
         for (glass, nominal) in GLASSWARE.iter().zip(nominal_ml) {
             let capacity = glass.profile(1.0).unwrap().capacity() * 1e6;
