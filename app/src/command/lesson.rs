@@ -3,13 +3,12 @@
 mod film;
 mod subtitles;
 
-use std::path::Path;
-
 use serde::Serialize;
-use vitriol_experiment::{Blame, Experiment, Failure, Format, Scenes, Setup, emit};
-use vitriol_lesson::{Language, Lesson, SceneFacts, Texts};
+use vitriol_experiment::{Blame, Experiment, Failure, Format, Setup, emit};
+use vitriol_lesson::{Language, Lesson, Texts};
 
 use crate::cli::LessonArgs;
+use crate::command::course::open;
 
 /// What is printed of a lesson.
 #[derive(Debug, Serialize)]
@@ -97,24 +96,6 @@ pub fn run(
         }
         text
     })
-}
-
-/// The lesson of that name or file, which its scene has all for.
-///
-/// # Errors
-/// [`Failure::Input`] with file, field and what would be right.
-pub fn open(name: &str) -> Result<Lesson, Failure> {
-    let is_builtin = Lesson::builtin_names().contains(&name);
-    let lesson = match is_builtin {
-        true => Lesson::builtin(name),
-        false => Lesson::open(Path::new(name)),
-    };
-    let lesson = lesson.input()?;
-    let mut scenes = Scenes::default();
-    let scene = scenes.open(&lesson.scene)?;
-    let facts = SceneFacts::of(&lesson.scene, &scenes.get(&scene)?);
-    lesson.check(&facts).input()?;
-    Ok(lesson)
 }
 
 fn of(lesson: &Lesson, language: Language) -> Told {

@@ -176,7 +176,7 @@ fn conversion_keeps_every_bit_and_overwrites_nothing() {
 
     let message = load("two-flask").unwrap_err().to_string();
     assert!(
-        message.contains("two-flasks, shake, three-flasks"),
+        message.contains("two-flasks, dilute, shake, three-flasks"),
         "{message}"
     );
 }
