@@ -2,13 +2,15 @@
 //! of what measures in the crate `vitriol_study`.
 
 mod arguments;
+mod lesson;
 
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
-    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, JudgeArgs, KeepArgs,
-    LessonArgs, PagesArgs, PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs, PagesArgs,
+    PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
+pub use lesson::{JudgeArgs, LessonArgs};
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
 /// recorded or live hands.

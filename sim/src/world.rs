@@ -1,6 +1,7 @@
 //! The simulation's one entrance: a world that advances by a fixed step with
 //! that step's inputs.
 
+mod bodies;
 mod lifeline;
 mod look;
 mod start;
@@ -10,7 +11,7 @@ pub use lifeline::{Kept, Lifeline, StateRecord};
 pub use look::Look;
 pub use start::{ground, particles};
 
-use crate::bodies::{Bodies, BodiesError, Break, GRIP_REACH, Hand, Load, Shard, Strike};
+use crate::bodies::{Bodies, BodiesError, Hand, Load};
 use crate::fill::FillError;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
@@ -371,58 +372,6 @@ impl World {
     /// The particles on the device.
     pub fn solver(&self) -> &Solver {
         &self.solver
-    }
-
-    /// stage_from_flask of each flask, after the last step, in the scene's frame.
-    pub fn poses(&self) -> &[Pose] {
-        self.bodies.poses()
-    }
-
-    /// Distance (m) of a point in the scene's frame from a flask's outer surface, which is closed at the rim; negative within.
-    /// `None` of a flask that nobody can grip.
-    pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
-        self.bodies.distance(flask, point)
-    }
-
-    /// Blows of the last step: of flasks on each other, on the table and on the floor.
-    pub fn strikes(&self) -> &[Strike] {
-        self.bodies.strikes()
-    }
-
-    /// Flasks that broke in the last step. Their poses are [`NOWHERE`](crate::bodies::NOWHERE) from then on.
-    pub fn breaks(&self) -> &[Break] {
-        self.bodies.breaks()
-    }
-
-    /// Whether a flask has broken.
-    pub fn is_broken(&self, flask: usize) -> bool {
-        self.bodies.is_broken(flask)
-    }
-
-    /// What is left of the flasks that have broken.
-    pub fn shards(&self) -> Vec<Shard> {
-        self.bodies.shards()
-    }
-
-    /// Whether a hand holds anything, a flask or a tool.
-    pub fn holds(&self, hand: usize) -> bool {
-        let tools = 0..self.scene.tools.len();
-        let flasks = 0..self.scene.flasks.len();
-        (flasks.into_iter()).any(|flask| self.holder(flask) == Some(hand))
-            || (tools.into_iter()).any(|tool| self.tool_holder(tool) == Some(hand))
-    }
-
-    /// Whether a hand that closes at a point in the scene's frame would take something.
-    pub fn is_in_reach(&self, point: Vec3) -> bool {
-        let reach = GRIP_REACH / self.scene.scale.length_scale as f32;
-        let bodies = 0..self.scene.flasks.len() + self.scene.tools.len();
-        let mut distances = bodies.filter_map(|body| self.bodies.distance(body, point));
-        distances.any(|distance| distance <= reach)
-    }
-
-    /// Index of the hand that holds a flask.
-    pub fn holder(&self, flask: usize) -> Option<usize> {
-        self.bodies.holder(flask)
     }
 
     /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it

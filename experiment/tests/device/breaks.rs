@@ -90,3 +90,15 @@ fn glass_that_does_neither_is_refused() {
         "{said}"
     );
 }
+
+/// What a student asked of a lesson in another version's words is nothing to a replay that judges none.
+#[test]
+fn a_wish_without_a_judge_is_let_pass() {
+    let mut laboratory = coloured(&gpu::device(), None, Library::embedded(), Colour::Liquid);
+    let mut frame = step(0);
+    frame.scenario.push(Switch {
+        key: "lesson".into(),
+        value: "sing a song".into(),
+    });
+    laboratory.step(&frame).unwrap();
+}

@@ -1,8 +1,6 @@
 //! Tools that touch the liquid, as the solver has them in a step.
 
 use super::{World, WorldError};
-use crate::bodies::Worn;
-use crate::pose::Pose;
 use crate::scene::ToolKind;
 use crate::solver::Touch;
 use glam::Vec3;
@@ -12,32 +10,6 @@ use vitriol_gpu::Recorder;
 const FASTEST: f32 = 5.0;
 
 impl World {
-    /// stage_from_tool of each of [`Scene::tools`](crate::scene::Scene), after the last step, in the scene's frame.
-    pub fn tools(&self) -> &[Pose] {
-        self.bodies.tools()
-    }
-
-    /// Index of the hand that holds a tool.
-    pub fn tool_holder(&self, tool: usize) -> Option<usize> {
-        self.bodies.tool_holder(tool)
-    }
-
-    /// What the user wears.
-    pub fn worn(&self) -> Worn {
-        self.bodies.worn()
-    }
-
-    /// How the lower end of a tool moved in the last step, m/s.
-    pub fn tool_speed(&self, tool: usize) -> f32 {
-        let step = self.scene.scale.frame_time as f32;
-        let now = self.tools().get(tool);
-        let before = self.bodies.tools_before().nth(tool);
-        match (now, before) {
-            (Some(now), Some(before)) => now.position.distance(before.position) / step,
-            _ => 0.0,
-        }
-    }
-
     /// Records what tools do to the liquid in the step that the bodies have taken. A rod that nobody holds lies still.
     pub(super) fn handle(&self, rec: &mut Recorder) -> Result<(), WorldError> {
         let scale = self.scene.scale;

@@ -3,8 +3,12 @@
 use crate::common::*;
 use glam::{DVec2, DVec3, Vec3};
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_shaders::Library;
+use vitriol_sim::bodies::Hand;
 use vitriol_sim::pose::Pose;
+use vitriol_sim::scene::{Scene, ToolKind};
 use vitriol_sim::solver::{Ground, Particle, Skin, SkinPart, Solver, Touch};
+use vitriol_sim::world::{StepInput, World};
 use vitriol_tests::gpu;
 
 const FRAME: f64 = 1.0 / 90.0;
@@ -197,5 +201,34 @@ fn water_that_comes_to_a_hand_rinses_it() {
             "{rinsed:?} of {all}"
         );
         assert_eq!(rinsed[1], 0.0);
+    }
+}
+
+/// A hand that has a cloth is as full as one that has a flask; what is within 5 cm of it would be taken.
+#[test]
+fn a_tool_fills_a_hand() {
+    let gpu = gpu::device();
+    let mut scene = Scene::builtin("acid-on-glove").unwrap();
+    scene.liquids.clear();
+    let mut world = World::new(&gpu, &Library::watching(), &scene, 1).unwrap();
+    let of_kind = |kind| scene.tools.iter().position(|it| it.kind == kind).unwrap();
+    let cloth = of_kind(ToolKind::Cloth);
+    let at = world.tools()[cloth].position + Vec3::Y * 0.02;
+    assert!(world.is_in_reach(at) && world.is_in_reach(at + Vec3::Y * 0.04));
+    assert!(!world.is_in_reach(at + Vec3::Y * 0.06));
+    // Nobody takes the box of gloves away.
+    let gloves = world.tools()[of_kind(ToolKind::Gloves)].position;
+    assert!(!world.is_in_reach(gloves + Vec3::Y * 0.1));
+    for (squeeze, holds) in [(0.0, false), (1.0, true), (1.0, true), (0.0, false)] {
+        let hand = Hand {
+            stage_from_grip: Pose::from_position(at),
+            squeeze,
+            present: true,
+        };
+        let hands = [Hand::ABSENT, hand];
+        world.step(&StepInput::of_hands(hands)).unwrap();
+        assert_eq!([0, 1].map(|hand| world.holds(hand)), [false, holds]);
+        assert_eq!(world.tool_holder(cloth), holds.then_some(1));
+        assert!((0..3).all(|flask| world.holder(flask).is_none()));
     }
 }

@@ -73,6 +73,7 @@ mod tests {
             scene: "acid-into-water".into(),
             flasks: vec![flask("source"), flask("target")],
             acid: true,
+            burns: [true, false, false],
             lesson: Some(lesson),
             ..Info::default()
         };
@@ -195,7 +196,7 @@ mod tests {
         }
     }
 
-    /// In a lesson its own buttons stand in place of the scenes'; who is examined has none that tells what happened.
+    /// In a lesson its own buttons stand in place of the scenes'; who is examined is told nothing of what happened.
     #[test]
     fn a_lesson_has_its_own_buttons() {
         let has = |shown: &Shown, part: &str| {
@@ -210,10 +211,14 @@ mod tests {
             ..shown.clone()
         };
         assert!(has(&over, "Correct: acid into water") && !has(&over, "H   Hint"));
+        assert!(has(&shown, "71 % acid") && has(&shown, "acid on your left hand"));
         let quiet = Shown {
             quiet: true,
             ..shown
         };
         assert!(!has(&quiet, "What happened") && has(&quiet, "From the start"));
+        // Nor what it is judged by; how warm it is anybody can feel.
+        assert!(!has(&quiet, "71 % acid") && !has(&quiet, "acid on your"));
+        assert!(has(&quiet, "117"));
     }
 }

@@ -1,0 +1,50 @@
+//! Arguments of what lessons are asked for by: to show one, to make its film, to judge by it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use vitriol_lesson::{Language, Mode};
+use vitriol_sim::scene::Preset;
+use vitriol_study::parse::preset;
+
+/// Arguments of `vitriol lesson`.
+#[derive(Debug, Args)]
+pub struct LessonArgs {
+    /// A built-in lesson's name or a TOML file, which is checked and shown; without it all built-in ones are listed
+    #[arg(value_name = "LESSON")]
+    pub lesson: Option<String>,
+    /// Language of its texts: en, de, es or zh
+    #[arg(long, value_name = "LANGUAGE", default_value_t)]
+    pub language: Language,
+    /// The file of a built-in lesson, to begin an own one with
+    #[arg(long, requires = "lesson")]
+    pub toml: bool,
+    /// Make a film of the lesson as a track goes through it, with subtitles in each of its languages: this new MP4 file
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "lesson",
+        conflicts_with = "toml"
+    )]
+    pub film: Option<PathBuf>,
+    /// The film's track, by name or file; without it the built-in one that is made for the lesson's scene
+    #[arg(long, value_name = "TRACK", requires = "film")]
+    pub track: Option<String>,
+    /// The film's trade of speed for accuracy
+    #[arg(long, value_parser = preset(), requires = "film")]
+    pub preset: Option<Preset>,
+    /// Number, or part of the name, of the Vulkan device that the film is made on
+    #[arg(long, value_name = "DEVICE", requires = "film")]
+    pub device: Option<String>,
+}
+
+/// A lesson that is judged.
+#[derive(Args, Clone, Debug, Default)]
+pub struct JudgeArgs {
+    /// Judge this lesson, of that scene: a built-in one's name (see `vitriol lesson`) or a TOML file
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Option<String>,
+    /// As it is gone through: guided, free or examination; without it as the lesson says
+    #[arg(long, value_name = "MODE", requires = "lesson")]
+    pub mode: Option<Mode>,
+}
