@@ -18,7 +18,7 @@ use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards};
-use crate::tools::tools;
+use crate::tools::{pane, tools};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
 const DRAWN_RADIUS: f64 = 0.6;
@@ -274,6 +274,7 @@ impl Camera {
                 }),
             panel: None,
             sign: None,
+            pane: pane(world),
             shown: 1.0,
             goggles: 0.0,
             colour_by,

@@ -62,5 +62,5 @@ pub use run::run;
 pub use sample::{HeatSample, LedgerSample, MassByPlace, Sample};
 pub use scenes::Scenes;
 pub use subtitles::{Cue, Subtitles, SubtitlesError};
-pub use tools::tools;
+pub use tools::{pane, tools};
 pub use wish::Wish;

@@ -21,13 +21,15 @@ use crate::thermometer::Thermometer;
 
 /// A look that is under way, and what was done in its step.
 struct UnderWay {
-    look: Look,
+    /// `None` where the device was lost in it.
+    look: Option<Look>,
     t: f64,
     poses: Vec<Pose>,
     held: Vec<bool>,
     strikes: Vec<Strike>,
     breaks: Vec<Break>,
     worn: Worn,
+    sash_open: Option<f64>,
     dipped: Vec<Dipped>,
     hands: [Vec<Bone>; 2],
 }
@@ -92,20 +94,26 @@ impl Looks {
         // Tracked fingers are not recorded, so they are as a controller's would be.
         let hands = self.gloves.worn(world, &hands, &[None, None]);
         let parts = skin(hands.each_ref().map(Vec::as_slice), &head, scale);
-        let look = world.look_on(queue, &parts).other()?;
-        let ticket = look.ticket().clone();
+        let look = world.look_on(queue, &parts).other();
         let flasks = 0..world.scene().flasks.len();
         self.under_way.push_back(UnderWay {
-            look,
+            look: None,
             t,
             poses: world.poses().to_vec(),
             held: flasks.map(|flask| world.holder(flask).is_some()).collect(),
             strikes: world.strikes().to_vec(),
             breaks: world.breaks().to_vec(),
             worn: world.worn(),
+            sash_open: world.sash_open(),
             dipped: dipped(world),
             hands,
         });
+        let under_way = self.under_way.back_mut();
+        let look = look?;
+        let ticket = look.ticket().clone();
+        if let Some(under_way) = under_way {
+            under_way.look = Some(look);
+        }
         Ok(ticket)
     }
 
@@ -114,14 +122,15 @@ impl Looks {
     /// # Errors
     /// What the device says.
     pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
-        let come = match self.under_way.front() {
-            Some(oldest) => oldest.look.try_get().other()?,
+        let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
+        let Some((census, elapsed)) = (match oldest {
+            Some(look) => look.try_get().other()?.map(|it| (it, look.elapsed)),
             None => None,
-        };
-        let Some(census) = come else {
+        }) else {
             return Ok(None);
         };
-        Ok(self.under_way.pop_front().map(|it| self.seen(it, census)))
+        let oldest = self.under_way.pop_front();
+        Ok(oldest.map(|it| self.seen(it, census, elapsed)))
     }
 
     /// The oldest look that was not collected yet, if there is one; waits for the device.
@@ -129,11 +138,13 @@ impl Looks {
     /// # Errors
     /// What the device says.
     pub fn wait(&mut self) -> Result<Option<Looked>, Failure> {
-        let Some(oldest) = self.under_way.pop_front() else {
+        let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
+        let Some(look) = oldest else {
             return Ok(None);
         };
-        let census = oldest.look.get().other()?;
-        Ok(Some(self.seen(oldest, census)))
+        let (census, elapsed) = (look.get().other()?, look.elapsed);
+        let oldest = self.under_way.pop_front();
+        Ok(oldest.map(|it| self.seen(it, census, elapsed)))
     }
 
     /// What the thermometer shows, °C.
@@ -151,6 +162,18 @@ impl Looks {
         self.under_way.clear();
     }
 
+    /// Takes those of a world that was brought back on another device, oldest first, in the place of those that were under way: the last ones
+    /// are the same. What was under way from before them is lost.
+    pub fn take_again(&mut self, again: Vec<Look>) {
+        let lost = self.under_way.len().saturating_sub(again.len());
+        self.under_way.drain(..lost);
+        let known = again.len().saturating_sub(self.under_way.len());
+        let looks = again.into_iter().skip(known);
+        for (under_way, look) in self.under_way.iter_mut().zip(looks) {
+            under_way.look = Some(look);
+        }
+    }
+
     /// The attempt is over: what is to be said of it. What is under way is not waited for.
     pub fn end(&mut self) -> Vec<Event> {
         self.finder.end()
@@ -161,8 +184,7 @@ impl Looks {
         self.finder.clone().end()
     }
 
-    fn seen(&mut self, of: UnderWay, census: Census) -> Looked {
-        let elapsed = of.look.elapsed;
+    fn seen(&mut self, of: UnderWay, census: Census, elapsed: f64) -> Looked {
         let seen = Seen {
             t: of.t,
             elapsed,
@@ -172,6 +194,7 @@ impl Looks {
             strikes: &of.strikes,
             breaks: &of.breaks,
             worn: of.worn,
+            sash_open: of.sash_open,
             dipped: &of.dipped,
         };
         let events = self.finder.looked(&seen);

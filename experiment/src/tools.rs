@@ -1,8 +1,8 @@
 //! What lies on the bench beside the glass, as it is drawn: of bones, as hands are.
 
-use glam::Vec3;
-use vitriol_render::{Bone, Finish};
-use vitriol_sim::scene::ToolKind;
+use glam::{Affine3A, Mat3A, Vec3};
+use vitriol_render::{Bone, Finish, Pane};
+use vitriol_sim::scene::{PANE, ToolKind};
 use vitriol_sim::world::World;
 use vitriol_xr::Pose;
 
@@ -70,12 +70,27 @@ fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
             ]
         }
         ToolKind::Goggles => goggles(),
+        ToolKind::Sash => {
+            let [tall, thick] = PANE.map(|m| m as f32);
+            // Lying, its axis goes to the left, and its +x is up.
+            let rail = |from: [f32; 2], to: [f32; 2]| {
+                let end = |[along, up]: [f32; 2]| Vec3::new(up, along, 0.0);
+                part(Finish::Steel, [end(from), end(to)], thick)
+            };
+            let (low, high) = (thick, height - thick);
+            vec![
+                stem(Finish::Steel, 0.0, height, radius),
+                rail([low, 0.0], [low, tall]),
+                rail([high, 0.0], [high, tall]),
+                rail([low, tall], [high, tall]),
+            ]
+        }
     }
 }
 
 /// Two rings about the lenses, and the bridge between them; lenses up.
 fn goggles() -> Vec<Bone> {
-    const SIDES: usize = 8;
+    const SIDES: usize = 6;
     /// Half axes of a lens, where its middle is to the side, and how thick its frame is, m. Our choice: 14 cm in all.
     const LENS: [f32; 2] = [0.032, 0.024];
     const ASIDE: f32 = 0.036;
@@ -120,6 +135,24 @@ pub fn tools(world: &World, celsius: f64) -> Vec<Bone> {
     bones
 }
 
+/// The pane of the fume hood's sash in the scene's stage, real metres.
+pub fn pane(world: &World) -> Option<Pane> {
+    let scale = world.scene().scale.length_scale as f32;
+    let pane = world.sash()?;
+    let [along, up] = pane.sides.map(|side| scale * side);
+    let [width, height] = [along.length(), up.length()];
+    let axes = Mat3A::from_cols(
+        (along / width).into(),
+        (up / height).into(),
+        (along.cross(up) / (width * height)).into(),
+    );
+    let middle = scale * pane.corner + 0.5 * (along + up);
+    Some(Pane {
+        stage_from_pane: Affine3A::from_mat3_translation(axes.into(), middle),
+        size: [width, height],
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,7 +167,12 @@ mod tests {
             for bone in parts(kind, 80.0) {
                 for (end, thick) in bone.ends.iter().zip(bone.radii) {
                     let aside = end.x.hypot(end.z) + thick;
-                    assert!(aside <= radius + 0.006, "{kind:?}: {aside} m");
+                    let pane = if kind == ToolKind::Sash {
+                        PANE[0] as f32
+                    } else {
+                        0.0
+                    };
+                    assert!(aside <= radius + pane + 0.006, "{kind:?}: {aside} m");
                     let over = [end.y - thick, height + 0.025 - end.y - thick];
                     assert!(over.iter().all(|it| *it >= -1e-6), "{kind:?}: {over:?}");
                 }

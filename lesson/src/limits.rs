@@ -21,8 +21,12 @@ pub struct Limits {
     pub least_pour_m3: f64,
     /// Least liquid that is spilt, m³: two drops of 0.05 mL. Our choice.
     pub least_spill_m3: f64,
-    /// Least liquid that is thrown out as it boils, m³: a fifth of a drop, as spray, which an eye does not bear. Our choice.
+    /// Least liquid that is thrown out as it boils, m³, where it [scalds](vitriol_sim::solver::SCALDS): a fifth of a drop, as spray, which an
+    /// eye does not bear. Our choice.
     pub least_thrown_m3: f64,
+    /// Where it does not, least acid in it, m³: as in a drop of 0.05 mL of battery acid (37 %), against which goggles are worn. Our choice.
+    /// Drops of 10 % acid that a correct pour throws up have less (docs/measurements/lesson.md).
+    pub least_thrown_acid_m3: f64,
     /// Least speed with which glass that is dropped strikes, m/s: a fall of 5 cm. Our choice.
     pub least_blow_m_s: f64,
 }
@@ -36,6 +40,7 @@ impl Default for Limits {
             least_pour_m3: 0.5e-6,
             least_spill_m3: 0.1e-6,
             least_thrown_m3: 0.01e-6,
+            least_thrown_acid_m3: 0.0185e-6,
             least_blow_m_s: 1.0,
         }
     }

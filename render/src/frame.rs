@@ -8,7 +8,7 @@ use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
 use crate::hands::{Bone, MOST_BONES};
-use crate::panel::{Panel, panel_from_stage};
+use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
@@ -88,6 +88,8 @@ pub struct FrameDesc<'a> {
     pub panel: Option<Panel<'a>>,
     /// A sign among all that: of its image the disc that touches the sides is seen; `None` for none.
     pub sign: Option<Panel<'a>>,
+    /// A pane of glass among all that, seen from both sides; `None` for none.
+    pub pane: Option<Pane>,
     /// Share of the light that is shown, 0 to 1: less than 1 where the picture fades.
     pub shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
@@ -183,6 +185,7 @@ impl FrameDesc<'_> {
             goggles: self.goggles,
             panel_from_stage: panel_from_stage(self.panel.as_ref(), self.length_scale),
             sign_from_stage: panel_from_stage(self.sign.as_ref(), self.length_scale),
+            pane_from_stage: pane_from_stage(self.pane, self.length_scale),
             ..layout::Frame::default()
         };
         for (slot, view) in frame.views.iter_mut().zip(self.views) {

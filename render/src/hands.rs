@@ -45,6 +45,8 @@ pub enum Finish {
     Cloth,
     /// A box of card.
     Card,
+    /// Brushed steel.
+    Steel,
 }
 
 impl Finish {
@@ -64,6 +66,7 @@ impl Finish {
             Self::Frame => ([0.060, 0.075, 0.085], 0.0),
             Self::Cloth => ([0.620, 0.560, 0.300], 0.0),
             Self::Card => ([0.480, 0.480, 0.460], 0.0),
+            Self::Steel => ([0.380, 0.390, 0.400], 0.0),
         }
     }
 }

@@ -56,7 +56,7 @@ pub use error::RenderError;
 pub use fluid::{Surface, SurfaceReadback};
 pub use frame::{ColourBy, FrameDesc};
 pub use hands::{Bone, Finish, JOINED, MOST_BONES};
-pub use panel::Panel;
+pub use panel::{Pane, Panel};
 pub use pass_pictures::{PassPicture, PassesReadback};
 pub use readback::PictureReadback;
 pub use renderer::Renderer;

@@ -1,4 +1,4 @@
-//! A panel in the scene: a rectangle that shows an image; or a sign: the disc in it.
+//! A panel in the scene: a rectangle that shows an image; or a sign: the disc in it; or a pane of glass.
 
 use glam::{Affine3A, Mat4, Vec3};
 use vitriol_gpu::Image;
@@ -14,13 +14,32 @@ pub struct Panel<'a> {
     pub size: [f32; 2],
 }
 
+/// A flat pane of clear glass: it mirrors by Fresnel's law, and what is behind is seen where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pane {
+    /// Its middle; +Z is its normal. Stage in metres, rigid.
+    pub stage_from_pane: Affine3A,
+    /// Width and height, metres.
+    pub size: [f32; 2],
+}
+
 /// To the frame of a panel, with half its sides as units of x and y; 0 without one.
 pub(crate) fn panel_from_stage(panel: Option<&Panel<'_>>, length_scale: f32) -> [[f32; 4]; 4] {
-    let matrix = panel.map_or(Mat4::ZERO, |panel| {
-        let mut stage_from_panel = panel.stage_from_panel;
-        stage_from_panel.translation /= length_scale;
-        let [x, y] = panel.size.map(|side| 2.0 * length_scale / side);
-        Mat4::from_scale(Vec3::new(x, y, 1.0)) * Mat4::from(stage_from_panel.inverse())
+    let face = panel.map(|panel| (panel.stage_from_panel, panel.size));
+    face_from_stage(face, length_scale)
+}
+
+/// The same of a pane.
+pub(crate) fn pane_from_stage(pane: Option<Pane>, length_scale: f32) -> [[f32; 4]; 4] {
+    let face = pane.map(|pane| (pane.stage_from_pane, pane.size));
+    face_from_stage(face, length_scale)
+}
+
+fn face_from_stage(face: Option<(Affine3A, [f32; 2])>, length_scale: f32) -> [[f32; 4]; 4] {
+    let matrix = face.map_or(Mat4::ZERO, |(mut stage_from_face, size)| {
+        stage_from_face.translation /= length_scale;
+        let [x, y] = size.map(|side| 2.0 * length_scale / side);
+        Mat4::from_scale(Vec3::new(x, y, 1.0)) * Mat4::from(stage_from_face.inverse())
     });
     matrix.to_cols_array_2d()
 }

@@ -258,6 +258,7 @@ impl Picture {
             }),
             panel: sight.and_then(|sight| sight.panel),
             sign: sight.and_then(|sight| sight.sign),
+            pane: vitriol_experiment::pane(world),
             shown: sight.map_or(1.0, |sight| sight.shown),
             goggles: sight.map_or(0.0, |sight| sight.goggles),
             colour_by: ColourBy::Acid,

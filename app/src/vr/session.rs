@@ -365,8 +365,12 @@ impl Session {
             self.take_looks(1e-9 * self.shown_at() as f64, true)?;
         }
         let gpu = headset.gpu();
-        if self.benches.move_to(headset)? {
-            self.losses.brought_back(self.counts.frames);
+        match self.benches.move_to(headset)? {
+            Some(looks) => {
+                self.losses.brought_back(self.counts.frames);
+                self.steps.looks.take_again(looks);
+            }
+            None => self.steps.looks.forget(),
         }
         self.keeper.forget();
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
@@ -381,7 +385,6 @@ impl Session {
         self.pacing.forget_rates();
         self.counts.tally.restart();
         self.steps.submitted();
-        self.steps.looks.forget();
         if let Some((_, looks)) = &mut self.ending {
             looks.forget();
         }

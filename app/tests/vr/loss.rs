@@ -196,24 +196,8 @@ fn lost_devices_in_mid_pour_lose_nothing() {
     let (recorded, replay) = replay_of(&devices[3], track, None);
     let found = replay.events;
     assert_eq!(replay.state_hash, hash(&outcome));
-    // What happens is the same. Looks under way go with the device, and so does what knew whence the drops in the air came: amounts
-    // lack what came then.
-    let poured = |events: &[Event]| -> Vec<f64> {
-        let pours = events.iter().filter_map(|event| match event {
-            Event::Poured(pour) => Some(pour.volume_m3),
-            _ => None,
-        });
-        pours.collect()
-    };
-    let kinds =
-        |events: &[Event]| -> Vec<_> { events.iter().map(std::mem::discriminant).collect() };
-    assert_eq!(kinds(&recorded), kinds(&found));
-    for (session, replay) in poured(&recorded).into_iter().zip(poured(&found)) {
-        assert!(
-            session <= replay && session > 0.7 * replay,
-            "{session} {replay}"
-        );
-    }
+    // And so do the looks that were under way, which are made again.
+    assert_eq!(recorded, found);
 }
 
 /// The device goes with the runtime, while a full flask is in the hand, and is back with the hand 10 cm further on.

@@ -44,10 +44,18 @@ fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol
 
 fn judged(track: &str) -> (Verdict, Vec<Progress>) {
     let lesson = Lesson::builtin("emergency").unwrap();
-    let mut judge = Procedure::new(lesson, Mode::Guided);
+    judged_by((lesson, Mode::Guided), track, &scene())
+}
+
+fn judged_by(
+    (lesson, mode): (Lesson, Mode),
+    track: &str,
+    scene: &Scene,
+) -> (Verdict, Vec<Progress>) {
+    let mut judge = Procedure::new(lesson, mode);
     let mut last = Sight::default();
     let mut said = Vec::new();
-    go_through(track, &scene(), |sight, events| {
+    go_through(track, scene, |sight, events| {
         if !sight.flasks.is_empty() {
             last.clone_from(sight);
         }
@@ -135,4 +143,149 @@ left = [
     when(1, 1.3, 1.5);
     when(2, 2.2, 2.4);
     when(3, 3.2, 3.4);
+}
+
+/// The fume hood's scene, coarse and changed, and its user dressed.
+fn hood(change: impl FnOnce(&mut Scene)) -> Scene {
+    let mut scene = Scene::builtin("fume-hood").unwrap();
+    scene.scale.spacing = 0.007;
+    scene.scale.frame_time = 1.0 / 30.0;
+    scene.tools.iter_mut().for_each(|tool| tool.worn = true);
+    change(&mut scene);
+    scene
+}
+
+/// The bar is 0.5 m over the bench, and down to 0.35 m is asked for: a hand that goes down by 0.2 m does it, by 0.1 m does not.
+#[test]
+fn a_sash_is_pulled_down_or_not_far_enough() {
+    let scene = hood(|scene| scene.liquids.truncate(1));
+    for (down, expected) in [(0.2, &["dress", "sash"][..]), (0.1, &["dress"])] {
+        let track = format!(
+            "
+name = \"sash\"
+duration = 2.0
+rate_hz = 90
+head = [ {{ t = 0.0, position = [0.0, 1.2, 0.0] }} ]
+right = [ {{ t = 0.0, position = [0.1, 0.9, 0.0] }} ]
+left = [
+  {{ t = 0.0, position = [-0.2, 1.26, -0.11] }},
+  {{ t = 0.2, squeeze = 1.0 }},
+  {{ t = 1.2, position = [-0.2, {}, -0.11] }},
+  {{ t = 1.4, squeeze = 0.0 }},
+]
+",
+            1.26 - down
+        );
+        let lesson = Lesson::builtin("examination").unwrap();
+        let (_, said) = judged_by((lesson, Mode::Examination), &track, &scene);
+        assert_eq!(done(&said), expected, "{said:#?}");
+    }
+}
+
+/// A lesson whose steps wait for no other.
+fn in_any_order(name: &str) -> Lesson {
+    let text = Lesson::builtin_text(name).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with("after = "));
+    let text: String = lines.flat_map(|line| [line, "\n"]).collect();
+    Lesson::parse(&text, "any-order.toml").unwrap()
+}
+
+/// Rod and thermometer, one in each hand, are dipped 4 cm over the bench into 160 mL, or held over them; and the beaker with acid is lifted and put down. What
+/// the beaker holds is of the right concentration, or is not.
+fn handling(dip: f64) -> String {
+    let mut stirred = String::new();
+    for n in 0..16 {
+        let [x, z] = [[0.12, -0.38], [0.10, -0.40], [0.12, -0.42], [0.14, -0.40]][n % 4];
+        let t = 3.6 + 0.25 * n as f64;
+        stirred += &format!("{{ t = {t:.2}, position = [{x}, {dip}, {z}], ease = \"linear\" }},\n");
+    }
+    format!(
+        "
+name = \"handling\"
+duration = 13.0
+rate_hz = 90
+head = [ {{ t = 0.0, position = [0.0, 1.2, 0.0] }} ]
+left = [
+  {{ t = 0.0, position = [0.30, 0.90, -0.46] }},
+  {{ t = 0.6, position = [0.30, 0.757, -0.46] }},
+  {{ t = 0.8, squeeze = 1.0 }},
+  {{ t = 1.4, position = [0.30, 1.0, -0.46] }},
+  {{ t = 2.6, position = [0.14, 1.14, -0.40], rotation = {{ roll = -90 }} }},
+  {{ t = 3.4, position = [0.14, {dip}, -0.40] }},
+  {stirred}
+  {{ t = 8.4, position = [0.14, 1.14, -0.40] }},
+]
+right = [
+  {{ t = 0.0, position = [0.30, 0.90, -0.54] }},
+  {{ t = 0.6, position = [0.30, 0.756, -0.54] }},
+  {{ t = 0.8, squeeze = 1.0 }},
+  {{ t = 1.4, position = [0.30, 1.0, -0.54] }},
+  {{ t = 2.6, position = [0.12, 1.14, -0.40], rotation = {{ roll = -90 }} }},
+  {{ t = 3.4, position = [0.12, {dip}, -0.40] }},
+  {{ t = 7.6, position = [0.12, {dip}, -0.40] }},
+  {{ t = 8.4, position = [0.12, 1.14, -0.40] }},
+  {{ t = 9.2, position = [0.30, 1.0, -0.54], rotation = {{ roll = 0 }} }},
+  {{ t = 9.6, position = [0.30, 0.80, -0.54] }},
+  {{ t = 9.8, squeeze = 0.0 }},
+  {{ t = 10.8, position = [-0.084, 0.845, -0.40] }},
+  {{ t = 11.0, squeeze = 1.0 }},
+  {{ t = 11.5, position = [-0.084, 0.90, -0.40] }},
+  {{ t = 12.0, position = [-0.084, 0.845, -0.40] }},
+  {{ t = 12.2, squeeze = 0.0 }},
+]
+"
+    )
+}
+
+#[test]
+fn what_hands_do_with_tools_and_glass_is_judged() {
+    let diluted = |acid: f64| {
+        hood(|scene| {
+            scene.liquids.remove(0);
+            scene.liquids[0].acid_fraction = acid;
+        })
+    };
+    let cases = [
+        (
+            0.995,
+            0.18,
+            &["dress", "concentration", "stir", "measure"][..],
+        ),
+        (1.10, 0.25, &["dress"]),
+    ];
+    for (dip, acid, expected) in cases {
+        let free = (in_any_order("dilute"), Mode::Free);
+        let (_, said) = judged_by(free, &handling(dip), &diluted(acid));
+        let done = done(&said);
+        for id in ["dress", "stir", "measure", "concentration"] {
+            assert_eq!(done.contains(&id), expected.contains(&id), "{id}: {done:?}");
+        }
+        // Both tracks do that.
+        assert!(
+            done.contains(&"lift") && done.contains(&"put-down"),
+            "{done:?}"
+        );
+    }
+}
+
+/// 30 °C and more are asked for in the target.
+#[test]
+fn a_temperature_is_met_and_missed() {
+    let track = "
+name = \"still\"
+duration = 0.5
+rate_hz = 90
+head = [ { t = 0.0, position = [0.0, 1.2, 0.0] } ]
+right = [ { t = 0.0, position = [0.1, 0.9, 0.0] } ]
+left = [ { t = 0.0, position = [-0.1, 0.9, 0.0] } ]
+";
+    for (celsius, met) in [(35.0, true), (25.0, false)] {
+        let scene = hood(|scene| {
+            scene.liquids.remove(0);
+            scene.liquids[0].temperature = celsius;
+        });
+        let free = (in_any_order("wrong-order"), Mode::Free);
+        let (_, said) = judged_by(free, track, &scene);
+        assert_eq!(done(&said).contains(&"heat"), met, "{celsius}: {said:?}");
+    }
 }

@@ -58,6 +58,8 @@ pub struct Seen<'a> {
     pub breaks: &'a [Break],
     /// What the user wears.
     pub worn: Worn,
+    /// How far the hood's sash is open, m at real size.
+    pub sash_open: Option<f64>,
     /// What is dipped.
     pub dipped: &'a [Dipped],
 }

@@ -67,7 +67,7 @@ impl Finder {
             floor_m3: bench.volume(seen.census.floor.volume),
             goggles: seen.worn.goggles,
             gloves: seen.worn.gloves,
-            sash_m: None,
+            sash_m: seen.sash_open,
             rod: self.dip(seen, ToolKind::Rod),
             thermometer: self.dip(seen, ToolKind::Thermometer),
             rinsed_m3: self.rinsing.then_some(self.rinsed),
@@ -135,6 +135,7 @@ mod tests {
             strikes: &[],
             breaks: &[],
             worn: Worn::default(),
+            sash_open: Some(0.3),
             dipped: &[],
         })
     }
@@ -157,6 +158,7 @@ mod tests {
             // The first has gloves to take off, the second has none.
             let rinsed = (scene == "acid-into-water").then_some([0.0; 2]);
             assert_eq!((sight.goggles, sight.rinsed_m3), (None, rinsed));
+            assert_eq!(sight.sash_m, Some(0.3));
         }
     }
 
@@ -225,6 +227,7 @@ mod tests {
                     goggles: Some(true),
                     gloves: Some([true, false]),
                 },
+                sash_open: None,
                 dipped: &dipped,
             });
             assert_eq!(sight.thermometer, None);

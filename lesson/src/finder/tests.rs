@@ -79,6 +79,7 @@ impl Arranged {
             });
             self.said.extend(self.finder.looked(&Seen {
                 worn: self.worn,
+                sash_open: None,
                 dipped: &[],
                 t: self.t,
                 elapsed: STEP,

@@ -2,7 +2,7 @@
 //! bubbles, which are none.
 
 use vitriol_sim::bodies;
-use vitriol_sim::solver::Place;
+use vitriol_sim::solver::{Place, SCALDS};
 
 use super::amount::{Amount, Bit};
 use super::flows::Flows;
@@ -34,6 +34,8 @@ impl Thrown {
                 Some(pose) if !bodies::is_nowhere(pose) => bench.rim(pose, flask),
                 _ => continue,
             };
+            let held = seen.census.flasks.get(flask);
+            let temperature = held.and_then(|held| bench.content(held).temperature_c);
             let mut bits = Vec::new();
             if leavings.mode(flask, seen.t) == Mode::Boiling {
                 let others = (0..flasks).filter(|it| *it != flask).map(Place::Flask);
@@ -44,7 +46,7 @@ impl Thrown {
                     volume: bench.volume(moved.volume),
                     acid: moved.acid,
                     place: rim,
-                    temperature: None,
+                    temperature,
                 }));
             }
             let now = seen.census.sprayed.get(flask).copied().unwrap_or_default();
@@ -54,13 +56,9 @@ impl Thrown {
             if more > 0.0 && leavings.boils(flask, seen.t) {
                 bits.push(Bit {
                     volume: bench.volume(more),
-                    acid: seen
-                        .census
-                        .flasks
-                        .get(flask)
-                        .map_or(0.0, |it| f64::from(it.acid)),
+                    acid: held.map_or(0.0, |it| f64::from(it.acid)),
                     place: rim,
-                    temperature: None,
+                    temperature,
                 });
             }
             for bit in bits {
@@ -81,7 +79,14 @@ impl Thrown {
             else {
                 continue;
             };
-            if amount.volume < bench.limits.least_thrown_m3 {
+            let scalds = amount.temperature().is_some_and(|it| it >= SCALDS);
+            let acid = amount.volume * amount.acid();
+            let limits = &bench.limits;
+            let harms = match scalds {
+                true => amount.volume >= limits.least_thrown_m3,
+                false => acid >= limits.least_thrown_acid_m3,
+            };
+            if !harms {
                 continue;
             }
             said.push(Event::Incident(Incident {

@@ -112,7 +112,7 @@ impl SceneFacts {
             heat: scene.models(Feature::Heat),
             goggles: has(ToolKind::Goggles),
             gloves: has(ToolKind::Gloves),
-            sash: false,
+            sash: has(ToolKind::Sash),
             rod: has(ToolKind::Rod),
             thermometer: has(ToolKind::Thermometer),
             cloth: has(ToolKind::Cloth),

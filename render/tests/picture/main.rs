@@ -9,6 +9,7 @@ mod golden;
 mod hands;
 mod lanes;
 mod liquid;
+mod pane;
 mod panel;
 mod rig;
 mod scene;

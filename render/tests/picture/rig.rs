@@ -142,6 +142,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         steam: None,
         panel: None,
         sign: None,
+        pane: None,
         shown: 1.0,
         goggles: 0.0,
         colour_by: ColourBy::Speed(1.0),

@@ -215,6 +215,7 @@ fn another_length_scale_gives_the_same_picture() {
             steam: None,
             panel: None,
             sign: None,
+            pane: None,
             shown: 1.0,
             goggles: 0.0,
             particles: Some(ParticleSource {

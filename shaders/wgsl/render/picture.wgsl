@@ -10,6 +10,7 @@
 //!include common/picture/hidden_area.wgsl
 //!include common/picture/liquid_light.wgsl
 //!include common/picture/packed_light.wgsl
+//!include common/picture/pane.wgsl
 //!include common/picture/panel.wgsl
 //!include common/picture/sign.wgsl
 //!include common/picture/tile_pixels.wgsl
@@ -116,6 +117,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
             colour = cover.colour + cover.open * colour;
             if (cover.open < 1.0) { alpha = 1.0; }
         }
+        let pane = pane_over(eye, at, select(near / reversed, 1e9, reversed == 0.0));
+        colour = pane.light + pane.open * colour;
+        if (any(pane.open < vec3<f32>(1.0))) { alpha = 1.0; }
         // What has no slow gradient needs no noise.
         let goggles = through_goggles(eye, at);
         // What is behind the picture would be seen as if they were clean.

@@ -37,6 +37,7 @@ const TOOL_DAMPING: f32 = 3.0;
 /// Of which bodies a collider is; table, floor and shards are of all.
 const FLASKS: Group = Group::GROUP_1;
 const TOOLS: Group = Group::GROUP_2;
+const SASH: Group = Group::GROUP_3;
 
 /// What of a body never changes: of a flask, or of a tool.
 pub(super) struct Flask {
@@ -165,6 +166,11 @@ fn insert(
         .collect();
     let pieces = match role {
         None => solid::pieces(&outline),
+        Some(Role::Sash { pane, .. }) => {
+            let [height, thickness] = pane.map(|metres| units.length(metres));
+            let orientation = spec.stage_from_flask.orientation;
+            solid::sash(&outline, [height, thickness], orientation)
+        }
         Some(_) => solid::block(&outline),
     };
     let pieces = pieces.ok_or(BodiesError::Flask {
@@ -175,6 +181,9 @@ fn insert(
     let glass = shell::mass_properties(&spec.outline, spec.glass_mass);
     let builder = if spec.fixed {
         RigidBodyBuilder::fixed()
+    } else if matches!(role, Some(Role::Sash { .. })) {
+        // Counterweights bear it.
+        RigidBodyBuilder::kinematic_position_based()
     } else {
         // Without sleep: liquid that is poured into a sleeping flask would have to wake it.
         let builder = RigidBodyBuilder::dynamic().ccd_enabled(true);
@@ -208,10 +217,11 @@ fn insert(
     })
 }
 
-/// Flasks and tools do not meet.
+/// Flasks and tools do not meet; a sash meets all of them.
 fn groups(role: Option<Role>) -> InteractionGroups {
     let (own, other) = match role {
         None => (FLASKS, TOOLS),
+        Some(Role::Sash { .. }) => (SASH, Group::NONE),
         Some(_) => (TOOLS, FLASKS | TOOLS),
     };
     InteractionGroups::new(own, !other, InteractionTestMode::And)

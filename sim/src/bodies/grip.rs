@@ -75,6 +75,9 @@ struct Held {
     flask: usize,
     grip_from_flask: Pose,
     stage_from_flask: Pose,
+    /// How far above the hand it was taken hold of, m, and how high that makes it: of what only slides, a hand that turns moves nothing.
+    over_hand: f32,
+    height: f32,
 }
 
 /// Advances both hands by a step: they open, close, take and follow.
@@ -116,6 +119,7 @@ pub(super) fn advance(
         }
         if let Some(held) = &mut grips[index].held {
             held.stage_from_flask = hand.stage_from_grip.compose(held.grip_from_flask);
+            held.height = hand.stage_from_grip.position.y + held.over_hand;
         }
     }
 }
@@ -134,6 +138,8 @@ fn nearest(stage_from_grip: Pose, flasks: &[Flask], poses: &[Pose], reach: f32) 
                 flask: index,
                 grip_from_flask: stage_from_grip.inverse().compose(stage_from_flask),
                 stage_from_flask,
+                over_hand: stage_from_flask.position.y - stage_from_grip.position.y,
+                height: stage_from_flask.position.y,
             };
             (distance, held)
         })
@@ -149,6 +155,14 @@ pub(super) fn holder(grips: &[GripState; 2], flask: usize) -> Option<(usize, Pos
             .filter(|held| held.flask == flask)
             .map(|held| (hand, held.stage_from_flask))
     })
+}
+
+/// The height that a hand gives to what it slides; `None` where none holds it.
+pub(super) fn slid(grips: &[GripState; 2], flask: usize) -> Option<f32> {
+    let held = grips.iter().filter_map(|grip| grip.held);
+    held.into_iter()
+        .find(|held| held.flask == flask)
+        .map(|held| held.height)
 }
 
 /// Linear velocity (m/s) of the point at `centre` (flask frame) and angular velocity

@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use glam::{Vec2, Vec3};
+use glam::{Mat3, Quat, Vec2, Vec3};
 use rapier3d::math::Pose as Pose3;
 use rapier3d::prelude::SharedShape;
 
@@ -154,6 +154,26 @@ pub(super) fn block(outline: &[Vec2]) -> Option<Vec<Piece>> {
     let solid = radius > 0.0 && half > 0.0;
     let shape = SharedShape::cuboid(radius, half, radius);
     solid.then(|| vec![(shape, Pose3::from_translation(half * Vec3::Y))])
+}
+
+/// A bar along the body's y axis, and over it, in the stage that `stage_from_bar` turns it to, a pane as broad as the bar is long, of that height over its axis and
+/// that thickness.
+pub(super) fn sash(
+    outline: &[Vec2],
+    [height, thickness]: [f32; 2],
+    stage_from_bar: Quat,
+) -> Option<Vec<Piece>> {
+    let mut pieces = block(outline)?;
+    let half = 0.5 * outline.last()?.y;
+    let up = stage_from_bar.inverse() * Vec3::Y;
+    // Its sides: along the bar, up, and across.
+    let axes = Mat3::from_cols(Vec3::Y.cross(up), Vec3::Y, up);
+    let shape = SharedShape::cuboid(0.5 * thickness, half, 0.5 * height);
+    let middle = half * Vec3::Y + 0.5 * height * up;
+    let place = Pose3::from_parts(middle, Quat::from_mat3(&axes));
+    let solid = height > 0.0 && thickness > 0.0;
+    pieces.push((shape, place));
+    solid.then_some(pieces)
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub struct BodiesSpec {
 }
 
 /// What a body beside the flasks is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
     /// Held and let go.
     Tool,
@@ -40,6 +40,13 @@ pub enum Role {
     Goggles,
     /// A box of gloves, which stays where it is.
     Gloves,
+    /// A bar that a hand slides up and down, with a pane over it. It stays where it is let go of, and it is solid to all but hands.
+    Sash {
+        /// Least and greatest height of its origin (m).
+        heights: [f32; 2],
+        /// Height of the pane over the bar's axis, and its thickness (m).
+        pane: [f32; 2],
+    },
 }
 
 /// A body beside the flasks.

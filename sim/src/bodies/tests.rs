@@ -5,6 +5,7 @@
 mod coupled;
 mod free;
 mod held;
+mod sash;
 mod setup;
 mod shards;
 mod strikes;

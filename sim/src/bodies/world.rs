@@ -10,7 +10,7 @@ use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_M
 use super::reach;
 use super::rolling;
 use super::shards::{BREAKS_AT, Break, Breakage, NOWHERE, Shard};
-use super::spec::{BodiesError, BodiesSpec, Hand, Load, Velocity};
+use super::spec::{BodiesError, BodiesSpec, Hand, Load, Role, Velocity};
 use super::strikes::{Memory, Strike, Strikes};
 use super::units::Units;
 use super::wear::{Wearing, Worn};
@@ -168,8 +168,15 @@ impl Bodies {
         self.state.wearing.worn
     }
 
-    /// Where a body is to be at the step's end, whatever rapier says: in a hand, or on the head.
+    /// Where a body is to be at the step's end, whatever rapier says: in a hand, on the head, or where a sash was slid.
     fn target(&self, index: usize) -> Option<Pose> {
+        if let Some(Role::Sash { heights, .. }) = self.flasks.get(index)?.role {
+            let before = *self.poses.get(index)?;
+            let height = grip::slid(&self.state.grips, index).unwrap_or(before.position.y);
+            let height = height.clamp(heights[0], heights[1]);
+            let position = before.position.with_y(height);
+            return Some(Pose::new(position, before.orientation));
+        }
         let held = grip::holder(&self.state.grips, index).map(|(_, pose)| pose);
         held.or_else(|| self.state.wearing.place(self.flasks.get(index)?))
     }
@@ -398,6 +405,10 @@ impl Bodies {
             let Some((hand, target)) = grip::holder(&self.state.grips, index) else {
                 continue;
             };
+            // A sash is always where its own rails and the hand's height have it.
+            if matches!(flask.role, Some(Role::Sash { .. })) {
+                continue;
+            }
             let before = self.poses[index];
             let (linear, _) = grip::velocity_between(before, target, Vec3::ZERO, self.step);
             let fast = linear.length() > HELD_SPEED_MAX * self.length_scale;

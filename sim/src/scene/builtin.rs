@@ -1,7 +1,7 @@
 //! The scenes that come with the program.
 
 /// Name and text of each.
-pub(super) const BUILTIN: [(&str, &str); 12] = [
+pub(super) const BUILTIN: [(&str, &str); 13] = [
     ("beaker", include_str!("../../scenes/beaker.toml")),
     ("two-flasks", include_str!("../../scenes/two-flasks.toml")),
     (
@@ -33,6 +33,7 @@ pub(super) const BUILTIN: [(&str, &str); 12] = [
         "boiling-water",
         include_str!("../../scenes/boiling-water.toml"),
     ),
+    ("fume-hood", include_str!("../../scenes/fume-hood.toml")),
     (
         "acid-on-glove",
         include_str!("../../scenes/acid-on-glove.toml"),

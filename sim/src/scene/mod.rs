@@ -27,7 +27,7 @@ pub use settings::{
     SolverSettings, TableTop,
 };
 
-pub use tool::{Tool, ToolKind};
+pub use tool::{PANE, Tool, ToolKind, sash_heights};
 
 use crate::fill::{self, FillError};
 use crate::flask::particles::{self, BoundaryParticle};
@@ -269,7 +269,7 @@ impl Scene {
             .zip(raw.tool)
             .map(|(index, entry)| entry.build(index, &scale))
             .collect::<Result<Vec<_>, _>>()?;
-        tool::check_tools(&tools)?;
+        tool::check_tools(&tools, raw.table.as_ref(), &scale)?;
         let scene = Self {
             name: raw.name,
             description: raw.description,

@@ -4,9 +4,9 @@
 
 use super::error::Problem;
 use super::fields::require;
-use super::settings::Scale;
+use super::settings::{Scale, TableTop};
 use crate::pose::Pose;
-use glam::{DQuat, DVec3, EulerRot};
+use glam::{DQuat, DVec3, EulerRot, Vec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,20 +27,28 @@ pub enum ToolKind {
     Rod,
     /// A thermometer.
     Thermometer,
+    /// The sash of a fume hood: a pane over a bar, by which it is slid up and down. It stays where it is let go of.
+    Sash,
 }
+
+/// Height of a sash's pane over its bar, and its thickness, m at real size. Our choice; safety glass is sold so thick.
+pub const PANE: [f64; 2] = [0.70, 0.006];
+/// How far a sash goes up from the bench, m at real size: a hood's opening (EN 14175 tests it at 0.4 to 0.5 m).
+pub const SASH_TRAVEL: f64 = 0.55;
 
 impl ToolKind {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Goggles,
         Self::Gloves,
         Self::Cloth,
         Self::Rod,
         Self::Thermometer,
+        Self::Sash,
     ];
 
     /// Radius and height of its cylinder at real size, m. Goggles are as broad as a face (0.15 m: NASA-STD-3000); a rod is 7 mm by 250 mm and
-    /// a thermometer 6 mm by 260 mm, as they are sold; box and cloth, folded to a pad, are our choice.
+    /// a thermometer 6 mm by 260 mm, as they are sold; box, cloth, folded to a pad, and the bar of a sash are our choice.
     pub fn cylinder(self) -> [f64; 2] {
         match self {
             Self::Goggles => [0.075, 0.06],
@@ -48,6 +56,7 @@ impl ToolKind {
             Self::Cloth => [0.07, 0.02],
             Self::Rod => [0.0035, 0.25],
             Self::Thermometer => [0.003, 0.26],
+            Self::Sash => [0.012, 1.1],
         }
     }
 
@@ -59,12 +68,18 @@ impl ToolKind {
             Self::Cloth => 0.04,
             Self::Rod => 0.021,
             Self::Thermometer => 0.016,
+            Self::Sash => 6.0,
         }
     }
 
-    /// Whether it is long and thin, and lies on its side at the start. Its lower end, the one that is dipped, is its origin.
+    /// Whether it is dipped: by its lower end, which is its origin.
     pub fn is_dipped(self) -> bool {
         matches!(self, Self::Rod | Self::Thermometer)
+    }
+
+    /// Whether its cylinder is long and thin, and lies on its side at the start.
+    fn lies(self) -> bool {
+        self.is_dipped() || self == Self::Sash
     }
 
     /// Whether it can be worn.
@@ -82,6 +97,12 @@ pub struct Tool {
     pub stage_from_tool: Pose,
     /// Whether it is worn at the start: gloves on both hands.
     pub worn: bool,
+}
+
+/// Least and greatest height of the axis of a sash's bar, m of the scene.
+pub fn sash_heights(table: &TableTop, scale: &Scale) -> [f64; 2] {
+    let [radius, _] = ToolKind::Sash.cylinder();
+    [radius, radius + SASH_TRAVEL].map(|over| table.top + over / scale.length_scale)
 }
 
 #[derive(Deserialize)]
@@ -115,7 +136,7 @@ impl ToolEntry {
         let [radius, height] = self.kind.cylinder().map(|m| m / scale.length_scale);
         let turned = DQuat::from_rotation_y(self.yaw.to_radians());
         let middle = DVec3::from_array(self.position);
-        let (place, orientation) = if self.kind.is_dipped() {
+        let (place, orientation) = if self.kind.lies() {
             let lying = turned * DQuat::from_euler(EulerRot::XYZ, 0.0, 0.0, FRAC_PI_2);
             let base = middle + radius * DVec3::Y - 0.5 * height * (lying * DVec3::Y);
             (base, lying)
@@ -130,13 +151,54 @@ impl ToolEntry {
     }
 }
 
-/// One of each at most: a lesson and a picture name them by what they are.
-pub(super) fn check_tools(tools: &[Tool]) -> Result<(), Problem> {
+/// One of each at most: a lesson and a picture name them by what they are. They lie on the bench, where there is one, so that hands reach
+/// them; a sash slides over it.
+pub(super) fn check_tools(
+    tools: &[Tool],
+    table: Option<&TableTop>,
+    scale: &Scale,
+) -> Result<(), Problem> {
     for (index, tool) in tools.iter().enumerate() {
+        let field = |name: &str| format!("tool[{index}].{name}");
         if tools[..index].iter().any(|it| it.kind == tool.kind) {
             let problem = "is there already; a scene has one of each";
-            return Err(Problem::new(format!("tool[{index}].kind"), problem));
+            return Err(Problem::new(field("kind"), problem));
         }
+        let Some(table) = table else {
+            if tool.kind == ToolKind::Sash {
+                let problem =
+                    "is a sash, which slides over a bench; add a [table], or leave it out";
+                return Err(Problem::new(field("kind"), problem));
+            }
+            continue;
+        };
+        let Pose {
+            position,
+            orientation,
+        } = tool.stage_from_tool;
+        let half = 0.5 * tool.kind.cylinder()[1] / scale.length_scale;
+        let middle = position.as_dvec3() + half * (orientation * Vec3::Y).as_dvec3();
+        // Positions are in single precision: a hundredth of a millimetre is far below what is seen, and above its rounding.
+        let slack = 1e-5 / scale.length_scale;
+        for (axis, at) in [(0, middle.x), (2, middle.z)] {
+            let side = axis / 2;
+            let fits = (at - table.centre[side]).abs() <= 0.5 * table.size[side] + slack;
+            let must = "over the table, whose extent is [table] centre and size (metres)";
+            require(&field(&format!("position[{axis}]")), at, fits, must)?;
+        }
+        let [lowest, highest] = sash_heights(table, scale);
+        let height = f64::from(position.y);
+        let (fits, must) = match tool.kind {
+            ToolKind::Sash => (
+                (lowest - slack..=highest + slack).contains(&height),
+                "from the table's top to 0.55 m over it at real size, which is how far a sash slides (metres)",
+            ),
+            _ => (
+                height >= table.top - slack,
+                "the table's top or above it (metres)",
+            ),
+        };
+        require(&field("position[1]"), height, fits, must)?;
     }
     Ok(())
 }

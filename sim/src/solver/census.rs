@@ -12,7 +12,7 @@ use super::transfer::write;
 use super::{Solver, SolverError};
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
-use vitriol_gpu::{Buffer, Gpu, GpuError, Readback, Recorder, bytes_of_elements};
+use vitriol_gpu::{Buffer, Gpu, GpuError, QueueKind, Readback, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::{BubbleBefore, CensusRun, Limb};
 use vitriol_shaders::{Library, sim};
 
@@ -172,18 +172,50 @@ fn words(flasks: usize) -> usize {
     (flasks + PLACES) * (WORDS + flasks * MOVED_WORDS)
 }
 
+/// A [`LooksMemory`] on its way to the host.
+pub(crate) struct LooksMemoryRecord {
+    places: Readback,
+    bubbles: Readback,
+    is_first: bool,
+}
+
+impl LooksMemoryRecord {
+    /// The memory.
+    ///
+    /// # Errors
+    /// [`GpuError::NotDone`] before the submission has finished.
+    pub(crate) fn get(&self) -> Result<LooksMemory, GpuError> {
+        Ok(LooksMemory {
+            places: self.places.get()?,
+            bubbles: self.bubbles.get()?,
+            is_first: self.is_first,
+        })
+    }
+}
+
 impl Solver {
+    /// Records the copies of what looks know so far, behind those that were recorded before.
+    pub(crate) fn record_looks_memory(
+        &self,
+        rec: &mut Recorder,
+    ) -> Result<LooksMemoryRecord, GpuError> {
+        let [_, places, bubbles, _] = &self.looks.own;
+        Ok(LooksMemoryRecord {
+            places: rec.read_back(places)?,
+            bubbles: rec.read_back(bubbles)?,
+            is_first: self.looks.is_first.load(Ordering::Relaxed),
+        })
+    }
+
     /// What looks know so far; waits for the device.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
     pub fn looks_memory(&self) -> Result<LooksMemory, SolverError> {
-        let [_, places, bubbles, _] = &self.looks.own;
-        Ok(LooksMemory {
-            places: self.gpu.read(places)?,
-            bubbles: self.gpu.read(bubbles)?,
-            is_first: self.looks.is_first.load(Ordering::Relaxed),
-        })
+        let mut rec = self.gpu.recorder(QueueKind::Main)?;
+        let record = self.record_looks_memory(&mut rec)?;
+        self.gpu.submit(rec)?.wait()?;
+        Ok(record.get()?)
     }
 
     /// Takes that of a solver of the same scene in the same state.

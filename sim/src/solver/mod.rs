@@ -22,6 +22,7 @@ mod glass;
 mod handle;
 mod lanes;
 mod matter;
+mod pane;
 mod pipelines;
 mod search;
 mod snapshot;
@@ -33,6 +34,7 @@ mod steam;
 mod transfer;
 mod vessels;
 
+pub(crate) use census::LooksMemoryRecord;
 pub use census::{
     Bubbles, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, LooksMemory, MOST_LIMBS,
     Moved, Place, SCALDS, Skin, SkinPart, Touching,
@@ -41,6 +43,7 @@ pub use counters::Counters;
 pub use error::SolverError;
 pub use frame::FrameRecord;
 pub use handle::{ROD_DRAG, Touch};
+pub use pane::Pane;
 pub(crate) use snapshot::SolverStateRecord;
 pub use spec::{Ground, Particle, SolverSpec};
 pub use state::SolverState;

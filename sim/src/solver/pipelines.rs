@@ -62,6 +62,10 @@ pub(super) struct Pipelines {
     pub(super) carry: Option<SolverPass>,
     /// Where there are tools.
     pub(super) handle: Option<SolverPass>,
+    /// Likewise.
+    pub(super) pane: Option<SolverPass>,
+    /// The same, where bubbles throw up drops.
+    pub(super) pane_spray: Option<SolverPass>,
     pub(super) predict: SolverPass,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
@@ -162,6 +166,13 @@ impl Pipelines {
             handle: (spec.tools)
                 .then(|| make(sim::HANDLE, &[("SPACING", spacing)]))
                 .transpose()?,
+            pane: (spec.tools)
+                .then(|| make(sim::PANE, &[("SPACING", spacing)]))
+                .transpose()?,
+            pane_spray: match spec.parameters.bubbles() {
+                Some(bubbles) if bubbles.spray && spec.tools => Some(make(sim::PANE_SPRAY, &[])?),
+                _ => None,
+            },
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
             cell_scan: make(sim::CELL_SCAN, &[])?,

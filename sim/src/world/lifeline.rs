@@ -1,14 +1,15 @@
 //! What a world is brought back from after its device is lost: a state on the host, and what was done since.
 
-use super::{PendingLoad, StepInput, World, WorldError, WorldState};
-use crate::solver::SolverStateRecord;
+use super::{Look, PendingLoad, StepInput, World, WorldError, WorldState};
+use crate::solver::{LooksMemory, LooksMemoryRecord, SkinPart, SolverStateRecord};
 use std::sync::Arc;
 use vitriol_gpu::{QueueKind, Recorder};
 
 /// Something that was done with a world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Act {
     Step(QueueKind, StepInput),
+    Look(QueueKind, Vec<SkinPart>),
     Leap,
     Effort([u32; 2]),
     Intensity(f64),
@@ -23,11 +24,20 @@ struct Settings {
     intensity: Option<f64>,
 }
 
+/// What looks know, and the step behind which the last one was.
+#[derive(Debug)]
+struct Remembered {
+    memory: LooksMemory,
+    looked: u64,
+}
+
 /// See the module. What is brought back has the same bits on a device of the same kind.
 #[derive(Clone, Debug)]
 pub struct Lifeline {
     /// `None` stands for the start.
     state: Option<Arc<WorldState>>,
+    /// What looks knew then; `None` where none was made.
+    looks: Option<Arc<Remembered>>,
     /// What it was to be solved with from there on.
     settings: Settings,
     since: Vec<Act>,
@@ -48,6 +58,8 @@ pub struct StateRecord {
     step: u64,
     solver: SolverStateRecord,
     bodies: Vec<u8>,
+    looks: LooksMemoryRecord,
+    looked: u64,
     loads: Vec<Arc<PendingLoad>>,
     /// Acts before it, and what it is to be solved with.
     before: usize,
@@ -60,10 +72,14 @@ impl StateRecord {
     /// # Errors
     /// [`WorldError::Gpu`] before the submission has finished, and where the device is lost.
     pub fn get(self) -> Result<WorldState, WorldError> {
-        Ok(self.with_place()?.0)
+        Ok(self.kept()?.into_state())
     }
 
-    fn with_place(self) -> Result<(WorldState, usize, Settings), WorldError> {
+    /// The place from which on a world is brought back; may be read on another thread than the one that steps.
+    ///
+    /// # Errors
+    /// As for [`StateRecord::get`].
+    pub fn kept(self) -> Result<Kept, WorldError> {
         let loads = self.loads.iter().map(|load| {
             let sums = load.read()?;
             Ok::<_, WorldError>(bytemuck::cast_slice(&sums).to_vec())
@@ -74,19 +90,15 @@ impl StateRecord {
             solver: self.solver.get()?,
             bodies: self.bodies,
         };
-        Ok((state, self.before, self.settings))
-    }
-
-    /// The place from which on a world is brought back; may be read on another thread than the one that steps.
-    ///
-    /// # Errors
-    /// As for [`StateRecord::get`].
-    pub fn kept(self) -> Result<Kept, WorldError> {
-        let (state, before, settings) = self.with_place()?;
+        let looks = Remembered {
+            memory: self.looks.get()?,
+            looked: self.looked,
+        };
         Ok(Kept {
             state: Arc::new(state),
-            before,
-            settings,
+            looks: Arc::new(looks),
+            before: self.before,
+            settings: self.settings,
         })
     }
 }
@@ -94,8 +106,15 @@ impl StateRecord {
 /// A state that has come, for [`World::keep`].
 pub struct Kept {
     state: Arc<WorldState>,
+    looks: Arc<Remembered>,
     before: usize,
     settings: Settings,
+}
+
+impl Kept {
+    fn into_state(self) -> WorldState {
+        Arc::unwrap_or_clone(self.state)
+    }
 }
 
 impl World {
@@ -104,6 +123,7 @@ impl World {
         let settings = self.settings();
         self.lifeline.get_or_insert_with(|| Lifeline {
             state: None,
+            looks: None,
             settings,
             since: vec![Act::Breakable(self.bodies.is_breakable())],
             gone: 0,
@@ -129,7 +149,8 @@ impl World {
             // One more, for what was done just now: a state that is on its way and was recorded right before is older than this one.
             lifeline.gone += lifeline.since.len() + 1;
             lifeline.since.clear();
-            (lifeline.state, lifeline.settings) = (Some(Arc::new(state.clone())), settings);
+            lifeline.state = Some(Arc::new(state.clone()));
+            (lifeline.looks, lifeline.settings) = (None, settings);
         }
     }
 
@@ -148,6 +169,8 @@ impl World {
             step: self.step,
             solver: self.solver.record_state(rec)?,
             bodies: self.bodies.snapshot()?,
+            looks: self.solver.record_looks_memory(rec)?,
+            looked: self.looked,
             loads: self.loads.iter().cloned().collect(),
             before: self
                 .lifeline
@@ -166,25 +189,32 @@ impl World {
             let passed = passed.min(lifeline.since.len());
             lifeline.since.drain(..passed);
             lifeline.gone += passed;
-            (lifeline.state, lifeline.settings) = (Some(kept.state), kept.settings);
+            (lifeline.state, lifeline.looks) = (Some(kept.state), Some(kept.looks));
+            lifeline.settings = kept.settings;
         }
     }
 
     /// Brings a world back in this one, which is at the start of the same scene on another device: takes its state up and does
-    /// again what was done since. It is followed from there on.
+    /// again what was done since. It is followed from there on. Gives the looks among that, of which the last may not have been read before.
     ///
     /// # Errors
     /// [`WorldError`] where the state is another scene's, or the device fails.
-    pub fn revive(&mut self, lifeline: &Lifeline) -> Result<(), WorldError> {
+    pub fn revive(&mut self, lifeline: &Lifeline) -> Result<Vec<Look>, WorldError> {
         self.lifeline = None;
         self.set_effort(lifeline.settings.effort)?;
         self.take_intensity(lifeline.settings.intensity);
         if let Some(state) = &lifeline.state {
             self.restore(state)?;
         }
+        if let Some(looks) = &lifeline.looks {
+            self.remember_looks(&looks.memory)?;
+            self.looked = looks.looked;
+        }
+        let mut looks = Vec::new();
         for act in &lifeline.since {
             match act {
                 Act::Step(queue, input) => self.step_on(*queue, input)?,
+                Act::Look(queue, skin) => looks.push(self.look_on(*queue, skin)?),
                 Act::Leap => self.hands_leap(),
                 Act::Effort(effort) => self.set_effort(*effort)?,
                 Act::Intensity(intensity) => self.set_intensity(*intensity)?,
@@ -192,6 +222,6 @@ impl World {
             }
         }
         self.lifeline = Some(lifeline.clone());
-        Ok(())
+        Ok(looks)
     }
 }

@@ -1,5 +1,6 @@
 //! Looks at where the liquid is, behind a step.
 
+use super::lifeline::Act;
 use super::{World, WorldError};
 use crate::solver::{Census, CensusRecord, LooksMemory, SkinPart};
 use vitriol_gpu::{QueueKind, Ticket};
@@ -39,6 +40,8 @@ impl World {
     pub fn look_on(&mut self, queue: QueueKind, skin: &[SkinPart]) -> Result<Look, WorldError> {
         let steps = self.step.saturating_sub(self.looked);
         let elapsed = steps as f64 * self.scene.scale.frame_time;
+        // Before it: where the device is lost in it, it is made again with the step that it is behind.
+        self.note(Act::Look(queue, skin.to_vec()));
         let mut rec = self.gpu.recorder(queue)?;
         let record = self.solver.record_census(&mut rec, skin, elapsed)?;
         let ticket = self.gpu.submit(rec)?;

@@ -3,7 +3,7 @@
 use crate::bodies::{BodiesSpec, BodySpec, Role, Table, ToolSpec, Worn};
 use crate::chemistry::table::SolutionTable;
 use crate::fill::FillError;
-use crate::scene::{Feature, Scene, StartParticle, Tool, ToolKind};
+use crate::scene::{Feature, PANE, Scene, StartParticle, Tool, ToolKind, sash_heights};
 use crate::solver::{Ground, Particle};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -90,8 +90,10 @@ pub(super) fn bodies(scene: &Scene) -> BodiesSpec {
                 fixed: flask.fixed,
             })
             .collect(),
-        tools: (scene.tools.iter())
-            .map(|tool| of_tool(tool, scene.scale.length_scale))
+        tools: scene
+            .tools
+            .iter()
+            .map(|tool| of_tool(tool, scene))
             .collect(),
         worn: Worn {
             goggles: scene.tool(ToolKind::Goggles).map(|it| it.worn),
@@ -101,7 +103,10 @@ pub(super) fn bodies(scene: &Scene) -> BodiesSpec {
 }
 
 /// A tool as a body: a cylinder.
-fn of_tool(tool: &Tool, length_scale: f64) -> ToolSpec {
+fn of_tool(tool: &Tool, scene: &Scene) -> ToolSpec {
+    let length_scale = scene.scale.length_scale;
+    // A scene with a sash has a table.
+    let heights = (scene.table.as_ref()).map_or([0.0; 2], |it| sash_heights(it, &scene.scale));
     let [radius, height] = tool.kind.cylinder().map(|m| (m / length_scale) as f32);
     ToolSpec {
         body: BodySpec {
@@ -114,6 +119,10 @@ fn of_tool(tool: &Tool, length_scale: f64) -> ToolSpec {
         role: match tool.kind {
             ToolKind::Goggles => Role::Goggles,
             ToolKind::Gloves => Role::Gloves,
+            ToolKind::Sash => Role::Sash {
+                heights: heights.map(|m| m as f32),
+                pane: PANE.map(|m| (m / length_scale) as f32),
+            },
             ToolKind::Cloth | ToolKind::Rod | ToolKind::Thermometer => Role::Tool,
         },
     }

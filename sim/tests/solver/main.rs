@@ -24,6 +24,7 @@ mod measured;
 mod neighbours;
 mod nozzle;
 mod open_space;
+mod pane;
 mod passes;
 mod random_glass;
 mod repeat;

@@ -107,6 +107,7 @@ impl Draw for Screen {
             steam: None,
             panel: None,
             sign: None,
+            pane: None,
             shown: 1.0,
             goggles: 0.0,
             colour_by: ColourBy::Acid,

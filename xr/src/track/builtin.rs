@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 /// Names of the built-in tracks.
-pub const NAMES: [&str; 8] = [
+pub const NAMES: [&str; 9] = [
     "two-flasks",
     "dilute",
     "shake",
@@ -15,6 +15,7 @@ pub const NAMES: [&str; 8] = [
     "dropped",
     "hands-off",
     "emergency",
+    "examination",
 ];
 
 /// The keyframe file of the built-in track `name`.
@@ -28,6 +29,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         "dropped" => Some(include_str!("../../tracks/dropped.toml")),
         "hands-off" => Some(include_str!("../../tracks/hands-off.toml")),
         "emergency" => Some(include_str!("../../tracks/emergency.toml")),
+        "examination" => Some(include_str!("../../tracks/examination.toml")),
         _ => None,
     }
 }

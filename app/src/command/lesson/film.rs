@@ -184,7 +184,7 @@ mod tests {
     fn a_film_shows_the_track_of_the_lessons_scene() {
         let usual = |name| usual(&Lesson::builtin(name).unwrap());
         assert_eq!(usual("dilute").unwrap(), "dilute");
-        assert_eq!(usual("examination").unwrap(), "dilute");
+        assert_eq!(usual("examination").unwrap(), "examination");
         let none = usual("wrong-order").unwrap_err().to_string();
         assert!(none.contains("water-into-acid"), "{none}");
     }

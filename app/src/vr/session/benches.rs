@@ -7,6 +7,7 @@ use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
+use vitriol_sim::world::Look;
 use vitriol_xr::{Headset, Switch};
 
 use super::ended::NoFrameOpen;
@@ -138,32 +139,34 @@ impl Benches {
 
     /// Moves the bench to the headset's new device, every particle where it was, and begins the one that was being
     /// built anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of
-    /// it; whether it was.
-    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<bool, Failure> {
+    /// it, and the looks behind the steps that were taken again are given; `None` where it is not lost.
+    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<Option<Vec<Look>>, Failure> {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset);
         let before = &self.current.world;
         let mut bench = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
         let state = before.snapshot();
         let lost = before.gpu().is_lost();
-        match before.lifeline().filter(|_| lost) {
+        let looks = match before.lifeline().filter(|_| lost) {
             Some(lifeline) => {
-                bench.world.revive(lifeline).other()?;
+                let looks = bench.world.revive(lifeline).other()?;
                 tracing::info!("brought back, {} steps taken again", lifeline.steps());
+                Some(looks)
             }
             None => {
                 bench.world.solve_like(before).other()?;
                 bench.world.restore(&state.other()?).other()?;
                 let memory = before.looks_memory().other()?;
                 bench.world.remember_looks(&memory).other()?;
+                None
             }
-        }
+        };
         self.current = bench;
         let coming = self.coming.take();
         let coming = coming.map(|coming| (coming.plan, coming.switch));
         if let Some((plan, switch)) = coming.or(self.again.take()) {
             self.start(gpu, plan, switch);
         }
-        Ok(lost)
+        Ok(looks)
     }
 }

@@ -173,6 +173,7 @@ fn who_dilutes_correctly_has_all_points() {
             sight.flasks[0].name = "source".to_owned();
             sight.flasks[1].name = "target".to_owned();
             (sight.flasks[0].held, sight.flasks[0].standing) = (held, !held);
+            sight.sash_m = Some(0.3);
             (sight.flasks[1].volume_m3, sight.flasks[1].acid) = (volume_ml * 1e-6, acid);
             sight
         };

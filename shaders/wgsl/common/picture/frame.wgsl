@@ -109,6 +109,8 @@ struct Frame {
     panel_from_stage: mat4x4<f32>,
     /// The same of a sign.
     sign_from_stage: mat4x4<f32>,
+    /// The same of a pane of glass.
+    pane_from_stage: mat4x4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -2,6 +2,7 @@
 mod builtin;
 mod refused;
 mod sizes;
+mod tools;
 
 use super::*;
 

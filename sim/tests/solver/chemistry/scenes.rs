@@ -99,6 +99,7 @@ fn each_scene_has_its_passes_and_no_other() {
         ("water-into-acid", &["turnover", "exchange"]),
         ("acid-into-water", &["turnover", "exchange"]),
         ("boiling-water", &["turnover", "exchange"]),
+        ("fume-hood", &["turnover", "exchange"]),
         ("acid-on-glove", &["turnover", "exchange"]),
     ];
     let mut names = of_scenes.map(|(name, _)| name);
