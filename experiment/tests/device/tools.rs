@@ -243,6 +243,7 @@ fn what_hands_do_with_tools_and_glass_is_judged() {
         hood(|scene| {
             scene.liquids.remove(0);
             scene.liquids[0].acid_fraction = acid;
+            scene.liquids[0].volume = 175e-6;
         })
     };
     let cases = [

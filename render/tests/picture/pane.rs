@@ -72,8 +72,10 @@ fn a_pane_lets_through_what_fresnel_says() {
                 let green = |picture| linear(rgba(picture, index)[1]);
                 let light = green(&clear) - green(&nothing);
                 // A level is up to 0.009 of linear light there; white is where levels end, and edges are smoothed.
+                let axis = -view.stage_from_eye.matrix3.z_axis.as_dvec3();
+                let depth = way * direction.dot(axis);
                 let within = on_panel(&view, &panel, x, y)
-                    .is_some_and(|([x, y], _)| x.abs().max(y.abs()) < 0.9);
+                    .is_some_and(|([x, y], behind)| x.abs().max(y.abs()) < 0.9 && depth < behind);
                 let white = [&seen, &own].iter().any(|it| rgba(it, index)[1] > 250);
                 if light.abs() < 0.2 || white || !within {
                     continue;

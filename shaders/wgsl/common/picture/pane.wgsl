@@ -36,7 +36,7 @@ fn pane_over(eye: u32, place: vec2<f32>, end: f32) -> PaneSeen {
     if (way <= frame.views[eye].near || way >= end || any(abs(at) > vec2<f32>(1.0))) { return none; }
     // Its rows are the pane's axes over their lengths.
     let rows = transpose(frame.pane_from_stage);
-    let normal = normalize(rows[2].xyz) * select(1.0, -1.0, from_.z < 0.0);
+    let normal = normalize(rows[2].xyz);
     let sight = normalize(direction);
     let face = fresnel_face(abs(dot(sight, normal)), PANE_INDEX);
     // Both faces, and what goes to and fro between them.
