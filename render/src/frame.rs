@@ -16,7 +16,7 @@ use crate::tints;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.
-const VESSEL_OPACITY: f32 = 0.55;
+const VESSEL_OPACITY: f32 = 0.5;
 
 /// What a particle's colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]

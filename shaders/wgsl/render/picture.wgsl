@@ -59,12 +59,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         var kept = vec3<f32>(1.0);
         var mirrored = vec3<f32>(0.0);
         var wet = false;
+        var through = NO_VESSEL;
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
             let liquid = BEFORE_GLASS * near / here.w;
             if (here.w > 0.0 && liquid > reversed) {
                 let ray = liquid_at(place.pixel, eye, here);
                 wet = true;
+                through = ray.vessel;
                 reversed = liquid;
                 origin = ray.origin;
                 direction = ray.direction;
@@ -73,8 +75,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
                 met = room_meets(origin, direction);
             }
         }
-        var light = bench_light(origin + met.way * direction, met.normal, met.material);
+        var light = bench_light(origin + met.way * direction, met.normal, met.material, through);
         if (met.way == 0.0) { light = ambient_light(direction.y); }
+        if (wet) { light = mix(light, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction)); }
         colour = display(kept * light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (wet) {

@@ -29,18 +29,27 @@ fn ambient_light(up: f32) -> vec3<f32> {
     return mix(FLOOR_LIGHT, CEILING_LIGHT, 0.5 + 0.5 * up);
 }
 
-/// What a mirror sees in `direction`: walls between floor and ceiling, and the window's four panes.
-fn surroundings(direction: vec3<f32>) -> vec3<f32> {
-    var seen = mix(FLOOR_LIGHT, CEILING_LIGHT, smoothstep(-0.3, 0.5, direction.y));
-    // Where the direction meets the plane x = -1; the panes' edges are soft, so that thin
-    // highlights do not shimmer.
-    let hit = direction.yz / max(-direction.x, 1e-3);
-    let pane = abs(hit - vec2<f32>(0.35, 0.75));
-    let inside = smoothstep(vec2<f32>(1.00, 0.62), vec2<f32>(0.90, 0.54), pane);
-    let bars = smoothstep(vec2<f32>(0.02), vec2<f32>(0.06), pane);
-    let open = inside.x * inside.y * bars.x * bars.y * step(0.0, -direction.x);
-    seen += open * vec3<f32>(5.2, 5.4, 5.6);
-    return seen;
+/// The window's axes: out of it, towards where vessels stand on the bench (0, 0.75, −0.40), along its width, and along its height.
+const WINDOW_OUT: vec3<f32> = vec3<f32>(0.71652, -0.54933, -0.42991);
+const WINDOW_ACROSS: vec3<f32> = vec3<f32>(-0.51450, 0.0, -0.85749);
+const WINDOW_UP: vec3<f32> = vec3<f32>(0.47105, 0.83560, -0.28263);
+/// Half its width and height, and half the width of the bars between its four panes, metres: such that panes of `PANE_LIGHT` give the bench, under the
+/// vessels, the key light's irradiance.
+const WINDOW_HALF: vec2<f32> = vec2<f32>(0.935, 1.535);
+const WINDOW_BAR: f32 = 0.065;
+/// Half the width of their edges, metres: soft, so that thin highlights do not shimmer.
+const WINDOW_EDGE: f32 = 0.045;
+const PANE_LIGHT: vec3<f32> = vec3<f32>(5.55, 5.40, 5.175);
+
+/// How much of what is seen from `position` (metres) along `direction` is the window's panes, 0 to 1.
+fn panes_seen(position: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let aside = position - WINDOW;
+    let steep = dot(direction, WINDOW_OUT);
+    let at = aside - dot(aside, WINDOW_OUT) / min(steep, -1e-6) * direction;
+    let place = abs(vec2<f32>(dot(at, WINDOW_ACROSS), dot(at, WINDOW_UP)));
+    let inside = smoothstep(WINDOW_HALF + WINDOW_EDGE, WINDOW_HALF - WINDOW_EDGE, place);
+    let bars = smoothstep(vec2<f32>(WINDOW_BAR - WINDOW_EDGE), vec2<f32>(WINDOW_BAR + WINDOW_EDGE), place);
+    return inside.x * inside.y * bars.x * bars.y * step(1e-6, -steep);
 }
 
 /// Tone mapping: a fit of the ACES film curve by K. Narkowicz (2016). The sRGB image does the

@@ -2,8 +2,8 @@
 //! cones, and graduation marks printed on them. Walls bend no light that passes: their sides are
 //! parallel.
 
-//!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
+//!include common/picture/room.wgsl
 //!include common/picture/shard.wgsl
 //!include common/picture/tile_marks.wgsl
 
@@ -13,8 +13,8 @@
 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
 const GLASS_REFLECTANCE = 0.036;
-/// What one wall seen at right angles takes from the light; a slanting path takes more.
-const WALL_ABSORPTION = 0.05;
+/// What one wall seen at right angles takes from the light; a slanting path takes more. Of borosilicate glass 2 mm take some 0.05 %.
+const WALL_ABSORPTION = 0.0005;
 /// Light that the wall's inside scatters to the eye: the greenish edge of clear glass.
 const EDGE_LIGHT = vec3<f32>(0.06, 0.095, 0.09);
 /// Share of a broken edge that is seen over what is behind: as bright as glass a palm thick, through which one looks along the wall.
@@ -102,9 +102,8 @@ fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> vec2<f32> {
     return select(vec2<f32>(1e9), ways, fits & seen);
 }
 
-/// One wall's light. `cosine` is between its normal and the way to the eye, `grain` the least that a pixel can
-/// show.
-fn wall(to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
+/// One wall's light at `place` (stage). `grain` is the least cosine between its normal and the way to the eye that a pixel can show.
+fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
     // A silhouette thinner than a pixel would break into dots.
     let facing = max(max(dot(normal, to_eye), grain), 0.18);
     let rest = 1.0 - facing;
@@ -113,7 +112,7 @@ fn wall(to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
     let absorbed = 1.0 - exp(-WALL_ABSORPTION / facing);
     // The rays that miss the eye are missing mostly at the edges, which look dark.
     let opacity = reflectance + (1.0 - reflectance) * absorbed;
-    let light = reflectance * surroundings(reflect(-to_eye, normal)) + (1.0 - reflectance) * absorbed * EDGE_LIGHT;
+    let light = reflectance * mirrored_light(place, reflect(-to_eye, normal)) + (1.0 - reflectance) * absorbed * EDGE_LIGHT;
     // Tone mapping bends, so it is for the colour as if opaque; the opacity goes on after.
     return Cover(display(light / opacity) * opacity, 1.0 - opacity);
 }
@@ -228,11 +227,11 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             // At a silhouette the cosine grows as the root of the way from it, over the radius.
             let grain = sqrt(depth / ((*view).focal * r));
             let normal = stage_from_vessel * (outward * select(1.0, -1.0, cosine > 0.0));
-            var layer = wall(to_eye, normal, grain);
+            let stage = (*view).eye + depth * seen;
+            var layer = wall(stage, to_eye, normal, grain);
             // How far up the wall it is to the next pixel: the step in the picture, moved along the ray on to the wall.
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
-            let stage = (*view).eye + depth * seen;
             layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
             if (within < frame.vessels[index].wall) {
                 layer = over(Cover(EDGE_OPACITY * display(BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);

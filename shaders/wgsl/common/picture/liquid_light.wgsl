@@ -2,6 +2,7 @@
 //! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
 //! eyes see the same things in the same places.
 
+//!include common/picture/fresnel.wgsl
 //!include common/picture/pixel_blocks.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/vessel_rays.wgsl
@@ -11,10 +12,11 @@
 /// Thickness and acid of each block, as `fluid/thickness.wgsl` adds them up.
 @group(0) @binding(3) var<storage, read> sums: array<vec2<u32>>;
 
-/// Refractive index of water at 20 °C (1.333; sulfuric acid of 98 % has 1.43).
+/// Refractive index of water at 20 °C, and what acid adds by its mass: sulfuric acid of 98 % has 1.4305.
 const INDEX = 1.333;
-/// ((n − 1) / (n + 1))².
-const NORMAL_REFLECTANCE = 0.02037;
+const INDEX_OF_ACID = 0.0995;
+/// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
+const MOST_WAYS = 5;
 
 /// What is seen at a pixel, from the eye; zero where there is no liquid.
 fn seen_at(pixel: vec2<i32>, eye: u32) -> vec4<f32> {
@@ -74,6 +76,45 @@ struct Wet {
     direction: vec3<f32>,
     kept: vec3<f32>,
     mirrored: vec3<f32>,
+    /// The vessel that it is in, or `NO_VESSEL`.
+    vessel: u32,
+}
+
+/// A ray on its way through a vessel's liquid, and out of it.
+struct Way {
+    /// Where it leaves it, and along what.
+    exit: vec3<f32>,
+    out: vec3<f32>,
+    /// How far it has come in the liquid.
+    length: f32,
+    /// Whether it leaves it through the base.
+    down: bool,
+}
+
+/// Follows a ray from `point` (stage; `p` in the vessel's frame) along `within`, both in the liquid: what meets wall or base too flat is mirrored
+/// there, and goes on.
+fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32) -> Way {
+    let m = frame.vessels[vessel].vessel_from_stage;
+    let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
+    var ray = Way(point, within, 0.0, false);
+    var at = p;
+    for (var n = 0; n < MOST_WAYS; n++) {
+        let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
+        let reach = to_glass(vessel, at, direction);
+        let way = min(reach.x, reach.y);
+        at += way * direction;
+        ray.exit += way * ray.out;
+        ray.length += way;
+        ray.down = reach.y <= reach.x;
+        let back = stage_from_vessel * select(inward(vessel, at), vec3<f32>(0.0, 1.0, 0.0), ray.down);
+        let through = refract(ray.out, back, index);
+        if (dot(through, through) > 0.0) {
+            ray.out = through;
+            break;
+        }
+        ray.out = reflect(ray.out, back);
+    }
+    return ray;
 }
 
 /// The liquid at a pixel; `here` is `seen_at` of it, of view depth above 0.
@@ -83,14 +124,17 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     let point = frame.views[eye].eye + here.xyz;
     let thickness = thickness_at(vec2<f32>(pixel) + 0.5, eye);
     let acid = saturate(thickness.y / max(thickness.x, 1e-9));
-    let path = slant * thickness.x;
+    let straight = slant * thickness.x;
+    let index = INDEX + INDEX_OF_ACID * acid;
     var normal = normal_at(pixel, eye, here);
 
     let vessel = vessel_around(point);
     var wetted = 0.0;
     var exit = point;
-    var out = refract(ray, normal, 1.0 / INDEX);
-    if vessel < frame.blocker_count {
+    var path = straight;
+    var out = refract(ray, normal, 1.0 / index);
+    let held = vessel < frame.blocker_count;
+    if held {
         let m = frame.vessels[vessel].vessel_from_stage;
         let p = (m * vec4<f32>(point, 1.0)).xyz;
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
@@ -99,23 +143,19 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         // Liquid that wets the glass has the glass's own surface.
         wetted = smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
         normal = normalize(mix(normal, wall, wetted));
-        let within = refract(ray, normal, 1.0 / INDEX);
-        let direction = (m * vec4<f32>(within, 0.0)).xyz;
-        let reach = to_glass(vessel, p, direction);
-        let way = min(reach.x, reach.y);
-        let met = p + way * direction;
-        exit = point + way * within;
-        out = within;
-        if reach.x < reach.y {
-            let back = stage_from_vessel * inward(vessel, met);
-            let through = refract(within, back, INDEX);
-            out = select(reflect(within, back), through, dot(through, through) > 0.0);
-        }
+        let way = way_through(vessel, point, p, refract(ray, normal, 1.0 / index), index);
+        exit = way.exit;
+        out = way.out;
+        // A vessel that is not full of it all the way: by what of the ray that is not bent is in liquid.
+        let reach = to_glass(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz);
+        let filled = saturate(straight / max(min(reach.x, reach.y), 1e-9));
+        // What the bench under it sends back has come down through the liquid before.
+        let lit = select(0.0, max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
+        path = filled * (way.length + lit);
     }
     let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
-    let rest = 1.0 - saturate(dot(normal, -ray));
-    let mirrored = NORMAL_REFLECTANCE + (1.0 - NORMAL_REFLECTANCE) * rest * rest * rest * rest * rest;
     // An edge thinner than a drop is none that could mirror.
-    let reflectance = mirrored * (1.0 - wetted) * saturate(path / frame.spacing);
-    return Wet(exit, out, (1.0 - reflectance) * kept, reflectance * surroundings(reflect(ray, normal)));
+    let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
+    let mirrored = reflectance * mirrored_light(point, reflect(ray, normal));
+    return Wet(exit, out, (1.0 - reflectance) * kept, mirrored, select(NO_VESSEL, vessel, held));
 }

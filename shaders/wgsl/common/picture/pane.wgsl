@@ -1,21 +1,13 @@
 //! A flat pane of glass over what is behind it, from either side: the sash of a fume hood. Its sides are parallel, so it bends nothing.
 
-//!include common/picture/daylight.wgsl
-//!include common/picture/frame.wgsl
+//!include common/picture/fresnel.wgsl
+//!include common/picture/room.wgsl
 
 /// Of soda-lime glass.
 const PANE_INDEX = 1.52;
 /// Share of the light that 6 mm of it take, of red, green and blue: float glass of 6 mm lets some 88 % through, of which 8 % are
 /// mirrored (EN 410 gives 0.88 to 0.89).
 const PANE_TAKES = vec3<f32>(0.05, 0.03, 0.04);
-
-/// Share of unpolarised light that one face mirrors, by Fresnel's equations; `cosine` in the air.
-fn fresnel_face(cosine: f32, index: f32) -> f32 {
-    let within = sqrt(max(1.0 - (1.0 - cosine * cosine) / (index * index), 0.0));
-    let across = (cosine - index * within) / (cosine + index * within);
-    let along = (index * cosine - within) / (index * cosine + within);
-    return 0.5 * (across * across + along * along);
-}
 
 /// What of the pixel with its middle at `place` is seen of the pane, and how much of what is behind, where the pane is nearer than view depth `end`: `light`
 /// as displayed.
@@ -38,9 +30,9 @@ fn pane_over(eye: u32, place: vec2<f32>, end: f32) -> PaneSeen {
     let rows = transpose(frame.pane_from_stage);
     let normal = normalize(rows[2].xyz);
     let sight = normalize(direction);
-    let face = fresnel_face(abs(dot(sight, normal)), PANE_INDEX);
+    let face = fresnel(abs(dot(sight, normal)), PANE_INDEX);
     // Both faces, and what goes to and fro between them.
     let mirrored = 2.0 * face / (1.0 + face);
-    let light = mirrored * surroundings(reflect(sight, normal));
+    let light = mirrored * mirrored_light(frame.views[eye].eye + way * direction, reflect(sight, normal));
     return PaneSeen(display(light), (1.0 - mirrored) * (1.0 - PANE_TAKES));
 }

@@ -7,10 +7,19 @@ const MATERIAL_TABLE = 0u;
 const MATERIAL_FLOOR = 1u;
 const MATERIAL_WALL = 2u;
 
-/// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`.
-fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>) -> vec2<f32> {
+/// Half the angle that the window takes up, seen from the bench, rad: √(width · height)/2 over the way.
+const WINDOW_ANGLE = 0.5;
+/// Share of the sky's light that a vessel keeps from where it hides all of the sky: clear glass and water send most of it on.
+const HIDES_SKY = 0.2;
+/// No vessel, for `bench_light`.
+const NO_VESSEL = 0xffffffffu;
+
+/// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`; the vessel `seen_through` keeps none away: what is
+/// under it is lit through it.
+fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_through: u32) -> vec2<f32> {
     var share = vec2<f32>(1.0);
     for (var index = 0u; index < frame.blocker_count; index++) {
+        if (index == seen_through) { continue; }
         let blocker = frame.blockers[index];
         let axis = blocker.top - blocker.foot;
         let from_foot = position - blocker.foot;
@@ -22,39 +31,39 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>) -> vec2<
         let gap = max(length(to_sphere), blocker.radius);
         let ratio = blocker.radius / gap;
         let hidden = saturate(dot(to_sphere, normal) / gap) * ratio * ratio;
-        share.x *= 1.0 - 0.9 * hidden;
+        share.x *= 1.0 - HIDES_SKY * hidden;
 
         // Window: the nearest approach of the ray to the axis, as an angle seen from here,
-        // against a window about 0.2 rad across.
+        // against the window.
         let ray_foot = dot(from_foot, to_window);
         let ray_axis = dot(to_window, axis);
         let across = max(axis_squared - ray_axis * ray_axis, 1e-12);
         let on_axis = saturate((along_axis - ray_foot * ray_axis) / across);
         let on_ray = max(dot(blocker.foot + axis * on_axis - position, to_window), 1e-6);
         let miss = length(blocker.foot + axis * on_axis - position - to_window * on_ray);
-        let open = smoothstep(-0.10, 0.10, (miss - blocker.radius) / on_ray);
+        let open = smoothstep(-WINDOW_ANGLE, WINDOW_ANGLE, (miss - blocker.radius) / on_ray);
         share.y *= 1.0 - blocker.opacity * (1.0 - open);
     }
     return share;
 }
 
-/// Light that the bench, the floor or a wall sends back from `position`.
-fn bench_light(position: vec3<f32>, normal: vec3<f32>, material: u32) -> vec3<f32> {
+/// What the bench, the floor or a wall sends back of the light.
+fn albedo_of(material: u32) -> vec3<f32> {
+    let dark = select(vec3<f32>(0.20, 0.19, 0.18), vec3<f32>(0.30, 0.33, 0.35), material == MATERIAL_TABLE);
+    return select(dark, vec3<f32>(0.62, 0.60, 0.56), material == MATERIAL_WALL);
+}
+
+/// Light that the bench, the floor or a wall sends back from `position`, to an eye that looks through a vessel, or through `NO_VESSEL`.
+fn bench_light(position: vec3<f32>, normal: vec3<f32>, material: u32, seen_through: u32) -> vec3<f32> {
     let key = key_light(position * frame.metres_per_unit);
     var ambient = ambient_light(normal.y);
     var window = max(dot(normal, key.direction), 0.0) * key.light;
-    var albedo = vec3<f32>(0.62, 0.60, 0.56);
     if material == MATERIAL_TABLE || material == MATERIAL_FLOOR {
-        albedo = select(
-            vec3<f32>(0.20, 0.19, 0.18),
-            vec3<f32>(0.30, 0.33, 0.35),
-            material == MATERIAL_TABLE,
-        );
-        let share = shadow(position, normal, key.direction);
+        let share = shadow(position, normal, key.direction, seen_through);
         ambient *= share.x;
         window *= share.y;
     }
-    return albedo * (ambient + window);
+    return albedo_of(material) * (ambient + window);
 }
 
 /// Where a ray meets the room.
@@ -87,4 +96,15 @@ fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
         material = MATERIAL_TABLE;
     }
     return Meeting(way, normal, material);
+}
+
+/// What a mirror at `origin` sees along `direction`: the room without shadows, and the window.
+fn mirrored_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let met = room_meets(origin, direction);
+    let position = (origin + met.way * direction) * frame.metres_per_unit;
+    let key = key_light(position);
+    let window = max(dot(met.normal, key.direction), 0.0) * key.light;
+    let room = albedo_of(met.material) * (ambient_light(met.normal.y) + window);
+    let seen = select(room, ambient_light(direction.y), met.way == 0.0);
+    return mix(seen, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction));
 }
