@@ -8,9 +8,9 @@ What the truth makes of it:
 - The ambient light is a hemisphere of CEILING above and one of FLOOR below, infinitely far away. On a surface without
   anything before it, that is the shader's `ambient_light` exactly. Walls and ceiling are seen by the eye, by mirrors and
   through liquid, but keep no light away: the two hemispheres stand for all that they send on.
-- The window is four panes in the plane x = WINDOW.x that face the room, about WINDOW. Their radiance is what
-  `surroundings` adds for them, in the key light's colour. Their size is such that the irradiance at BENCH is
-  that of `key_light`; it comes out as the size that mirrors show in `surroundings`. Elsewhere the unshadowed
+- The window is four panes about WINDOW that face BENCH. Their radiance is what `surroundings` adds for them, in the
+  key light's colour. Their size is such that the irradiance at BENCH is that of `key_light`; it comes out
+  within a tenth of the size that `surroundings` shows. Elsewhere the unshadowed
   irradiance is taken from `key_light`, and what part of it arrives from rays to the panes.
 - Mirrors and refraction see the same room as the eye does; the shader's mirrors see `surroundings` instead.
 """
@@ -26,10 +26,11 @@ ALBEDO_FLOOR = np.array([0.20, 0.19, 0.18])
 ALBEDO_TABLE = np.array([0.30, 0.33, 0.35])
 
 # Where vessels stand on the bench, m: there the panes' irradiance is the key light's.
-BENCH = np.array([0.0, 0.85, -0.40])
+BENCH = np.array([0.0, 0.75, -0.40])
+UP = np.array([0.0, 1.0, 0.0])
 # What `surroundings` adds in a pane, green.
 PANE_RADIANCE = 5.4
-# Half widths of the window (z, y) over the way to it, and half the bars' width, of `surroundings`' middle edges.
+# Half width and height of the window over the way to it, and half the bars' width, of `surroundings`' middle edges.
 PANE_SHAPE = np.array([0.58, 0.95])
 BARS = 0.04
 
@@ -57,16 +58,25 @@ def ambient_light(up):
     return FLOOR * (1.0 - share) + CEILING * share
 
 
+def window_axes():
+    """Along the window's width and height, and out of it towards BENCH."""
+    out = BENCH - WINDOW
+    out = out / np.linalg.norm(out)
+    across = np.cross(UP, out)
+    across = across / np.linalg.norm(across)
+    return across, np.cross(out, across), out
+
+
 def panes():
-    """Half width (z) and height (y) of the window, m, half the bars' width, m, and the panes' radiance."""
+    """Half width and height of the window, m, half the bars' width, m, and the panes' radiance."""
     radiance = PANE_RADIANCE * WINDOW_POWER / WINDOW_POWER[1]
     direction, light = key_light(BENCH)
-    wanted = np.pi * light[1] / radiance[1]
-    low, high = 0.1, 3.0
+    wanted = np.pi * light[1] * direction[1] / radiance[1]
+    low, high = 0.1, 5.0
     for _ in range(50):
         size = 0.5 * (low + high)
         half = size * PANE_SHAPE
-        if facing(BENCH, direction, half, size * BARS) < wanted:
+        if facing(BENCH, UP, half, size * BARS) < wanted:
             low = size
         else:
             high = size
@@ -75,14 +85,15 @@ def panes():
 
 def facing(at, normal, half, bars, steps=64):
     """Integral of the cosine over the solid angle of the panes, by a midpoint rule."""
-    z = np.linspace(-1, 1, 2 * steps + 1)
-    z = 0.5 * (z[1:] + z[:-1])
-    z, y = np.meshgrid(z * half[0], z * half[1])
-    way = np.stack([np.full_like(z, WINDOW[0]), WINDOW[1] + y, WINDOW[2] + z], -1) - at
+    places = np.linspace(-1, 1, 2 * steps + 1)
+    places = 0.5 * (places[1:] + places[:-1])
+    u, v = np.meshgrid(places * half[0], places * half[1])
+    across, along, out = window_axes()
+    way = WINDOW + u[..., None] * across + v[..., None] * along - at
     square = np.sum(way * way, -1)
-    cosines = np.maximum(way @ normal, 0.0) * np.maximum(-way[..., 0], 0.0) / square
-    open_ = (np.abs(z) > bars) & (np.abs(y) > bars)
-    area = 4.0 * half[0] * half[1] / z.size
+    cosines = np.maximum(way @ normal, 0.0) * np.maximum(-(way @ out), 0.0) / square
+    open_ = (np.abs(u) > bars) & (np.abs(v) > bars)
+    area = 4.0 * half[0] * half[1] / u.size
     return np.sum(cosines / square * open_) * area
 
 

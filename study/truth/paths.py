@@ -89,21 +89,22 @@ class Paths:
         self.bench, self.options = bench, options
         half, bars, radiance = lights.panes()
         self.half, self.bars = half.tolist(), float(bars)
+        # Numbers, and not the library's: what a loop meets of those it would carry along.
         self.window = lights.WINDOW.tolist()
-        self.pane_light = colour(radiance)
+        self.across, self.along, self.out = (axis.tolist() for axis in lights.window_axes())
+        self.pane_light = radiance.tolist()
         self.acid = None
         if bench.acid is not None:
             share, low, spacing = bench.acid
             # Mitsuba counts x first, and a texture's last axis is its first.
             data = np.ascontiguousarray(share.transpose(2, 1, 0))[..., None]
             self.acid = mi.Texture3f(mi.TensorXf(data), wrap_mode=dr.WrapMode.Clamp)
-            self.low, self.cells = vector(low), vector(np.array(share.shape) * spacing)
-            self.low = self.low - 0.5 * spacing
+            self.low, self.cells = (low - 0.5 * spacing).tolist(), (np.array(share.shape) * spacing).tolist()
 
     def acid_at(self, at):
         if self.acid is None:
             return mi.Float(0.0)
-        return self.acid.eval((at - self.low) / self.cells)[0]
+        return self.acid.eval((at - vector(self.low)) / vector(self.cells))[0]
 
     def dimmed(self, origin, way, length, rng):
         """What a way through liquid lets pass."""
@@ -142,11 +143,13 @@ class Paths:
 
     def to_panes(self, origin, way):
         """How far it is to the panes, FAR where it goes past them."""
-        length = (self.window[0] - origin.x) / lesser(way.x, -1e-6)
-        z = dr.abs(origin.z + length * way.z - self.window[2])
-        y = dr.abs(origin.y + length * way.y - self.window[1])
-        inside = (z < self.half[0]) & (y < self.half[1]) & (z > self.bars) & (y > self.bars)
-        return dr.select(inside & (way.x < -1e-6) & (length > 0.0), length, FAR)
+        aside, out = origin - vector(self.window), vector(self.out)
+        steep = dr.dot(way, out)
+        length = -dr.dot(aside, out) / lesser(steep, -1e-6)
+        at = aside + length * way
+        u, v = dr.abs(dr.dot(at, vector(self.across))), dr.abs(dr.dot(at, vector(self.along)))
+        inside = (u < self.half[0]) & (v < self.half[1]) & (u > self.bars) & (v > self.bars)
+        return dr.select(inside & (steep < -1e-6) & (length > 0.0), length, FAR)
 
     def to_room(self, origin, way):
         """How far it is to the room's inside, and its normal there."""
@@ -235,14 +238,20 @@ class Paths:
         """A place of the panes for two numbers from −1 to 1."""
         def beside(number, half):
             return dr.sign(number) * (self.bars + dr.abs(number) * (half - self.bars))
-        z, y = beside(u, self.half[0]), beside(v, self.half[1])
-        return mi.Point3f(self.window[0], self.window[1] + y, self.window[2] + z)
+        across, along = vector(self.across), vector(self.along)
+        return mi.Point3f(vector(self.window) + beside(u, self.half[0]) * across + beside(v, self.half[1]) * along)
 
     def weight(self, at, normal, place):
         """How much a place of the panes counts for the irradiance."""
         way = place - at
         square = dr.squared_norm(way)
-        return greater(dr.dot(normal, way), 0.0) * greater(-way.x, 0.0) / (square * square)
+        return greater(dr.dot(normal, way), 0.0) * greater(-dr.dot(way, vector(self.out)), 0.0) / (square * square)
+
+    def density(self, at, way):
+        """Of directions to places of the panes, all of which are as likely."""
+        length = self.to_panes(at, way)
+        area = 4.0 * (self.half[0] - self.bars) * (self.half[1] - self.bars)
+        return dr.select(length < FAR, length * length / (area * greater(-dr.dot(way, vector(self.out)), 1e-6)), 0.0)
 
     def sent_back(self, at, normal, kind, rng):
         """What bench, floor or wall sends back."""
@@ -264,22 +273,26 @@ class Paths:
             carried, *_, kind_end, _, _, _ = self.follow(start, dr.normalize(to_place), AIR, rng, False, None, True)
             free = dr.select(kind_end == 3, carried, 0.0)
         window *= 1.0 - relative * (1.0 - free)
-        # The rest.
+        # The rest, half of the rays towards the panes: flat layers let those pass as if nothing were there.
         way = mi.Frame3f(normal).to_world(cosine_lot(rng.next_float32(), rng.next_float32()))
+        u, v = 2.0 * rng.next_float32() - 1.0, 2.0 * rng.next_float32() - 1.0
+        way = dr.select(rng.next_float32() < 0.5, way, dr.normalize(self.pane_place(u, v) - start))
+        share = greater(dr.dot(way, normal), 0.0) / dr.pi
+        relative = share / (0.5 * share + 0.5 * self.density(start, way))
         straight = not self.options.caustics
         carried, end, on, end_normal, end_kind, met, _, _ = self.follow(start, way, AIR, rng, False, None, straight)
         first, second = self.plain(end, end_normal, self.albedo(end_kind, end_normal))
-        panes = dr.select((met > 0) & self.options.caustics, self.pane_light + self.sky(on), self.sky(on))
+        panes = dr.select((met > 0) & self.options.caustics, colour(self.pane_light) + self.sky(on), self.sky(on))
         seen = dr.select(end_kind == 1, first + second, dr.select(end_kind == 3, panes, self.sky(on)))
         seen = dr.select(met >= MOST, 0.0, seen)
-        return ambient + window + albedo * (carried * seen - self.sky(way))
+        return ambient + window + albedo * dr.select(share > 0.0, relative * (carried * seen - self.sky(way)), 0.0)
 
     def seen(self, origin, way, rng, first, active=True):
         """The light that comes to an eye in air along `way`, of which `first` is told in `follow`; and whether glass or liquid
         is met at all, and liquid."""
         carried, end, on, normal, kind, met, wet, _ = self.follow(origin, way, AIR, rng, True, first, False)
         shaded = self.sent_back(end, normal, kind, rng)
-        light = dr.select(kind == 3, self.pane_light, shaded)
+        light = dr.select(kind == 3, colour(self.pane_light), shaded)
         light = dr.select((kind == 0) | (met >= MOST), 0.0, light)
         lost = met >= MOST
         if first == 1:
