@@ -18,8 +18,9 @@ import compare
 import light as lights
 from bench import Bench, Camera, cube, finish
 from light import AIR, LIQUID
-from paths import MOST, Options, Paths, cosine_lot, vector
+from paths import MOST, Options, Paths
 from render import random_numbers, rays, render
+from tools import cosine_lot, vector
 
 SHADERS = Path(__file__).parents[2] / "shaders/wgsl/common/picture"
 ROOM = (np.array([-2.4, 0.0, -1.7]), np.array([2.4, 2.7, 2.4]))

@@ -6,7 +6,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from paths import vector
+from tools import vector
 
 # Rays at a time.
 WAVE = 1 << 21
