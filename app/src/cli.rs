@@ -1,16 +1,18 @@
-//! The command line: the subcommands here, their arguments in `arguments`, those
+//! The command line: the subcommands here, their arguments in `arguments` and beside it, those
 //! of what measures in the crate `vitriol_study`.
 
 mod arguments;
 mod lesson;
+mod picture;
 
 use clap::{Parser, Subcommand};
 
 pub use arguments::{
     CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs, PagesArgs,
-    PictureArgs, ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
+    ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
 pub use lesson::{JudgeArgs, LessonArgs};
+pub use picture::PictureArgs;
 
 /// Acid dilution in virtual glassware: particle fluid on Vulkan, driven by
 /// recorded or live hands.

@@ -66,6 +66,26 @@ impl Colour {
     }
 }
 
+/// A place to look from, in the stage, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Where the eye is.
+    pub eye: Vec3,
+    /// What is in the picture's middle.
+    pub target: Vec3,
+    /// Field of view from top to bottom, degrees.
+    pub field: f32,
+}
+
+impl Look {
+    /// What is seen of a scene, in its own frame, real metres.
+    fn view(&self, scene: &Scene, aspect: f32) -> View {
+        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
+        let fov = Fov::symmetric(self.field.to_radians(), aspect);
+        View::look_at(self.eye - origin, self.target - origin, fov)
+    }
+}
+
 /// What a camera is to take.
 #[derive(Clone, Copy, Debug)]
 pub struct Shot {
@@ -77,6 +97,8 @@ pub struct Shot {
     pub liquid: Option<u32>,
     /// Filter of its surface; `None` for the scene's.
     pub filter: Option<PictureFilter>,
+    /// Where it is seen from; `None` for the tripod.
+    pub look: Option<Look>,
 }
 
 impl Shot {
@@ -87,6 +109,7 @@ impl Shot {
             eyes: 1,
             liquid: None,
             filter: None,
+            look: None,
         }
     }
 }
@@ -107,8 +130,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera for such pictures of that scene, on its tripod
-    /// until [`Camera::follow`] takes it off.
+    /// A camera for such pictures of that scene, where the shot says
+    /// until [`Camera::follow`] takes it away.
     ///
     /// # Errors
     /// What the device says.
@@ -124,10 +147,15 @@ impl Camera {
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
+        let aspect = extent[0] as f32 / extent[1] as f32;
+        let seen = |look: &Look| look.view(scene, aspect);
         Ok(Self {
             renderer,
             eyes: shot.eyes,
-            view: tripod(scene, extent[0] as f32 / extent[1] as f32),
+            view: shot
+                .look
+                .as_ref()
+                .map_or_else(|| tripod(scene, aspect), seen),
             temperatures: temperatures(scene),
             gloves: Gloves::of(scene),
             hands: Default::default(),
@@ -368,4 +396,35 @@ pub fn tripod(scene: &Scene, aspect: f32) -> View {
     let half = (0.6 * lifted).max(0.7 * (high.x - low.x) / aspect);
     let eye = target + Vec3::new(0.0, 0.25, 1.0).normalize() * (half / (0.5 * vertical).tan());
     View::look_at(eye, target, Fov::symmetric(vertical, aspect))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use vitriol_sim::scene::{Preset, Scene};
+
+    use super::*;
+
+    /// A scene that stands elsewhere in the stage is seen from the stage's place: its target is in the picture's middle, and
+    /// half the field above that its upper edge.
+    #[test]
+    fn look_is_of_the_stage() {
+        let text = crate::scenes::Scenes::default();
+        let mut scene: Scene = text.get("tomato-soup").unwrap().with_preset(Preset::Fast);
+        scene.origin = DVec3::new(2.0, 0.0, -4.0);
+        let shift = (scene.origin * scene.scale.length_scale).as_vec3();
+        let look = Look {
+            eye: Vec3::new(0.1, 1.1, 0.0),
+            target: Vec3::new(0.1, 0.8, -0.4),
+            field: 30.0,
+        };
+        let view = look.view(&scene, 1.0);
+        let clip = view.clip_from_scaled(1.0);
+        let seen = |at: Vec3| clip.project_point3(at - shift);
+        assert!(seen(look.target).truncate().length() < 1e-5);
+        // Upright to the way from eye to target (0, −0.3, −0.4), whose length is 0.5 m.
+        let edge = look.target + 0.5 * 15.0_f32.to_radians().tan() * Vec3::new(0.0, 0.8, -0.6);
+        let edge = seen(edge);
+        assert!(edge.x.abs() < 1e-5 && (edge.y + 1.0).abs() < 1e-4, "{edge}");
+    }
 }

@@ -19,7 +19,7 @@ use vitriol_sound::Event;
 use vitriol_xr::{Pose, PoseFrame};
 
 use crate::audible::Audible;
-use crate::camera::{Camera, Colour, Shot};
+use crate::camera::{Camera, Colour, Look, Shot};
 use crate::clock::SimulatedTime;
 use crate::device;
 use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
@@ -59,6 +59,8 @@ pub struct Setup<'a> {
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
+    /// Where a fixed camera is; `None` for the tripod.
+    pub look: Option<Look>,
     /// The shaders; where it watches a folder, what changes there is reloaded
     /// between two steps.
     pub shaders: Arc<Library>,
@@ -170,6 +172,7 @@ impl Laboratory {
             eyes: setup.eyes,
             liquid: None,
             filter: setup.filter,
+            look: setup.look,
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;
         if let (Some(camera), Some(head)) = (&mut film, &setup.head) {

@@ -41,7 +41,7 @@ pub mod track;
 pub mod units;
 mod wish;
 
-pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Shot, tripod};
+pub use camera::{Camera, Colour, EYES_APART, HEAD_FIELD, Look, Shot, tripod};
 pub use clock::{SimulatedTime, Span};
 pub use console::{Format, emit, error_line, escaped, in_a_line};
 pub use device::DeviceStatement;

@@ -32,7 +32,7 @@ pub enum CameraName {
 }
 
 /// What a film's colours stand for.
-fn colour() -> impl TypedValueParser<Value = Colour> {
+pub(super) fn colour() -> impl TypedValueParser<Value = Colour> {
     const COLOURS: [(Colour, &str); 4] = [
         (Colour::Liquid, "Liquid in glass"),
         (Colour::Speed, "Speed of the particles"),
@@ -190,51 +190,6 @@ pub struct PagesArgs {
     /// Folder for them, which may be new
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-}
-
-/// Arguments of `vitriol picture`.
-#[derive(Debug, Args)]
-pub struct PictureArgs {
-    /// A built-in track's name (see `vitriol track --list`) or an MCAP file
-    pub track: String,
-    /// A built-in scene's name (see `vitriol scenes`) or a TOML file; without
-    /// it the scene that the track names
-    #[arg(long, value_name = "SCENE")]
-    pub scene: Option<String>,
-    /// Take what is whole of a track that breaks off or lacks steps
-    #[arg(long)]
-    pub accept_truncated: bool,
-    /// Trade of speed for accuracy; without it the one that the track was
-    /// recorded with, or else balanced
-    #[arg(long, value_parser = preset())]
-    pub preset: Option<Preset>,
-    /// Simulated time of the picture, seconds
-    #[arg(long, value_name = "S", value_parser = positive)]
-    pub at: f64,
-    /// PNG file to be made
-    #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
-    /// New folder for what each pass of the liquid's picture leaves behind, a PNG file each
-    #[arg(long, value_name = "DIR")]
-    pub passes: Option<PathBuf>,
-    /// Width and height of a view, pixels
-    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = pair)]
-    pub size: [u32; 2],
-    /// Both eyes, side by side
-    #[arg(long)]
-    pub stereo: bool,
-    /// Where it is seen from
-    #[arg(long, value_enum, default_value_t, value_name = "CAMERA")]
-    pub camera: CameraName,
-    /// Liquid, or particles coloured by this
-    #[arg(long, value_parser = colour(), default_value = "liquid", value_name = "COLOUR")]
-    pub colour: Colour,
-    /// Filter of the liquid's surface; without it the scene's
-    #[arg(long, value_parser = filter(), value_name = "FILTER")]
-    pub filter: Option<PictureFilter>,
-    /// Device to use: its number or a part of its name (see `vitriol doctor`)
-    #[arg(long)]
-    pub device: Option<String>,
 }
 
 /// Arguments of `vitriol vr`.

@@ -86,6 +86,7 @@ pub fn run(
         colours: vec![args.colour],
         filter: args.filter,
         head: head(args.camera, &args.track, &track)?,
+        look: args.look(),
         shaders: Arc::new(Library::watching()),
     })?;
     let span = Span::covering(args.at, scene.scale.frame_time);

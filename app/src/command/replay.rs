@@ -188,6 +188,7 @@ fn replay(
         eyes: 1,
         filter: args.filter,
         head,
+        look: None,
         shaders: Arc::new(Library::watching()),
     })?;
     if let Some(console) = live {

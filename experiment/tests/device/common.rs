@@ -42,6 +42,7 @@ pub fn coloured(
         eyes: 1,
         filter: None,
         head,
+        look: None,
         shaders: Arc::new(shaders),
     };
     on_device(gpu, &setup).unwrap()

@@ -78,6 +78,7 @@ fn ready(
         eyes,
         liquid: Some(world.solver().count()),
         filter: args.filter,
+        look: None,
     };
     let mut camera = Camera::new(gpu, &library, scene, &shot)?;
     let aspect = extent[0] as f32 / extent[1] as f32;

@@ -100,6 +100,7 @@ impl Verified {
             eyes: 1,
             filter: None,
             head: None,
+            look: None,
             shaders: Arc::new(Library::embedded()),
         })?;
         if let Some((lesson, mode)) = &expected.lesson {

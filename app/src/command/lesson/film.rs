@@ -79,6 +79,7 @@ pub fn make(
         filter: None,
         // Hands show how it is done, and only the head's view shows hands.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
+        look: None,
         shaders: Arc::new(Library::embedded()),
     })?;
     let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));
