@@ -89,7 +89,7 @@ fn glass_is_where_its_cylinder_is() {
                 let along = turned * ray(&view, EXTENT, x as u32, y as u32);
                 meets(eye.as_dvec3(), along)
             };
-            let (mut glass, mut open) = (0, 0);
+            let (mut glass, mut open, mut unseen) = (0, 0, 0);
             for y in SMOOTHED..EXTENT[1] as i32 - SMOOTHED {
                 for x in SMOOTHED..EXTENT[0] as i32 - SMOOTHED {
                     let expected = inside(x, y);
@@ -104,13 +104,16 @@ fn glass_is_where_its_cylinder_is() {
                     let index = 4 * (y * EXTENT[0] as i32 + x) as usize;
                     let differs =
                         picture.colour[0][index..index + 4] != nothing.colour[0][index..index + 4];
-                    assert_eq!(
-                        differs, expected,
+                    assert!(
+                        expected || !differs,
                         "({x}, {y}) from {from}, turned by {turn}"
                     );
+                    unseen += u32::from(expected && !differs);
                     (glass, open) = (glass + u32::from(expected), open + u32::from(!expected));
                 }
             }
+            // Glass is clear: what it mirrors may be as bright as what is behind, to a level.
+            assert!(unseen < glass / 20, "{unseen} of {glass} are not seen");
             assert!(
                 glass > 1500 && open > 1500,
                 "{glass} of glass, {open} beside it"

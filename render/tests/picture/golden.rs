@@ -172,7 +172,7 @@ fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
 
 /// Levels that drivers may differ by, on the mean: a third of what
 /// unfiltered particles differ by.
-const MEAN: f64 = 0.08;
+const MEAN: f64 = 0.05;
 
 #[test]
 fn still_beaker_looks_as_it_did() {

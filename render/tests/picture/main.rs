@@ -18,3 +18,4 @@ mod sign;
 mod spheres;
 mod steam;
 mod surface;
+mod wall;

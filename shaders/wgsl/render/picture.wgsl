@@ -62,9 +62,23 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         var through = NO_VESSEL;
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
-            let liquid = BEFORE_GLASS * near / here.w;
-            if (here.w > 0.0 && liquid > reversed) {
-                let ray = liquid_at(place.pixel, eye, here);
+            var ray: Wet;
+            var depth = here.w;
+            if (GLASS) {
+                let end = select(1e9, near / reversed, reversed > 0.0);
+                let inside = inside_of_wall(tiles[place.tile], eye, at, end);
+                if (inside.vessel < frame.blocker_count) {
+                    let behind = liquid_behind(inside, eye);
+                    // Drops before the glass are nearer.
+                    if (behind.depth > 0.0 && !(here.w > 0.0 && here.w < behind.depth - 2.0 * frame.spacing)) {
+                        ray = behind.light;
+                        depth = -behind.depth;
+                    }
+                }
+            }
+            if (depth > 0.0) { ray = liquid_at(place.pixel, eye, here); }
+            let liquid = BEFORE_GLASS * near / abs(depth);
+            if (depth != 0.0 && liquid > reversed) {
                 wet = true;
                 through = ray.vessel;
                 reversed = liquid;

@@ -21,6 +21,8 @@ const EDGE_LIGHT = vec3<f32>(0.06, 0.095, 0.09);
 const EDGE_OPACITY = 0.75;
 /// What it sends to the eye.
 const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
+/// What a rim sends to the eye: light that comes up along the wall. Ours, between what it shows over water and over nothing.
+const RIM = vec3<f32>(0.20, 0.30, 0.34);
 /// Reflectance of white enamel.
 const ENAMEL = 0.8;
 
@@ -233,6 +235,9 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
             layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
+            if (profile.y > 0.5 && p.y > 0.9 * frame.vessels[index].rim) {
+                layer = over(Cover(EDGE_OPACITY * display(RIM), 1.0 - EDGE_OPACITY), layer);
+            }
             if (within < frame.vessels[index].wall) {
                 layer = over(Cover(EDGE_OPACITY * display(BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);
             }

@@ -5,6 +5,7 @@
 //!include common/picture/fresnel.wgsl
 //!include common/picture/pixel_blocks.wgsl
 //!include common/picture/room.wgsl
+//!include common/picture/through_wall.wgsl
 //!include common/picture/vessel_rays.wgsl
 
 /// Filtered reversed depth, 0 where there is no liquid.
@@ -91,9 +92,9 @@ struct Way {
     down: bool,
 }
 
-/// Follows a ray from `point` (stage; `p` in the vessel's frame) along `within`, both in the liquid: what meets wall or base too flat is mirrored
-/// there, and goes on.
-fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32) -> Way {
+/// Follows a ray from `point` (stage; `p` in the vessel's frame) along `within`, both in the liquid: what meets wall, base or the surface at the
+/// height `level` (stage) too flat is mirrored there, and goes on.
+fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32, level: f32) -> Way {
     let m = frame.vessels[vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     var ray = Way(point, within, 0.0, false);
@@ -101,13 +102,30 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
     for (var n = 0; n < MOST_WAYS; n++) {
         let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
         let reach = to_glass(vessel, at, direction);
-        let way = min(reach.x, reach.y);
+        let up = select(1e9, max(level - ray.exit.y, 0.0) / ray.out.y, n > 0 && ray.out.y > 1e-3);
+        let way = min(min(reach.x, reach.y), up);
         at += way * direction;
         ray.exit += way * ray.out;
         ray.length += way;
-        ray.down = reach.y <= reach.x;
-        let back = stage_from_vessel * select(inward(vessel, at), vec3<f32>(0.0, 1.0, 0.0), ray.down);
-        let through = refract(ray.out, back, index);
+        ray.down = reach.y <= min(reach.x, up);
+        var back = vec3<f32>(0.0, 1.0, 0.0);
+        var through = vec3<f32>(0.0);
+        if (up < min(reach.x, reach.y)) {
+            back = vec3<f32>(0.0, -1.0, 0.0);
+            through = refract(ray.out, back, index);
+        } else if (ray.down) {
+            back = stage_from_vessel * back;
+            through = refract(ray.out, back, index);
+        } else {
+            // Glass is a lens here: what its inner face would mirror, if there were air behind, its outer one lets pass.
+            let wall = inward(vessel, at);
+            back = stage_from_vessel * wall;
+            let in_glass = refract((m * vec4<f32>(ray.out, 0.0)).xyz, wall, index / GLASS_INDEX);
+            let on = out_of_cylinder(at, in_glass, vessel_radius(vessel, at.y) + frame.vessels[vessel].wall);
+            let outer = at + on * in_glass;
+            through = stage_from_vessel * refract(in_glass, inward(vessel, outer), GLASS_INDEX);
+            ray.exit += select(vec3<f32>(0.0), on * (stage_from_vessel * in_glass), dot(through, through) > 0.0);
+        }
         if (dot(through, through) > 0.0) {
             ray.out = through;
             break;
@@ -115,6 +133,58 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
         ray.out = reflect(ray.out, back);
     }
     return ray;
+}
+
+/// The liquid behind a vessel's wall, as a ray sees it that comes out of the wall's inside; `depth` is 0 where there is none.
+struct Behind {
+    light: Wet,
+    depth: f32,
+}
+
+/// See `Behind`. There is liquid where the picture has it at that place, at the wall.
+fn liquid_behind(inside: Inside, eye: u32) -> Behind {
+    let clip = frame.views[eye].clip_from_stage * vec4<f32>(inside.point, 1.0);
+    let place = (0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent;
+    let here = seen_at(vec2<i32>(floor(place)), eye);
+    let none = Wet(inside.point, inside.direction, vec3<f32>(1.0), vec3<f32>(0.0), NO_VESSEL);
+    if (here.w <= 0.0 || abs(here.w - clip.w) > frame.spacing) { return Behind(none, 0.0); }
+    let thickness = thickness_at(place, eye);
+    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
+    let index = INDEX + INDEX_OF_ACID * acid;
+    let m = frame.vessels[inside.vessel].vessel_from_stage;
+    let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
+    let p = (m * vec4<f32>(inside.point, 1.0)).xyz;
+    let wall = -(stage_from_vessel * inward(inside.vessel, p));
+    let within = refract(inside.direction, wall, GLASS_INDEX / index);
+    let sight = normalize(inside.point - frame.views[eye].eye);
+    let straight = length(inside.point - frame.views[eye].eye) / clip.w * thickness.x;
+    let filled = filled_along(inside.vessel, p, (m * vec4<f32>(sight, 0.0)).xyz, straight);
+    return Behind(followed(inside.vessel, inside.point, p, within, index, acid, 1e9, filled), clip.w);
+}
+
+/// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
+fn filled_along(vessel: u32, p: vec3<f32>, direction: vec3<f32>, straight: f32) -> f32 {
+    let reach = to_glass(vessel, p, direction);
+    return saturate(straight / max(min(reach.x, reach.y), 1e-9));
+}
+
+/// What comes along a ray in a vessel's liquid; `filled` is the share of its way that is in liquid.
+fn followed(
+    vessel: u32,
+    point: vec3<f32>,
+    p: vec3<f32>,
+    within: vec3<f32>,
+    index: f32,
+    acid: f32,
+    level: f32,
+    filled: f32,
+) -> Wet {
+    let way = way_through(vessel, point, p, within, index, level);
+    // What the bench under it sends back has come down through the liquid before.
+    let lit = select(0.0, max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
+    let path = filled * (way.length + lit);
+    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
+    return Wet(way.exit, way.out, kept, vec3<f32>(0.0), vessel);
 }
 
 /// The liquid at a pixel; `here` is `seen_at` of it, of view depth above 0.
@@ -130,11 +200,9 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
 
     let vessel = vessel_around(point);
     var wetted = 0.0;
-    var exit = point;
-    var path = straight;
-    var out = refract(ray, normal, 1.0 / index);
-    let held = vessel < frame.blocker_count;
-    if held {
+    let kept = exp(-straight * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
+    var light = Wet(point, refract(ray, normal, 1.0 / index), kept, vec3<f32>(0.0), NO_VESSEL);
+    if vessel < frame.blocker_count {
         let m = frame.vessels[vessel].vessel_from_stage;
         let p = (m * vec4<f32>(point, 1.0)).xyz;
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
@@ -143,19 +211,14 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         // Liquid that wets the glass has the glass's own surface.
         wetted = smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
         normal = normalize(mix(normal, wall, wetted));
-        let way = way_through(vessel, point, p, refract(ray, normal, 1.0 / index), index);
-        exit = way.exit;
-        out = way.out;
-        // A vessel that is not full of it all the way: by what of the ray that is not bent is in liquid.
-        let reach = to_glass(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz);
-        let filled = saturate(straight / max(min(reach.x, reach.y), 1e-9));
-        // What the bench under it sends back has come down through the liquid before.
-        let lit = select(0.0, max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
-        path = filled * (way.length + lit);
+        // Through glass the surface's height is not known.
+        let level = select(1e9, point.y, wetted < 0.5);
+        let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
+        light = followed(vessel, point, p, refract(ray, normal, 1.0 / index), index, acid, level, filled);
     }
-    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
     // An edge thinner than a drop is none that could mirror.
     let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
-    let mirrored = reflectance * mirrored_light(point, reflect(ray, normal));
-    return Wet(exit, out, (1.0 - reflectance) * kept, mirrored, select(NO_VESSEL, vessel, held));
+    light.kept *= 1.0 - reflectance;
+    light.mirrored = reflectance * mirrored_light(point, reflect(ray, normal));
+    return light;
 }

@@ -1,0 +1,98 @@
+//! Liquid behind a vessel's wall, against Snell's and Beer's laws. A ray that goes level through a cylinder keeps n times its distance from the axis
+//! (Bouguer), whatever glass is between: at x from the axis it passes through 2 √(r² − (x/n)²) of liquid, up to the glass's own outline.
+
+use crate::liquid::{Liquid, SPACING, draw, frame, rig};
+use crate::rig::{ray, without_particles};
+use glam::{Affine3A, Vec3};
+use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
+
+const EXTENT: [u32; 2] = [320, 240];
+/// Of the liquid, and of the glass, m.
+const RADIUS: f64 = 0.02;
+const OUTER: f64 = 0.022;
+const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
+/// Of water at 20 °C, and of sulfuric acid of 98 %.
+const INDICES: [f64; 2] = [1.333, 1.4305];
+/// What 60 mm let through of red, and of blue.
+const TINTS: [[f64; 2]; 2] = [[0.40, 0.92], [0.96, 0.22]];
+/// Red and blue light of the hemispheres about a level ray: half of the ceiling's and half of the floor's.
+const LIGHT: [f64; 2] = [0.38, 0.40];
+
+fn displayed(light: f64) -> f64 {
+    light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
+}
+
+fn linear(level: u8) -> f64 {
+    let share = f64::from(level) / 255.0;
+    if share <= 0.040_45 {
+        share / 12.92
+    } else {
+        ((share + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+#[test]
+fn a_full_cylinder_is_a_lens() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc {
+        vessels: vec![VesselDesc {
+            inner: vec![[0.0, 0.002], [RADIUS, 0.002], [RADIUS, 0.05]],
+            outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
+            marks: Vec::new(),
+        }],
+        ..SceneDesc::default()
+    });
+    let mut places = Vec::new();
+    for n in 0..9 * 16 * 16 {
+        let [x, y, z] = [n % 16, n / 256, n / 16 % 16];
+        let at = SPACING * Vec3::new(x as f32 - 7.5, y as f32 + 0.5, z as f32 - 7.5);
+        if at.with_y(0.0).length() < 0.0193 {
+            places.push(FOOT + Vec3::Y * 0.002 + at);
+        }
+    }
+    let eye = FOOT + Vec3::new(0.0, 0.013, 0.3);
+    let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.2, 4.0 / 3.0));
+    let vessels = [Affine3A::from_translation(FOOT)];
+    let empty = rig.draw(&FrameDesc {
+        vessels: &vessels,
+        ..without_particles(&[view])
+    });
+    for (kind, acid) in [0.0, 1.0].into_iter().enumerate() {
+        let mut liquid = Liquid::new(&rig, &places, |_| acid);
+        liquid.table = None;
+        let (picture, _) = draw(&rig, &frame(&[view], &vessels, &liquid));
+        let index = INDICES[kind] + if kind == 1 { 0.002 } else { 0.0 };
+        let (mut compared, mut worst, mut at_outline) = (0, 0.0_f64, 0);
+        let row = EXTENT[1] / 2;
+        for x in 0..EXTENT[0] {
+            let along = ray(&view, EXTENT, x, row);
+            let apart = 0.3 * along.x.abs() / along.x.hypot(along.z);
+            let pixel = 4 * (row * EXTENT[0] + x) as usize;
+            if apart < 0.85 * OUTER {
+                // What the glass before it mirrors, which may be nothing or a window: Schlick, n = 1.47.
+                let rest = 1.0 - (1.0 - (apart / OUTER).powi(2)).sqrt();
+                let mirrors = 0.036 + 0.964 * rest.powi(5);
+                let way = 2.0 * (RADIUS * RADIUS - (apart / index).powi(2)).sqrt();
+                for (channel, place) in [(0, 0), (1, 2)] {
+                    let kept = TINTS[kind][channel].powf(way / 0.06);
+                    let least = (1.0 - mirrors) * displayed(LIGHT[channel] * kept);
+                    let found = linear(picture.colour[0][pixel + place]);
+                    let expected = found.clamp(least, least + mirrors);
+                    worst = worst.max((found - expected).abs());
+                }
+                compared += 1;
+            } else if (0.93 * OUTER..0.97 * OUTER).contains(&apart) {
+                // Beyond the inner wall, where there is no liquid.
+                let blueness = |colour: &[u8]| linear(colour[pixel + 2]) - linear(colour[pixel]);
+                let tint = blueness(&picture.colour[0]) - blueness(&empty.colour[0]);
+                let seen = if kind == 0 { tint } else { -tint };
+                assert!(seen > 0.03, "{apart} m: {seen}");
+                at_outline += 1;
+            }
+        }
+        eprintln!("{kind}: off by {worst} of {compared}, {at_outline} at the outline");
+        assert!(compared > 50 && at_outline > 2);
+        // Thickness is that of particles, to some per cent.
+        assert!(worst < 0.025, "{kind}: {worst}");
+    }
+}
