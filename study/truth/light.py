@@ -8,11 +8,11 @@ What the truth makes of it:
 - The ambient light is a hemisphere of CEILING above and one of FLOOR below, infinitely far away. On a surface without
   anything before it, that is the shader's `ambient_light` exactly. Walls and ceiling are seen by the eye, by mirrors and
   through liquid, but keep no light away: the two hemispheres stand for all that they send on.
-- The window is four panes about WINDOW that face BENCH. Their radiance is what `surroundings` adds for them, in the
+- The window is four panes about WINDOW that face BENCH. Their radiance is the shaders' `PANE_LIGHT`, in the
   key light's colour. Their size is such that the irradiance at BENCH is that of `key_light`; it comes out
-  within a tenth of the size that `surroundings` shows. Elsewhere the unshadowed
+  as the shaders' `WINDOW_HALF`. Elsewhere the unshadowed
   irradiance is taken from `key_light`, and what part of it arrives from rays to the panes.
-- Mirrors and refraction see the same room as the eye does; the shader's mirrors see `surroundings` instead.
+- Mirrors and refraction see the same room as the eye does.
 """
 
 import numpy as np
@@ -28,9 +28,9 @@ ALBEDO_TABLE = np.array([0.30, 0.33, 0.35])
 # Where vessels stand on the bench, m: there the panes' irradiance is the key light's.
 BENCH = np.array([0.0, 0.75, -0.40])
 UP = np.array([0.0, 1.0, 0.0])
-# What `surroundings` adds in a pane, green.
+# `PANE_LIGHT`, green.
 PANE_RADIANCE = 5.4
-# Half width and height of the window over the way to it, and half the bars' width, of `surroundings`' middle edges.
+# Half width and height of the window over the way to it, and half the bars' width, as they were chosen.
 PANE_SHAPE = np.array([0.58, 0.95])
 BARS = 0.04
 

@@ -19,6 +19,17 @@ const INDEX_OF_ACID = 0.0995;
 /// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
 const MOST_WAYS = 5;
 
+/// Of liquid with that share of acid by mass.
+fn index_of(acid: f32) -> f32 {
+    return INDEX + INDEX_OF_ACID * acid;
+}
+
+/// Where a point of the stage is seen (pixels), and its view depth.
+fn pixel_of(point: vec3<f32>, eye: u32) -> vec3<f32> {
+    let clip = frame.views[eye].clip_from_stage * vec4<f32>(point, 1.0);
+    return vec3<f32>((0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent, clip.w);
+}
+
 /// What is seen at a pixel, from the eye; zero where there is no liquid.
 fn seen_at(pixel: vec2<i32>, eye: u32) -> vec4<f32> {
     let at = within_picture(pixel);
@@ -86,8 +97,9 @@ struct Way {
     /// Where it leaves it, and along what.
     exit: vec3<f32>,
     out: vec3<f32>,
-    /// How far it has come in the liquid.
+    /// How far it has come in the liquid, and where it first turned.
     length: f32,
+    turned: vec3<f32>,
     /// Whether it leaves it through the base.
     down: bool,
 }
@@ -97,7 +109,7 @@ struct Way {
 fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32, level: f32) -> Way {
     let m = frame.vessels[vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
-    var ray = Way(point, within, 0.0, false);
+    var ray = Way(point, within, 0.0, point, false);
     var at = p;
     for (var n = 0; n < MOST_WAYS; n++) {
         let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
@@ -107,6 +119,7 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
         at += way * direction;
         ray.exit += way * ray.out;
         ray.length += way;
+        if (n == 0) { ray.turned = ray.exit; }
         ray.down = reach.y <= min(reach.x, up);
         var back = vec3<f32>(0.0, 1.0, 0.0);
         var through = vec3<f32>(0.0);
@@ -143,23 +156,23 @@ struct Behind {
 
 /// See `Behind`. There is liquid where the picture has it at that place, at the wall.
 fn liquid_behind(inside: Inside, eye: u32) -> Behind {
-    let clip = frame.views[eye].clip_from_stage * vec4<f32>(inside.point, 1.0);
-    let place = (0.5 + 0.5 * clip.xy / max(clip.w, 1e-9)) * frame.extent;
+    let seen = pixel_of(inside.point, eye);
+    let place = seen.xy;
     let here = seen_at(vec2<i32>(floor(place)), eye);
     let none = Wet(inside.point, inside.direction, vec3<f32>(1.0), vec3<f32>(0.0), NO_VESSEL);
-    if (here.w <= 0.0 || abs(here.w - clip.w) > frame.spacing) { return Behind(none, 0.0); }
+    if (here.w <= 0.0 || abs(here.w - seen.z) > frame.spacing) { return Behind(none, 0.0); }
     let thickness = thickness_at(place, eye);
     let acid = saturate(thickness.y / max(thickness.x, 1e-9));
-    let index = INDEX + INDEX_OF_ACID * acid;
+    let index = index_of(acid);
     let m = frame.vessels[inside.vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     let p = (m * vec4<f32>(inside.point, 1.0)).xyz;
     let wall = -(stage_from_vessel * inward(inside.vessel, p));
     let within = refract(inside.direction, wall, GLASS_INDEX / index);
     let sight = normalize(inside.point - frame.views[eye].eye);
-    let straight = length(inside.point - frame.views[eye].eye) / clip.w * thickness.x;
+    let straight = length(inside.point - frame.views[eye].eye) / seen.z * thickness.x;
     let filled = filled_along(inside.vessel, p, (m * vec4<f32>(sight, 0.0)).xyz, straight);
-    return Behind(followed(inside.vessel, inside.point, p, within, index, acid, 1e9, filled), clip.w);
+    return Behind(followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled), seen.z);
 }
 
 /// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
@@ -168,22 +181,27 @@ fn filled_along(vessel: u32, p: vec3<f32>, direction: vec3<f32>, straight: f32) 
     return saturate(straight / max(min(reach.x, reach.y), 1e-9));
 }
 
-/// What comes along a ray in a vessel's liquid; `filled` is the share of its way that is in liquid.
+/// What comes along a ray in a vessel's liquid; `filled` is the share of its way that is in liquid, and `acid` that of what the eye's straight ray
+/// goes through, where it comes in.
 fn followed(
     vessel: u32,
+    eye: u32,
     point: vec3<f32>,
     p: vec3<f32>,
     within: vec3<f32>,
-    index: f32,
     acid: f32,
     level: f32,
     filled: f32,
 ) -> Wet {
-    let way = way_through(vessel, point, p, within, index, level);
+    let way = way_through(vessel, point, p, within, index_of(acid), level);
+    // The bent ray goes elsewhere: half of it is as where it first turns.
+    let turned = pixel_of(way.turned, eye);
+    let there = thickness_at(turned.xy, eye);
+    let mixed = select(acid, 0.5 * (acid + saturate(there.y / max(there.x, 1e-9))), there.x > frame.spacing);
     // What the bench under it sends back has come down through the liquid before.
     let lit = select(0.0, max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
     let path = filled * (way.length + lit);
-    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
+    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     return Wet(way.exit, way.out, kept, vec3<f32>(0.0), vessel);
 }
 
@@ -195,7 +213,7 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     let thickness = thickness_at(vec2<f32>(pixel) + 0.5, eye);
     let acid = saturate(thickness.y / max(thickness.x, 1e-9));
     let straight = slant * thickness.x;
-    let index = INDEX + INDEX_OF_ACID * acid;
+    let index = index_of(acid);
     var normal = normal_at(pixel, eye, here);
 
     let vessel = vessel_around(point);
@@ -214,7 +232,7 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         // Through glass the surface's height is not known.
         let level = select(1e9, point.y, wetted < 0.5);
         let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
-        light = followed(vessel, point, p, refract(ray, normal, 1.0 / index), index, acid, level, filled);
+        light = followed(vessel, eye, point, p, refract(ray, normal, 1.0 / index), acid, level, filled);
     }
     // An edge thinner than a drop is none that could mirror.
     let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
