@@ -399,6 +399,7 @@ pub fn tripod(scene: &Scene, aspect: f32) -> View {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use glam::DVec3;
     use vitriol_sim::scene::{Preset, Scene};
