@@ -21,7 +21,7 @@ pub struct Limits {
     pub least_pour_m3: f64,
     /// Least liquid that is spilt, m³: two drops of 0.05 mL. Our choice.
     pub least_spill_m3: f64,
-    /// Least liquid that is thrown out as it boils, m³, where it [scalds](vitriol_sim::solver::SCALDS): a fifth of a drop, as spray, which an
+    /// Least liquid that is thrown out as it boils, m³, where the flask's mean [scalds](vitriol_sim::solver::SCALDS): a fifth of a drop, as spray, which an
     /// eye does not bear. Our choice.
     pub least_thrown_m3: f64,
     /// Where it does not, least acid in it, m³: as in a drop of 0.05 mL of battery acid (37 %), against which goggles are worn. Our choice.

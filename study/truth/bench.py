@@ -1,6 +1,5 @@
 """What a still consists of: files of `vitriol export` as a Mitsuba scene, the room's boxes, the acid in the liquid."""
 
-import json
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -118,9 +117,3 @@ def acid_grid(positions, acid, volumes):
         np.add.at(sums, tuple(at.T), np.stack([weight * acid, weight], -1))
     share = np.where(sums[..., 1] > 0, sums[..., 0] / np.maximum(sums[..., 1], 1e-9), 0.0)
     return share.astype(np.float32), low, spacing
-
-
-def cameras(folder):
-    """The exported cameras by name."""
-    text = json.loads(next(Path(folder).glob("cameras-*.json")).read_text())
-    return {camera["name"]: camera for camera in text["cameras"]}

@@ -52,7 +52,7 @@ def fired(paths, origin, way, medium, count=1, **options):
 
 class Formulas(unittest.TestCase):
     def test_constants_are_the_shaders(self):
-        text = "".join((SHADERS / name).read_text() for name in ("daylight.wgsl", "room.wgsl", "liquid_light.wgsl"))
+        text = "".join((SHADERS / name).read_text() for name in ("daylight.wgsl", "room.wgsl", "liquid_light.wgsl", "through_wall.wgsl"))
         triple = r"vec3<f32>\(([^()]*)\)"
         named = {"WINDOW": lights.WINDOW, "WINDOW_POWER": lights.WINDOW_POWER, "CEILING_LIGHT": lights.CEILING, "FLOOR_LIGHT": lights.FLOOR}
         for name, ours in named.items():
@@ -61,7 +61,21 @@ class Formulas(unittest.TestCase):
         triples = [[float(part) for part in found.split(",")] for found in re.findall(triple, text) if re.fullmatch(r"[\d., ]+", found)]
         for albedo in (lights.ALBEDO_WALL, lights.ALBEDO_FLOOR, lights.ALBEDO_TABLE):
             self.assertIn(albedo.tolist(), triples)
-        self.assertEqual(float(re.search(r"const INDEX = ([\d.]+)", text).group(1)), lights.INDEX_WATER)
+        number = lambda name: float(re.search(rf"const {name}(?:: f32)? = ([\d.]+)", text).group(1))
+        self.assertEqual(number("INDEX"), lights.INDEX_WATER)
+        self.assertEqual(number("GLASS_INDEX"), lights.INDEX_GLASS)
+        self.assertAlmostEqual(number("INDEX_OF_ACID"), Options().index_of_acid, 4)
+
+    def test_the_window_is_the_shaders(self):
+        text = (SHADERS / "daylight.wgsl").read_text()
+        parts = lambda name: [float(part) for part in re.search(rf"const {name}: \w+<f32> = \w+<f32>\(([^()]*)\);", text).group(1).split(",")]
+        half, bars, radiance = lights.panes()
+        across, along, out = lights.window_axes()
+        # Rounded to what is seen: a centimetre of two metres.
+        named = {"WINDOW_HALF": half, "PANE_LIGHT": radiance, "WINDOW_ACROSS": across, "WINDOW_UP": along, "WINDOW_OUT": out}
+        for name, ours in named.items():
+            np.testing.assert_allclose(parts(name), ours, atol=0.01, err_msg=name)
+        self.assertAlmostEqual(float(re.search(r"const WINDOW_BAR: f32 = ([\d.]+);", text).group(1)), bars, 2)
 
     def test_display_and_encoding(self):
         # By hand: 0.18 gives 0.18·0.4818/(0.18·1.0274 + 0.14) = 0.26688; sRGB of 0.5 is 0.73536.

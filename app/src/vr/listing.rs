@@ -287,7 +287,7 @@ mod tests {
                 .step
                 .starts_with("Examination: diluting sulfuric acid: Dilute the 98")
         );
-        assert_eq!(shown.note.as_deref(), Some("Number of steps: 5"));
+        assert_eq!(shown.note.as_deref(), Some("Number of steps: 6"));
         assert_eq!(acts(&shown), [(Act::Finish, true)]);
         assert!(shown.quiet && shown.steps.is_empty() && shown.hint.is_none());
         // Whatever was done or failed.

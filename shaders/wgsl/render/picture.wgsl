@@ -91,7 +91,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         }
         var light = bench_light(origin + met.way * direction, met.normal, met.material, through);
         if (met.way == 0.0) { light = ambient_light(direction.y); }
-        if (wet) { light = mix(light, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction)); }
+        if (wet) {
+            let table = met.material == MATERIAL_TABLE && met.way > 0.0;
+            let end = select(1e9, met.way * frame.metres_per_unit, table);
+            light = mix(light, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction, end));
+        }
         colour = display(kept * light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (wet) {
@@ -128,15 +132,19 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
                 alpha = 1.0;
             }
         }
+        let pane = pane_over(eye, at, select(near / reversed, 1e9, reversed == 0.0));
+        if (pane.way < 1e9) { alpha = 1.0; }
+        var before_pane = false;
         if (GLASS) {
+            // Vessels are before it or behind it as their middles are.
+            before_pane = pane.way < 1e9 && nearest_vessel(tiles[place.tile], eye) < pane.way;
+            if (before_pane) { colour = pane.light + pane.open * colour; }
             let end = select(BEHIND_GLASS * near / reversed, 1e9, reversed == 0.0);
             let cover = glass_over(tiles[place.tile], eye, at, end);
             colour = cover.colour + cover.open * colour;
             if (cover.open < 1.0) { alpha = 1.0; }
         }
-        let pane = pane_over(eye, at, select(near / reversed, 1e9, reversed == 0.0));
-        colour = pane.light + pane.open * colour;
-        if (any(pane.open < vec3<f32>(1.0))) { alpha = 1.0; }
+        if (!before_pane) { colour = pane.light + pane.open * colour; }
         // What has no slow gradient needs no noise.
         let goggles = through_goggles(eye, at);
         // What is behind the picture would be seen as if they were clean.

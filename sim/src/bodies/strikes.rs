@@ -14,7 +14,7 @@ use crate::pose::Pose;
 pub struct Strike {
     /// The flask that was struck.
     pub flask: usize,
-    /// The other one; `None` for table and floor.
+    /// The other one; `None` for table, floor and sash.
     pub other: Option<usize>,
     /// Momentum that it took, N s.
     pub impulse: f32,
@@ -226,8 +226,10 @@ fn contacts(rapier: &PhysicsWorld, flasks: &[Flask], units: Units) -> Vec<Contac
         }
         let parent = |handle| rapier.colliders.get(handle).and_then(|it| it.parent());
         let parents = [pair.collider1, pair.collider2].map(parent);
-        // Table and floor are of no body; what is of one and no flask is a shard, which strikes nothing.
-        let is_shard = |body: &Option<RigidBodyHandle>| body.is_some() && flask_of(*body).is_none();
+        // Table and floor are of no body, and a sash is as they are. What is free and no flask is a shard, which strikes nothing.
+        let is_free = |body| rapier.bodies.get(body).is_some_and(|it| it.is_dynamic());
+        let is_shard =
+            |body: &Option<RigidBodyHandle>| body.is_some_and(is_free) && flask_of(*body).is_none();
         if parents.iter().any(is_shard) {
             continue;
         }

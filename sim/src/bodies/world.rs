@@ -20,6 +20,9 @@ use crate::pose::Pose;
 /// tracker. A leap takes no time: what stands in between is not struck, and what is in the flask goes with it.
 const HELD_SPEED_MAX: f32 = 20.0;
 
+/// Highest speed (m/s, at real size) of a sash: as a hand pulls one. Our choice.
+const SASH_SPEED_MAX: f32 = 2.0;
+
 /// A leap of a held flask.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leap {
@@ -173,7 +176,10 @@ impl Bodies {
         if let Some(Role::Sash { heights, .. }) = self.flasks.get(index)?.role {
             let before = *self.poses.get(index)?;
             let height = grip::slid(&self.state.grips, index).unwrap_or(before.position.y);
-            let height = height.clamp(heights[0], heights[1]);
+            // A hand that leaps drags it after, and throws nothing about with it.
+            let most = SASH_SPEED_MAX * self.length_scale * self.step;
+            let way = (height - before.position.y).clamp(-most, most);
+            let height = (before.position.y + way).clamp(heights[0], heights[1]);
             let position = before.position.with_y(height);
             return Some(Pose::new(position, before.orientation));
         }

@@ -154,6 +154,15 @@ impl World {
         }
     }
 
+    /// The state that was taken up last is one of which looks know that.
+    pub(super) fn keep_memory(&mut self, memory: &LooksMemory) {
+        let looked = self.looked;
+        if let Some(lifeline) = self.lifeline.as_mut().filter(|it| it.since.is_empty()) {
+            let memory = memory.clone();
+            lifeline.looks = Some(Arc::new(Remembered { memory, looked }));
+        }
+    }
+
     pub(super) fn note(&mut self, act: Act) {
         if let Some(lifeline) = &mut self.lifeline {
             lifeline.since.push(act);

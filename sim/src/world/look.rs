@@ -28,7 +28,9 @@ impl World {
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn remember_looks(&mut self, memory: &LooksMemory) -> Result<(), WorldError> {
-        Ok(self.solver.remember_looks(memory)?)
+        self.solver.remember_looks(memory)?;
+        self.keep_memory(memory);
+        Ok(())
     }
 
     /// Looks at the state after the last step, on the queue of the steps; `skin` is that of the user. What came to a place is said by one

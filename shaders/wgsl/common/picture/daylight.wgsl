@@ -41,15 +41,17 @@ const WINDOW_BAR: f32 = 0.065;
 const WINDOW_EDGE: f32 = 0.045;
 const PANE_LIGHT: vec3<f32> = vec3<f32>(5.55, 5.40, 5.175);
 
-/// How much of what is seen from `position` (metres) along `direction` is the window's panes, 0 to 1.
-fn panes_seen(position: vec3<f32>, direction: vec3<f32>) -> f32 {
+/// How much of what is seen from `position` (metres) along `direction`, of length 1 and nearer than `end` (metres), is the window's panes, 0 to 1.
+fn panes_seen(position: vec3<f32>, direction: vec3<f32>, end: f32) -> f32 {
     let aside = position - WINDOW;
     let steep = dot(direction, WINDOW_OUT);
-    let at = aside - dot(aside, WINDOW_OUT) / min(steep, -1e-6) * direction;
+    let way = -dot(aside, WINDOW_OUT) / min(steep, -1e-6);
+    if (steep > -1e-6 || way <= 0.0 || way >= end) { return 0.0; }
+    let at = aside + way * direction;
     let place = abs(vec2<f32>(dot(at, WINDOW_ACROSS), dot(at, WINDOW_UP)));
     let inside = smoothstep(WINDOW_HALF + WINDOW_EDGE, WINDOW_HALF - WINDOW_EDGE, place);
     let bars = smoothstep(vec2<f32>(WINDOW_BAR - WINDOW_EDGE), vec2<f32>(WINDOW_BAR + WINDOW_EDGE), place);
-    return inside.x * inside.y * bars.x * bars.y * step(1e-6, -steep);
+    return inside.x * inside.y * bars.x * bars.y;
 }
 
 /// Tone mapping: a fit of the ACES film curve by K. Narkowicz (2016). The sRGB image does the

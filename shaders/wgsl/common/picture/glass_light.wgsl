@@ -1,6 +1,5 @@
 //! The vessels' glass, traced: surfaces of revolution whose outlines are segments, so that a ray meets
-//! cones, and graduation marks printed on them. Walls bend no light that passes: their sides are
-//! parallel.
+//! cones, and graduation marks printed on them. What is behind is seen where it is; liquid is bent by `through_wall.wgsl`.
 
 //!include common/picture/frame.wgsl
 //!include common/picture/room.wgsl
@@ -13,10 +12,6 @@
 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
 const GLASS_REFLECTANCE = 0.036;
-/// What one wall seen at right angles takes from the light; a slanting path takes more. Of borosilicate glass 2 mm take some 0.05 %.
-const WALL_ABSORPTION = 0.0005;
-/// Light that the wall's inside scatters to the eye: the greenish edge of clear glass.
-const EDGE_LIGHT = vec3<f32>(0.06, 0.095, 0.09);
 /// Share of a broken edge that is seen over what is behind: as bright as glass a palm thick, through which one looks along the wall.
 const EDGE_OPACITY = 0.75;
 /// What it sends to the eye.
@@ -111,12 +106,8 @@ fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> C
     let rest = 1.0 - facing;
     let rest_squared = rest * rest;
     let reflectance = GLASS_REFLECTANCE + (1.0 - GLASS_REFLECTANCE) * rest_squared * rest_squared * rest;
-    let absorbed = 1.0 - exp(-WALL_ABSORPTION / facing);
-    // The rays that miss the eye are missing mostly at the edges, which look dark.
-    let opacity = reflectance + (1.0 - reflectance) * absorbed;
-    let light = reflectance * mirrored_light(place, reflect(-to_eye, normal)) + (1.0 - reflectance) * absorbed * EDGE_LIGHT;
-    // Tone mapping bends, so it is for the colour as if opaque; the opacity goes on after.
-    return Cover(display(light / opacity) * opacity, 1.0 - opacity);
+    // What borosilicate of 2 mm absorbs, 0.05 %, is less than a level.
+    return Cover(display(mirrored_light(place, reflect(-to_eye, normal))) * reflectance, 1.0 - reflectance);
 }
 
 /// A graduation mark.
@@ -153,6 +144,18 @@ fn marks_at(vessel: u32, p: vec3<f32>, outside: bool, width: f32, normal: vec3<f
     let key = key_light(stage * frame.metres_per_unit);
     let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
     return Cover(display(lit) * covered, 1.0 - covered);
+}
+
+/// View depth of the middle of the nearest of the vessels in `bits`.
+fn nearest_vessel(bits: u32, eye: u32) -> f32 {
+    var nearest = 1e9;
+    for (var rest = bits & MARK_VESSELS; rest != 0u; rest &= rest - 1u) {
+        let index = firstTrailingBit(rest);
+        let m = frame.vessels[index].vessel_from_stage;
+        let middle = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz)) * (vec3<f32>(0.0, 0.5 * frame.vessels[index].rim, 0.0) - m[3].xyz);
+        nearest = min(nearest, (frame.views[eye].clip_from_stage * vec4<f32>(middle, 1.0)).w);
+    }
+    return nearest;
 }
 
 /// How many of `RAYS` are traced.
@@ -235,7 +238,7 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
             layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
-            if (profile.y > 0.5 && p.y > 0.9 * frame.vessels[index].rim) {
+            if (profile.y > 0.9 && p.y > frame.vessels[index].rim - 0.1 * frame.vessels[index].wall) {
                 layer = over(Cover(EDGE_OPACITY * display(RIM), 1.0 - EDGE_OPACITY), layer);
             }
             if (within < frame.vessels[index].wall) {

@@ -1,6 +1,6 @@
 //! The liquid's light: what it mirrors, and what is seen through it, refracted in the world
-//! and traced against the vessel and the room. Nothing is looked up beside the pixel, so both
-//! eyes see the same things in the same places.
+//! and traced against the vessel and the room. Beside the pixel only the acid where a ray turns and the liquid behind a wall are
+//! looked up, at places in the stage, so both eyes see the same things in the same places.
 
 //!include common/picture/fresnel.wgsl
 //!include common/picture/pixel_blocks.wgsl
@@ -169,6 +169,8 @@ fn liquid_behind(inside: Inside, eye: u32) -> Behind {
     let p = (m * vec4<f32>(inside.point, 1.0)).xyz;
     let wall = -(stage_from_vessel * inward(inside.vessel, p));
     let within = refract(inside.direction, wall, GLASS_INDEX / index);
+    // Glass as thick as that mirrors it.
+    if (dot(within, within) == 0.0) { return Behind(none, 0.0); }
     let sight = normalize(inside.point - frame.views[eye].eye);
     let straight = length(inside.point - frame.views[eye].eye) / seen.z * thickness.x;
     let filled = filled_along(inside.vessel, p, (m * vec4<f32>(sight, 0.0)).xyz, straight);
@@ -198,8 +200,9 @@ fn followed(
     let turned = pixel_of(way.turned, eye);
     let there = thickness_at(turned.xy, eye);
     let mixed = select(acid, 0.5 * (acid + saturate(there.y / max(there.x, 1e-9))), there.x > frame.spacing);
-    // What the bench under it sends back has come down through the liquid before.
-    let lit = select(0.0, max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
+    // What the bench under it sends back has come down through the liquid before. The vessel's y is up, or is not.
+    let upright = saturate(frame.vessels[vessel].vessel_from_stage[1].y);
+    let lit = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
     let path = filled * (way.length + lit);
     let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     return Wet(way.exit, way.out, kept, vec3<f32>(0.0), vessel);

@@ -14,10 +14,12 @@ const PANE_TAKES = vec3<f32>(0.05, 0.03, 0.04);
 struct PaneSeen {
     light: vec3<f32>,
     open: vec3<f32>,
+    /// View depth; 1e9 where it is not seen.
+    way: f32,
 }
 
 fn pane_over(eye: u32, place: vec2<f32>, end: f32) -> PaneSeen {
-    let none = PaneSeen(vec3<f32>(0.0), vec3<f32>(1.0));
+    let none = PaneSeen(vec3<f32>(0.0), vec3<f32>(1.0), 1e9);
     // The same for all pixels: without one they do no more than this.
     if (frame.pane_from_stage[3].w == 0.0) { return none; }
     let direction = seen_along(eye, place);
@@ -34,5 +36,5 @@ fn pane_over(eye: u32, place: vec2<f32>, end: f32) -> PaneSeen {
     // Both faces, and what goes to and fro between them.
     let mirrored = 2.0 * face / (1.0 + face);
     let light = mirrored * mirrored_light(frame.views[eye].eye + way * direction, reflect(sight, normal));
-    return PaneSeen(display(light), (1.0 - mirrored) * (1.0 - PANE_TAKES));
+    return PaneSeen(display(light), (1.0 - mirrored) * (1.0 - PANE_TAKES), way);
 }

@@ -7,8 +7,8 @@ const MATERIAL_TABLE = 0u;
 const MATERIAL_FLOOR = 1u;
 const MATERIAL_WALL = 2u;
 
-/// Half the angle that the window takes up, seen from the bench, rad: √(width · height)/2 over the way.
-const WINDOW_ANGLE = 0.5;
+/// Half the angle that the window takes up, seen from the bench, rad: the root of half its width times half its height, over the 2.09 m to it.
+const WINDOW_ANGLE = 0.57;
 /// Share of the sky's light that a vessel keeps from where it hides all of the sky: clear glass and water send most of it on.
 const HIDES_SKY = 0.2;
 /// No vessel, for `bench_light`.
@@ -33,16 +33,17 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_thr
         let hidden = saturate(dot(to_sphere, normal) / gap) * ratio * ratio;
         share.x *= 1.0 - HIDES_SKY * hidden;
 
-        // Window: the nearest approach of the ray to the axis, as an angle seen from here,
-        // against the window.
+        // Window: the strip that the blocker hides of it, as angles seen from here, and the strip's length.
         let ray_foot = dot(from_foot, to_window);
         let ray_axis = dot(to_window, axis);
         let across = max(axis_squared - ray_axis * ray_axis, 1e-12);
         let on_axis = saturate((along_axis - ray_foot * ray_axis) / across);
         let on_ray = max(dot(blocker.foot + axis * on_axis - position, to_window), 1e-6);
         let miss = length(blocker.foot + axis * on_axis - position - to_window * on_ray);
-        let open = smoothstep(-WINDOW_ANGLE, WINDOW_ANGLE, (miss - blocker.radius) / on_ray);
-        share.y *= 1.0 - blocker.opacity * (1.0 - open);
+        let strip = vec2<f32>(miss - blocker.radius, miss + blocker.radius) / on_ray;
+        let sides = smoothstep(vec2<f32>(-WINDOW_ANGLE), vec2<f32>(WINDOW_ANGLE), strip);
+        let long = (sqrt(axis_squared) + 2.0 * blocker.radius) / (2.0 * WINDOW_ANGLE * on_ray);
+        share.y *= 1.0 - blocker.opacity * (sides.y - sides.x) * min(long, 1.0);
     }
     return share;
 }
@@ -106,5 +107,7 @@ fn mirrored_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
     let window = max(dot(met.normal, key.direction), 0.0) * key.light;
     let room = albedo_of(met.material) * (ambient_light(met.normal.y) + window);
     let seen = select(room, ambient_light(direction.y), met.way == 0.0);
-    return mix(seen, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction));
+    // Walls are left out: the upper panes are above the ceiling.
+    let end = select(1e9, met.way * frame.metres_per_unit, met.material == MATERIAL_TABLE && met.way > 0.0);
+    return mix(seen, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction, end));
 }

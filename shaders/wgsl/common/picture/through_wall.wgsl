@@ -54,6 +54,8 @@ fn inside_of_wall(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Inside {
             way = to_cylinder(p, direction, vessel_radius(index, p.y + way * direction.y) + wall);
         }
         let met = p + way * direction;
+        // A steep cone may need more steps than that: what it shows is drawn as without a lens.
+        if (abs(length(met.xz) - vessel_radius(index, met.y) - wall) > 0.25 * wall) { continue; }
         if (way <= frame.views[eye].near || way >= nearest || met.y < 0.0 || met.y > frame.vessels[index].rim) { continue; }
         let within = refract(normalize(direction), -inward(index, met), 1.0 / GLASS_INDEX);
         let on = to_cylinder(met, within, vessel_radius(index, met.y));
