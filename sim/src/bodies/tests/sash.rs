@@ -100,10 +100,10 @@ fn thrown_glass_stays_behind_a_sash() {
         let z = bodies.poses()[0].position.z;
         // The pane's near face, and a beaker that leans.
         assert_eq!(z < 0.05, stays, "{up} m up: {z} m");
-        // On the pane with the throw's speed; else on the table with that of its fall, √(2 g 0.25 m) = 2.2 m/s.
-        let expected = if stays { 1.0 } else { 2.2 };
-        let first = first.unwrap();
-        assert!((first - expected).abs() < 0.1, "{first} m/s");
+        // On the pane with the throw's 1 m/s, and what friction takes of the fall's 2 m/s; else on the table with √(2 g 0.25 m) = 2.2 m/s, and
+        // what it takes of the throw.
+        let expected = if stays { 1.0..2.0 } else { 2.1..2.6 };
+        assert!(expected.contains(&first.unwrap()), "{first:?} m/s");
     }
 }
 
