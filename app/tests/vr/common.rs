@@ -166,8 +166,8 @@ impl<T: Trouble> Headset for Worn<T> {
             if awaits {
                 let since = self.awaiting.get_or_insert_with(Instant::now);
                 assert!(since.elapsed() < PATIENCE, "what is awaited does not come");
-                // The processor is for what is made beside the frames.
-                std::thread::sleep(Duration::from_millis(50));
+                // The processor is for what is made beside the frames, and the track goes on with each: few of them may pass on a busy machine.
+                std::thread::sleep(Duration::from_millis(250));
             } else {
                 self.awaiting = None;
                 self.after += 1;

