@@ -1,7 +1,7 @@
 //! A pane of glass against Fresnel's equations: what it lets through, whatever it mirrors.
 
 use crate::panel::{EXTENT, image, on_panel, panel, pixels, rgba, view};
-use crate::rig::{Rig, ray, without_particles};
+use crate::rig::{Rig, linear, ray, without_particles};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use vitriol_render::{FrameDesc, Pane};
 
@@ -17,15 +17,6 @@ fn through(cosine: f64) -> f64 {
     let face = 0.5 * (s * s + p * p);
     // Σ (1 − r)² r^2k.
     (1.0 - face).powi(2) / (1.0 - face * face) * (1.0 - TAKES)
-}
-
-fn linear(level: u8) -> f64 {
-    let share = f64::from(level) / 255.0;
-    if share <= 0.040_45 {
-        share / 12.92
-    } else {
-        ((share + 0.055) / 1.055).powf(2.4)
-    }
 }
 
 /// Before a panel and before nothing: the difference of the two is the light behind, of which the pane lets its share through. It is seen from either face,

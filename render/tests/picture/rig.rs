@@ -128,6 +128,16 @@ pub const LEFT_QUARTER: [[f32; 2]; 6] = [
     [0.0, 1.0],
 ];
 
+/// Of a level of sRGB (IEC 61966-2-1).
+pub fn linear(level: u8) -> f64 {
+    let share = f64::from(level) / 255.0;
+    if share <= 0.040_45 {
+        share / 12.92
+    } else {
+        ((share + 0.055) / 1.055).powf(2.4)
+    }
+}
+
 /// A frame of an empty scene at real size.
 pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
     FrameDesc {

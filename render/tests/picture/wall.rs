@@ -2,7 +2,7 @@
 //! (Bouguer), whatever glass is between: at x from the axis it passes through 2 √(r² − (x/n)²) of liquid, up to the glass's own outline.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
-use crate::rig::{ray, without_particles};
+use crate::rig::{linear, ray, without_particles};
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
 
@@ -20,15 +20,6 @@ const LIGHT: [f64; 2] = [0.38, 0.40];
 
 fn displayed(light: f64) -> f64 {
     light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
-}
-
-fn linear(level: u8) -> f64 {
-    let share = f64::from(level) / 255.0;
-    if share <= 0.040_45 {
-        share / 12.92
-    } else {
-        ((share + 0.055) / 1.055).powf(2.4)
-    }
 }
 
 #[test]
