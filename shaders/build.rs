@@ -87,6 +87,7 @@ fn shader_names(sources: &BTreeMap<String, String>, root: &Path) -> Result<Strin
         ("render", "render", "renderer"),
         ("fluid", "render/fluid", "renderer's liquid surface"),
         ("spheres", "render/spheres", "renderer's coloured spheres"),
+        ("spray", "render/spray", "renderer's drops of spray"),
         ("hands", "render/hands", "renderer's hands"),
         ("panel", "panel", "headset's panel"),
         ("mirror", "mirror", "mirror window"),

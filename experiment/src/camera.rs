@@ -93,8 +93,8 @@ pub struct Shot {
     pub extent: [u32; 2],
     /// Views side by side: 1, or 2 for both eyes.
     pub eyes: u32,
-    /// Particles of the liquid, where it is to look like liquid.
-    pub liquid: Option<u32>,
+    /// The liquid ([`drawn_liquid`](crate::drawn_liquid)), where it is to look like liquid.
+    pub liquid: Option<LiquidDesc>,
     /// Filter of its surface; `None` for the scene's.
     pub filter: Option<PictureFilter>,
     /// Where it is seen from; `None` for the tripod.
@@ -139,9 +139,9 @@ impl Camera {
         let extent = shot.extent;
         let desc = RenderDesc {
             views: shot.eyes,
-            liquid: shot.liquid.map(|particles| LiquidDesc {
-                filter: filter(shot.filter.unwrap_or(scene.picture.filter)),
-                ..LiquidDesc::new(particles)
+            liquid: shot.liquid.map(|liquid| LiquidDesc {
+                filter: shot.filter.map_or(liquid.filter, filter),
+                ..liquid
             }),
             ..RenderDesc::film(extent)
         };

@@ -28,6 +28,7 @@ use crate::instruction::Instruction;
 use crate::judging::Judging;
 use crate::looks::{Looked, Looks};
 use crate::sample::{MassByPlace, Sample};
+use crate::scenery::drawn_liquid;
 use crate::scenes::Scenes;
 use crate::stage;
 
@@ -96,7 +97,7 @@ fn camera(
     let liquid = colours.contains(&Colour::Liquid);
     let of_world = |shot: Shot| {
         let shot = Shot {
-            liquid: liquid.then(|| world.solver().count()),
+            liquid: liquid.then(|| drawn_liquid(world)),
             ..shot
         };
         Camera::new(world.gpu(), library, world.scene(), &shot)

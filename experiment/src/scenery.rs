@@ -2,8 +2,8 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
-    BoxDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SurfaceFilter, VesselDesc,
-    VesselTables,
+    BoxDesc, BubbleSource, LiquidDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SpraySource,
+    SurfaceFilter, VesselDesc, VesselTables,
 };
 use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
@@ -26,8 +26,26 @@ pub fn liquid_of(world: &World) -> LiquidSource<'_> {
             support: solver.parameters().support_radius as f32,
         }),
         vessels: Some(VesselTables { flasks, distances }),
+        bubbles: solver.bubbles().map(|(bubbles, count)| BubbleSource {
+            bubbles,
+            count,
+            spray: solver.drops().map(|drops| SpraySource {
+                drops,
+                mass: solver.parameters().particle_mass() as f32,
+            }),
+        }),
         table: table(scene),
         floor: scene.floor.height as f32,
+    }
+}
+
+/// What a renderer is made for that draws a world's liquid.
+pub fn drawn_liquid(world: &World) -> LiquidDesc {
+    let solver = world.solver();
+    LiquidDesc {
+        filter: filter(world.scene().picture.filter),
+        bubbles: solver.bubbles().map_or(0, |(_, count)| count),
+        ..LiquidDesc::new(solver.count())
     }
 }
 

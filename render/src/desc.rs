@@ -61,6 +61,8 @@ pub enum SurfaceFilter {
 pub struct LiquidDesc {
     /// Particles at most.
     pub particles: u32,
+    /// Places of bubbles at most, and of drops.
+    pub bubbles: u32,
     /// Filter of the depth.
     pub filter: SurfaceFilter,
     /// Whether particles are ellipsoids by their neighbours' places; else spheres.
@@ -68,10 +70,11 @@ pub struct LiquidDesc {
 }
 
 impl LiquidDesc {
-    /// For `particles` of them, as the program draws by itself.
+    /// For `particles` of them and no bubbles, as the program draws by itself.
     pub const fn new(particles: u32) -> Self {
         Self {
             particles,
+            bubbles: 0,
             filter: SurfaceFilter::NarrowRange,
             anisotropic: true,
         }

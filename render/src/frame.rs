@@ -107,6 +107,12 @@ impl FrameDesc<'_> {
         self.extent.unwrap_or(held)
     }
 
+    /// Whether it has coloured particles or spray.
+    pub(crate) fn has_spheres(&self) -> bool {
+        let bubbles = self.liquid.and_then(|liquid| liquid.bubbles);
+        self.particles.is_some() || bubbles.is_some_and(|bubbles| bubbles.spray.is_some())
+    }
+
     /// Whether the frame fits the scene, the views and its own buffers.
     pub(crate) fn check(&self, scene: &Scene, desc: &RenderDesc) -> Result<(), RenderError> {
         let held = desc.extent;

@@ -186,7 +186,7 @@ fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
     layout::HandsRun {
         counts: groups(frame).map(|hand| drawn(hand).count() as u32),
         joined: JOINED / frame.length_scale,
-        over: frame.particles.is_some().into(),
+        over: frame.has_spheres().into(),
         thinnest: thinnest / frame.length_scale,
         ..layout::HandsRun::default()
     }

@@ -46,6 +46,7 @@ mod scene;
 mod solids;
 mod source;
 mod spheres;
+mod spray;
 mod tiles;
 pub mod tints;
 
@@ -61,4 +62,6 @@ pub use pass_pictures::{PassPicture, PassesReadback};
 pub use readback::PictureReadback;
 pub use renderer::Renderer;
 pub use scene::{BoxDesc, SceneDesc, ShardDesc, VesselDesc};
-pub use source::{LiquidSource, Neighbours, ParticleSource, SteamSource, VesselTables};
+pub use source::{
+    BubbleSource, LiquidSource, Neighbours, ParticleSource, SpraySource, SteamSource, VesselTables,
+};

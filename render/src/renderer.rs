@@ -7,7 +7,7 @@ use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::desc::RenderDesc;
-use crate::fluid::{Fluid, SurfaceReadback, zeros};
+use crate::fluid::{Cells, Fluid, SurfaceReadback, zeros};
 use crate::frame::FrameDesc;
 use crate::hands::Hands;
 use crate::hidden::hidden_words;
@@ -20,6 +20,7 @@ use crate::scene::{Scene, SceneDesc};
 use crate::solids::Solids;
 use crate::source::LiquidSource;
 use crate::spheres::Spheres;
+use crate::spray::{Flights, Spray};
 use crate::tiles::Tiles;
 
 /// Format of the picture. Shaders cannot write an image of an sRGB format, so they encode the colours
@@ -44,6 +45,7 @@ pub struct Renderer {
     /// Bound in place of what a frame lacks.
     nothing: Buffer,
     spheres: Spheres,
+    spray: Spray,
     hands: Hands,
     solids: Solids,
     /// The picture before its edges are smoothed.
@@ -93,6 +95,7 @@ impl Renderer {
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
             spheres: Spheres::new(gpu, library, views, lanes)?,
+            spray: Spray::new(gpu, library, views)?,
             hands: Hands::new(gpu, library, views)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
@@ -122,6 +125,8 @@ impl Renderer {
         let fluid = fluid.transpose()?;
         let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views, lanes));
         let spheres = spheres.transpose()?;
+        let spray = Spray::uses(changed).then(|| Spray::new(gpu, library, views));
+        let spray = spray.transpose()?;
         let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views));
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
@@ -134,6 +139,9 @@ impl Renderer {
         }
         if let Some(spheres) = spheres {
             self.spheres = spheres;
+        }
+        if let Some(spray) = spray {
+            self.spray = spray;
         }
         if let Some(hands) = hands {
             self.hands = hands;
@@ -242,6 +250,10 @@ impl Renderer {
             self.spheres
                 .record_nearest(rec, &self.frame, particles, solids, &self.tiles)?;
         }
+        if let Some(flights) = self.flights(frame, slot)? {
+            self.spray
+                .record_nearest(rec, &self.frame, flights, &self.solids, &self.tiles)?;
+        }
         if has_hands(frame) {
             self.hands
                 .record_marks(rec, &self.frame, frame, &self.tiles)?;
@@ -316,11 +328,15 @@ impl Renderer {
                 &self.tiles,
             )?;
         }
+        if let Some(flights) = self.flights(frame, slot)? {
+            self.spray
+                .record_light(rec, &self.frame, flights, &self.solids, &self.tiles)?;
+        }
         if has_hands(frame) {
             self.hands
                 .record_light(rec, &self.frame, frame, &self.solids, &self.tiles)?;
         }
-        self.draw_picture(rec, frame)?;
+        self.draw_picture(rec, frame, slot)?;
         self.finish(rec, frame)
     }
 
@@ -328,6 +344,7 @@ impl Renderer {
         &'a self,
         rec: &mut Recorder,
         frame: &FrameDesc<'a>,
+        slot: usize,
     ) -> Result<(), RenderError> {
         let liquid = self.liquid(frame)?;
         let of_liquid = |of: fn(&Fluid) -> &Buffer| {
@@ -335,6 +352,8 @@ impl Renderer {
                 .as_ref()
                 .map_or(&self.nothing, |(fluid, _)| of(fluid))
         };
+        let cells = liquid.as_ref().map(|(fluid, _)| fluid.bubbles(slot));
+        let of_cells = |of: fn(&Cells) -> &Buffer| cells.map_or(&self.nothing, of);
         let shown = |panel: Option<Panel<'a>>| panel.map_or(&self.no_panel, |panel| panel.image);
         let (panel, sign) = (shown(frame.panel), shown(frame.sign));
         rec.group("picture", |rec| {
@@ -345,6 +364,8 @@ impl Renderer {
                     .uniform("frame", &self.frame)
                     .read("surface", of_liquid(Fluid::surface))
                     .read("sums", of_liquid(Fluid::sums))
+                    .read("bubble_heads", of_cells(|cells| &cells.heads))
+                    .read("bubble_entries", of_cells(|cells| &cells.entries))
                     .read("hidden_area", self.hidden())
                     .read("outlines", &self.scene.outlines)
                     .read("tiles", self.tiles.marks())
@@ -383,6 +404,26 @@ impl Renderer {
             Ok(())
         })?;
         Ok(())
+    }
+
+    /// The drops of a frame that has them, in that slot.
+    fn flights(
+        &self,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<Option<Flights<'_>>, RenderError> {
+        // Coloured particles are seen in their place.
+        if frame.particles.is_some() {
+            return Ok(None);
+        }
+        let Some((fluid, source)) = self.liquid(frame)? else {
+            return Ok(None);
+        };
+        let bubbles = source.bubbles.filter(|bubbles| bubbles.spray.is_some());
+        Ok(bubbles.map(|bubbles| Flights {
+            buffer: &fluid.bubbles(slot).flights,
+            count: 2 * bubbles.count,
+        }))
     }
 
     /// The liquid surface of a frame that has one.

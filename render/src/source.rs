@@ -2,7 +2,10 @@
 
 use vitriol_gpu::Buffer;
 
+use vitriol_shaders::layout;
+
 use crate::RenderError;
+use crate::desc::LiquidDesc;
 use crate::scene::BoxDesc;
 
 /// Particles in the solver's own buffers.
@@ -52,6 +55,27 @@ pub struct VesselTables<'a> {
     pub distances: &'a Buffer,
 }
 
+/// Bubbles in the liquid.
+#[derive(Clone, Copy)]
+pub struct BubbleSource<'a> {
+    /// `array<Bubble>` ([`Bubble`](vitriol_shaders::layout::Bubble)): centre and radius in the scene's unit. Without steam and air it
+    /// is none.
+    pub bubbles: &'a Buffer,
+    /// How many places of them there are.
+    pub count: u32,
+    /// What they threw up; `None` where that is not followed.
+    pub spray: Option<SpraySource<'a>>,
+}
+
+/// Drops that bubbles threw up.
+#[derive(Clone, Copy)]
+pub struct SpraySource<'a> {
+    /// `array<Drops>` ([`Drops`](vitriol_shaders::layout::Drops)), two for each place of a bubble.
+    pub drops: &'a Buffer,
+    /// Mass of a particle at rest density, kg, in which theirs is counted.
+    pub mass: f32,
+}
+
 /// Liquid in the solver's own buffers, in the scene's unit.
 #[derive(Clone, Copy)]
 pub struct LiquidSource<'a> {
@@ -72,6 +96,8 @@ pub struct LiquidSource<'a> {
     pub neighbours: Option<Neighbours<'a>>,
     /// Glass that cuts the liquid; `None` for none.
     pub vessels: Option<VesselTables<'a>>,
+    /// What of it is vapour; `None` for none.
+    pub bubbles: Option<BubbleSource<'a>>,
     /// The table that it may lie on.
     pub table: Option<BoxDesc>,
     /// Height of the floor.
@@ -79,8 +105,8 @@ pub struct LiquidSource<'a> {
 }
 
 impl LiquidSource<'_> {
-    /// Whether its buffers hold what it says, and `capacity` is enough for it.
-    pub(crate) fn check(&self, capacity: u32) -> Result<(), RenderError> {
+    /// Whether its buffers hold what it says, and a renderer made for `desc` is enough for it.
+    pub(crate) fn check(&self, desc: &LiquidDesc) -> Result<(), RenderError> {
         let counts = self.neighbours.map(|neighbours| (neighbours.counts, 4));
         let buffers = [
             Some((self.positions, 16)),
@@ -98,12 +124,36 @@ impl LiquidSource<'_> {
                 });
             }
         }
-        if self.count > capacity {
+        if self.count > desc.particles {
             return Err(RenderError::TooManyParticles {
                 count: self.count,
                 buffer: "ellipsoids".to_owned(),
-                held: capacity.into(),
+                held: desc.particles.into(),
             });
+        }
+        let Some(source) = self.bubbles else {
+            return Ok(());
+        };
+        let held = |buffer: &Buffer, bytes: usize| buffer.bytes() / bytes as u64;
+        let places = held(source.bubbles, size_of::<layout::Bubble>());
+        let of_drops = source.spray.map(|spray| {
+            (
+                spray.drops,
+                held(spray.drops, 2 * size_of::<layout::Drops>()),
+            )
+        });
+        for (buffer, held) in [Some((source.bubbles, places)), of_drops]
+            .into_iter()
+            .flatten()
+        {
+            let held = held.min(desc.bubbles.into());
+            if u64::from(source.count) > held {
+                return Err(RenderError::TooManyParticles {
+                    count: source.count,
+                    buffer: buffer.label().to_owned(),
+                    held,
+                });
+            }
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The folders under `wgsl`: those of `common` are only included, the others hold a shader a file.
-pub const FOLDERS: [&str; 12] = [
+pub const FOLDERS: [&str; 13] = [
     "common/maths",
     "common/liquid",
     "common/chemistry",
@@ -15,6 +15,7 @@ pub const FOLDERS: [&str; 12] = [
     "render/fluid",
     "render/hands",
     "render/spheres",
+    "render/spray",
     "panel",
     "mirror",
 ];

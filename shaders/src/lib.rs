@@ -2,7 +2,7 @@
 //! SPIR-V. There is no Vulkan here.
 //!
 //! A folder of `wgsl` mirrors one of Rust: `sim` has the passes of `sim/src/solver`, `render` with
-//! its `fluid`, `hands` and `spheres` those of `render/src`, `panel` and `mirror` one pass each. What several
+//! its `fluid`, `hands`, `spheres` and `spray` those of `render/src`, `panel` and `mirror` one pass each. What several
 //! passes share lies in `wgsl/common` and enters by a line `//!include common/folder/name.wgsl`:
 //! - `maths`: no more than mathematics, for both;
 //! - `liquid`: the particles, their records and Algorithm 1 (`sim/src/solver`);

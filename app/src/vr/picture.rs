@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 use vitriol_experiment::hands::{Gloves, Joints};
-use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of, shards};
+use vitriol_experiment::scenery::{affine, drawn_liquid, laboratory, liquid_of, shards};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
 use vitriol_render::{
@@ -54,8 +54,8 @@ pub struct Picture {
 /// What there is to be drawn of a world.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject {
-    /// Particles of the liquid.
-    particles: u32,
+    /// Its liquid.
+    liquid: LiquidDesc,
     /// Bytes of the puffs of steam, where there are any.
     puffs: Option<u64>,
 }
@@ -64,7 +64,7 @@ impl Subject {
     /// That of a world.
     pub fn of(world: &World) -> Self {
         Self {
-            particles: world.solver().count(),
+            liquid: drawn_liquid(world),
             puffs: world.solver().puffs().map(Buffer::bytes),
         }
     }
@@ -111,13 +111,9 @@ impl Picture {
         subject: Subject,
         eyes: &Eyes,
     ) -> Result<Self, Failure> {
-        let liquid = LiquidDesc {
-            filter: filter(scene.picture.filter),
-            ..LiquidDesc::new(subject.particles)
-        };
         let desc = RenderDesc {
             views: 2,
-            liquid: Some(liquid),
+            liquid: Some(subject.liquid),
             ..RenderDesc::film(eyes.extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;

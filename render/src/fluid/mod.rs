@@ -1,6 +1,7 @@
 //! The liquid's surface in the picture: ellipsoids, depth, thickness and the
 //! filter. `docs/rendering.md` explains it pass by pass.
 
+mod bubbles;
 mod passes;
 mod readback;
 
@@ -15,6 +16,8 @@ use crate::lanes::workgroups;
 use crate::scene::MOST_VESSELS;
 use crate::source::{LiquidSource, Neighbours};
 use crate::tiles::{Class, Tiles};
+use bubbles::BubbleCells;
+pub(crate) use bubbles::Cells;
 use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
 
@@ -38,6 +41,7 @@ pub(crate) struct Fluid {
     filtered: [Buffer; 2],
     /// Thickness and acid of blocks of four pixels.
     sums: Buffer,
+    bubbles: BubbleCells,
 }
 
 impl Fluid {
@@ -72,6 +76,7 @@ impl Fluid {
             depth: floats("liquid depth")?,
             filtered: [floats("liquid surface")?, floats("half-filtered")?],
             sums: Buffer::storage(gpu, "thickness", bytes_of_elements::<[u32; 2]>(blocks))?,
+            bubbles: BubbleCells::new(gpu, library, desc.bubbles)?,
         })
     }
 
@@ -88,7 +93,7 @@ impl Fluid {
 
     /// Refuses a source that does not fit.
     pub(crate) fn check(&self, source: &LiquidSource<'_>) -> Result<(), RenderError> {
-        source.check(self.desc.particles)
+        source.check(&self.desc)
     }
 
     /// Records everything from the ellipsoids in a slot up to the filtered depth;
@@ -130,7 +135,7 @@ impl Fluid {
         self.filter(rec, uniforms, tiles)
     }
 
-    /// Particles to ellipsoids: all that is read of the solver's buffers.
+    /// Particles to ellipsoids, and bubbles to cells: all that is read of the solver's buffers.
     pub(crate) fn record_shapes(
         &self,
         rec: &mut Recorder,
@@ -171,6 +176,7 @@ impl Fluid {
                 ..layout::Neighbourhood::default()
             })
             .invocations(source.count * self.passes.lanes)?;
+        self.bubbles.record(rec, source.bubbles, slot)?;
         Ok(())
     }
 
@@ -201,6 +207,11 @@ impl Fluid {
             Ok(())
         })?;
         Ok(())
+    }
+
+    /// Where rays look for bubbles.
+    pub(crate) fn bubbles(&self, slot: usize) -> &Cells {
+        self.bubbles.of(slot)
     }
 
     /// The filtered reversed depth.

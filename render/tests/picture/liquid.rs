@@ -70,6 +70,7 @@ impl Liquid {
 
     pub fn source(&self) -> LiquidSource<'_> {
         LiquidSource {
+            bubbles: None,
             positions: &self.positions,
             heat: Some(&self.heat),
             volumes: self.volumes.as_ref(),

@@ -127,8 +127,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
             let index = pixel_index(place.pixel, eye);
             let solid = solid_depths[index];
             if (solid > reversed) {
-                reversed = solid;
-                colour = unpacked(solid_light[index]);
+                let over = unpacked(solid_light[index]);
+                colour = mix(colour, over.rgb, over.a);
+                // A drop finer than a pixel is not what is there.
+                reversed = select(reversed, solid, over.a > 0.5);
                 alpha = 1.0;
             }
         }

@@ -227,6 +227,20 @@ impl Solver {
         self.steam.as_ref().map(Steam::puffs)
     }
 
+    /// Bubbles, `array<Bubble>` of `common/chemistry/bubble.wgsl`, and how many places of them there are: those without steam and
+    /// air are none. `None` where vapour has no volume.
+    pub fn bubbles(&self) -> Option<(&Buffer, u32)> {
+        let bubbles = self.parameters.bubbles()?;
+        Some((&self.buffers.bubbles, bubbles.slots()))
+    }
+
+    /// What bubbles threw up, `array<Drops>` of `common/chemistry/drops.wgsl`, two for each of their places. `None` where that is not
+    /// followed.
+    pub fn drops(&self) -> Option<&Buffer> {
+        let bubbles = self.parameters.bubbles()?;
+        (bubbles.places_of_drops() > 0).then_some(&self.buffers.drops)
+    }
+
     /// Bytes of device memory that a particle takes.
     pub fn bytes_per_particle(&self) -> u64 {
         let all = self.buffers.all(&self.vessels);

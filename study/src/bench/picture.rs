@@ -5,6 +5,7 @@ use std::f32::consts::FRAC_PI_2;
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
+use vitriol_experiment::scenery::drawn_liquid;
 use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_gpu::{Gpu, QueueKind, Ticket};
 use vitriol_render::{Fov, View};
@@ -76,7 +77,7 @@ fn ready(
     let shot = Shot {
         extent,
         eyes,
-        liquid: Some(world.solver().count()),
+        liquid: Some(drawn_liquid(&world)),
         filter: args.filter,
         look: None,
     };

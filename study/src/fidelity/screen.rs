@@ -5,8 +5,8 @@ use vitriol_experiment::scenery::{affine, laboratory, liquid_of};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::{
-    ColourBy, FrameDesc, LiquidDesc, RenderDesc, RenderError, Renderer, SceneDesc, Surface,
-    SurfaceFilter, View,
+    ColourBy, FrameDesc, LiquidDesc, LiquidSource, RenderDesc, RenderError, Renderer, SceneDesc,
+    Surface, SurfaceFilter, View,
 };
 use vitriol_shaders::Library;
 
@@ -103,7 +103,11 @@ impl Draw for Screen {
             particles: None,
             hands: [&[]; 2],
             tools: &[],
-            liquid: Some(liquid_of(&state.world)),
+            liquid: Some(LiquidSource {
+                // Surfaces are compared, of which bubbles and drops are none.
+                bubbles: None,
+                ..liquid_of(&state.world)
+            }),
             steam: None,
             panel: None,
             sign: None,

@@ -2,6 +2,7 @@
 //! and traced against the vessel and the room. Beside the pixel only the acid where a ray turns and the liquid behind a wall are
 //! looked up, at places in the stage, so both eyes see the same things in the same places.
 
+//!include common/picture/bubble_light.wgsl
 //!include common/picture/fresnel.wgsl
 //!include common/picture/pixel_blocks.wgsl
 //!include common/picture/room.wgsl
@@ -18,6 +19,8 @@ const INDEX = 1.333;
 const INDEX_OF_ACID = 0.0995;
 /// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
 const MOST_WAYS = 5;
+/// The same among bubbles, each of which is a mirror or a lens.
+const MOST_WAYS_AMONG_BUBBLES = 16;
 
 /// Of liquid with that share of acid by mass.
 fn index_of(acid: f32) -> f32 {
@@ -111,15 +114,27 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     var ray = Way(point, within, 0.0, point, false);
     var at = p;
-    for (var n = 0; n < MOST_WAYS; n++) {
+    let bubbly = has_bubbles();
+    var mirrors = 0;
+    for (var n = 0; n < MOST_WAYS_AMONG_BUBBLES && mirrors < MOST_WAYS; n++) {
         let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
         let reach = to_glass(vessel, at, direction);
         let up = select(1e9, max(level - ray.exit.y, 0.0) / ray.out.y, n > 0 && ray.out.y > 1e-3);
-        let way = min(min(reach.x, reach.y), up);
+        var way = min(min(reach.x, reach.y), up);
+        var bubble = NO_BUBBLE;
+        if (bubbly) { bubble = meets_bubble(ray.exit, ray.out, way); }
+        way = min(way, bubble.way);
         at += way * direction;
         ray.exit += way * ray.out;
         ray.length += way;
         if (n == 0) { ray.turned = ray.exit; }
+        if (bubble.way <= way) {
+            let after = through_bubble(ray.exit, ray.out, bubble, index);
+            ray.exit = after.point;
+            ray.out = after.direction;
+            at = (m * vec4<f32>(ray.exit, 1.0)).xyz;
+            continue;
+        }
         ray.down = reach.y <= min(reach.x, up);
         var back = vec3<f32>(0.0, 1.0, 0.0);
         var through = vec3<f32>(0.0);
@@ -144,6 +159,7 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
             break;
         }
         ray.out = reflect(ray.out, back);
+        mirrors += 1;
     }
     return ray;
 }
@@ -221,6 +237,7 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
 
     let vessel = vessel_around(point);
     var wetted = 0.0;
+    var foam = Foamed(point, vec3<f32>(0.0), 1.0, point, ray);
     let kept = exp(-straight * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
     var light = Wet(point, refract(ray, normal, 1.0 / index), kept, vec3<f32>(0.0), NO_VESSEL);
     if vessel < frame.blocker_count {
@@ -235,11 +252,19 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         // Through glass the surface's height is not known.
         let level = select(1e9, point.y, wetted < 0.5);
         let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
-        light = followed(vessel, eye, point, p, refract(ray, normal, 1.0 / index), acid, level, filled);
+        var into = point;
+        if (has_bubbles() && wetted < 0.5) {
+            foam = through_foam(point, ray, index);
+            into = foam.point;
+            if (any(foam.normal != vec3<f32>(0.0))) { normal = foam.normal; }
+        }
+        let start = p + (m * vec4<f32>(into - point, 0.0)).xyz;
+        light = followed(vessel, eye, into, start, refract(ray, normal, 1.0 / index), acid, level, filled);
     }
     // An edge thinner than a drop is none that could mirror.
     let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
-    light.kept *= 1.0 - reflectance;
-    light.mirrored = reflectance * mirrored_light(point, reflect(ray, normal));
+    light.kept *= foam.kept * (1.0 - reflectance);
+    light.mirrored = foam.kept * reflectance * mirrored_light(foam.point, reflect(ray, normal));
+    if (foam.kept < 1.0) { light.mirrored += (1.0 - foam.kept) * mirrored_light(foam.film, foam.mirrored); }
     return light;
 }

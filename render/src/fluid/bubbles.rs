@@ -1,0 +1,102 @@
+//! The cells in which the picture's rays look for the liquid's bubbles, and the flights of the drops that these threw up.
+
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
+use vitriol_shaders::{Library, fluid, layout};
+
+use super::SLOTS;
+use crate::RenderError;
+use crate::compute::compute;
+use crate::source::BubbleSource;
+
+/// Places of the table, as in `common/picture/bubble_cells.wgsl`; behind them is the number of entries.
+const CELLS: usize = 32_768;
+/// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most.
+const ENTRIES: u32 = 8;
+
+/// The cells of the frames that are under way.
+pub(super) struct BubbleCells {
+    pass: ComputePipeline,
+    flights_pass: ComputePipeline,
+    /// Entries that they hold.
+    entries: u32,
+    cells: [Cells; SLOTS],
+}
+
+/// Those of a frame.
+pub(crate) struct Cells {
+    /// For each place of the table its first entry and one more, and the number of entries.
+    pub(crate) heads: Buffer,
+    pub(crate) entries: Buffer,
+    /// Two flights of drops for each place of a bubble.
+    pub(crate) flights: Buffer,
+}
+
+impl BubbleCells {
+    /// For `most` bubbles.
+    pub(super) fn new(gpu: &Gpu, library: &Library, most: u32) -> Result<Self, RenderError> {
+        let entries = ENTRIES * most;
+        let cells = || -> Result<Cells, RenderError> {
+            let heads = bytes_of_elements::<u32>(CELLS + 1);
+            let flights = bytes_of_elements::<layout::Flight>(2 * most.max(1) as usize);
+            let held = bytes_of_elements::<layout::BubbleEntry>(entries.max(1) as usize);
+            let cells = Cells {
+                heads: Buffer::storage(gpu, "bubble cells", heads)?,
+                entries: Buffer::storage(gpu, "bubbles in cells", held)?,
+                flights: Buffer::storage(gpu, "flights of drops", flights)?,
+            };
+            // Frames without bubbles do not write them.
+            gpu.write(&cells.heads, &vec![0_u32; CELLS + 1])?;
+            Ok(cells)
+        };
+        Ok(Self {
+            pass: compute(gpu, library, fluid::BUBBLES, &[])?,
+            flights_pass: compute(gpu, library, fluid::FLIGHTS, &[])?,
+            entries,
+            cells: [cells()?, cells()?],
+        })
+    }
+
+    /// Records which bubbles are in which cell, and which drops fly.
+    pub(super) fn record(
+        &self,
+        rec: &mut Recorder,
+        source: Option<BubbleSource<'_>>,
+        slot: usize,
+    ) -> Result<(), GpuError> {
+        if self.entries == 0 {
+            return Ok(());
+        }
+        let cells = self.of(slot);
+        rec.group("bubbles", |rec| {
+            rec.fill(&cells.heads, 0)?;
+            let Some(source) = source else { return Ok(()) };
+            rec.pass(&self.pass)
+                .label("bubbles")
+                .read("bubbles", source.bubbles)
+                .write("bubble_heads", &cells.heads)
+                .write("bubble_entries", &cells.entries)
+                .constants(&layout::BubbleRun {
+                    count: source.count,
+                    entries: self.entries,
+                })
+                .invocations(source.count)?;
+            let Some(spray) = source.spray else {
+                return Ok(());
+            };
+            let count = 2 * source.count;
+            rec.pass(&self.flights_pass)
+                .label("bubbles")
+                .read("drops", spray.drops)
+                .write("flights", &cells.flights)
+                .constants(&layout::FlightRun {
+                    count,
+                    mass: spray.mass,
+                })
+                .invocations(count)
+        })
+    }
+
+    pub(super) fn of(&self, slot: usize) -> &Cells {
+        &self.cells[slot % SLOTS]
+    }
+}

@@ -1,0 +1,93 @@
+//! Drops that bubbles threw up, finer than particles.
+
+use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder};
+use vitriol_shaders::{Library, ShaderId, layout, spray};
+
+use crate::RenderError;
+use crate::compute::compute;
+use crate::solids::Solids;
+use crate::tiles::{Class, Tiles};
+
+/// The nearest drop at each pixel and its light.
+pub(crate) struct Spray {
+    nearest_pass: ComputePipeline,
+    light_pass: ComputePipeline,
+    views: u32,
+}
+
+/// Flights of drops as they are drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct Flights<'a> {
+    /// `array<Flight>`.
+    pub(crate) buffer: &'a Buffer,
+    /// How many.
+    pub(crate) count: u32,
+}
+
+impl Spray {
+    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
+        // One kind of spheres is drawn at a time: particles that are coloured, or spray.
+        let class = ("CLASS", f64::from(Class::Spheres as u32));
+        Ok(Self {
+            nearest_pass: compute(gpu, library, spray::NEAREST, &[])?,
+            light_pass: compute(gpu, library, spray::LIGHT, &[class])?,
+            views,
+        })
+    }
+
+    /// Whether any of these shaders is one of these.
+    pub(crate) fn uses(changed: &[ShaderId]) -> bool {
+        changed
+            .iter()
+            .any(|id| id.path().starts_with("render/spray/"))
+    }
+
+    /// Records which drop is nearest, and marks the tiles that they are in, which are marked with everything else by then and not
+    /// listed yet.
+    pub(crate) fn record_nearest(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        flights: Flights<'_>,
+        solids: &Solids,
+        tiles: &Tiles,
+    ) -> Result<(), GpuError> {
+        rec.group("spray", |rec| {
+            rec.fill(&solids.depths, 0)?;
+            rec.fill(&solids.nearest, 0)?;
+            for numbers in [0, 1] {
+                rec.pass(&self.nearest_pass)
+                    .label("spray")
+                    .uniform("frame", uniforms)
+                    .read("flights", flights.buffer)
+                    .write("depths", &solids.depths)
+                    .write("nearest", &solids.nearest)
+                    .write("tiles", tiles.marks())
+                    .constants(&layout::SprayRun {
+                        count: flights.count,
+                        numbers,
+                    })
+                    .workgroups([flights.count.div_ceil(64), self.views, 1])?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Records their light; the tiles are listed.
+    pub(crate) fn record_light(
+        &self,
+        rec: &mut Recorder,
+        uniforms: &Buffer,
+        flights: Flights<'_>,
+        solids: &Solids,
+        tiles: &Tiles,
+    ) -> Result<(), GpuError> {
+        let pass = rec
+            .pass(&self.light_pass)
+            .label("spray")
+            .uniform("frame", uniforms)
+            .read("flights", flights.buffer)
+            .write("nearest", &solids.nearest);
+        tiles.over(Class::Spheres, pass)
+    }
+}

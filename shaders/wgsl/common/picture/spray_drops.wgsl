@@ -1,0 +1,48 @@
+// Drops that bubbles threw up, as they are drawn: what the solver follows as one flight is several drops, of the radius that the law of
+// its burst gives them (`common/chemistry/spray_laws.wgsl`).
+
+//!include common/maths/lot.wgsl
+
+/// A flight.
+struct Flight {
+    /// Of its first drop, in the stage, in the scene's unit.
+    position: vec3<f32>,
+    /// Of each drop, in the scene's unit.
+    radius: f32,
+    /// In which it flies, of length 1; 0 for one at rest.
+    direction: vec3<f32>,
+    /// How many drops it has; 0 for none. Those of a film have `OF_A_FILM` added.
+    drops: u32,
+}
+
+const OF_A_FILM = 0x100u;
+/// Most drops that are drawn of a flight; a jet has seven at most.
+const MOST_DROPS = 8u;
+/// From drop to drop of a jet, in their radii: it breaks up 9.01 of its own radii apart, and a drop has 1.89 (Rayleigh 1878).
+const JET_STEP = 4.77;
+/// The thickness of a film that bursts is its bubble's radius squared over this, m; its drops' radius then is the bubble's to the power 1.625 over twice
+/// this to the power 0.625 (Lhuissier and Villermaux 2012).
+const FILM_LENGTH_TO_DROPS = 13.0;
+
+fn drops_of(flight: Flight) -> u32 {
+    return flight.drops & 0xffu;
+}
+
+/// Where drop k of a flight is: behind one another in a jet, and as far about as their bubble reached where a film threw them.
+fn drop_place(flight: Flight, number: u32, k: u32) -> vec3<f32> {
+    if (flight.drops < OF_A_FILM) { return flight.position - f32(k) * JET_STEP * flight.radius * flight.direction; }
+    let reach = pow(FILM_LENGTH_TO_DROPS * flight.radius, 1.0 / 1.625);
+    let seed = 3u * (number * MOST_DROPS + k);
+    let lots = vec3<f32>(lot(seed, 1u), lot(seed + 1u, 1u), lot(seed + 2u, 1u));
+    return flight.position + reach * (2.0 * lots - 1.0);
+}
+
+/// Least radius of a drop in the picture, pixels: such that it covers the middle of a pixel.
+const LEAST_DRAWN = 0.75;
+
+/// The radius that a drop is drawn with at a view depth, in the scene's unit, and the share of what is behind that it hides, so that together they are
+/// its own area.
+fn drawn_drop(radius: f32, depth: f32, focal: f32) -> vec2<f32> {
+    let drawn = max(radius, LEAST_DRAWN * max(depth, 1e-6) / focal);
+    return vec2<f32>(drawn, (radius / drawn) * (radius / drawn));
+}

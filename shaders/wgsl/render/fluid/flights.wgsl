@@ -1,0 +1,32 @@
+//! Keeps of the solver's drops what is drawn of them.
+
+//!include common/chemistry/bubble_laws.wgsl
+//!include common/chemistry/drops.wgsl
+//!include common/picture/spray_drops.wgsl
+
+struct FlightRun {
+    /// Places of drops.
+    count: u32,
+    /// V0·ρ0, kg.
+    mass: f32,
+}
+
+var<immediate> run: FlightRun;
+
+@group(0) @binding(0) var<storage, read> drops: array<Drops>;
+@group(0) @binding(1) var<storage, read_write> flights: array<Flight>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let n = id.x;
+    if (n >= run.count) { return; }
+    let from_ = drops[n];
+    var flight = Flight(from_.position, from_.radius, vec3<f32>(0.0), 0u);
+    if (from_.mass > 0.0 && from_.radius > 0.0 && from_.density > 0.0) {
+        let number = from_.mass * run.mass / (from_.density * bubble_volume(from_.radius));
+        flight.drops = u32(clamp(number + 0.5, 1.0, f32(MOST_DROPS))) + select(0u, OF_A_FILM, n % 2u == OF_FILM);
+        let speed = length(from_.velocity);
+        if (speed > 0.0) { flight.direction = from_.velocity / speed; }
+    }
+    flights[n] = flight;
+}

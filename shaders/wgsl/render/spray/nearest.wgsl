@@ -1,0 +1,64 @@
+//! The nearest drop of spray at each pixel, by two runs over them, as those over spheres are (`spheres/nearest.wgsl`): the first finds
+//! its depth, the second its number.
+
+//!include common/picture/silhouette.wgsl
+//!include common/picture/spray_drops.wgsl
+//!include common/picture/tile_marks.wgsl
+
+struct SprayRun {
+    /// Flights.
+    count: u32,
+    /// Whether this run finds numbers.
+    numbers: u32,
+}
+
+var<immediate> run: SprayRun;
+
+@group(0) @binding(1) var<storage, read> flights: array<Flight>;
+/// Reversed depth; zero where there is none.
+@group(0) @binding(2) var<storage, read_write> depths: array<atomic<u32>>;
+/// The drop's number, of `MOST_DROPS` a flight, and one more; zero where there is none.
+@group(0) @binding(3) var<storage, read_write> nearest: array<atomic<u32>>;
+/// Marks of the tiles.
+@group(0) @binding(4) var<storage, read_write> tiles: array<atomic<u32>>;
+
+fn mark_tiles(eye: u32, s: Silhouette) {
+    if (any(s.high <= s.low)) { return; }
+    let first = s.low / i32(TILE);
+    let last = (s.high - 1) / i32(TILE);
+    for (var y = first.y; y <= last.y; y++) {
+        for (var x = first.x; x <= last.x; x++) {
+            let tile = (eye * frame.tile_rows + u32(y)) * frame.tile_columns + u32(x);
+            atomicOr(&tiles[tile], MARK_SPHERES);
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x >= run.count) { return; }
+    let eye = id.y;
+    let flight = flights[id.x];
+    let view = &frame.views[eye];
+    for (var k = 0u; k < drops_of(flight); k++) {
+        let centre = drop_place(flight, id.x, k);
+        let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
+        if !(depth > (*view).near) { continue; }
+        let radius = drawn_drop(flight.radius, depth, (*view).focal).x;
+        let s = silhouette_of(Ellipsoid(centre, 0.0, vec3<f32>(radius), 1.0, vec3<f32>(0.0)), eye);
+        if (run.numbers == 0u) { mark_tiles(eye, s); }
+        for (var y = s.low.y; y < s.high.y; y++) {
+            for (var x = s.low.x; x < s.high.x; x++) {
+                let reversed = entered_at(s, vec2<f32>(f32(x), f32(y)) + 0.5, (*view).near);
+                if (reversed <= 0.0) { continue; }
+                let bits = bitcast<u32>(reversed);
+                let at = pixel_index(vec2<i32>(x, y), eye);
+                if (run.numbers == 0u) {
+                    atomicMax(&depths[at], bits);
+                } else if (atomicLoad(&depths[at]) == bits) {
+                    atomicMax(&nearest[at], id.x * MOST_DROPS + k + 1u);
+                }
+            }
+        }
+    }
+}
