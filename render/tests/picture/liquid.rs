@@ -4,8 +4,8 @@ use crate::rig::{Picture, Rig, without_particles};
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::{
-    BoxDesc, FrameDesc, Lanes, LiquidDesc, LiquidSource, Neighbours, RenderDesc, Renderer, Surface,
-    SurfaceFilter, View,
+    BoxDesc, BubbleSource, FrameDesc, Lanes, LiquidDesc, LiquidSource, Neighbours, RenderDesc,
+    Renderer, SpraySource, Surface, SurfaceFilter, View,
 };
 use vitriol_shaders::{Library, layout};
 use vitriol_tests::gpu;
@@ -14,6 +14,9 @@ use vitriol_tests::gpu;
 pub const SPACING: f32 = 0.0025;
 /// Support radius h.
 pub const SUPPORT: f32 = 2.0 * SPACING;
+
+/// Mass of a particle of water, kg.
+pub const MASS: f32 = 1000.0 * SPACING * SPACING * SPACING;
 
 /// Rows of the list that the buffers hold.
 const CAPACITY: usize = 96;
@@ -27,6 +30,9 @@ pub struct Liquid {
     count: u32,
     pub table: Option<BoxDesc>,
     pub volumes: Option<Buffer>,
+    /// Places of bubbles, how many, and drops that they threw up.
+    pub bubbles: Option<(Buffer, u32)>,
+    pub drops: Option<Buffer>,
 }
 
 impl Liquid {
@@ -65,12 +71,21 @@ impl Liquid {
             count: n as u32,
             table: None,
             volumes: None,
+            bubbles: None,
+            drops: None,
         }
     }
 
     pub fn source(&self) -> LiquidSource<'_> {
         LiquidSource {
-            bubbles: None,
+            bubbles: self.bubbles.as_ref().map(|(bubbles, count)| BubbleSource {
+                bubbles,
+                count: *count,
+                spray: self
+                    .drops
+                    .as_ref()
+                    .map(|drops| SpraySource { drops, mass: MASS }),
+            }),
             positions: &self.positions,
             heat: Some(&self.heat),
             volumes: self.volumes.as_ref(),
@@ -100,6 +115,7 @@ pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: 
         views,
         liquid: Some(LiquidDesc {
             filter,
+            bubbles: 1024,
             ..LiquidDesc::new(20_000)
         }),
         lanes,

@@ -1,6 +1,7 @@
 //! The picture as a whole, on a device with the validation layer.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod bubbles;
 mod ellipsoids;
 mod extent;
 mod glass;
@@ -16,6 +17,7 @@ mod scene;
 mod shards;
 mod sign;
 mod spheres;
+mod spray;
 mod steam;
 mod surface;
 mod wall;

@@ -1,0 +1,112 @@
+//! Drops of spray: each hides as much of the picture as it is large, also where it is finer than a pixel.
+
+use crate::liquid::{Liquid, MASS, draw, frame, rig};
+use crate::rig::{Picture, Rig, linear};
+use glam::Vec3;
+use std::f64::consts::PI;
+use vitriol_gpu::Buffer;
+use vitriol_render::{Fov, SceneDesc, SurfaceFilter, View};
+use vitriol_shaders::layout::{Bubble, Drops};
+
+const EXTENT: [u32; 2] = [320, 240];
+/// Of the flights from the eye, m, and pixels over the tangent.
+const DISTANCE: f32 = 0.4;
+const FOCAL: f64 = 120.0 / 0.1;
+
+fn view() -> View {
+    let eye = Vec3::new(0.0, 1.0, 0.0);
+    let field = 2.0 * (0.1_f32).atan();
+    View::look_at(eye, eye - Vec3::Z, Fov::symmetric(field, 4.0 / 3.0))
+}
+
+/// A picture of flights of jets: places (m, from the middle), radius of a drop (m) and how many there are in each.
+fn drawn(rig: &Rig, places: &[[f32; 2]], radius: f32, number: f32) -> Picture {
+    let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
+    let mut drops = vec![Drops::default(); 2 * places.len().max(1)];
+    for (n, place) in places.iter().enumerate() {
+        drops[2 * n] = Drops {
+            position: [place[0], 1.0 + place[1], -DISTANCE],
+            velocity: [1.0, 0.0, 0.0],
+            mass: number * volume * 1000.0 / MASS,
+            density: 1000.0,
+            radius,
+            ..Drops::default()
+        };
+    }
+    let mut liquid = Liquid::new(rig, &[], |_| 0.0);
+    let buffer = |label, bytes: usize| Buffer::storage(&rig.gpu, label, bytes as u64).unwrap();
+    let of_drops = buffer("drops", size_of_val(&drops[..]));
+    rig.gpu.write(&of_drops, &drops).unwrap();
+    let count = places.len().max(1);
+    let bubbles = buffer("bubbles", count * size_of::<Bubble>());
+    rig.gpu
+        .write(&bubbles, &vec![Bubble::default(); count])
+        .unwrap();
+    liquid.bubbles = Some((bubbles, count as u32));
+    liquid.drops = Some(of_drops);
+    draw(rig, &frame(&[view()], &[], &liquid)).0
+}
+
+/// Sum over the picture of the share that is hidden, pixels: `dark` is what is seen there of a drop that fills pixels.
+fn hidden(picture: &Picture, plain: &Picture) -> f64 {
+    let levels = picture.colour[0].chunks(4).zip(plain.colour[0].chunks(4));
+    levels
+        .map(|(a, b)| (linear(a[0]) - linear(b[0])).abs())
+        .sum()
+}
+
+#[test]
+fn drops_hide_their_own_area() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc::laboratory(Vec::new(), 0.75, 1.0));
+    // Over many places within a pixel; apart, and not where the window is mirrored alone.
+    let places: Vec<[f32; 2]> = (0..180)
+        .map(|n| {
+            let [x, y] = [(n % 15) as f32 - 7.0, (n / 15) as f32 - 5.5];
+            [0.0062 * x + 1e-5 * n as f32, 0.0061 * y]
+        })
+        .collect();
+    let plain = drawn(&rig, &[], 0.0, 0.0);
+    let of = |pixels: f64| {
+        let radius = (pixels / FOCAL) as f32 * DISTANCE;
+        let area = places.len() as f64 * PI * pixels * pixels;
+        hidden(&drawn(&rig, &places, radius, 1.0), &plain) / area
+    };
+    let whole = of(4.0);
+    assert!(whole > 0.02, "{whole}");
+    for pixels in [0.35, 0.5, 0.8, 1.6] {
+        let share = of(pixels) / whole;
+        eprintln!("radius {pixels} pixels: {share} of its area");
+        // Shares have 31 steps, levels 255; FXAA moves light between pixels, and does not add any.
+        assert!((0.75..1.25).contains(&share), "{pixels}: {share}");
+    }
+}
+
+#[test]
+fn a_jet_is_as_many_drops_as_its_mass_says_and_they_are_where_it_broke_up() {
+    let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let radius = (3.0 / FOCAL) as f32 * DISTANCE;
+    let plain = drawn(&rig, &[], 0.0, 0.0);
+    for (number, seen) in [(1.0, 1), (3.0, 3), (7.0, 7), (30.0, 8)] {
+        let picture = drawn(&rig, &[[0.03, 0.0]], radius, number);
+        let row = EXTENT[1] as usize / 2;
+        let differs: Vec<bool> = (0..EXTENT[0] as usize)
+            .map(|x| {
+                let index = row * EXTENT[0] as usize + x;
+                picture.depth[0][index] != plain.depth[0][index]
+            })
+            .collect();
+        let starts: Vec<usize> = (1..differs.len())
+            .filter(|&x| differs[x] && !differs[x - 1])
+            .collect();
+        assert_eq!(starts.len(), seen, "{number}: {starts:?}");
+        for pair in starts.windows(2) {
+            // Rayleigh's 9.01 radii of the jet, in pixels.
+            let step = 3.0 * 9.01 / (0.75 * 9.01_f64).cbrt();
+            assert!(
+                ((pair[1] - pair[0]) as f64 - step).abs() <= 1.01,
+                "{starts:?}"
+            );
+        }
+    }
+}
