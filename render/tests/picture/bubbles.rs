@@ -208,14 +208,14 @@ fn a_bubble_is_a_lens() {
     for y in 0..EXTENT[1] {
         for x in 0..EXTENT[0] {
             let (at, way) = entered(x, y);
-            if miss(at, way, ball.0) > 0.6 * ball.1 {
+            if miss(at, way, ball.0) > 0.5 * ball.1 {
                 continue;
             }
             let (Some(end), Some(straight)) = (ends(x, y, true), ends(x, y, false)) else {
                 continue;
             };
-            // A fifth of a degree at the surface, over the way to the table, and what the lens makes of it.
-            if (end.x - edge).abs() < 0.004 {
+            // A pixel's edge is smoothed over the next, and from pixel to pixel the lens goes on by 5 mm.
+            if (end.x - edge).abs() < 0.008 {
                 continue;
             }
             // Vapour has not water's tint, of which 60 mm let 40 % of red light through.
