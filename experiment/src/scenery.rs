@@ -2,12 +2,12 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
-    BoxDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SurfaceFilter, VesselDesc,
+    BoxDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SurfaceFilter, Tint, VesselDesc,
     VesselTables,
 };
 use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Flask, PictureFilter, Scene, TableTop};
+use vitriol_sim::scene::{Flask, PictureFilter, PictureTint, Scene, TableTop};
 use vitriol_sim::world::World;
 
 /// The liquid in the solver's buffers.
@@ -36,6 +36,14 @@ pub fn filter(filter: PictureFilter) -> SurfaceFilter {
     match filter {
         PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
         PictureFilter::CurvatureFlow => SurfaceFilter::CurvatureFlow,
+    }
+}
+
+/// What the renderer calls a scene's tint.
+pub fn tint(tint: PictureTint) -> Tint {
+    match tint {
+        PictureTint::Artificial => Tint::Artificial,
+        PictureTint::None => Tint::None,
     }
 }
 

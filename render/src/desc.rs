@@ -1,5 +1,7 @@
 //! What a renderer is made for.
 
+use crate::tints::Tint;
+
 /// Size and views of the picture, and its liquid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderDesc {
@@ -65,6 +67,8 @@ pub struct LiquidDesc {
     pub filter: SurfaceFilter,
     /// Whether particles are ellipsoids by their neighbours' places; else spheres.
     pub anisotropic: bool,
+    /// What it absorbs.
+    pub tint: Tint,
 }
 
 impl LiquidDesc {
@@ -74,6 +78,7 @@ impl LiquidDesc {
             particles,
             filter: SurfaceFilter::NarrowRange,
             anisotropic: true,
+            tint: Tint::Artificial,
         }
     }
 }

@@ -62,3 +62,4 @@ pub use readback::PictureReadback;
 pub use renderer::Renderer;
 pub use scene::{BoxDesc, SceneDesc, ShardDesc, VesselDesc};
 pub use source::{LiquidSource, Neighbours, ParticleSource, SteamSource, VesselTables};
+pub use tints::Tint;

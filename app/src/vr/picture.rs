@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 use vitriol_experiment::hands::{Gloves, Joints};
-use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of, shards};
+use vitriol_experiment::scenery::{affine, filter, laboratory, liquid_of, shards, tint};
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
 use vitriol_render::{
@@ -113,6 +113,7 @@ impl Picture {
     ) -> Result<Self, Failure> {
         let liquid = LiquidDesc {
             filter: filter(scene.picture.filter),
+            tint: tint(scene.picture.tint),
             ..LiquidDesc::new(subject.particles)
         };
         let desc = RenderDesc {

@@ -78,6 +78,7 @@ fn ready(
         eyes,
         liquid: Some(world.solver().count()),
         filter: args.filter,
+        tint: None,
         look: None,
     };
     let mut camera = Camera::new(gpu, &library, scene, &shot)?;
