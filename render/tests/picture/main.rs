@@ -13,6 +13,7 @@ mod pane;
 mod panel;
 mod rig;
 mod scene;
+mod schlieren;
 mod shards;
 mod sign;
 mod spheres;
