@@ -9,6 +9,7 @@ mod golden;
 mod hands;
 mod lanes;
 mod liquid;
+mod meniscus;
 mod pane;
 mod panel;
 mod rig;

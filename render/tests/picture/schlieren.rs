@@ -114,23 +114,27 @@ fn arrives(slope: f64, behind: f64, acid: &dyn Fn(f64) -> f64) -> Option<f64> {
     Some(at.x)
 }
 
-/// Green of each row in the middle of the picture, whose gradient runs downwards behind the liquid.
-fn rows(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> Vec<f64> {
+/// The picture of a panel behind the liquid, whose green grows downwards.
+fn seen(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> Vec<u8> {
     let middle = FOOT + Vec3::new(0.0, 0.015, -behind);
-    let vessels = [Affine3A::from_translation(FOOT)];
-    let (picture, _) = draw(
-        rig,
-        &FrameDesc {
-            panel: Some(Panel {
-                image,
-                stage_from_panel: Affine3A::from_translation(middle),
-                size: [SIDE; 2],
-            }),
-            ..frame(&[view], &vessels, liquid)
-        },
-    );
+    let (views, vessels) = ([view], [Affine3A::from_translation(FOOT)]);
+    let panel = Panel {
+        image,
+        stage_from_panel: Affine3A::from_translation(middle),
+        size: [SIDE; 2],
+    };
+    let frame = FrameDesc {
+        panel: Some(panel),
+        ..frame(&views, &vessels, liquid)
+    };
+    draw(rig, &frame).0.colour.swap_remove(0)
+}
+
+/// Green of each row in the middle of that.
+fn rows(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> Vec<f64> {
+    let picture = seen(rig, view, image, behind, liquid);
     let [width, height] = EXTENT;
-    let green = |x: u32, y: u32| linear(picture.colour[0][(4 * (y * width + x) + 1) as usize]);
+    let green = |x: u32, y: u32| linear(picture[(4 * (y * width + x) + 1) as usize]);
     let columns = width / 2 - 4..width / 2 + 4;
     (0..height)
         .map(|y| columns.clone().map(|x| green(x, y)).sum::<f64>() / 8.0)
@@ -174,9 +178,9 @@ fn a_gradient_bends_as_rays_are() {
             }
         }
         for (name, acid) in gradients {
-            let seen = with(acid, 0.0);
+            let bends = with(acid, 0.0);
             let (mut squares, mut furthest, mut count) = (0.0, 0.0_f64, 0);
-            for (y, level) in seen.iter().enumerate() {
+            for (y, level) in bends.iter().enumerate() {
                 let (Some(bent), Some(straight)) = (
                     arrives(slopes[y], behind, acid),
                     arrives(slopes[y], behind, &uniform),
@@ -204,23 +208,27 @@ fn a_gradient_bends_as_rays_are() {
     }
 }
 
-/// Without the tints both liquids let through what is behind: of green light 40 mm of water keep 99.8 % (Pope and Fry), and glass mirrors some
-/// 4 % at each face that has air.
+/// Without the tints both liquids let through what is behind: of red light 40 mm of water keep 98.9 % (Pope and Fry), of the rest more. Before
+/// that stands glass, which mirrors some 4 % of some of the room at each face.
 #[test]
 fn untinted_liquids_are_clear() {
     let rig = clear_rig();
     let image = image(&rig);
     let eye = FOOT + Vec3::new(0.0, EYE.x as f32, EYE.y as f32);
     let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.12, 4.0 / 3.0));
+    let middle = 4 * (EXTENT[1] / 2 * EXTENT[0] + EXTENT[0] / 2) as usize;
     let [water, acid] = [0.0, 1.0].map(|acid| {
         let liquid = Liquid::new(&rig, &places(0.0), |_| acid);
-        rows(&rig, view, &image, 0.06, &liquid)
+        let picture = seen(&rig, view, &image, 0.06, &liquid);
+        [0, 1, 2].map(|channel| linear(picture[middle + channel]))
     });
-    // The row of a level ray, at the panel's middle.
-    let row = EXTENT[1] as usize / 2;
-    for level in [water[row], acid[row]] {
-        let kept = level / linear(127);
-        assert!((0.88..1.03).contains(&kept), "{kept}");
+    // The panel's middle.
+    for (channel, level) in [127, 127, 77].into_iter().enumerate() {
+        let (water, acid) = (water[channel], acid[channel]);
+        assert!(water > 0.9 * linear(level), "{channel}: {water}");
+        assert!(
+            (water / acid - 1.0).abs() < 0.05,
+            "{channel}: {water} {acid}"
+        );
     }
-    assert!((water[row] - acid[row]).abs() < 0.02 * water[row]);
 }

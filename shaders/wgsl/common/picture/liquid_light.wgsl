@@ -3,6 +3,7 @@
 //! looked up, at places in the stage, so both eyes see the same things in the same places.
 
 //!include common/picture/fresnel.wgsl
+//!include common/picture/meniscus.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/schlieren.wgsl
 //!include common/picture/thickness_sums.wgsl
@@ -214,9 +215,10 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
         let wall = -(stage_from_vessel * inward(vessel, p));
         let gap = vessel_radius(vessel, p.y) - length(p.xz);
-        // Liquid that wets the glass has the glass's own surface.
-        wetted = smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
-        normal = normalize(mix(normal, wall, wetted));
+        // Liquid that wets the glass has the glass's own surface; what is level there is its upper one.
+        let side = 1.0 - levelness(normal);
+        wetted = side * smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
+        normal = normalize(mix(with_meniscus(normal, wall, gap, acid), wall, wetted));
         // Through glass the surface's height is not known.
         let level = select(1e9, point.y, wetted < 0.5);
         let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
