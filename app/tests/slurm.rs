@@ -78,6 +78,7 @@ fn recording(folder: &Path) -> Track {
         colours: Vec::new(),
         eyes: 1,
         filter: None,
+        tint: None,
         head: None,
         look: None,
         shaders: Arc::new(Library::embedded()),

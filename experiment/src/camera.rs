@@ -4,12 +4,12 @@ use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
     ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
-    Renderer, SteamSource, View,
+    Renderer, SteamSource, Tint, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
-use vitriol_sim::scene::{Liquid, PictureFilter, Scene};
+use vitriol_sim::scene::{Liquid, PictureFilter, PictureTint, Scene};
 use vitriol_sim::world::World;
 use vitriol_sound::Listener;
 use vitriol_xr::Hand;
@@ -17,7 +17,7 @@ use vitriol_xr::Hand;
 use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
-use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards};
+use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards, tint};
 use crate::tools::{pane, tools};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
@@ -97,6 +97,8 @@ pub struct Shot {
     pub liquid: Option<LiquidDesc>,
     /// Filter of its surface; `None` for the scene's.
     pub filter: Option<PictureFilter>,
+    /// What tells the liquids apart; `None` for the scene's.
+    pub tint: Option<PictureTint>,
     /// Where it is seen from; `None` for the tripod.
     pub look: Option<Look>,
 }
@@ -109,6 +111,7 @@ impl Shot {
             eyes: 1,
             liquid: None,
             filter: None,
+            tint: None,
             look: None,
         }
     }
@@ -118,6 +121,7 @@ impl Shot {
 pub struct Camera {
     pub(crate) renderer: Renderer,
     eyes: u32,
+    tint: Tint,
     /// Where it is and what it sees.
     pub view: View,
     /// What the colours of temperature run over.
@@ -137,10 +141,12 @@ impl Camera {
     /// What the device says.
     pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, shot: &Shot) -> Result<Self, Failure> {
         let extent = shot.extent;
+        let drawn_tint = tint(shot.tint.unwrap_or(scene.picture.tint));
         let desc = RenderDesc {
             views: shot.eyes,
             liquid: shot.liquid.map(|liquid| LiquidDesc {
                 filter: shot.filter.map_or(liquid.filter, filter),
+                tint: drawn_tint,
                 ..liquid
             }),
             ..RenderDesc::film(extent)
@@ -152,6 +158,7 @@ impl Camera {
         Ok(Self {
             renderer,
             eyes: shot.eyes,
+            tint: drawn_tint,
             view: shot
                 .look
                 .as_ref()
@@ -212,7 +219,7 @@ impl Camera {
             if let Some(legend) = Legend::of(self.colour_by(world, colour)) {
                 legend.draw(&mut picture, width);
             }
-        } else if has_acid(world.scene()) {
+        } else if self.tint == Tint::Artificial && has_acid(world.scene()) {
             draw_tints(&mut picture, width);
         }
         Ok(picture)

@@ -12,7 +12,7 @@ use vitriol_lesson::procedure::Progress;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
-use vitriol_sim::scene::{PictureFilter, Preset, Scene};
+use vitriol_sim::scene::{PictureFilter, PictureTint, Preset, Scene};
 use vitriol_sim::solver::Held;
 use vitriol_sim::world::{World, WorldError};
 use vitriol_sound::Event;
@@ -57,6 +57,8 @@ pub struct Setup<'a> {
     pub eyes: u32,
     /// Filter of the liquid's surface; `None` for the scene's.
     pub filter: Option<PictureFilter>,
+    /// What tells the liquids apart; `None` for the scene's.
+    pub tint: Option<PictureTint>,
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
@@ -173,6 +175,7 @@ impl Laboratory {
             eyes: setup.eyes,
             liquid: None,
             filter: setup.filter,
+            tint: setup.tint,
             look: setup.look,
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;

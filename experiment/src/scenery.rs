@@ -3,11 +3,11 @@
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
     BoxDesc, BubbleSource, LiquidDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SpraySource,
-    SurfaceFilter, VesselDesc, VesselTables,
+    SurfaceFilter, Tint, VesselDesc, VesselTables,
 };
 use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Flask, PictureFilter, Scene, TableTop};
+use vitriol_sim::scene::{Flask, PictureFilter, PictureTint, Scene, TableTop};
 use vitriol_sim::world::World;
 
 /// The liquid in the solver's buffers.
@@ -44,6 +44,7 @@ pub fn drawn_liquid(world: &World) -> LiquidDesc {
     let solver = world.solver();
     LiquidDesc {
         filter: filter(world.scene().picture.filter),
+        tint: tint(world.scene().picture.tint),
         bubbles: solver.bubbles().map_or(0, |(_, count)| count),
         ..LiquidDesc::new(solver.count())
     }
@@ -54,6 +55,14 @@ pub fn filter(filter: PictureFilter) -> SurfaceFilter {
     match filter {
         PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
         PictureFilter::CurvatureFlow => SurfaceFilter::CurvatureFlow,
+    }
+}
+
+/// What the renderer calls a scene's tint.
+pub fn tint(tint: PictureTint) -> Tint {
+    match tint {
+        PictureTint::Artificial => Tint::Artificial,
+        PictureTint::None => Tint::None,
     }
 }
 

@@ -1,5 +1,7 @@
 //! What a renderer is made for.
 
+use crate::tints::Tint;
+
 /// Size and views of the picture, and its liquid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderDesc {
@@ -67,6 +69,8 @@ pub struct LiquidDesc {
     pub filter: SurfaceFilter,
     /// Whether particles are ellipsoids by their neighbours' places; else spheres.
     pub anisotropic: bool,
+    /// What it absorbs.
+    pub tint: Tint,
 }
 
 impl LiquidDesc {
@@ -77,6 +81,7 @@ impl LiquidDesc {
             bubbles: 0,
             filter: SurfaceFilter::NarrowRange,
             anisotropic: true,
+            tint: Tint::Artificial,
         }
     }
 }

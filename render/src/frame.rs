@@ -12,7 +12,7 @@ use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
-use crate::tints;
+use crate::tints::Tint;
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.
@@ -165,10 +165,13 @@ impl FrameDesc<'_> {
         Ok(())
     }
 
-    /// The frame's uniforms for images of `held` pixels, of which the lenses
+    /// The frame's uniforms for a renderer's images, of which the lenses
     /// may hide a part.
-    pub(crate) fn uniforms(&self, scene: &Scene, held: [u32; 2], hides: bool) -> layout::Frame {
+    pub(crate) fn uniforms(&self, scene: &Scene, desc: &RenderDesc, hides: bool) -> layout::Frame {
+        let held = desc.extent;
         let extent = self.extent(held);
+        let tint = desc.liquid.map_or(Tint::default(), |liquid| liquid.tint);
+        let [water, acid] = tint.absorptions();
         let [tile_columns, tile_rows] = tiles_of(extent);
         let corner = |corner: Option<Vec3>| corner.unwrap_or(Vec3::ZERO).to_array();
         let mut frame = layout::Frame {
@@ -185,8 +188,8 @@ impl FrameDesc<'_> {
             tile_rows,
             view_count: self.views.len() as u32,
             hides: hides.into(),
-            water: tints::absorption(tints::WATER),
-            acid: tints::absorption(tints::ACID),
+            water,
+            acid,
             shown: self.shown,
             goggles: self.goggles,
             panel_from_stage: panel_from_stage(self.panel.as_ref(), self.length_scale),

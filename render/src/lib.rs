@@ -65,3 +65,4 @@ pub use scene::{BoxDesc, SceneDesc, ShardDesc, VesselDesc};
 pub use source::{
     BubbleSource, LiquidSource, Neighbours, ParticleSource, SpraySource, SteamSource, VesselTables,
 };
+pub use tints::Tint;

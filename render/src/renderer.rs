@@ -236,7 +236,7 @@ impl Renderer {
         slot: usize,
     ) -> Result<(), RenderError> {
         frame.check(&self.scene, &self.desc)?;
-        let uniforms = frame.uniforms(&self.scene, self.desc.extent, self.hidden.is_some());
+        let uniforms = frame.uniforms(&self.scene, &self.desc, self.hidden.is_some());
         rec.upload(&self.frame, &[uniforms])?;
         let liquid = self.liquid(frame)?;
         let shapes = match &liquid {

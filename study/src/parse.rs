@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use vitriol_sim::scene::{PictureFilter, Preset};
+use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
 
 /// One of a type's values by its name; each value is given with its help.
 pub fn named<T: Copy + Send + Sync + 'static>(
@@ -40,6 +40,21 @@ pub fn filter() -> impl TypedValueParser<Value = PictureFilter> {
         ),
     ];
     named(&FILTERS, PictureFilter::name)
+}
+
+/// What tells the liquids apart.
+pub fn tint() -> impl TypedValueParser<Value = PictureTint> {
+    const TINTS: [(PictureTint, &str); 2] = [
+        (
+            PictureTint::Artificial,
+            "Tints that they have not: water bluish, acid yellow",
+        ),
+        (
+            PictureTint::None,
+            "None: acid in water is seen by how it bends light",
+        ),
+    ];
+    named(&TINTS, PictureTint::name)
 }
 
 /// A finite number above zero.

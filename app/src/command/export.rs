@@ -176,6 +176,7 @@ fn simulated(
             },
             eyes: 1,
             filter: None,
+            tint: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::watching()),

@@ -85,6 +85,7 @@ pub fn run(
         eyes,
         colours: vec![args.colour],
         filter: args.filter,
+        tint: args.tint,
         head: head(args.camera, &args.track, &track)?,
         look: args.look(),
         shaders: Arc::new(Library::watching()),

@@ -187,6 +187,7 @@ fn replay(
         colours: colours.clone(),
         eyes: 1,
         filter: args.filter,
+        tint: args.tint,
         head,
         look: None,
         shaders: Arc::new(Library::watching()),

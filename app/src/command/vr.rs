@@ -140,6 +140,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             seed: args.seed,
             solver: None,
             filter: None,
+            tint: args.tint,
         },
         posture: args.posture,
         grip: args.grip,

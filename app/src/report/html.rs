@@ -324,7 +324,8 @@ fn row(name: &str, value: &str) -> Markup {
 /// What a film shows.
 fn caption(colour: &str) -> String {
     if colour == "liquid" {
-        "Liquid in glass; its tints are artificial: water bluish, acid yellow".to_owned()
+        "Liquid in glass; tints, where it has any, are artificial: water bluish, acid yellow"
+            .to_owned()
     } else {
         format!("Coloured by {colour}")
     }

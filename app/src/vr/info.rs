@@ -12,7 +12,7 @@ pub struct Info {
     pub scene: String,
     /// Its flasks.
     pub flasks: Vec<FlaskLine>,
-    /// Whether there is acid, whose tint is explained.
+    /// Whether there is acid with a tint, which is explained.
     pub acid: bool,
     /// What lies beside the flasks.
     pub spilt: Lying,

@@ -3,7 +3,7 @@
 use vitriol_experiment::{Failure, Scenes};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{PictureFilter, Preset};
+use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
 use vitriol_sim::world::{World, WorldError};
 
 use super::ladder::Ladder;
@@ -26,6 +26,8 @@ pub struct Plan {
     pub solver: Option<[u32; 2]>,
     /// Filter of the liquid's surface in place of the scene's, if the governor has changed it.
     pub filter: Option<PictureFilter>,
+    /// What tells the liquids apart; `None` for the scene's.
+    pub tint: Option<PictureTint>,
     /// Whether glass breaks.
     pub breakable: bool,
     /// Seed of the initial jitter.
@@ -59,6 +61,7 @@ impl Workbench {
         scene = scene.with_effort(plan.solver.unwrap_or(of_preset));
         let ladder = Ladder::of(&scene, budget::balanced(&loaded));
         scene.picture.filter = plan.filter.unwrap_or(scene.picture.filter);
+        scene.picture.tint = plan.tint.unwrap_or(scene.picture.tint);
         let mut world =
             World::new(gpu, library, &scene, plan.seed).map_err(|error| match error {
                 WorldError::Fill(_) => Failure::Input(format!("{}: {error}", plan.scene).into()),

@@ -223,6 +223,7 @@ pub fn options(folder: &Path) -> Options {
             seed: 3,
             solver: None,
             filter: None,
+            tint: None,
         },
         posture: Posture::Seated,
         grip: Grip::Hold,

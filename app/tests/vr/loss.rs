@@ -56,6 +56,7 @@ fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, O
             colours: Vec::new(),
             eyes: 1,
             filter: None,
+            tint: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::embedded()),

@@ -41,6 +41,7 @@ pub fn coloured(
         colours: vec![colour],
         eyes: 1,
         filter: None,
+        tint: None,
         head,
         look: None,
         shaders: Arc::new(shaders),

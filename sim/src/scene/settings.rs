@@ -255,10 +255,33 @@ impl PictureFilter {
     }
 }
 
+/// What tells the liquids apart in the picture.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PictureTint {
+    /// Tints that they have not.
+    #[default]
+    Artificial,
+    /// Nothing but how they bend light.
+    None,
+}
+
+impl PictureTint {
+    /// The name as it is given and reported.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Artificial => "artificial",
+            Self::None => "none",
+        }
+    }
+}
+
 /// How the scene is drawn; the simulation does not depend on it.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PictureSettings {
     /// Filter of the liquid's surface.
     pub filter: PictureFilter,
+    /// What tells the liquids apart.
+    pub tint: PictureTint,
 }

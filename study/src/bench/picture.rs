@@ -79,6 +79,7 @@ fn ready(
         eyes,
         liquid: Some(drawn_liquid(&world)),
         filter: args.filter,
+        tint: None,
         look: None,
     };
     let mut camera = Camera::new(gpu, &library, scene, &shot)?;

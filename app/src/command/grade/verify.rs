@@ -99,6 +99,7 @@ impl Verified {
             colours: Vec::new(),
             eyes: 1,
             filter: None,
+            tint: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::embedded()),

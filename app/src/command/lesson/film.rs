@@ -77,6 +77,7 @@ pub fn make(
         colours: vec![Colour::Liquid],
         eyes: 1,
         filter: None,
+        tint: None,
         // Hands show how it is done, and only the head's view shows hands.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         look: None,

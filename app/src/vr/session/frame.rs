@@ -7,6 +7,7 @@ use vitriol_experiment::switches::SWITCH_START;
 use vitriol_experiment::{Failure, Looks};
 use vitriol_gpu::{LockWaits, Ticket};
 use vitriol_render::camera::NEAR;
+use vitriol_sim::scene::PictureTint;
 use vitriol_sim::solver::Skin;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
@@ -441,7 +442,7 @@ impl Session {
         Info {
             scene: bench.plan.scene.clone(),
             flasks: (self.readings).lines(scene, |flask| bench.world.is_broken(flask)),
-            acid: has_acid(scene),
+            acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
             spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
             heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
             device_lost: self.losses.is_said(self.counts.frames),

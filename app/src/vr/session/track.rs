@@ -215,6 +215,7 @@ mod tests {
             preset: Preset::Fast,
             solver: None,
             filter: None,
+            tint: None,
             breakable: false,
             seed: 7,
         }

@@ -4,19 +4,18 @@
 
 //!include common/picture/bubble_light.wgsl
 //!include common/picture/fresnel.wgsl
-//!include common/picture/pixel_blocks.wgsl
+//!include common/picture/meniscus.wgsl
 //!include common/picture/room.wgsl
+//!include common/picture/schlieren.wgsl
+//!include common/picture/thickness_sums.wgsl
 //!include common/picture/through_wall.wgsl
 //!include common/picture/vessel_rays.wgsl
 
 /// Filtered reversed depth, 0 where there is no liquid.
 @group(0) @binding(2) var<storage, read> surface: array<f32>;
-/// Thickness and acid of each block, as `fluid/thickness.wgsl` adds them up.
-@group(0) @binding(3) var<storage, read> sums: array<vec2<u32>>;
 
-/// Refractive index of water at 20 °C, and what acid adds by its mass: sulfuric acid of 98 % has 1.4305.
+/// Refractive index of water at 20 °C.
 const INDEX = 1.333;
-const INDEX_OF_ACID = 0.0995;
 /// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
 const MOST_WAYS = 5;
 /// The same among bubbles, each of which is a mirror or a lens.
@@ -62,26 +61,6 @@ fn normal_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> vec3<f32> {
     let facing = -normalize(here.xyz);
     let towards = n * select(-1.0, 1.0, dot(n, facing) > 0.0);
     return select(facing, normalize(towards), dot(n, n) > 0.0);
-}
-
-/// Thickness (in the scene's unit) and its part that is acid, over some four by four blocks between which it is
-/// interpolated: finer than that is the grain of particles.
-fn thickness_at(place: vec2<f32>, eye: u32) -> vec2<f32> {
-    let at = 0.5 * place - 0.5;
-    let first = vec2<i32>(floor(at)) - 1;
-    let share = fract(at);
-    let last = vec2<i32>(blocks()) - 1;
-    var sum = vec2<f32>(0.0);
-    for (var y = 0; y < 4; y++) {
-        for (var x = 0; x < 4; x++) {
-            let block = clamp(first + vec2<i32>(x, y), vec2<i32>(0), last);
-            // Linear between blocks, at a block to either side.
-            let odd = vec2<bool>((x & 1) == 1, (y & 1) == 1);
-            let weight = select(1.0 - share, share, odd);
-            sum += weight.x * weight.y * vec2<f32>(sums[block_index(block, eye)]);
-        }
-    }
-    return (0.25 * frame.spacing / PARTS) * sum;
 }
 
 /// What light a ray of liquid carries to the eye: that which comes from `origin` along `direction`,
@@ -190,7 +169,8 @@ fn liquid_behind(inside: Inside, eye: u32) -> Behind {
     let sight = normalize(inside.point - frame.views[eye].eye);
     let straight = length(inside.point - frame.views[eye].eye) / seen.z * thickness.x;
     let filled = filled_along(inside.vessel, p, (m * vec4<f32>(sight, 0.0)).xyz, straight);
-    return Behind(followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled), seen.z);
+    let mixing = striae_at(place, eye, thickness, seen.z, straight);
+    return Behind(followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled, mixing), seen.z);
 }
 
 /// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
@@ -200,7 +180,7 @@ fn filled_along(vessel: u32, p: vec3<f32>, direction: vec3<f32>, straight: f32) 
 }
 
 /// What comes along a ray in a vessel's liquid; `filled` is the share of its way that is in liquid, and `acid` that of what the eye's straight ray
-/// goes through, where it comes in.
+/// goes through, where it comes in; `striae` turn it.
 fn followed(
     vessel: u32,
     eye: u32,
@@ -210,8 +190,14 @@ fn followed(
     acid: f32,
     level: f32,
     filled: f32,
+    striae: Striae,
 ) -> Wet {
-    let way = way_through(vessel, point, p, within, index_of(acid), level);
+    let index = index_of(acid);
+    let turn = turned_by(striae, within, acid, index);
+    // A ray that turns evenly comes out as one that turns half way.
+    let aside = -0.5 * striae.way * turn;
+    let begun = p + (frame.vessels[vessel].vessel_from_stage * vec4<f32>(aside, 0.0)).xyz;
+    let way = way_through(vessel, point + aside, begun, normalize(within + turn), index, level);
     // The bent ray goes elsewhere: half of it is as where it first turns.
     let turned = pixel_of(way.turned, eye);
     let there = thickness_at(turned.xy, eye);
@@ -246,9 +232,10 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
         let wall = -(stage_from_vessel * inward(vessel, p));
         let gap = vessel_radius(vessel, p.y) - length(p.xz);
-        // Liquid that wets the glass has the glass's own surface.
-        wetted = smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
-        normal = normalize(mix(normal, wall, wetted));
+        // Liquid that wets the glass has the glass's own surface; what is level there is its upper one.
+        let side = 1.0 - levelness(normal);
+        wetted = side * smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
+        normal = normalize(mix(with_meniscus(normal, wall, gap, acid), wall, wetted));
         // Through glass the surface's height is not known.
         let level = select(1e9, point.y, wetted < 0.5);
         let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
@@ -259,7 +246,8 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
             if (any(foam.normal != vec3<f32>(0.0))) { normal = foam.normal; }
         }
         let start = p + (m * vec4<f32>(into - point, 0.0)).xyz;
-        light = followed(vessel, eye, into, start, refract(ray, normal, 1.0 / index), acid, level, filled);
+        let mixing = striae_at(vec2<f32>(pixel) + 0.5, eye, thickness, here.w, straight);
+        light = followed(vessel, eye, into, start, refract(ray, normal, 1.0 / index), acid, level, filled, mixing);
     }
     // An edge thinner than a drop is none that could mirror.
     let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);

@@ -144,6 +144,19 @@ fn a_scene_chooses_its_filter() {
     assert!(error.contains("narrow-range"), "{error}");
 }
 
+#[test]
+fn a_scene_chooses_its_tint() {
+    let with = |tint: &str| {
+        let key = format!("[picture]\ntint = \"{tint}\"\n[floor]");
+        Scene::parse(&GOOD.replacen("[floor]", &key, 1), "picture.toml")
+    };
+    let default = Scene::parse(GOOD, "good.toml").unwrap();
+    assert_eq!(default.picture.tint, PictureTint::Artificial);
+    assert_eq!(with("none").unwrap().picture.tint, PictureTint::None);
+    let error = with("blue").unwrap_err().to_string();
+    assert!(error.contains("artificial"), "{error}");
+}
+
 /// A whole scene elsewhere is the same scene.
 #[test]
 fn a_scene_far_off_is_the_same_but_for_its_origin() {
