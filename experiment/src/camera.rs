@@ -305,6 +305,7 @@ impl Camera {
             pane: pane(world),
             shown: 1.0,
             goggles: 0.0,
+            foveation: None,
             colour_by,
             length_scale: scale.length_scale as f32,
         };

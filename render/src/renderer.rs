@@ -8,6 +8,7 @@ use vitriol_shaders::{Library, ShaderId, layout};
 use crate::RenderError;
 use crate::desc::RenderDesc;
 use crate::fluid::{Fluid, SurfaceReadback, zeros};
+use crate::fovea::foveae;
 use crate::frame::FrameDesc;
 use crate::hands::Hands;
 use crate::hidden::hidden_words;
@@ -82,7 +83,7 @@ impl Renderer {
         Ok(Self {
             gpu: gpu.clone(),
             desc: *desc,
-            pipelines: Pipelines::new(gpu, library)?,
+            pipelines: Pipelines::new(gpu, library, desc.foveated)?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
@@ -115,6 +116,7 @@ impl Renderer {
             extent,
             views,
             lanes,
+            foveated,
             ..
         } = self.desc;
         let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
@@ -126,7 +128,7 @@ impl Renderer {
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;
-            self.pipelines = Pipelines::new(gpu, library)?;
+            self.pipelines = Pipelines::new(gpu, library, foveated)?;
             self.tiles = tiles;
         }
         if fluid.is_some() {
@@ -251,6 +253,7 @@ impl Renderer {
             &self.frame,
             self.hidden(),
             frame.extent(self.desc.extent),
+            &foveae(frame.foveation, frame.views),
         )?;
         liquid.map_or(Ok(()), |(fluid, source)| {
             fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
@@ -338,7 +341,8 @@ impl Renderer {
         let shown = |panel: Option<Panel<'a>>| panel.map_or(&self.no_panel, |panel| panel.image);
         let (panel, sign) = (shown(frame.panel), shown(frame.sign));
         rec.group("picture", |rec| {
-            for (class, pipeline) in &self.pipelines.picture {
+            let (coarse, _) = self.pipelines.coarse(frame.foveation.is_some());
+            for (class, pipeline) in self.pipelines.picture.iter().chain(coarse) {
                 let pass = rec
                     .pass(pipeline)
                     .label("picture")
@@ -374,6 +378,19 @@ impl Renderer {
                     .uniform("frame", &self.frame)
                     .sampled("drawn", &self.drawn)
                     .sampler("between", &self.between)
+                    .read("puffs", puffs)
+                    .read("puffs_in_tiles", self.tiles.puffs())
+                    .read("depths", &self.depths)
+                    .storage_image("finished", &self.picture);
+                self.tiles.over(*class, pass)?;
+            }
+            for (class, pipeline) in self.pipelines.coarse(frame.foveation.is_some()).1 {
+                let pass = rec
+                    .pass(pipeline)
+                    .label("finish")
+                    .uniform("frame", &self.frame)
+                    .sampled("drawn", &self.drawn)
+                    .read("hidden_area", self.hidden())
                     .read("puffs", puffs)
                     .read("puffs_in_tiles", self.tiles.puffs())
                     .read("depths", &self.depths)

@@ -3,9 +3,11 @@
 
 mod ellipsoids;
 mod extent;
+mod fovea;
 mod glass;
 mod goggles;
 mod golden;
+mod half_depth;
 mod hands;
 mod lanes;
 mod liquid;
