@@ -3,8 +3,8 @@
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
-    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
-    Renderer, SteamSource, View,
+    ColourBy, Fov, Foveation, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc,
+    RenderError, Renderer, SteamSource, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -99,6 +99,8 @@ pub struct Shot {
     pub filter: Option<PictureFilter>,
     /// Where it is seen from; `None` for the tripod.
     pub look: Option<Look>,
+    /// Where it is sharp; `None` for everywhere, as in every film.
+    pub foveation: Option<Foveation>,
 }
 
 impl Shot {
@@ -110,6 +112,7 @@ impl Shot {
             liquid: None,
             filter: None,
             look: None,
+            foveation: None,
         }
     }
 }
@@ -118,6 +121,7 @@ impl Shot {
 pub struct Camera {
     pub(crate) renderer: Renderer,
     eyes: u32,
+    foveation: Option<Foveation>,
     /// Where it is and what it sees.
     pub view: View,
     /// What the colours of temperature run over.
@@ -143,6 +147,7 @@ impl Camera {
                 filter: filter(shot.filter.unwrap_or(scene.picture.filter)),
                 ..LiquidDesc::new(particles)
             }),
+            foveated: shot.foveation.is_some(),
             ..RenderDesc::film(extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
@@ -152,6 +157,7 @@ impl Camera {
         Ok(Self {
             renderer,
             eyes: shot.eyes,
+            foveation: shot.foveation,
             view: shot
                 .look
                 .as_ref()
@@ -305,7 +311,7 @@ impl Camera {
             pane: pane(world),
             shown: 1.0,
             goggles: 0.0,
-            foveation: None,
+            foveation: self.foveation,
             colour_by,
             length_scale: scale.length_scale as f32,
         };

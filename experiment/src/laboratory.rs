@@ -173,6 +173,7 @@ impl Laboratory {
             liquid: None,
             filter: setup.filter,
             look: setup.look,
+            foveation: None,
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;
         if let (Some(camera), Some(head)) = (&mut film, &setup.head) {

@@ -1,8 +1,6 @@
 //! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
-use vitriol_gpu::{
-    Buffer, Gpu, GpuError, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk,
-};
+use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
@@ -13,7 +11,7 @@ use crate::frame::FrameDesc;
 use crate::hands::Hands;
 use crate::hidden::hidden_words;
 use crate::lanes;
-use crate::panel::Panel;
+use crate::panel::{Panel, no_panel};
 use crate::pass_pictures::PassesReadback;
 use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
@@ -94,7 +92,7 @@ impl Renderer {
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
             spheres: Spheres::new(gpu, library, views, lanes)?,
-            hands: Hands::new(gpu, library, views)?,
+            hands: Hands::new(gpu, library, views, desc.foveated)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
             between: Sampler::linear(gpu)?,
@@ -124,7 +122,7 @@ impl Renderer {
         let fluid = fluid.transpose()?;
         let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views, lanes));
         let spheres = spheres.transpose()?;
-        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views));
+        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views, foveated));
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;
@@ -490,17 +488,6 @@ impl Renderer {
             extent,
         })
     }
-}
-
-/// Bound in place of a panel's image.
-fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
-    let desc = ImageDesc {
-        extent: [1, 1],
-        layers: 1,
-        format: PICTURE_FORMAT,
-        usage: vk::ImageUsageFlags::SAMPLED,
-    };
-    Image::new(gpu, "no panel", desc)
 }
 
 /// Whether a frame shows any hand.

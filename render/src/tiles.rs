@@ -47,6 +47,7 @@ pub(crate) enum Class {
     Steam = 4,
     /// Coloured spheres.
     Spheres = 5,
+    /// Hands, of which every pixel is shaded.
     Hands = 6,
     /// Of which blocks are shaded, without steam.
     Spread = 7,
@@ -60,10 +61,12 @@ pub(crate) enum Class {
     CoarseGlass = 14,
     /// Neither.
     CoarsePlain = 18,
+    /// Hands, by whole tiles.
+    CoarseHands = 22,
 }
 
 /// Lists, as in `render/tile_lists.wgsl`: a list of parts is as long as four.
-const LISTS: u64 = 22;
+const LISTS: u64 = 23;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {

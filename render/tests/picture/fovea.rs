@@ -13,14 +13,14 @@ use crate::panel::image;
 use crate::rig::{LEFT_QUARTER, Picture, Rig, ray, without_particles};
 
 /// Nor of whole tiles or blocks.
-const EXTENT: [u32; 2] = [635, 467];
-const TILE: u32 = 32;
+pub const EXTENT: [u32; 2] = [635, 467];
+pub const TILE: u32 = 32;
 /// Where the middle one of three beakers stands.
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
 
 /// A bench with three beakers, of which one has liquid in it, a hand and steam.
-struct Bench {
-    rig: Rig,
+pub struct Bench {
+    pub rig: Rig,
     vessels: Vec<Affine3A>,
     liquid: Liquid,
     hand: [Bone; 2],
@@ -28,7 +28,7 @@ struct Bench {
 }
 
 impl Bench {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let mut rig = rig_of(&RenderDesc {
             views: 2,
             liquid: Some(LiquidDesc::new(20_000)),
@@ -72,7 +72,7 @@ impl Bench {
         }
     }
 
-    fn frame<'a>(&'a self, views: &'a [View], foveation: Option<Foveation>) -> FrameDesc<'a> {
+    pub fn frame<'a>(&'a self, views: &'a [View], foveation: Option<Foveation>) -> FrameDesc<'a> {
         FrameDesc {
             hands: [&self.hand, &[]],
             foveation,
@@ -80,7 +80,7 @@ impl Bench {
         }
     }
 
-    fn steam(&self) -> Option<SteamSource<'_>> {
+    pub fn steam(&self) -> Option<SteamSource<'_>> {
         Some(SteamSource {
             puffs: &self.puffs,
             count: 1,
@@ -116,7 +116,7 @@ const FOVS: [Fov; 2] = [
 ];
 
 /// From above, past the middle beaker: to that of the left hand and to the right.
-fn views(turn: f32) -> [View; 2] {
+pub fn views(turn: f32) -> [View; 2] {
     let look = |eye: usize, target: f32| {
         let from = FOOT + Vec3::new(0.03 + 0.06 * eye as f32, 0.12, 0.16);
         let target = FOOT + Vec3::new(target, 0.02, 0.0);
@@ -136,13 +136,13 @@ fn to(towards: [[f32; 2]; 2]) -> Foveation {
 }
 
 /// Angle of a pixel's middle from the fovea, degrees.
-fn away(view: &View, towards: [f32; 2], x: u32, y: u32) -> f64 {
+pub fn away(view: &View, towards: [f32; 2], x: u32, y: u32) -> f64 {
     let axes = view.stage_from_eye.matrix3.as_dmat3();
     let fovea = axes * DVec3::new(towards[0].into(), towards[1].into(), -1.0);
     ray(view, EXTENT, x, y).angle_between(fovea).to_degrees()
 }
 
-fn pixel(picture: &[u8], width: u32, x: u32, y: u32) -> [u8; 4] {
+pub fn pixel(picture: &[u8], width: u32, x: u32, y: u32) -> [u8; 4] {
     let at = 4 * (y * width + x) as usize;
     picture[at..at + 4].try_into().unwrap()
 }
@@ -307,113 +307,6 @@ fn beyond_it_pixels_lie_between_those_that_are_shaded() {
         of_side[1] > 8 && of_side[2] > 60 && of_side[4] > 40,
         "{of_side:?}"
     );
-}
-
-/// Mean difference of two pictures' levels over the pixels that are `taken`, each averaged over four by four pixels first.
-fn blocks_apart(a: &[u8], b: &[u8], taken: impl Fn(u32, u32) -> bool) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for y in (0..EXTENT[1] - 3).step_by(4) {
-        for x in (0..EXTENT[0] - 3)
-            .step_by(4)
-            .filter(|x| taken(*x + 2, y + 2))
-        {
-            let mean = |picture: &[u8], channel: usize| {
-                let pixels = (0..16).map(|n| pixel(picture, EXTENT[0], x + n % 4, y + n / 4));
-                pixels.map(|pixel| f64::from(pixel[channel])).sum::<f64>() / 16.0
-            };
-            let apart = (0..3).map(|channel| (mean(a, channel) - mean(b, channel)).abs());
-            sum += apart.sum::<f64>() / 3.0;
-            count += 1.0;
-        }
-    }
-    sum / count
-}
-
-/// Whether a pixel is within three of the border of a tile.
-fn at_border(x: u32, y: u32) -> bool {
-    [x, y].iter().any(|at| (at + 3) % TILE < 6)
-}
-
-/// In the eye's resolution the foveated picture is the full one, with steam, and not less so where tiles of one side meet those of
-/// another.
-#[test]
-fn it_is_the_full_picture_a_little_blurred() {
-    let bench = Bench::new();
-    let views = views(0.0);
-    let with = |foveation| FrameDesc {
-        steam: bench.steam(),
-        ..bench.frame(&views, foveation)
-    };
-    let full = bench.rig.draw(&with(None));
-    let foveated = bench.rig.draw(&with(Some(Foveation::fixed())));
-    for eye in 0..2 {
-        let (a, b) = (&full.colour[eye], &foveated.colour[eye]);
-        let all = blocks_apart(a, b, |_, _| true);
-        let borders = blocks_apart(a, b, at_border);
-        let inner = blocks_apart(a, b, |x, y| !at_border(x, y));
-        eprintln!("eye {eye}: {all:.3} levels, at tiles' borders {borders:.3}, within {inner:.3}");
-        assert!(all < BLURRED, "eye {eye}: {all}");
-        assert!(
-            borders < 1.25 * inner + 0.05,
-            "eye {eye}: {borders} {inner}"
-        );
-    }
-}
-
-/// What the mean of four by four pixels may differ by, levels of 255, on the mean. Blocks of four by four pixels at outlines too
-/// have 0.33.
-const BLURRED: f64 = 0.3;
-
-/// While the head turns slowly by even steps, light away from the fovea goes up and down more than in the full picture, but not by
-/// much: where one block's light is not halfway between those of the frames before and after.
-#[test]
-fn edges_hardly_flicker_as_the_head_turns() {
-    let bench = Bench::new();
-    let flicker = |foveation: Option<Foveation>| {
-        let pictures = [0, 1, 2, 3, 4, 5].map(|step| {
-            let views = views((0.04 * step as f32).to_radians());
-            let picture = bench.rig.draw(&bench.frame(&views, foveation));
-            means(&picture.colour[0])
-        });
-        let mut sum = 0.0;
-        for index in 0..pictures[0].len() {
-            let levels = pictures.each_ref().map(|picture| picture[index]);
-            let range = levels
-                .iter()
-                .fold(0.0, |most: f64, level| most.max((level - levels[0]).abs()));
-            // Walls and bench are even.
-            if range < 1.0 {
-                continue;
-            }
-            let [x, y] = [index as u32 % BLOCKS, index as u32 / BLOCKS].map(|block| 4 * block + 2);
-            if away(&views(0.0)[0], [0.0; 2], x, y) > 13.0 {
-                for three in levels.windows(3) {
-                    sum += (three[0] + three[2] - 2.0 * three[1]).abs();
-                }
-            }
-        }
-        sum
-    };
-    let (full, foveated) = (flicker(None), flicker(Some(Foveation::fixed())));
-    eprintln!("flicker: {:.2} of the full picture's", foveated / full);
-    assert!(foveated < FLICKER * full, "{foveated} {full}");
-}
-
-/// Flicker of the means of four by four pixels, in all, over that of the full picture: 1.69. With blocks of four by four at outlines
-/// it is 1.95.
-const FLICKER: f64 = 1.8;
-
-/// Blocks of four pixels in a row.
-const BLOCKS: u32 = EXTENT[0] / 4;
-
-/// Mean green of each four by four pixels, levels.
-fn means(picture: &[u8]) -> Vec<f64> {
-    let blocks = (0..EXTENT[1] / 4).flat_map(|y| (0..BLOCKS).map(move |x| (4 * x, 4 * y)));
-    let mean = |(x, y)| {
-        let pixels = (0..16).map(|n| pixel(picture, EXTENT[0], x + n % 4, y + n / 4));
-        pixels.map(|pixel| f64::from(pixel[1])).sum::<f64>() / 16.0
-    };
-    blocks.map(mean).collect()
 }
 
 /// What the lens hides stays black, and nothing of it gets into what is seen beside it.

@@ -4,6 +4,7 @@
 mod ellipsoids;
 mod extent;
 mod fovea;
+mod fovea_looks;
 mod glass;
 mod goggles;
 mod golden;

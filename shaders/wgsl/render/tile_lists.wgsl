@@ -11,7 +11,7 @@
 @group(0) @binding(3) var<storage, read_write> arguments: array<atomic<u32>>;
 
 /// Lists, and of these the first with blocks, as `tiles.rs` numbers them.
-const LISTS = 22u;
+const LISTS = 23u;
 const BLOCKS = 10u;
 
 fn append(class_: u32, tile: u32, all: u32) {
@@ -50,9 +50,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // Its surface is found at each pixel.
     if (has_liquid) { append(0u, id.x, all); }
     if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
-    if ((marks & MARK_HANDS) != 0u) { append(6u, id.x, all); }
     var side = 1u;
     if (!hidden) { side = block_side(eye, low, high, marks); }
+    if ((marks & MARK_HANDS) != 0u) { append(select(6u, 22u, side != 1u), id.x, all); }
     if (side == 1u) {
         append(select(select(2u, 1u, has_glass), 9u, has_liquid), id.x, all);
         if (marks != 0u) { append(select(3u, 4u, has_steam), id.x, all); }

@@ -1,6 +1,7 @@
 //! Blocks of pixels in the tiles away from the fovea: each is shaded in one place, the middle of a pixel of it.
 
 //!include common/picture/hidden_area.wgsl
+//!include common/picture/shaded_pixel.wgsl
 //!include common/picture/tile_pixels.wgsl
 
 /// A block in a list: its tile times so much, and the quarter of the tile that it is of (0 to 3, blocks of two by two pixels)
@@ -16,11 +17,6 @@ struct CoarseBlock {
     low: vec2<i32>,
     /// Pixels along its sides.
     side: i32,
-}
-
-/// The pixel that is shaded of a block; at the picture's edge the last one of it.
-fn shaded_in(low: vec2<i32>, side: i32) -> vec2<i32> {
-    return min(low + side / 2, vec2<i32>(frame.extent) - 1);
 }
 
 /// The first pixel of a tile counted row by row, eye by eye; and its eye (z).
