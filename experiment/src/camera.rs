@@ -3,8 +3,8 @@
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Gpu, QueueKind, Recorder};
 use vitriol_render::{
-    ColourBy, Fov, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc, RenderError,
-    Renderer, SteamSource, Tint, View,
+    ColourBy, Fov, Foveation, FrameDesc, LiquidDesc, ParticleSource, PassPicture, RenderDesc,
+    RenderError, Renderer, SteamSource, Tint, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
@@ -101,6 +101,8 @@ pub struct Shot {
     pub tint: Option<PictureTint>,
     /// Where it is seen from; `None` for the tripod.
     pub look: Option<Look>,
+    /// Where it is sharp; `None` for everywhere, as in every film.
+    pub foveation: Option<Foveation>,
 }
 
 impl Shot {
@@ -113,6 +115,7 @@ impl Shot {
             filter: None,
             tint: None,
             look: None,
+            foveation: None,
         }
     }
 }
@@ -122,6 +125,7 @@ pub struct Camera {
     pub(crate) renderer: Renderer,
     eyes: u32,
     tint: Tint,
+    foveation: Option<Foveation>,
     /// Where it is and what it sees.
     pub view: View,
     /// What the colours of temperature run over.
@@ -149,6 +153,7 @@ impl Camera {
                 tint: drawn_tint,
                 ..liquid
             }),
+            foveated: shot.foveation.is_some(),
             ..RenderDesc::film(extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
@@ -159,6 +164,7 @@ impl Camera {
             renderer,
             eyes: shot.eyes,
             tint: drawn_tint,
+            foveation: shot.foveation,
             view: shot
                 .look
                 .as_ref()
@@ -312,6 +318,7 @@ impl Camera {
             pane: pane(world),
             shown: 1.0,
             goggles: 0.0,
+            foveation: self.foveation,
             colour_by,
             length_scale: scale.length_scale as f32,
         };

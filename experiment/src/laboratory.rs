@@ -177,6 +177,7 @@ impl Laboratory {
             filter: setup.filter,
             tint: setup.tint,
             look: setup.look,
+            foveation: None,
         });
         let mut film = camera(&world, library, shot, &setup.colours)?;
         if let (Some(camera), Some(head)) = (&mut film, &setup.head) {

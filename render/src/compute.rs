@@ -12,6 +12,16 @@ pub(crate) fn compute(
     shader: ShaderId,
     constants: &[(&str, f64)],
 ) -> Result<ComputePipeline, RenderError> {
-    let compiled = library.compile(&shader, "main", constants)?;
+    compute_of(gpu, library, (shader, "main"), constants)
+}
+
+/// The same of another entry point.
+pub(crate) fn compute_of(
+    gpu: &Gpu,
+    library: &Library,
+    (shader, entry): (ShaderId, &str),
+    constants: &[(&str, f64)],
+) -> Result<ComputePipeline, RenderError> {
+    let compiled = library.compile(&shader, entry, constants)?;
     Ok(ComputePipeline::new(gpu, &compiled)?)
 }

@@ -13,6 +13,8 @@ pub struct RenderDesc {
     pub liquid: Option<LiquidDesc>,
     /// How many invocations share a particle.
     pub lanes: Lanes,
+    /// Whether frames may be foveated, which takes pipelines of its own.
+    pub foveated: bool,
 }
 
 /// How many invocations share a particle; `None` as many as suit the device.
@@ -42,6 +44,7 @@ impl RenderDesc {
             views: 1,
             liquid: None,
             lanes: Lanes::CHOSEN,
+            foveated: false,
         }
     }
 }

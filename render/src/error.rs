@@ -71,6 +71,9 @@ pub enum RenderError {
     /// A liquid surface was asked of a renderer that was made without one.
     #[error("this renderer has no liquid surface; make it with RenderDesc::liquid")]
     NoLiquid,
+    /// A foveated frame was asked of a renderer that was made without.
+    #[error("this renderer draws no foveated frames; make it with RenderDesc::foveated")]
+    NotFoveated,
     /// More particles than the buffers hold.
     #[error("{count} particles asked for, but \"{buffer}\" holds {held}; pass the solver's count")]
     TooManyParticles {

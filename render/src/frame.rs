@@ -7,6 +7,7 @@ use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
+use crate::fovea::Foveation;
 use crate::hands::{Bone, MOST_BONES};
 use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
@@ -94,6 +95,8 @@ pub struct FrameDesc<'a> {
     pub shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
     pub goggles: f32,
+    /// Where the picture is to be sharp; `None` for everywhere.
+    pub foveation: Option<Foveation>,
     /// What the particles' colours stand for.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
@@ -119,6 +122,9 @@ impl FrameDesc<'_> {
         let extent = self.extent(held);
         if extent.contains(&0) || extent[0] > held[0] || extent[1] > held[1] {
             return Err(RenderError::Extent { extent, held });
+        }
+        if self.foveation.is_some() && !desc.foveated {
+            return Err(RenderError::NotFoveated);
         }
         let counts = [
             ("views", self.views.len(), desc.views as usize),

@@ -88,17 +88,29 @@ pub struct Bone {
 pub(crate) struct Hands {
     mark_pass: ComputePipeline,
     light_pass: ComputePipeline,
+    /// The same in coarse tiles, where frames may be foveated.
+    coarse_pass: Option<ComputePipeline>,
     bones: Buffer,
     views: u32,
 }
 
 impl Hands {
-    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
-        let class = ("CLASS", f64::from(Class::Hands as u32));
+    pub(crate) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        views: u32,
+        foveated: bool,
+    ) -> Result<Self, RenderError> {
+        let light = |class: Class, side: f64| {
+            let constants = [("CLASS", f64::from(class as u32)), ("SIDE", side)];
+            compute(gpu, library, hands::LIGHT, &constants)
+        };
+        let coarse = || light(Class::CoarseHands, 2.0);
         let bytes = bytes_of_elements::<layout::Bone>(GROUPS * MOST_BONES);
         Ok(Self {
             mark_pass: compute(gpu, library, hands::MARK, &[])?,
-            light_pass: compute(gpu, library, hands::LIGHT, &[class])?,
+            light_pass: light(Class::Hands, 1.0)?,
+            coarse_pass: foveated.then(coarse).transpose()?,
             bones: Buffer::storage(gpu, "bones", bytes)?,
             views,
         })
@@ -159,15 +171,25 @@ impl Hands {
         tiles: &Tiles,
     ) -> Result<(), GpuError> {
         rec.group("hands", |rec| {
-            let pass = rec
-                .pass(&self.light_pass)
-                .label("hands")
-                .uniform("frame", uniforms)
-                .read("bones", &self.bones)
-                .write("depths", &solids.depths)
-                .write("nearest", &solids.nearest)
-                .constants(&run(frame));
-            tiles.over(Class::Hands, pass)
+            let coarse = self.coarse_pass.as_ref();
+            let coarse = coarse.filter(|_| frame.foveation.is_some());
+            let passes = [
+                (Class::Hands, Some(&self.light_pass)),
+                (Class::CoarseHands, coarse),
+            ];
+            for (class, pipeline) in passes {
+                let Some(pipeline) = pipeline else { continue };
+                let pass = rec
+                    .pass(pipeline)
+                    .label("hands")
+                    .uniform("frame", uniforms)
+                    .read("bones", &self.bones)
+                    .write("depths", &solids.depths)
+                    .write("nearest", &solids.nearest)
+                    .constants(&run(frame));
+                tiles.over(class, pass)?;
+            }
+            Ok(())
         })
     }
 }

@@ -1,7 +1,7 @@
 //! A panel in the scene: a rectangle that shows an image; or a sign: the disc in it; or a pane of glass.
 
 use glam::{Affine3A, Mat4, Vec3};
-use vitriol_gpu::Image;
+use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 
 /// A panel or a sign of a frame. Its image was recorded before.
 #[derive(Clone, Copy)]
@@ -42,4 +42,15 @@ fn face_from_stage(face: Option<(Affine3A, [f32; 2])>, length_scale: f32) -> [[f
         Mat4::from_scale(Vec3::new(x, y, 1.0)) * Mat4::from(stage_from_face.inverse())
     });
     matrix.to_cols_array_2d()
+}
+
+/// Bound in place of a panel's image.
+pub(crate) fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
+    let desc = ImageDesc {
+        extent: [1, 1],
+        layers: 1,
+        format: vk::Format::R8G8B8A8_UNORM,
+        usage: vk::ImageUsageFlags::SAMPLED,
+    };
+    Image::new(gpu, "no panel", desc)
 }

@@ -4,42 +4,79 @@ use vitriol_gpu::{ComputePipeline, Gpu, vk};
 use vitriol_shaders::{Library, ShaderId, render};
 
 use crate::RenderError;
-use crate::compute::compute;
+use crate::compute::compute_of;
 use crate::tiles::Class;
 
 /// Rays of a pixel that are traced to the glass, on a GPU and on a CPU, whose film has to come in time.
 const GLASS_RAYS: [f64; 2] = [4.0, 1.0];
 
+/// Pixels over which they are spread in blocks, which glass has of two by two.
+const OVER_BLOCK: f64 = 2.0;
+
+/// A pass over the tiles of a class.
+type OfClass = (Class, ComputePipeline);
+
 /// Of the picture, and of its finish, one for each class of tiles.
 pub(crate) struct Pipelines {
-    pub(crate) picture: [(Class, ComputePipeline); 3],
-    pub(crate) finish: [(Class, ComputePipeline); 2],
+    pub(crate) picture: [OfClass; 3],
+    pub(crate) finish: [OfClass; 2],
+    /// The same of blocks, where frames may be foveated.
+    coarse: Option<([OfClass; 3], [OfClass; 2])>,
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu, library: &Library) -> Result<Self, RenderError> {
+    pub(crate) fn new(gpu: &Gpu, library: &Library, foveated: bool) -> Result<Self, RenderError> {
         let is_cpu = gpu.info().kind == vk::PhysicalDeviceType::CPU;
         let rays = ("GLASS_RAYS", GLASS_RAYS[usize::from(is_cpu)]);
-        let over = |shader: ShaderId, class: Class, switches: &[(&str, f64)]| {
+        let over = |shader: (ShaderId, &str), class: Class, switches: &[(&str, f64)]| {
             let mut constants = vec![("CLASS", f64::from(class as u32))];
             constants.extend(switches);
-            Ok::<_, RenderError>((class, compute(gpu, library, shader, &constants)?))
+            Ok::<_, RenderError>((class, compute_of(gpu, library, shader, &constants)?))
+        };
+        let glass = [("GLASS", 1.0), rays];
+        let liquid = [("GLASS", 1.0), ("LIQUID", 1.0), rays];
+        let steam = [("STEAM", 1.0)];
+        let (picture, finish) = ((render::PICTURE, "main"), (render::FINISH, "main"));
+        let (blocks, spread) = ((render::PICTURE, "coarse"), (render::SPREAD, "main"));
+        let coarse = || -> Result<_, RenderError> {
+            let spreads = ("GLASS_SPREAD", OVER_BLOCK);
+            let picture = [
+                over(blocks, Class::CoarsePlain, &[])?,
+                over(
+                    blocks,
+                    Class::CoarseGlass,
+                    &[&glass[..], &[spreads]].concat(),
+                )?,
+                over(
+                    blocks,
+                    Class::CoarseLiquid,
+                    &[&liquid[..], &[spreads]].concat(),
+                )?,
+            ];
+            let finish = [
+                over(spread, Class::Spread, &[])?,
+                over(spread, Class::SpreadSteam, &steam)?,
+            ];
+            Ok((picture, finish))
         };
         Ok(Self {
             picture: [
-                over(render::PICTURE, Class::Plain, &[])?,
-                over(render::PICTURE, Class::Glass, &[("GLASS", 1.0), rays])?,
-                over(
-                    render::PICTURE,
-                    Class::Liquid,
-                    &[("GLASS", 1.0), ("LIQUID", 1.0), rays],
-                )?,
+                over(picture, Class::Plain, &[])?,
+                over(picture, Class::Glass, &glass)?,
+                over(picture, Class::SharpLiquid, &liquid)?,
             ],
             finish: [
-                over(render::FINISH, Class::Edges, &[])?,
-                over(render::FINISH, Class::Steam, &[("STEAM", 1.0)])?,
+                over(finish, Class::Edges, &[])?,
+                over(finish, Class::Steam, &steam)?,
             ],
+            coarse: foveated.then(coarse).transpose()?,
         })
+    }
+
+    /// Those of blocks, picture and finish, that a frame which is `foveated` or not has.
+    pub(crate) fn coarse(&self, foveated: bool) -> (&[OfClass], &[OfClass]) {
+        let coarse = self.coarse.as_ref().filter(|_| foveated);
+        coarse.map_or((&[], &[]), |(picture, finish)| (picture, finish))
     }
 
     /// Whether any of these shaders is one of this crate's.
@@ -48,10 +85,11 @@ impl Pipelines {
     }
 }
 
-const USED: [ShaderId; 5] = [
+const USED: [ShaderId; 6] = [
     render::TILES,
     render::TILE_PUFFS,
     render::TILE_LISTS,
     render::PICTURE,
     render::FINISH,
+    render::SPREAD,
 ];

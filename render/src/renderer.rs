@@ -1,18 +1,17 @@
 //! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
-use vitriol_gpu::{
-    Buffer, Gpu, GpuError, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk,
-};
+use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk};
 use vitriol_shaders::{Library, ShaderId, layout};
 
 use crate::RenderError;
 use crate::desc::RenderDesc;
 use crate::fluid::{Cells, Fluid, SurfaceReadback, zeros};
+use crate::fovea::foveae;
 use crate::frame::FrameDesc;
 use crate::hands::Hands;
 use crate::hidden::hidden_words;
 use crate::lanes;
-use crate::panel::Panel;
+use crate::panel::{Panel, no_panel};
 use crate::pass_pictures::PassesReadback;
 use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
@@ -84,7 +83,7 @@ impl Renderer {
         Ok(Self {
             gpu: gpu.clone(),
             desc: *desc,
-            pipelines: Pipelines::new(gpu, library)?,
+            pipelines: Pipelines::new(gpu, library, desc.foveated)?,
             scene: Scene::new(gpu, &SceneDesc::default())?,
             frame: Buffer::uniform(gpu, "frame", bytes_of_elements::<layout::Frame>(1))?,
             fluid: match desc.liquid {
@@ -96,7 +95,7 @@ impl Renderer {
             nothing: zeros(gpu)?,
             spheres: Spheres::new(gpu, library, views, lanes)?,
             spray: Spray::new(gpu, library, views)?,
-            hands: Hands::new(gpu, library, views)?,
+            hands: Hands::new(gpu, library, views, desc.foveated)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
             between: Sampler::linear(gpu)?,
@@ -118,6 +117,7 @@ impl Renderer {
             extent,
             views,
             lanes,
+            foveated,
             ..
         } = self.desc;
         let liquid = self.desc.liquid.filter(|_| Fluid::uses(changed));
@@ -127,11 +127,11 @@ impl Renderer {
         let spheres = spheres.transpose()?;
         let spray = Spray::uses(changed).then(|| Spray::new(gpu, library, views));
         let spray = spray.transpose()?;
-        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views));
+        let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views, foveated));
         let hands = hands.transpose()?;
         if Pipelines::uses(changed) {
             let tiles = Tiles::new(gpu, library, extent, views)?;
-            self.pipelines = Pipelines::new(gpu, library)?;
+            self.pipelines = Pipelines::new(gpu, library, foveated)?;
             self.tiles = tiles;
         }
         if fluid.is_some() {
@@ -263,6 +263,7 @@ impl Renderer {
             &self.frame,
             self.hidden(),
             frame.extent(self.desc.extent),
+            &foveae(frame.foveation, frame.views),
         )?;
         liquid.map_or(Ok(()), |(fluid, source)| {
             fluid.record_surface(rec, (slot, source.count), &self.frame, &self.tiles)
@@ -357,7 +358,8 @@ impl Renderer {
         let shown = |panel: Option<Panel<'a>>| panel.map_or(&self.no_panel, |panel| panel.image);
         let (panel, sign) = (shown(frame.panel), shown(frame.sign));
         rec.group("picture", |rec| {
-            for (class, pipeline) in &self.pipelines.picture {
+            let (coarse, _) = self.pipelines.coarse(frame.foveation.is_some());
+            for (class, pipeline) in self.pipelines.picture.iter().chain(coarse) {
                 let pass = rec
                     .pass(pipeline)
                     .label("picture")
@@ -395,6 +397,19 @@ impl Renderer {
                     .uniform("frame", &self.frame)
                     .sampled("drawn", &self.drawn)
                     .sampler("between", &self.between)
+                    .read("puffs", puffs)
+                    .read("puffs_in_tiles", self.tiles.puffs())
+                    .read("depths", &self.depths)
+                    .storage_image("finished", &self.picture);
+                self.tiles.over(*class, pass)?;
+            }
+            for (class, pipeline) in self.pipelines.coarse(frame.foveation.is_some()).1 {
+                let pass = rec
+                    .pass(pipeline)
+                    .label("finish")
+                    .uniform("frame", &self.frame)
+                    .sampled("drawn", &self.drawn)
+                    .read("hidden_area", self.hidden())
                     .read("puffs", puffs)
                     .read("puffs_in_tiles", self.tiles.puffs())
                     .read("depths", &self.depths)
@@ -514,17 +529,6 @@ impl Renderer {
             extent,
         })
     }
-}
-
-/// Bound in place of a panel's image.
-fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
-    let desc = ImageDesc {
-        extent: [1, 1],
-        layers: 1,
-        format: PICTURE_FORMAT,
-        usage: vk::ImageUsageFlags::SAMPLED,
-    };
-    Image::new(gpu, "no panel", desc)
 }
 
 /// Whether a frame shows any hand.

@@ -31,15 +31,15 @@ pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// What a list has the tiles of; the numbers are `common/picture/tile_pixels.wgsl`'s. The first three have each tile once.
+/// What a list has the tiles of; the numbers are `common/picture/tile_pixels.wgsl`'s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Class {
     /// Liquid, and perhaps glass.
     Liquid = 0,
-    /// Glass without liquid.
+    /// Glass without liquid, of which every pixel is shaded.
     Glass = 1,
-    /// Neither.
+    /// Neither, likewise.
     Plain = 2,
     /// Edges to be smoothed, without steam.
     Edges = 3,
@@ -47,10 +47,26 @@ pub(crate) enum Class {
     Steam = 4,
     /// Coloured spheres.
     Spheres = 5,
+    /// Hands, of which every pixel is shaded.
     Hands = 6,
+    /// Of which blocks are shaded, without steam.
+    Spread = 7,
+    /// The same with steam.
+    SpreadSteam = 8,
+    /// Liquid of which every pixel is shaded, and perhaps glass.
+    SharpLiquid = 9,
+    /// Of which blocks are shaded, by their parts, of which a tile has up to four: liquid, and perhaps glass.
+    CoarseLiquid = 10,
+    /// Glass without liquid.
+    CoarseGlass = 14,
+    /// Neither.
+    CoarsePlain = 18,
+    /// Hands, by whole tiles.
+    CoarseHands = 22,
 }
 
-const CLASSES: u64 = 7;
+/// Lists, as in `render/tile_lists.wgsl`: a list of parts is as long as four.
+const LISTS: u64 = 23;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {
@@ -80,8 +96,8 @@ impl Tiles {
             puffs_pass: compute(gpu, library, render::TILE_PUFFS, &[])?,
             lists_pass: compute(gpu, library, render::TILE_LISTS, &[])?,
             marks: words("tiles", count.into())?,
-            lists: words("tile lists", CLASSES * u64::from(count))?,
-            arguments: words("tile dispatches", 3 * CLASSES)?,
+            lists: words("tile lists", LISTS * u64::from(count))?,
+            arguments: words("tile dispatches", 3 * LISTS)?,
             puffs: words("puffs in tiles", u64::from(PUFF_WORDS) * u64::from(count))?,
             views,
         })
@@ -120,13 +136,14 @@ impl Tiles {
         })
     }
 
-    /// Records the lists of the tiles that are marked, in views of `extent`.
+    /// Records the lists of the tiles that are marked, in views of `extent`, by how sharp they are to be.
     pub(crate) fn list(
         &self,
         rec: &mut Recorder,
         uniforms: &Buffer,
         hidden: &Buffer,
         extent: [u32; 2],
+        foveae: &layout::Foveae,
     ) -> Result<(), GpuError> {
         let [columns, rows] = tiles_of(extent);
         rec.group("tiles", |rec| {
@@ -137,6 +154,7 @@ impl Tiles {
                 .read("hidden_area", hidden)
                 .write("tile_lists", &self.lists)
                 .write("arguments", &self.arguments)
+                .constants(foveae)
                 .invocations(columns * rows * self.views)
         })
     }

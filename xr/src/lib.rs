@@ -20,7 +20,9 @@ mod source;
 pub mod track;
 
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
-pub use headset::{Headset, HeadsetError, HeadsetFrame, Joints, Pause, Shown, Targets, Turn, View};
+pub use headset::{
+    Headset, HeadsetError, HeadsetFrame, Joints, Pause, Shown, Targets, Turn, View, depth_extent,
+};
 pub use pose::Pose;
 pub use session::{OpenXr, OpenXrOptions};
 pub use source::{PoseSource, SourceError};

@@ -18,6 +18,7 @@ use vitriol_study::parse::{filter, named, positive, preset, tint};
 use super::lesson::JudgeArgs;
 use crate::command::grade::Tolerance;
 use crate::live::hub_address;
+use crate::vr::foveating::Foveating;
 use crate::vr::latch::Grip;
 use crate::vr::placement::Posture;
 
@@ -227,6 +228,9 @@ pub struct VrArgs {
     /// without it both do with less where the display would miss frames
     #[arg(long)]
     pub fixed: bool,
+    /// Where the pictures are sharp
+    #[arg(long, value_enum, default_value_t, value_name = "FOVEATION")]
+    pub foveation: Foveating,
     /// Seed of the particles' initial jitter
     #[arg(long, default_value_t = 0)]
     pub seed: u64,

@@ -23,6 +23,7 @@ use crate::live::{Serving, WatchReport, Watchers};
 use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
 use crate::vr::first_minute::FirstMinuteReport;
+use crate::vr::foveating::Foveating;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
 use crate::vr::panel::PANEL;
@@ -59,6 +60,8 @@ struct SessionReport {
     devices_lost: u32,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
+    /// Where the pictures were sharp.
+    foveation: Foveating,
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -148,6 +151,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         record: args.record.clone(),
         sound: sound(args),
         governed: !args.fixed,
+        foveating: args.foveation,
         hints: !args.no_hints,
         console: None,
         course,
@@ -369,6 +373,7 @@ fn state(
         renewals: outcome.renewals,
         devices_lost: outcome.devices_lost,
         governor: outcome.governor.clone(),
+        foveation: outcome.foveating,
         cpu_ms: Spread::of(&tally.cpu_ms),
         frames_alone: tally.alone.report(),
         frames_while_building: tally.building.report(),
@@ -450,6 +455,10 @@ fn describe(session: &SessionReport) -> String {
         session.missed_frames,
     );
     text += &governed(&session.governor);
+    text += match session.foveation {
+        Foveating::Off => "every pixel shaded\n",
+        Foveating::Fixed => "every pixel shaded about the lenses' axes, fewer beyond\n",
+    };
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),
         (

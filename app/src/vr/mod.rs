@@ -10,6 +10,7 @@ pub mod closing;
 pub mod decision;
 pub mod fade;
 pub mod first_minute;
+pub mod foveating;
 pub mod governor;
 pub mod handle;
 pub mod haptics;

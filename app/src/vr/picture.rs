@@ -6,8 +6,8 @@ use vitriol_experiment::scenery::{affine, drawn_liquid, laboratory, liquid_of, s
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Buffer, CopyRegion, Gpu, Image, QueueKind, Recorder, Ticket};
 use vitriol_render::{
-    Bone, ColourBy, Fov, FrameDesc, LiquidDesc, Panel, RenderDesc, RenderError, Renderer,
-    SteamSource, View,
+    Bone, ColourBy, Fov, Foveation, FrameDesc, HalfDepth, LiquidDesc, Panel, RenderDesc,
+    RenderError, Renderer, SteamSource, View,
 };
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -15,6 +15,7 @@ use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, PoseFrame, Targets};
 
+use super::foveating::Foveating;
 use super::panel::{SIZE, scene_from_panel};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
@@ -28,14 +29,17 @@ pub struct Eyes {
     pub extent: [u32; 2],
     /// By eye, corners of the triangles that the lens hides.
     pub hidden: [Vec<[f32; 2]>; 2],
+    /// Where they are sharp.
+    pub foveating: Foveating,
 }
 
 impl Eyes {
     /// Those of a headset.
-    pub fn of(headset: &dyn Headset) -> Self {
+    pub fn of(headset: &dyn Headset, foveating: Foveating) -> Self {
         Self {
             extent: headset.extent(),
             hidden: headset.hidden_area(),
+            foveating,
         }
     }
 }
@@ -43,9 +47,11 @@ impl Eyes {
 /// Draws a world for two eyes, with the hands.
 pub struct Picture {
     renderer: Renderer,
+    half_depth: HalfDepth,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
     gloves: Gloves,
+    foveation: Option<Foveation>,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
     under_way: Vec<Ticket>,
     drawn: usize,
@@ -114,6 +120,7 @@ impl Picture {
         let desc = RenderDesc {
             views: 2,
             liquid: Some(subject.liquid),
+            foveated: eyes.foveating.foveation().is_some(),
             ..RenderDesc::film(eyes.extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
@@ -126,9 +133,11 @@ impl Picture {
             })
             .transpose()?;
         let mut picture = Self {
+            half_depth: HalfDepth::new(gpu, library, eyes.extent, desc.views).other()?,
             renderer,
             puffs,
             gloves: Gloves::of(scene),
+            foveation: eyes.foveating.foveation(),
             under_way: Vec::new(),
             drawn: 0,
         };
@@ -191,7 +200,10 @@ impl Picture {
         rec.copy_image(self.renderer.image(), &targets.colour)
             .other()?;
         if let Some(depth) = &targets.depth {
-            rec.copy_to_image(self.renderer.depth(), depth).other()?;
+            let half = &self.half_depth;
+            half.record(&mut rec, &self.renderer, sight.extent)
+                .other()?;
+            rec.copy_to_image(half.depth(), depth).other()?;
         }
         let picture = gpu.submit_after(rec, &[shapes]).other()?;
         self.drawn += 1;
@@ -257,6 +269,7 @@ impl Picture {
             pane: vitriol_experiment::pane(world),
             shown: sight.map_or(1.0, |sight| sight.shown),
             goggles: sight.map_or(0.0, |sight| sight.goggles),
+            foveation: self.foveation,
             colour_by: ColourBy::Acid,
             length_scale: scale,
         };

@@ -42,6 +42,7 @@ use super::blame::blame;
 use super::decision::Decision;
 use super::fade::Fade;
 use super::first_minute::FirstMinuteReport;
+use super::foveating::Foveating;
 use super::handle::Handles;
 use super::latch::{Grip, Latches};
 use super::mirror::{Mirror, Window};
@@ -92,6 +93,8 @@ pub struct Options {
     pub sound: Device,
     /// Whether a governor gives solver and picture less to do where frames would not fit the display's period.
     pub governed: bool,
+    /// Where the pictures are sharp.
+    pub foveating: Foveating,
     /// Whether signs show a first user what to do.
     pub hints: bool,
     /// The instructor's console, if there is one.
@@ -116,6 +119,8 @@ pub struct SessionOutcome {
     pub frames: u64,
     /// Display periods without a frame, of those that count.
     pub skipped: u64,
+    /// Where the pictures were sharp.
+    pub foveating: Foveating,
     /// Times that a session was found again.
     pub renewals: u64,
     /// Times that a device was lost, and the bench was brought back on another.
@@ -214,7 +219,7 @@ impl Session {
         decisions: Receiver<Decision>,
     ) -> Result<Self, Failure> {
         let gpu = headset.gpu();
-        let mut benches = Benches::new(headset, &options.plan)?;
+        let mut benches = Benches::new(headset, &options.plan, options.foveating)?;
         let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
@@ -421,6 +426,7 @@ impl Session {
             slowed: self.steps.clock.slowed,
             frames: self.counts.frames,
             skipped: self.counts.skipped,
+            foveating: self.benches.eyes.foveating,
             renewals: self.renewals,
             devices_lost: self.losses.count,
             tally: self.counts.tally,

@@ -13,7 +13,7 @@ use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
 use vitriol_xr::track::{Track, TrackSource};
 use vitriol_xr::{
     Fov, Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, PoseSource, SessionState, Shown,
-    Side, Targets, Turn, View,
+    Side, Targets, Turn, View, depth_extent,
 };
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand adults
@@ -217,7 +217,12 @@ fn targets(gpu: &Gpu, eyes: [u32; 2]) -> Result<Targets, GpuError> {
     let rgba = vk::Format::R8G8B8A8_SRGB;
     Ok(Targets {
         colour: image("stand-in's colour", eyes, 2, rgba)?,
-        depth: Some(image("stand-in's depth", eyes, 2, vk::Format::D32_SFLOAT)?),
+        depth: Some(image(
+            "stand-in's depth",
+            depth_extent(eyes),
+            2,
+            vk::Format::D32_SFLOAT,
+        )?),
         panel: Some(image("stand-in's panel", PANEL, 1, rgba)?),
     })
 }

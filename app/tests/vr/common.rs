@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use tracing::span::{Attributes, Id, Record};
 use tracing::{Event, Metadata, Subscriber};
 use vitriol::vr::decision::Decision;
+use vitriol::vr::foveating::Foveating;
 use vitriol::vr::latch::Grip;
 use vitriol::vr::placement::Posture;
 use vitriol::vr::session::{Options, Session, SessionOutcome};
@@ -231,6 +232,8 @@ pub fn options(folder: &Path) -> Options {
         record: Some(folder.join("session.mcap")),
         // What a software driver takes is no matter to most.
         governed: false,
+        // Pictures are looked at to the pixel.
+        foveating: Foveating::Off,
         sound: Device::Silent,
         // Most look at other things.
         hints: false,

@@ -8,6 +8,7 @@ mod console;
 mod contention;
 mod fade;
 mod first_minute;
+mod foveation;
 mod handle;
 mod hands;
 mod leap;

@@ -153,15 +153,15 @@ fn a_start_and_a_loss_keep_the_level() {
     assert_eq!(replayed(&gpu, track), hash(&outcome));
 
     // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
-    // goes 5 pixels far and not 9.
+    // goes 5 pixels far and not 9, and 3 in the second row and not 7. Of two by two pixels all are hidden then.
     assert_eq!(headset.shown.last().unwrap().extent, [58, 38]);
     let depth = headset.inner.targets.depth.clone().unwrap();
     let mut rec = second.recorder(QueueKind::Main).unwrap();
     let depth = rec.read_back_image(&depth).unwrap();
     second.submit(rec).unwrap().wait().unwrap();
     let depth = depth.get::<f32>().unwrap();
-    assert_eq!((depth[0], depth[4]), (1.0, 1.0));
-    assert!(depth[7] < 1.0);
+    assert_eq!(depth[0], 1.0);
+    assert!(depth[2] < 1.0);
 }
 
 /// The plainer filter takes over while the session goes on.

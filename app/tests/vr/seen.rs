@@ -103,6 +103,20 @@ impl Seen {
         }
     }
 
+    /// Direction in the eye's frame, of depth 1, to what is seen at a pixel.
+    pub fn along(&self, x: u32, y: u32) -> Vec3 {
+        let fov = self.view.fov;
+        let slope = |from: f32, to: f32, at: u32, of: u32| {
+            from.tan() + (to.tan() - from.tan()) * (at as f32 + 0.5) / of as f32
+        };
+        let [width, height] = self.extent;
+        let (across, up) = (
+            slope(fov.left, fov.right, x, width),
+            slope(fov.up, fov.down, y, height),
+        );
+        Vec3::new(across, up, -1.0)
+    }
+
     /// The pixel at which a place of the stage is seen, by the view's own angles.
     pub fn at(&self, place: Vec3) -> Option<([u32; 2], [u8; 4])> {
         let at = self.view.stage_from_eye.inverse().transform_point(place);

@@ -110,8 +110,7 @@ pub fn rig(extent: [u32; 2], views: u32, filter: SurfaceFilter) -> Rig {
 
 /// The same, whose invocations share particles like that.
 pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: Lanes) -> Rig {
-    let gpu = gpu::device();
-    let desc = RenderDesc {
+    rig_of(&RenderDesc {
         views,
         liquid: Some(LiquidDesc {
             filter,
@@ -120,12 +119,17 @@ pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: 
         }),
         lanes,
         ..RenderDesc::film(extent)
-    };
-    let renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
+    })
+}
+
+/// A renderer that is made for that.
+pub fn rig_of(desc: &RenderDesc) -> Rig {
+    let gpu = gpu::device();
+    let renderer = Renderer::new(&gpu, &Library::watching(), desc).unwrap();
     Rig {
         gpu,
         renderer,
-        extent,
+        extent: desc.extent,
     }
 }
 

@@ -4,9 +4,12 @@
 mod bubbles;
 mod ellipsoids;
 mod extent;
+mod fovea;
+mod fovea_looks;
 mod glass;
 mod goggles;
 mod golden;
+mod half_depth;
 mod hands;
 mod lanes;
 mod liquid;

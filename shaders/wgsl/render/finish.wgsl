@@ -2,9 +2,8 @@
 //! (2009, the short form): rims, silhouettes and the bench's edge, whatever they are of; and lays steam
 //! over that, which has no edges.
 
-//!include common/picture/encode.wgsl
-//!include common/picture/steam_light.wgsl
 //!include common/picture/tile_pixels.wgsl
+//!include common/picture/under_steam.wgsl
 
 /// Whether the class's tiles have steam.
 override STEAM: bool = false;
@@ -60,12 +59,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     let place = place_of(group, local);
     if (!place.inside) { return; }
     var colour = smoothed(place.pixel, place.eye);
-    if (STEAM) {
-        let steam = steam_over(place.pixel, place.eye, place.tile);
-        let light = frame.shown * steam.rgb + steam.a * decoded(colour.rgb);
-        // Behind steam the panel is the picture's.
-        let alpha = select(1.0, colour.a, steam.a == 1.0);
-        colour = vec4<f32>(encoded(light) + dither(vec2<f32>(place.pixel) + 0.5), alpha);
-    }
+    if (STEAM) { colour = under_steam(colour, place); }
     textureStore(finished, place.pixel, place.eye, colour);
 }

@@ -4,6 +4,7 @@
 //! Bench, floor and walls are boxes that each ray is traced against, as those that liquid refracts are. Alpha is 0 where nothing is
 //! before the panel (`common/picture/panel.wgsl`).
 
+//!include common/picture/coarse_blocks.wgsl
 //!include common/picture/encode.wgsl
 //!include common/picture/glass_light.wgsl
 //!include common/picture/goggles.wgsl
@@ -39,17 +40,21 @@ const BEFORE_GLASS = 1.0007;
 /// How much further than glass what it stands on is taken to be: a foot lies in the bench's own plane.
 const BEHIND_GLASS = 1.0002;
 
-@compute @workgroup_size(32, 8)
-fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
-    let place = place_of(group, local);
-    if (!place.inside) { return; }
+struct Seen {
+    /// sRGB, and alpha.
+    colour: vec4<f32>,
+    /// Reversed depth.
+    depth: f32,
+}
+
+fn seen_at_place(place: Place, hidden: bool) -> Seen {
     let eye = place.eye;
     let at = vec2<f32>(place.pixel) + 0.5;
     let near = frame.views[eye].near;
     var colour = vec3<f32>(0.0);
     var reversed = 1.0;
     var alpha = 1.0;
-    if (!is_hidden(place.pixel, eye)) {
+    if (!hidden) {
         // Of view depth 1, so that ways along it are depths.
         var origin = frame.views[eye].eye;
         var direction = seen_along(eye, at);
@@ -153,7 +158,34 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
         if (any(goggles < vec3<f32>(1.0))) { alpha = 1.0; }
         colour = encoded(frame.shown * goggles * colour) + select(0.0, dither(at), room);
     }
-    depths[pixel_index(place.pixel, eye)] = reversed;
-    textureStore(drawn, place.pixel, eye, vec4<f32>(colour, alpha));
-    textureStore(finished, place.pixel, eye, vec4<f32>(colour, alpha));
+    return Seen(vec4<f32>(colour, alpha), reversed);
+}
+
+@compute @workgroup_size(32, 8)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let place = place_of(group, local);
+    if (!place.inside) { return; }
+    let seen = seen_at_place(place, is_hidden(place.pixel, place.eye));
+    depths[pixel_index(place.pixel, place.eye)] = seen.depth;
+    textureStore(drawn, place.pixel, place.eye, seen.colour);
+    textureStore(finished, place.pixel, place.eye, seen.colour);
+}
+
+/// The same of blocks; `spread.wgsl` finishes them.
+@compute @workgroup_size(8, 8)
+fn coarse(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+    let block = block_of(group, local);
+    if (!block.place.inside) { return; }
+    let eye = block.place.eye;
+    let seen = seen_at_place(block.place, is_block_hidden(block));
+    let high = min(block.low + block.side, vec2<i32>(frame.extent));
+    for (var y = block.low.y; y < high.y; y++) {
+        for (var x = block.low.x; x < high.x; x++) {
+            let pixel = vec2<i32>(x, y);
+            // As hidden pixels are elsewhere.
+            let hidden = frame.hides != 0u && is_hidden(pixel, eye);
+            depths[pixel_index(pixel, eye)] = select(seen.depth, 1.0, hidden);
+            textureStore(drawn, pixel, eye, seen.colour);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Lists the tiles of each class, from their marks, and writes the sizes of the dispatches over them.
 
+//!include common/picture/fovea.wgsl
 //!include common/picture/frame.wgsl
 //!include common/picture/hidden_area.wgsl
 //!include common/picture/tile_marks.wgsl
@@ -9,15 +10,26 @@
 /// Three workgroup counts for each class.
 @group(0) @binding(3) var<storage, read_write> arguments: array<atomic<u32>>;
 
+/// Lists, and of these the first with blocks, as `tiles.rs` numbers them.
+const LISTS = 23u;
+const BLOCKS = 10u;
+
 fn append(class_: u32, tile: u32, all: u32) {
     let place = atomicAdd(&arguments[3u * class_], 1u);
     tile_lists[class_ * all + place] = tile;
 }
 
+/// A tile that is shaded in blocks of so many pixels along their sides, as `common/picture/coarse_blocks.wgsl` reads it.
+fn append_blocks(class_: u32, tile: u32, side: u32, all: u32) {
+    let parts = select(1u, 4u, side == 2u);
+    let place = class_ * all + atomicAdd(&arguments[3u * class_], parts);
+    for (var part = 0u; part < parts; part++) { tile_lists[place + part] = 8u * tile + select(4u, part, side == 2u); }
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if (id.x < 7u) {
-        atomicStore(&arguments[3u * id.x + 1u], 4u);
+    if (id.x < LISTS) {
+        atomicStore(&arguments[3u * id.x + 1u], select(4u, 1u, id.x >= BLOCKS));
         atomicStore(&arguments[3u * id.x + 2u], 1u);
     }
     let of_view = frame.tile_columns * frame.tile_rows;
@@ -30,12 +42,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let low = vec2<u32>(column, row) * TILE;
     let high = min(low + TILE, vec2<u32>(frame.extent));
     // What no eye sees is only made black.
-    let marks = select(tiles[id.x], 0u, is_all_hidden(low, high, eye));
-    var class_ = 2u;
-    if ((marks & MARK_VESSELS) != 0u) { class_ = 1u; }
-    if ((marks & MARK_LIQUID) != 0u) { class_ = 0u; }
-    append(class_, id.x, all);
+    let hidden = is_all_hidden(low, high, eye);
+    let marks = select(tiles[id.x], 0u, hidden);
+    let has_liquid = (marks & MARK_LIQUID) != 0u;
+    let has_glass = (marks & MARK_VESSELS) != 0u;
+    let has_steam = (marks & MARK_STEAM) != 0u;
+    // Its surface is found at each pixel.
+    if (has_liquid) { append(0u, id.x, all); }
     if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
-    if ((marks & MARK_HANDS) != 0u) { append(6u, id.x, all); }
-    if (marks != 0u) { append(select(3u, 4u, (marks & MARK_STEAM) != 0u), id.x, all); }
+    var side = 1u;
+    if (!hidden) { side = block_side(eye, low, high, marks); }
+    if ((marks & MARK_HANDS) != 0u) { append(select(6u, 22u, side != 1u), id.x, all); }
+    if (side == 1u) {
+        append(select(select(2u, 1u, has_glass), 9u, has_liquid), id.x, all);
+        if (marks != 0u) { append(select(3u, 4u, has_steam), id.x, all); }
+    } else {
+        append_blocks(select(select(18u, 14u, has_glass), 10u, has_liquid), id.x, side, all);
+        append(select(7u, 8u, has_steam), 8u * id.x + select(0u, 4u, side == 4u), all);
+    }
 }

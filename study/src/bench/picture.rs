@@ -8,7 +8,7 @@ use glam::{Quat, Vec3};
 use vitriol_experiment::scenery::drawn_liquid;
 use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_gpu::{Gpu, QueueKind, Ticket};
-use vitriol_render::{Fov, View};
+use vitriol_render::{Fov, Foveation, View};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
@@ -43,10 +43,11 @@ pub fn rows(
     args: &BenchArgs,
 ) -> Result<Vec<RenderRow>, Failure> {
     let scene = scenes::load(name)?.with_preset(args.preset);
-    let row = |&(views, extent): &(u32, [u32; 2])| {
-        let (world, camera) = ready(timed, &scene, args, views, extent)?;
+    let row = |case: Case| {
+        let (views, extent, foveation) = case;
+        let (world, camera) = ready(timed, &scene, args, case)?;
         let (passes, total) = passes(timed, &world, &camera, args.frames)?;
-        let (world, camera) = ready(plain, &scene, args, views, extent)?;
+        let (world, camera) = ready(plain, &scene, args, case)?;
         let queued = queued(plain, &world, Some(&camera), args.frames)?;
         Ok(RenderRow {
             scene: name.to_owned(),
@@ -54,6 +55,7 @@ pub fn rows(
             views,
             width: extent[0],
             height: extent[1],
+            foveated: foveation.is_some(),
             passes,
             device_total: total,
             frame: queued,
@@ -61,7 +63,20 @@ pub fn rows(
             solver: self::queued(plain, &world, None, args.frames)?,
         })
     };
-    SIZES.iter().map(row).collect()
+    cases().map(row).collect()
+}
+
+/// A size and where its picture is sharp: a headset's everywhere, and foveated as in a session.
+type Case = (u32, [u32; 2], Option<Foveation>);
+
+fn cases() -> impl Iterator<Item = Case> {
+    SIZES.into_iter().flat_map(|(views, extent)| {
+        let foveated = (views == 2).then(|| Some(Foveation::fixed()));
+        [Some(None), foveated]
+            .into_iter()
+            .flatten()
+            .map(move |foveation| (views, extent, foveation))
+    })
 }
 
 /// A world in motion and the camera before it.
@@ -69,8 +84,7 @@ fn ready(
     gpu: &Gpu,
     scene: &Scene,
     args: &BenchArgs,
-    eyes: u32,
-    extent: [u32; 2],
+    (eyes, extent, foveation): Case,
 ) -> Result<(World, Camera), Failure> {
     let library = Library::watching();
     let world = World::new(gpu, &library, scene, 0).other()?;
@@ -81,6 +95,7 @@ fn ready(
         filter: args.filter,
         tint: None,
         look: None,
+        foveation,
     };
     let mut camera = Camera::new(gpu, &library, scene, &shot)?;
     let aspect = extent[0] as f32 / extent[1] as f32;

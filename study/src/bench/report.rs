@@ -37,6 +37,8 @@ pub struct RenderRow {
     pub width: u32,
     /// Height of a view, pixels.
     pub height: u32,
+    /// Whether it is sharp only where a headset's lenses are.
+    pub foveated: bool,
     /// Each pass, summed over a picture.
     pub passes: Vec<PassRow>,
     /// All passes of a picture by the device's clock, with timestamps around
@@ -256,13 +258,14 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "\n{}: {} fluid particles, {} × {} × {}\n\
+        "\n{}: {} fluid particles, {} × {} × {}{}\n\
          pass                          median ms    95 % ms     number",
         row.scene,
         grouped(row.fluid_particles),
         row.views,
         row.width,
-        row.height
+        row.height,
+        if row.foveated { ", foveated" } else { "" }
     );
     let named = [
         ("picture, all passes, timed", row.device_total),

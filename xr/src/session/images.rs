@@ -6,7 +6,7 @@ use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
 use super::chain::Chain;
 use super::convert::{CallFailure, failed};
 use super::options::OpenXrOptions;
-use crate::{HeadsetError, Targets};
+use crate::{HeadsetError, Targets, depth_extent};
 
 /// See the module.
 pub(super) struct Images {
@@ -47,7 +47,7 @@ impl Images {
         let colour = Eyes::new(gpu, session, "headset", extent, srgb)?;
         let exts = session.instance().exts();
         let depth = match exts.khr_composition_layer_depth.is_some() && offered(d32) {
-            true => Eyes::new(gpu, session, "headset's depth", extent, d32)
+            true => Eyes::new(gpu, session, "headset's depth", depth_extent(extent), d32)
                 .map(Some)
                 .or_else(|failure| failure.do_without("depth in the headset's images", None))?,
             false => None,

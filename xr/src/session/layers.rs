@@ -13,7 +13,7 @@ use super::convert::{CallFailure, failed, fovf, posef};
 use super::images::Eyes;
 use super::live::{Begun, Live};
 use super::stage::Stage;
-use crate::{HeadsetError, Pose, Shown, View};
+use crate::{HeadsetError, Pose, Shown, View, depth_extent};
 
 /// Distance at which depth ends for a runtime that takes no infinite range, m. Depths that were drawn for an infinite one are
 /// then off by a share of distance over this.
@@ -162,7 +162,7 @@ fn depths(depth: &Eyes, shown: &Shown, far: f32) -> [xr::sys::CompositionLayerDe
     [0, 1].map(|eye| xr::sys::CompositionLayerDepthInfoKHR {
         ty: xr::sys::CompositionLayerDepthInfoKHR::TYPE,
         next: std::ptr::null(),
-        sub_image: *depth.corner(eye, shown.extent).as_raw(),
+        sub_image: *depth.corner(eye, depth_extent(shown.extent)).as_raw(),
         min_depth: 0.0,
         max_depth: 1.0,
         near_z: far,

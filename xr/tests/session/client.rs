@@ -119,12 +119,13 @@ impl Client {
                 (texels, Image::new(&gpu, label, desc).unwrap())
             };
             let eyes = targets.colour.desc().extent;
+            let depths = targets.depth.as_ref().map_or(eyes, |it| it.desc().extent);
             let linear = vk::Format::R8G8B8A8_UNORM;
             let colour = vk::ImageUsageFlags::COLOR_ATTACHMENT;
             let depth = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
             Pictures {
                 colour: image("eyes", eyes, 2, linear, colour),
-                depth: image("depth", eyes, 2, vk::Format::D32_SFLOAT, depth),
+                depth: image("depth", depths, 2, vk::Format::D32_SFLOAT, depth),
                 panel: image("panel", PANEL, 1, linear, colour),
             }
         });

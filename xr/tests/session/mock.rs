@@ -51,7 +51,9 @@ fn frames_are_shown_to_both_eyes() {
     for (eye, view) in views.iter().enumerate() {
         assert_eq!(view.image.layer, eye as u32);
         assert_eq!(view.image.rect, [0, 0, 44, 33]);
-        assert!(view.depth.is_some());
+        // Half as wide and high, rounded up, over the same field of view.
+        let depth = view.depth.unwrap().image;
+        assert_eq!((depth.layer, depth.rect), (eye as u32, [0, 0, 22, 17]));
         // 63 mm apart.
         let side = [-0.0315, 0.0315][eye];
         assert_eq!(view.pose.position, head + Vec3::X * side);

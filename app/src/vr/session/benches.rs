@@ -11,6 +11,7 @@ use vitriol_sim::world::Look;
 use vitriol_xr::{Headset, Switch};
 
 use super::ended::NoFrameOpen;
+use crate::vr::foveating::Foveating;
 use crate::vr::picture::Eyes;
 use crate::vr::workbench::{Plan, TAKEN_UP, Workbench};
 
@@ -41,8 +42,8 @@ struct Coming {
 
 impl Benches {
     /// The first bench, at its start.
-    pub fn new(headset: &dyn Headset, plan: &Plan) -> Result<Self, Failure> {
-        let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset));
+    pub fn new(headset: &dyn Headset, plan: &Plan, foveating: Foveating) -> Result<Self, Failure> {
+        let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset, foveating));
         Ok(Self {
             current: Workbench::new(headset.gpu(), &library, plan, &eyes)?,
             library,
@@ -129,7 +130,7 @@ impl Benches {
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
     /// with the first views and may change. Waits for an upload.
     pub fn take_mask(&mut self, headset: &dyn Headset, _: &NoFrameOpen) -> Result<(), Failure> {
-        let eyes = Eyes::of(headset);
+        let eyes = Eyes::of(headset, self.eyes.foveating);
         if eyes.hidden != self.eyes.hidden {
             self.current.picture.hide(&eyes.hidden)?;
             self.eyes = eyes;
@@ -142,7 +143,7 @@ impl Benches {
     /// it, and the looks behind the steps that were taken again are given; `None` where it is not lost.
     pub fn move_to(&mut self, headset: &dyn Headset) -> Result<Option<Vec<Look>>, Failure> {
         let gpu = headset.gpu();
-        self.eyes = Eyes::of(headset);
+        self.eyes = Eyes::of(headset, self.eyes.foveating);
         let before = &self.current.world;
         let mut bench = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
         let state = before.snapshot();

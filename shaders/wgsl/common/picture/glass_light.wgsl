@@ -160,6 +160,8 @@ fn nearest_vessel(bits: u32, eye: u32) -> f32 {
 
 /// How many of `RAYS` are traced.
 override GLASS_RAYS: u32 = 4u;
+/// Pixels over which they are spread.
+override GLASS_SPREAD: f32 = 1.0;
 
 /// Places in a pixel, that a rim thinner than it does not break into dots: a grid, turned.
 const RAYS = array<vec2<f32>, 4>(
@@ -175,7 +177,7 @@ fn glass_over(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
     if (GLASS_RAYS == 1u) { return glass_along(bits, eye, place, end); }
     var sum = Cover(vec3<f32>(0.0), 0.0);
     for (var n = 0u; n < GLASS_RAYS; n++) {
-        let cover = glass_along(bits, eye, place + RAYS[n], end);
+        let cover = glass_along(bits, eye, place + GLASS_SPREAD * RAYS[n], end);
         sum = Cover(sum.colour + cover.colour, sum.open + cover.open);
     }
     return Cover(sum.colour / f32(GLASS_RAYS), sum.open / f32(GLASS_RAYS));

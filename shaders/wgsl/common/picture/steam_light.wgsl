@@ -11,7 +11,7 @@
 //!include common/picture/tile_marks.wgsl
 //!include common/picture/vessel_rays.wgsl
 
-@group(0) @binding(4) var<storage, read> puffs: array<Puff>;
+@group(0) @binding(7) var<storage, read> puffs: array<Puff>;
 /// For each tile a bit a puff, as `tile_puffs.wgsl` writes them.
 @group(0) @binding(5) var<storage, read> puffs_in_tiles: array<u32>;
 @group(0) @binding(6) var<storage, read> depths: array<f32>;

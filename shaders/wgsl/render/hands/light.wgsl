@@ -5,6 +5,7 @@
 //!include common/picture/daylight.wgsl
 //!include common/picture/glove_surface.wgsl
 //!include common/picture/packed_light.wgsl
+//!include common/picture/shaded_pixel.wgsl
 //!include common/picture/tile_pixels.wgsl
 
 /// Reversed depth of the nearest hand or sphere, 0 where there is none; in tiles that have neither, of no meaning.
@@ -23,14 +24,23 @@ const CLOSE = 0.01;
 const SHADE = 2.0;
 const SHADING = 4.0;
 
-/// Pixels of a block, of which a workgroup has four in a row and two in a column. A GPU's invocations in step share one,
-/// and the bones that reach it.
+/// Pixels along a square of which one is looked at: 2 where tiles are coarse (`common/picture/coarse_blocks.wgsl`), of which a
+/// workgroup has all.
+override SIDE: u32 = 1u;
+/// Pixels that are looked at of a block, of which a workgroup has four in a row and two in a column, or two and four. A GPU's
+/// invocations in step share one, and the bones that reach it.
 const BLOCK = vec2<u32>(8u, 4u);
 const BLOCKS = 8u;
 /// Where each bone is seen as far as it has an effect on the surface, and then as far as it has one on its light.
 var<workgroup> seen_bones: array<Seen, 192>;
 /// By block and group a bit for each bone that reaches it; the last three are the whole workgroup's for the light.
 var<workgroup> present: array<atomic<u32>, 27>;
+
+/// The first pixel of a block, from the first one of its workgroup.
+fn corner_of_block(block: u32) -> vec2<u32> {
+    let in_row = 4u / SIDE;
+    return SIDE * BLOCK * vec2<u32>(block % in_row, block / in_row);
+}
 
 /// From where to where a ray from the eye is in a capsule about a bone that is `grown` thicker; the second is 0 where it
 /// passes by.
@@ -95,7 +105,8 @@ fn main(
 ) {
     let block = lane / 32u;
     let in_block = vec2<u32>(lane % BLOCK.x, lane / BLOCK.x % BLOCK.y);
-    let place = place_of(group, vec3<u32>(BLOCK * vec2<u32>(block % 4u, block / 4u) + in_block, 0u));
+    let in_group = corner_of_block(block) + SIDE * in_block;
+    var place = place_of(group, vec3<u32>(in_group, 0u));
     let eye = place.eye;
     // The last half of the invocations looks where light ends.
     let half = lane / 128u;
@@ -109,21 +120,22 @@ fn main(
     }
     workgroupBarrier();
     if (is_bone) {
-        let low = vec2<f32>(place.pixel) - vec2<f32>(BLOCK * vec2<u32>(block % 4u, block / 4u) + in_block);
+        let low = vec2<f32>(place.pixel) - vec2<f32>(in_group);
         let hand = n / BONES;
         let bit = 1u << (n % BONES);
         let at = seen_bones[GROUPS * BONES * half + n];
         if (half == 1u) {
-            if (reaches(at, low, low + vec2<f32>(32.0, 8.0))) { atomicOr(&present[GROUPS * BLOCKS + hand], bit); }
+            if (reaches(at, low, low + vec2<f32>(32.0, f32(8u * SIDE * SIDE)))) { atomicOr(&present[GROUPS * BLOCKS + hand], bit); }
         } else {
             for (var other = 0u; other < BLOCKS; other++) {
-                let corner = low + vec2<f32>(BLOCK * vec2<u32>(other % 4u, other / 4u));
-                if (reaches(at, corner, corner + vec2<f32>(BLOCK))) { atomicOr(&present[GROUPS * other + hand], bit); }
+                let corner = low + vec2<f32>(corner_of_block(other));
+                if (reaches(at, corner, corner + vec2<f32>(SIDE * BLOCK))) { atomicOr(&present[GROUPS * other + hand], bit); }
             }
         }
     }
     workgroupBarrier();
     if (!place.inside) { return; }
+    place.pixel = shaded_in(place.pixel, i32(SIDE));
     var bits: array<u32, GROUPS>;
     for (var hand = 0u; hand < GROUPS; hand++) { bits[hand] = atomicLoad(&present[GROUPS * block + hand]); }
 

@@ -1,0 +1,51 @@
+//! Blocks of pixels in the tiles away from the fovea: each is shaded in one place, the middle of a pixel of it.
+
+//!include common/picture/hidden_area.wgsl
+//!include common/picture/shaded_pixel.wgsl
+//!include common/picture/tile_pixels.wgsl
+
+/// A block in a list: its tile times so much, and the quarter of the tile that it is of (0 to 3, blocks of two by two pixels)
+/// or `WHOLE` (blocks of four by four).
+const PARTS_OF_TILE = 8u;
+const WHOLE = 4u;
+
+/// The block of an invocation, of 8 by 8 in a workgroup.
+struct CoarseBlock {
+    /// The pixel that is shaded.
+    place: Place,
+    /// Its upper left pixel.
+    low: vec2<i32>,
+    /// Pixels along its sides.
+    side: i32,
+}
+
+/// The first pixel of a tile counted row by row, eye by eye; and its eye (z).
+fn corner_of(tile: u32) -> vec3<u32> {
+    let of_view = frame.tile_columns * frame.tile_rows;
+    let eye = tile / of_view;
+    let row = (tile - eye * of_view) / frame.tile_columns;
+    return vec3<u32>(vec2<u32>(tile - eye * of_view - row * frame.tile_columns, row) * TILE, eye);
+}
+
+fn block_of(group: vec3<u32>, local: vec3<u32>) -> CoarseBlock {
+    let of_view = frame.tile_columns * frame.tile_rows;
+    let entry = tile_lists[CLASS * frame.view_count * of_view + group.x];
+    let tile = entry / PARTS_OF_TILE;
+    let part = entry % PARTS_OF_TILE;
+    let side = select(2u, 4u, part == WHOLE);
+    let corner = corner_of(tile);
+    let quarter = (TILE / 2u) * vec2<u32>(part & 1u, (part >> 1u) & 1u);
+    let low = vec2<i32>(corner.xy + quarter + side * local.xy);
+    let inside = all(low < vec2<i32>(frame.extent));
+    let place = Place(shaded_in(low, i32(side)), corner.z, tile, inside);
+    return CoarseBlock(place, low, i32(side));
+}
+
+/// Whether no eye sees any of it, as its corners tell.
+fn is_block_hidden(block: CoarseBlock) -> bool {
+    if (frame.hides == 0u) { return false; }
+    let eye = block.place.eye;
+    let high = min(block.low + block.side, vec2<i32>(frame.extent)) - 1;
+    return is_hidden(block.low, eye) && is_hidden(high, eye)
+        && is_hidden(vec2<i32>(high.x, block.low.y), eye) && is_hidden(vec2<i32>(block.low.x, high.y), eye);
+}
