@@ -28,13 +28,21 @@ fn drops_of(flight: Flight) -> u32 {
     return flight.drops & 0xffu;
 }
 
+/// How unevenly a jet breaks up: along it, over a step; and beside it, in radii. Chosen: waves of other lengths grow nearly as fast.
+const UNEVEN_STEP = 0.2;
+const UNEVEN_SIDE = 1.5;
+
 /// Where drop k of a flight is: behind one another in a jet, and as far about as their bubble reached where a film threw them.
 fn drop_place(flight: Flight, number: u32, k: u32) -> vec3<f32> {
-    if (flight.drops < OF_A_FILM) { return flight.position - f32(k) * JET_STEP * flight.radius * flight.direction; }
-    let reach = pow(FILM_LENGTH_TO_DROPS * flight.radius, 1.0 / 1.625);
     let seed = 3u * (number * MOST_DROPS + k);
-    let lots = vec3<f32>(lot(seed, 1u), lot(seed + 1u, 1u), lot(seed + 2u, 1u));
-    return flight.position + reach * (2.0 * lots - 1.0);
+    let lots = 2.0 * vec3<f32>(lot(seed, 1u), lot(seed + 1u, 1u), lot(seed + 2u, 1u)) - 1.0;
+    if (flight.drops >= OF_A_FILM) {
+        return flight.position + pow(FILM_LENGTH_TO_DROPS * flight.radius, 1.0 / 1.625) * lots;
+    }
+    if (k == 0u) { return flight.position; }
+    let aside = lots - dot(lots, flight.direction) * flight.direction;
+    let back = (f32(k) + UNEVEN_STEP * lots.x) * JET_STEP;
+    return flight.position + flight.radius * (UNEVEN_SIDE * aside - back * flight.direction);
 }
 
 /// Least radius of a drop in the picture, pixels: such that it covers the middle of a pixel.
