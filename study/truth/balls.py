@@ -8,11 +8,12 @@ import numpy as np
 
 # Halvings of an icosahedron's edges: 1280 faces a ball, that lie within 0.5 % of its radius.
 HALVINGS = 3
-# From drop to drop of a jet, in their radii; most drops that a flight is drawn with; and the length that a film's drops have their size
-# from, m: as `shaders/wgsl/common/picture/spray_drops.wgsl` says, with its sources.
+# From drop to drop of a jet, in their radii, and the length that a film's drops have their size from, m: as
+# `shaders/wgsl/common/picture/spray_drops.wgsl` says, with its sources. Of a film it draws eight drops at most, here all are there.
 JET_STEP = 4.77
-MOST_DROPS = 8
 FILM_LENGTH_TO_DROPS = 13.0
+# Finer drops are not seen: 20 µm are a twentieth of a pixel at half a metre.
+LEAST_DROP = 2e-5
 
 
 def cloud(file):
@@ -92,12 +93,14 @@ def spray(file):
     random = np.random.default_rng(1)
     places, radii = [], []
     for n, radius in enumerate(found["radius"]):
+        if radius < LEAST_DROP:
+            continue
         first = np.array([found[axis][n] for axis in "xyz"])
         velocity = np.array([found[axis][n] for axis in ("vx", "vy", "vz")])
         speed = np.linalg.norm(velocity)
         back = -JET_STEP * radius * velocity / speed if speed > 0.0 else np.zeros(3)
         reach = (FILM_LENGTH_TO_DROPS * radius) ** (1.0 / 1.625)
-        for k in range(int(np.clip(found["drops"][n] + 0.5, 1, MOST_DROPS))):
+        for k in range(max(int(found["drops"][n] + 0.5), 1)):
             aside = reach * random.uniform(-1.0, 1.0, 3) if found["film"][n] else k * back
             places.append(first + aside)
             radii.append(radius)
