@@ -7,6 +7,8 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 
+import balls
+
 # How much lower the bench is taken to be, m. Glass stands in its very plane, and a ray would meet either first; real glass
 # stands on a few points, with air between.
 GAP = 5e-5
@@ -51,6 +53,10 @@ def load(folder):
         mesh = mi.load_dict({"type": "ply", "filename": str(next(folder.glob(f"{name}-*.ply")))})
         if mesh.face_count():
             description[name.replace("-", "_")] = mesh
+    # Files of before there were such have none.
+    for name, key, of in (("bubbles", "air_bubble", balls.bubbles), ("spray", "spray", balls.spray)):
+        meshes = (of(file) for file in folder.glob(f"{name}-*.ply"))
+        description.update({key: mesh for mesh in meshes if mesh is not None})
     bench.table = box(folder / "table.ply", GAP)
     bench.room = box(folder / "room.ply", 0.0)
     low, high = bench.room

@@ -14,6 +14,7 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
+import balls
 import compare
 import light as lights
 from bench import Bench, Camera, cube, finish
@@ -159,6 +160,66 @@ class Formulas(unittest.TestCase):
             total = total + (share if first == 0 else np.where(np.array(met) > 0, share, 0.0))
         np.testing.assert_allclose(total, 1.0, atol=1e-5)
 
+    def test_a_bubble_bends_by_snell_and_mirrors_all_beyond_the_critical_angle(self):
+        radius, index, centre = 0.01, 1.333, np.array([0.0, 1.2, -0.4])
+        # A smaller ball in it is no more of a bubble.
+        both = np.array([centre, centre])
+        for shapes in ([centre[None], [radius]], [both, [radius, 0.6 * radius]]):
+            paths = Paths(bench_of(air_bubble=balls.balls("air_bubble", *shapes)), Options(tint=False))
+            count, faces = 40_000, 2 * len(shapes[1])
+            for share in (0.2, 0.4, 0.6, 0.85):
+                inner = share < 1.0 / index
+                outside = math.asin(share)
+                turn = 2.0 * (math.asin(share * index) - outside) if inner else math.pi - 2.0 * outside
+                # Aside by b, upwards: what goes into thinner matter goes away from the normal, so up.
+                origin = centre + [-0.05, share * radius, 0.0]
+                _, _, on, _, _, met, _, _ = fired(paths, origin, [1, 0, 0], LIQUID, count)
+                on, met = np.array(on), np.array(met)
+                crossed = faces if share < 0.6 else 2
+                through = met == (crossed if inner else 1)
+                angle = np.arctan2(on[1], on[0])[through]
+                np.testing.assert_allclose(angle, turn, atol=0.02 if inner else 0.01, err_msg=str(share))
+                if inner:
+                    gas = math.asin(share * index)
+                    s = math.sin(gas - outside) / math.sin(gas + outside)
+                    p = math.tan(gas - outside) / math.tan(gas + outside)
+                    passed = (1.0 - 0.5 * (s * s + p * p)) ** 2
+                    self.assertAlmostEqual(np.mean(through), passed, delta=5 * math.sqrt(passed * (1 - passed) / count) + 2e-3)
+                else:
+                    self.assertTrue(through.all())
+
+    def test_a_bubble_in_the_air_is_a_film(self):
+        radius, centre = 0.01, np.array([0.0, 1.2, -0.4])
+        paths = Paths(bench_of(air_bubble=balls.balls("air_bubble", centre[None], [radius])), Options(tint=False))
+        for share in (0.1, 0.5, 0.9):
+            outside, inner = math.asin(share), math.asin(share / 1.333)
+            s = math.sin(outside - inner) / math.sin(outside + inner)
+            p = math.tan(outside - inner) / math.tan(outside + inner)
+            face = 0.5 * (s * s + p * p)
+            passed = (1.0 - face) / (1.0 + face)
+            origin = centre + [-0.05, share * radius, 0.0]
+            carried, end, on, _, _, met, _, _ = fired(paths, origin, [1, 0, 0], AIR, 64, first=0)
+            self.assertAlmostEqual(carried.x[0], passed, delta=0.01 * passed)
+            straight = np.array(met) == 2
+            self.assertTrue(straight.any())
+            np.testing.assert_allclose(np.array(end.y)[straight], origin[1], atol=1e-5)
+            carried, _, on, *_ = fired(paths, origin, [1, 0, 0], AIR, first=1)
+            self.assertAlmostEqual(carried.x[0], 1.0 - passed, delta=0.01 * passed)
+            self.assertAlmostEqual(math.atan2(on.y[0], on.x[0]), math.pi - 2.0 * outside, 2)
+
+    def test_the_surface_ends_at_a_bubble(self):
+        """A bubble half out of water: a film, no surface within, and the wall below."""
+        radius, centre, share = 0.01, np.array([0.0, 0.80, -0.4]), 0.5
+        shapes = {"air_liquid": sheet(0.80), "air_bubble": balls.balls("air_bubble", centre[None], [radius])}
+        paths = Paths(bench_of(**shapes), Options(tint=False))
+        origin = centre + [share * radius, 0.02, 0.0]
+        _, _, on, _, kind, met, wet, _ = fired(paths, origin, [0, -1, 0], AIR, 4096)
+        straight = (np.array(met) == 3) & (np.array(kind) == 1)
+        self.assertTrue(np.mean(straight) > 0.8)
+        outside, inner = math.asin(share), math.asin(share / 1.333)
+        # Into thicker matter below the middle: away from the axis by the angle between them.
+        np.testing.assert_allclose(np.arctan2(np.array(on)[0], -np.array(on)[1])[straight], outside - inner, atol=0.01)
+
     def test_panes_light_the_bench_as_the_key_light_does(self):
         half, bars, radiance = lights.panes()
         direction, key = lights.key_light(lights.BENCH)
@@ -215,6 +276,17 @@ class Formulas(unittest.TestCase):
         r = 0.5 * (s + p)
         passed = np.sum((1 - r) / (1 + r) * np.sin(2 * angles)) * 0.5 * math.pi / 2000
         self.assertAlmostEqual(np.mean(kind != 1), passed, delta=5 * math.sqrt(0.25 / count))
+
+    def test_balls_have_their_volume_and_drops_their_places(self):
+        mesh = balls.balls("spray", np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), [0.1, 0.2])
+        parameters = mi.traverse(mesh)
+        places = np.array(parameters["vertex_positions"]).reshape(-1, 3)
+        a, b, c = (places[np.array(parameters["faces"]).reshape(-1, 3)[:, n]] for n in range(3))
+        self.assertAlmostEqual(np.sum(np.cross(a, b) * c) / 6.0, 4.0 / 3.0 * math.pi * (0.1**3 + 0.2**3), 6)
+        text = (SHADERS / "spray_drops.wgsl").read_text()
+        number = lambda name: float(re.search(rf"const {name} = ([\d.]+)", text).group(1))
+        self.assertEqual(number("JET_STEP"), balls.JET_STEP)
+        self.assertEqual(number("FILM_LENGTH_TO_DROPS"), balls.FILM_LENGTH_TO_DROPS)
 
     def test_flip_of_a_picture_with_itself_is_0(self):
         picture = np.random.default_rng(1).random((64, 64, 3), np.float32)

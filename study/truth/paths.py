@@ -1,7 +1,8 @@
 """Light's paths, on Mitsuba's rays and in its compiled loops.
 
 A path from the eye is bent or mirrored at each surface between air, glass and liquid, by Snell and Fresnel, and dimmed in
-liquid by Beer and Lambert, until it meets bench, floor or wall. What those send back is taken as in `light.py`: the panes by
+liquid by Beer and Lambert, until it meets bench, floor or wall. Bubbles are gas in the liquid, and films where they stand
+out of it; balls that overlap are one bubble. What bench, floor and walls send back is taken as in `light.py`: the panes by
 a ray to a point of them, all other light by one ray into the hemisphere, which glass and liquid bend as well. So a caustic
 is light of the panes that such a ray finds behind glass or liquid.
 
@@ -83,8 +84,11 @@ class Paths:
         return mi.Bool(False) if shape is None else found.shape == mi.ShapePtr(shape)
 
     def sides(self, found, way):
-        """The media before and behind what was found, whether it is bench, and its normals, which face the ray."""
-        wet, lined, glass = (self.is_shape(found, name) for name in ("air_liquid", "glass_liquid", "air_glass"))
+        """The media before and behind what was found, whether it is bench, whether a bubble's face, and that from outside, and its
+        normals, which face the ray. Of a bubble's face the media are not told."""
+        names = ("air_liquid", "glass_liquid", "air_glass", "air_bubble", "spray")
+        wet, lined, glass, bubble, spray = (self.is_shape(found, name) for name in names)
+        wet |= spray
         smooth = found.sh_frame.n
         flat = found.n * dr.select(dr.dot(found.n, smooth) < 0.0, -1.0, 1.0)
         outside = dr.dot(way, flat) < 0.0
@@ -95,7 +99,7 @@ class Paths:
         sign = dr.select(outside, 1.0, -1.0)
         flat, smooth = flat * sign, smooth * sign
         smooth = dr.select(dr.dot(way, smooth) < -0.01, smooth, flat)
-        return before, behind, ~(wet | lined | glass), smooth, flat
+        return before, behind, ~(wet | lined | glass | bubble), bubble, bubble & outside, smooth, flat
 
     def index(self, medium, at):
         air, glass, water = self.options.index
@@ -134,6 +138,8 @@ class Paths:
         kind, met = mi.UInt(0), mi.UInt(0)
         normal = mi.Normal3f(0.0, 1.0, 0.0)
         wet = mi.Bool(False)
+        # Bubbles that the ray is in.
+        within = mi.UInt(0)
         going = mi.Bool(True)
         while going:
             found = self.bench.scene.ray_intersect(mi.Ray3f(origin, way))
@@ -144,24 +150,29 @@ class Paths:
             # The upper panes are above the ceiling, which keeps no light away.
             walls = dr.select((panes < length) | mi.Bool(not room), FAR, walls)
             ends = (panes < length) | (walls < length) | ~hit
-            before, behind, bench, smooth, flat = self.sides(found, way)
+            before, behind, bench, bubble, enters, smooth, flat = self.sides(found, way)
+            # A bubble's face is in what is around it.
+            before, behind = dr.select(bubble, medium, before), dr.select(bubble, medium, behind)
+            after = dr.select(enters, within + 1, dr.select(bubble & (within > 0), within - 1, within))
             # At a surface its own side says what was gone through.
             medium = dr.select(ends | bench, medium, before)
             length = lesser(length, lesser(panes, walls))
             dimmed = self.dimmed(origin, way, length, rng)
-            carried *= dr.select((medium == LIQUID) & (length < FAR), dimmed, 1.0)
+            carried *= dr.select((medium == LIQUID) & (within == 0) & (length < FAR), dimmed, 1.0)
             wet |= (medium == LIQUID) | (~ends & ~bench & (behind == LIQUID))
             kind = dr.select(ends, dr.select((panes < FAR) & (panes <= length), 3, dr.select(walls < FAR, 2, 0)), dr.select(bench, 1, kind))
             normal = dr.select(ends, wall_normal, dr.select(bench, mi.Normal3f(flat), normal))
             goes_on = ~(ends | bench)
             at = origin + length * way
-            n_before, n_behind = self.index(before, at), self.index(behind, at)
+            film = bubble & (medium == AIR) & ((within == 0) | (after == 0))
+            n_before = self.index(dr.select((before == LIQUID) & (within > 0), AIR, before), at)
+            n_behind = self.index(dr.select(film, LIQUID, dr.select((behind == LIQUID) & (after > 0), AIR, behind)), at)
             lot = rng.next_float32()
             if first is not None:
                 forced = dr.select(mi.Bool(first == 1), mi.Float(-1.0), mi.Float(2.0))
                 lot = dr.select(met == 0, forced, lot)
-            on, mirrored, share = bend(way, smooth, n_before, n_behind, lot)
-            on_flat, mirrored_flat, share_flat = bend(way, flat, n_before, n_behind, lot)
+            on, mirrored, share = bend(way, smooth, n_before, n_behind, lot, film)
+            on_flat, mirrored_flat, share_flat = bend(way, flat, n_before, n_behind, lot, film)
             # Where a bent normal would send it to the wrong side, the flat one counts.
             right = (dr.dot(on, flat) > 0.0) == mirrored
             on, mirrored = dr.select(right, on, on_flat), dr.select(right, mirrored, mirrored_flat)
@@ -172,6 +183,7 @@ class Paths:
                 carried *= dr.select(goes_on, 1.0 - share, 1.0)
                 on, mirrored = way, mi.Bool(False)
             medium = dr.select(goes_on & ~mirrored, behind, medium)
+            within = dr.select(goes_on & ~mirrored, after, within)
             met += dr.select(goes_on, 1, 0)
             aside = dr.select(mirrored, CLEAR, -CLEAR)
             origin = dr.select(goes_on, found.p + aside * flat, dr.select(length < FAR, at, origin))

@@ -22,8 +22,10 @@ def colour(values):
     return mi.Color3f(*[float(value) for value in values])
 
 
-def bend(way, normal, before, after, lot):
-    """Where a ray goes on at a surface whose normal faces it; the lot says whether it is mirrored. With that, the reflectance."""
+def bend(way, normal, before, after, lot, film=False):
+    """Where a ray goes on at a surface whose normal faces it; the lot says whether it is mirrored. With that, the reflectance.
+
+    A film mirrors at two faces, with all that goes to and fro between them, and what it lets pass goes straight on."""
     cosine = greater(-dr.dot(way, normal), 1e-6)
     ratio = before / after
     sine = ratio * ratio * greater(1.0 - cosine * cosine, 0.0)
@@ -31,9 +33,11 @@ def bend(way, normal, before, after, lot):
     s = (before * cosine - after * inner) / (before * cosine + after * inner)
     p = (before * inner - after * cosine) / (before * inner + after * cosine)
     share = dr.select(sine >= 1.0, 1.0, 0.5 * (s * s + p * p))
+    share = dr.select(film, 2.0 * share / (1.0 + share), share)
     mirrored = lot < share
     back = way + 2.0 * cosine * normal
     on = ratio * way + (ratio * cosine - inner) * normal
+    on = dr.select(film, way, on)
     return dr.normalize(dr.select(mirrored, back, on)), mirrored, share
 
 
