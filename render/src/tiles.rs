@@ -55,18 +55,18 @@ pub(crate) enum Class {
     SpreadSteam = 8,
     /// Liquid of which every pixel is shaded, and perhaps glass.
     SharpLiquid = 9,
-    /// Of which blocks are shaded, by their parts, of which a tile has up to four: liquid, and perhaps glass.
+    /// Of which blocks are shaded: liquid, and perhaps glass.
     CoarseLiquid = 10,
-    /// Glass without liquid.
-    CoarseGlass = 14,
-    /// Neither.
-    CoarsePlain = 18,
-    /// Hands, by whole tiles.
-    CoarseHands = 22,
+    /// Glass without liquid, likewise.
+    CoarseGlass = 11,
+    /// Neither, likewise.
+    CoarsePlain = 12,
+    /// Hands, likewise.
+    CoarseHands = 13,
 }
 
-/// Lists, as in `render/tile_lists.wgsl`: a list of parts is as long as four.
-const LISTS: u64 = 23;
+/// As in `render/tile_lists.wgsl`.
+const LISTS: u64 = 14;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {

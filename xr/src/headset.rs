@@ -44,6 +44,10 @@ pub trait Headset {
     /// As for [`Headset::next`].
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError>;
 
+    /// Where the user looks, as it was when the eyes were located last: from between them along -Z, in the stage. `None` where
+    /// that is not known, or not asked for.
+    fn gaze(&self) -> Option<Pose>;
+
     /// Ends the frame; without `shown` nothing is shown.
     ///
     /// # Errors

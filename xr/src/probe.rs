@@ -126,6 +126,10 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
         ),
         ("XR_KHR_visibility_mask", offered.khr_visibility_mask),
         ("XR_EXT_local_floor", offered.ext_local_floor),
+        (
+            "XR_EXT_eye_gaze_interaction",
+            offered.ext_eye_gaze_interaction,
+        ),
         ("XR_EXT_hand_interaction", offered.ext_hand_interaction),
         ("XR_EXT_hand_tracking", offered.ext_hand_tracking),
         ("XR_EXT_user_presence", offered.ext_user_presence),

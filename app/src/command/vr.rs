@@ -211,6 +211,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 },
                 instance_extensions: Vec::new(),
                 device_extensions: Vec::new(),
+                gaze: args.foveation == Foveating::Eye,
                 panel: PANEL,
             };
             let mut told = false;
@@ -457,6 +458,7 @@ fn describe(session: &SessionReport) -> String {
     text += &governed(&session.governor);
     text += match session.foveation {
         Foveating::Off => "every pixel shaded\n",
+        Foveating::Eye => "every pixel shaded about where the user looks, if known, fewer beyond\n",
         Foveating::Fixed => "every pixel shaded about the lenses' axes, fewer beyond\n",
     };
     let rows = [

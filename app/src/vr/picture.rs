@@ -51,7 +51,6 @@ pub struct Picture {
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
     gloves: Gloves,
-    foveation: Option<Foveation>,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
     under_way: Vec<Ticket>,
     drawn: usize,
@@ -94,6 +93,8 @@ pub struct Sight<'a> {
     pub goggles: f32,
     /// Share of the light that is shown, 0 to 1.
     pub shown: f32,
+    /// Where it is sharp; `None` for everywhere.
+    pub foveation: Option<Foveation>,
 }
 
 impl Picture {
@@ -120,7 +121,7 @@ impl Picture {
         let desc = RenderDesc {
             views: 2,
             liquid: Some(subject.liquid),
-            foveated: eyes.foveating.foveation().is_some(),
+            foveated: eyes.foveating != Foveating::Off,
             ..RenderDesc::film(eyes.extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
@@ -137,7 +138,6 @@ impl Picture {
             renderer,
             puffs,
             gloves: Gloves::of(scene),
-            foveation: eyes.foveating.foveation(),
             under_way: Vec::new(),
             drawn: 0,
         };
@@ -269,7 +269,7 @@ impl Picture {
             pane: vitriol_experiment::pane(world),
             shown: sight.map_or(1.0, |sight| sight.shown),
             goggles: sight.map_or(0.0, |sight| sight.goggles),
-            foveation: self.foveation,
+            foveation: sight.and_then(|sight| sight.foveation),
             colour_by: ColourBy::Acid,
             length_scale: scale,
         };

@@ -81,6 +81,8 @@ pub struct StandIn {
     leaving: bool,
     /// Display rates that it offers, Hz.
     pub rates: Vec<f32>,
+    /// Where its wearer looks, in the stage; `None` where it does not tell.
+    pub gaze: Option<Pose>,
     /// What the left and the right hand feel.
     pub felt: [f32; 2],
     compositor: Option<Compositor>,
@@ -120,6 +122,7 @@ impl StandIn {
             view: Pose::IDENTITY,
             leaving: false,
             rates: Vec::new(),
+            gaze: None,
             felt: [0.0; 2],
             compositor: (spec.timing == Timing::Real).then(Compositor::start),
             name: format!(
@@ -292,6 +295,10 @@ impl Headset for StandIn {
             fov,
         };
         Ok([eye(-1.0, LEFT_EYE), eye(1.0, mirrored(LEFT_EYE))])
+    }
+
+    fn gaze(&self) -> Option<Pose> {
+        self.gaze
     }
 
     fn end(&mut self, _shown: Option<&Shown>) -> Result<(), HeadsetError> {

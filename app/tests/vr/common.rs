@@ -183,6 +183,9 @@ impl<T: Trouble> Headset for Worn<T> {
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
         self.inner.locate_views()
     }
+    fn gaze(&self) -> Option<Pose> {
+        self.inner.gaze()
+    }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.shown.extend(shown.copied());
         self.felt.push(self.inner.felt);

@@ -1,9 +1,10 @@
 //! A session whose pictures are sharp about the lenses' axes, beside one whose are everywhere.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use vitriol::vr::foveating::Foveating;
 use vitriol_gpu::Gpu;
 use vitriol_tests::gpu;
+use vitriol_xr::Pose;
 
 use crate::common::{Calm, Worn, nobody, options, pour, session_with};
 use crate::seen::Seen;
@@ -48,5 +49,38 @@ fn pictures_are_sharp_about_the_axis() {
     // Of a field of 94° by 97°.
     assert!(within > 8000, "{within}");
     assert!(of_panel > 4000, "{of_panel}");
+    assert!(others > 100_000, "{others}");
+}
+
+/// In a headset that tells where its wearer looks, it is sharp there.
+#[test]
+fn pictures_are_sharp_where_the_user_looks() {
+    let gpu = gpu::device();
+    let (sharp, _) = look(&gpu, Foveating::Off);
+    let folder = tempfile::tempdir().unwrap();
+    let track = pour().sample_track();
+    let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 6), Calm);
+    // To the left and down of where the head is, half a metre off.
+    let head = sharp.eye();
+    let turn = head.orientation * Quat::from_rotation_y(0.45) * Quat::from_rotation_x(-0.3);
+    let gaze = Pose::new(head.transform_point(0.0315 * Vec3::X), turn);
+    headset.inner.gaze = Some(gaze);
+    let mut options = options(folder.path());
+    options.foveating = Foveating::Eye;
+    session_with(&mut headset, options, nobody());
+    let foveated = Seen::last(&gpu, "foveating-eye", &headset);
+    let place = gaze.transform_point(0.5 * Vec3::NEG_Z);
+    let looked_at = head.inverse().transform_point(place);
+    let [mut within, mut others] = [0, 0];
+    for (index, (a, b)) in sharp.pixels.iter().zip(&foveated.pixels).enumerate() {
+        let [x, y] = [index as u32 % EXTENT[0], index as u32 / EXTENT[0]];
+        if sharp.along(x, y).angle_between(looked_at).to_degrees() <= 10.0 {
+            assert_eq!(a, b, "({x}, {y})");
+            within += 1;
+        } else {
+            others += u32::from(a != b);
+        }
+    }
+    assert!(within > 8000, "{within}");
     assert!(others > 100_000, "{others}");
 }

@@ -104,6 +104,9 @@ impl<T: Trouble> Headset for Strict<T> {
         self.located = Some(views);
         Ok(views)
     }
+    fn gaze(&self) -> Option<Pose> {
+        self.inner.gaze()
+    }
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
         self.within += waits() - self.begun.take().unwrap();
         // What is submitted is what was located, this frame.

@@ -103,6 +103,11 @@ impl Seen {
         }
     }
 
+    /// Where the eye was in the stage.
+    pub fn eye(&self) -> Pose {
+        self.view.stage_from_eye
+    }
+
     /// Direction in the eye's frame, of depth 1, to what is seen at a pixel.
     pub fn along(&self, x: u32, y: u32) -> Vec3 {
         let fov = self.view.fov;

@@ -35,17 +35,15 @@ fn spread(pixel: vec2<i32>, eye: u32, side: i32) -> vec4<f32> {
 
 @compute @workgroup_size(32, 8)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
-    let of_view = frame.tile_columns * frame.tile_rows;
-    let entry = tile_lists[CLASS * frame.view_count * of_view + group.x];
-    let tile = entry / PARTS_OF_TILE;
-    let corner = corner_of(tile);
+    let shaded_tile = coarse_tile(group.x);
+    let corner = corner_of(shaded_tile.tile);
     let pixel = vec2<i32>(corner.xy + vec2<u32>(local.x, 8u * group.y + local.y));
     if (any(pixel >= vec2<i32>(frame.extent))) { return; }
     let eye = corner.z;
     var colour = vec4<f32>(0.0, 0.0, 0.0, 1.0);
     if (frame.hides == 0u || !is_hidden(pixel, eye)) {
-        colour = spread(pixel, eye, select(2, 4, entry % PARTS_OF_TILE == WHOLE));
-        if (STEAM) { colour = under_steam(colour, Place(pixel, eye, tile, true)); }
+        colour = spread(pixel, eye, i32(shaded_tile.side));
+        if (STEAM) { colour = under_steam(colour, Place(pixel, eye, shaded_tile.tile, true)); }
     }
     textureStore(finished, pixel, eye, colour);
 }

@@ -10,26 +10,18 @@
 /// Three workgroup counts for each class.
 @group(0) @binding(3) var<storage, read_write> arguments: array<atomic<u32>>;
 
-/// Lists, and of these the first with blocks, as `tiles.rs` numbers them.
-const LISTS = 23u;
-const BLOCKS = 10u;
+/// Lists, of which the last is of hands in coarse tiles, as `tiles.rs` numbers them.
+const LISTS = 14u;
 
 fn append(class_: u32, tile: u32, all: u32) {
     let place = atomicAdd(&arguments[3u * class_], 1u);
     tile_lists[class_ * all + place] = tile;
 }
 
-/// A tile that is shaded in blocks of so many pixels along their sides, as `common/picture/coarse_blocks.wgsl` reads it.
-fn append_blocks(class_: u32, tile: u32, side: u32, all: u32) {
-    let parts = select(1u, 4u, side == 2u);
-    let place = class_ * all + atomicAdd(&arguments[3u * class_], parts);
-    for (var part = 0u; part < parts; part++) { tile_lists[place + part] = 8u * tile + select(4u, part, side == 2u); }
-}
-
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (id.x < LISTS) {
-        atomicStore(&arguments[3u * id.x + 1u], select(4u, 1u, id.x >= BLOCKS));
+        atomicStore(&arguments[3u * id.x + 1u], select(4u, 1u, id.x == LISTS - 1u));
         atomicStore(&arguments[3u * id.x + 2u], 1u);
     }
     let of_view = frame.tile_columns * frame.tile_rows;
@@ -52,12 +44,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
     var side = 1u;
     if (!hidden) { side = block_side(eye, low, high, marks); }
-    if ((marks & MARK_HANDS) != 0u) { append(select(6u, 22u, side != 1u), id.x, all); }
+    if ((marks & MARK_HANDS) != 0u) { append(select(6u, 13u, side != 1u), id.x, all); }
     if (side == 1u) {
         append(select(select(2u, 1u, has_glass), 9u, has_liquid), id.x, all);
         if (marks != 0u) { append(select(3u, 4u, has_steam), id.x, all); }
     } else {
-        append_blocks(select(select(18u, 14u, has_glass), 10u, has_liquid), id.x, side, all);
-        append(select(7u, 8u, has_steam), 8u * id.x + select(0u, 4u, side == 4u), all);
+        // As `common/picture/coarse_blocks.wgsl` reads it.
+        let entry = 2u * id.x + select(0u, 1u, side == 4u);
+        append(select(select(12u, 11u, has_glass), 10u, has_liquid), entry, all);
+        append(select(7u, 8u, has_steam), entry, all);
     }
 }

@@ -116,13 +116,31 @@ impl State {
         })
     }
 
-    /// Where a pose action's hand is.
+    /// Where the wearer looks, where the action is bound to that.
+    fn gaze(&self, session: u64, action: u64) -> Option<(Pose, Known)> {
+        let session = self.sessions.get(&session)?;
+        let set = self.actions.get(&action)?.set;
+        let bound = self
+            .instances
+            .get(&session.instance)?
+            .bindings
+            .get(profiles::GAZE)?;
+        let bound = bound.iter().any(|(bound, _)| *bound == action);
+        let active = session.active_sets.contains(&set);
+        let gaze = self.world.gaze.filter(|_| bound && active)?;
+        Some((gaze, Known::TRACKED))
+    }
+
+    /// Where a pose action's hand is, or the eyes.
     pub(crate) fn action_pose(
         &self,
         session: u64,
         action: u64,
         hand: sys::Path,
     ) -> Option<(Pose, Known)> {
+        if let Some(gaze) = self.gaze(session, action) {
+            return Some(gaze);
+        }
         let driven = self.drives(session, action, hand)?;
         let side = match side_of(self, hand) {
             Some(side) => side,
@@ -279,7 +297,7 @@ pub(crate) extern "system" fn suggest_interaction_profile_bindings(
             }
             let known = hand_of(&path)
                 .is_some_and(|(side, control)| profiles::has(&profile, &on, side, control));
-            if !known {
+            if !known && !profiles::is_gaze(&profile, &path) {
                 return Err(R::ERROR_PATH_UNSUPPORTED);
             }
             bindings.push((action, path));

@@ -119,12 +119,22 @@ fn controls(profile: &str, extensions: &[String]) -> Option<Controls> {
             "input/grasp_ext/value",
             "input/grasp_ext/ready_ext",
         ],
+        "ext/eye_gaze_interaction" if on("XR_EXT_eye_gaze_interaction") => &[],
         _ => return None,
     };
     Some([both, &[], &[]])
 }
 
-/// What every profile has.
+/// The gaze's profile, which no hand has, and its only path.
+pub(crate) const GAZE: &str = "/interaction_profiles/ext/eye_gaze_interaction";
+const GAZE_POSE: &str = "/user/eyes_ext/input/gaze_ext/pose";
+
+/// Whether that path is one of the profile and of no hand.
+pub(crate) fn is_gaze(profile: &str, path: &str) -> bool {
+    (profile, path) == (GAZE, GAZE_POSE)
+}
+
+/// What every hand's profile has.
 const POSES: [&str; 4] = [
     "input/grip",
     "input/grip/pose",
@@ -142,6 +152,9 @@ pub(crate) fn has(profile: &str, extensions: &[String], side: usize, control: &s
     let Some(controls) = controls(profile, extensions) else {
         return false;
     };
+    if profile == GAZE {
+        return false;
+    }
     let of = [&POSES[..], controls[0], controls[1 + side]];
     of.iter().any(|list| list.contains(&control))
 }

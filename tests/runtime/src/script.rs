@@ -39,6 +39,9 @@ pub enum Change {
         /// The 26 joints in the extension's order; `None` for a hand that is not seen.
         joints: Option<Vec<Joint>>,
     },
+    /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction), in the runtime's own world; `None` where that is not
+    /// known.
+    Gaze(Option<Pose>),
     /// A reference space gets another origin.
     Move {
         /// Which: all but VIEW and actions'.
@@ -139,6 +142,14 @@ impl Change {
             side,
             state: Some(state),
         }
+    }
+
+    /// The runtime offers what it offers by itself, and this extension.
+    #[must_use]
+    pub fn offer_too(extension: &str) -> Self {
+        let mut all = crate::world::World::default().extensions;
+        all.push(extension.to_owned());
+        Self::Extensions(all)
     }
 
     /// The space moves with the next frame, and the runtime says so.

@@ -272,6 +272,7 @@ impl State {
             Change::Head { pose, known } => world.head = (pose, known),
             Change::Hand { side, state } => world.hands[side] = state,
             Change::Joints { side, joints } => world.joints[side] = joints,
+            Change::Gaze(pose) => world.gaze = pose,
             Change::Move {
                 space,
                 origin,

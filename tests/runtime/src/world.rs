@@ -5,7 +5,7 @@ use openxr::sys;
 use crate::script::{Fov, Goal, HandState, Joint, Known, Pose, SpaceKind};
 
 /// The extensions that Vitriol's client uses.
-pub(crate) const ALL: [&str; 9] = [
+pub(crate) const ALL: [&str; 10] = [
     "XR_KHR_vulkan_enable2",
     "XR_KHR_composition_layer_depth",
     "XR_KHR_visibility_mask",
@@ -16,6 +16,7 @@ pub(crate) const ALL: [&str; 9] = [
     // Offered only where the script says so: with it there is no other hand tracking.
     "XR_EXT_hand_interaction",
     "XR_BD_controller_interaction",
+    "XR_EXT_eye_gaze_interaction",
 ];
 
 /// VK_FORMAT_R8G8B8A8_SRGB and VK_FORMAT_D32_SFLOAT.
@@ -59,6 +60,8 @@ pub(crate) struct World {
     pub head: (Pose, Known),
     pub hands: [Option<HandState>; 2],
     pub joints: [Option<Vec<Joint>>; 2],
+    /// Where the wearer looks, along -Z; `None` where nobody tracks it.
+    pub gaze: Option<Pose>,
     pub local: Origins,
     pub floor: Origins,
     pub stage: Origins,
@@ -92,6 +95,7 @@ impl Default for World {
             head: (Pose::at(0.0, 1.6, 0.0), Known::TRACKED),
             hands: [0, 1].map(|side| Some(HandState::touch(side))),
             joints: [None, None],
+            gaze: None,
             local: Origins::new(Pose::at(0.0, 1.6, 0.0)),
             floor: Origins::new(Pose::IDENTITY),
             stage: Origins::new(Pose::IDENTITY),

@@ -7,7 +7,7 @@ use openxr as xr;
 use super::bindings::{On, POSES, PROFILES, Profile, Use};
 use super::convert::{CallFailure, failed, located};
 use super::seen::Seen;
-use crate::{Hand, Joints, Side};
+use crate::{Hand, Joints, Pose, Side};
 
 type Session = xr::Session<xr::Vulkan>;
 
@@ -18,6 +18,8 @@ const FADE_NS: i64 = 200_000_000;
 pub(super) struct Actions {
     hands: [Bound; 2],
     seen: Option<Seen>,
+    /// Where the user looks; `None` where the runtime does not tell.
+    gaze: Option<xr::Space>,
     of: Set,
     /// Which hands were shaken when that was last said.
     shaken: [bool; 2],
@@ -34,6 +36,7 @@ struct Set {
     a: xr::Action<bool>,
     b: xr::Action<bool>,
     haptic: xr::Action<xr::Haptic>,
+    gaze: Option<xr::Action<xr::Posef>>,
     set: xr::ActionSet,
 }
 
@@ -63,6 +66,10 @@ impl Set {
             a: action(&set, "button_a", "First button", &hands)?,
             b: action(&set, "button_b", "Second button", &hands)?,
             haptic: action(&set, "haptic", "Feel", &hands)?,
+            gaze: match instance.exts().ext_eye_gaze_interaction {
+                Some(_) => Some(action(&set, "gaze", "Look", &[])?),
+                None => None,
+            },
             hands,
             set,
         })
@@ -98,6 +105,20 @@ impl Set {
         let path = find(instance, profile.path)?;
         Ok(instance.suggest_interaction_profile_bindings(path, &bindings))
     }
+
+    /// Suggests the gaze's binding, which is of no hand (XR_EXT_eye_gaze_interaction).
+    fn suggest_gaze(&self, instance: &xr::Instance) -> Result<(), CallFailure> {
+        let Some(gaze) = &self.gaze else {
+            return Ok(());
+        };
+        let profile = find(instance, "/interaction_profiles/ext/eye_gaze_interaction")?;
+        let path = find(instance, "/user/eyes_ext/input/gaze_ext/pose")?;
+        let binding = xr::Binding::new(gaze, path);
+        if let Err(answer) = instance.suggest_interaction_profile_bindings(profile, &[binding]) {
+            tracing::warn!(%answer, "binding of the gaze refused");
+        }
+        Ok(())
+    }
 }
 
 impl Actions {
@@ -112,6 +133,7 @@ impl Actions {
                 tracing::warn!(profile = profile.path, %answer, "bindings refused");
             }
         }
+        of.suggest_gaze(instance)?;
         session
             .attach_action_sets(&[&of.set])
             .map_err(failed("xrAttachSessionActionSets"))?;
@@ -131,6 +153,10 @@ impl Actions {
         Ok(Self {
             hands: [bound(of.hands[0])?, bound(of.hands[1])?],
             seen: Seen::new(instance, session),
+            gaze: match &of.gaze {
+                Some(gaze) => Some(space(gaze, xr::Path::NULL)?),
+                None => None,
+            },
             of,
             shaken: [false; 2],
         })
@@ -243,6 +269,19 @@ impl Actions {
         Ok(())
     }
 
+    /// Where the user looks at `time`, as the last sync has it: from between the eyes along -Z. `None` where that is not known.
+    pub(super) fn gaze(
+        &self,
+        stage: &xr::Space,
+        time: xr::Time,
+    ) -> Result<Option<Pose>, CallFailure> {
+        let Some(gaze) = &self.gaze else {
+            return Ok(None);
+        };
+        let found = gaze.locate(stage, time).map_err(failed("xrLocateSpace"))?;
+        Ok(located(&found))
+    }
+
     /// Shakes a hand, or stops it at amplitude 0. A hand that is still is left alone: some runtimes send a packet to the
     /// controller for each call.
     pub(super) fn vibrate(
@@ -305,7 +344,7 @@ mod tests {
             return;
         };
         let entry = system::entry().unwrap();
-        let instance = system::instance(&entry).unwrap();
+        let instance = system::instance(&entry, false).unwrap();
         let set = Set::new(&instance).unwrap();
         for profile in &PROFILES {
             let path = profile.path;

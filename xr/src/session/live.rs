@@ -74,7 +74,7 @@ pub(super) struct Live {
 impl Live {
     /// Everything from the instance on, or nothing.
     pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, CallFailure> {
-        let instance = system::instance(entry)?;
+        let instance = system::instance(entry, options.gaze)?;
         let ConnectedHeadset {
             system,
             extent,

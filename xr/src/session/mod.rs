@@ -63,6 +63,7 @@ pub struct OpenXr {
     index: u64,
     head: Pose,
     eyes: Eyes,
+    gaze: Option<Pose>,
     hands: [Hand; 2],
 }
 
@@ -111,6 +112,7 @@ impl OpenXr {
             index: 0,
             head: Pose::IDENTITY,
             eyes: Eyes::default(),
+            gaze: None,
             hands: [Hand::default(), Hand::default()],
         })
     }
@@ -321,9 +323,15 @@ impl Headset for OpenXr {
             && let Some(begun) = live.begun
         {
             let located = self.eyes.locate(live, begun, &self.head);
+            let gaze = live.actions.gaze(&live.stage.space, begun.time);
             self.settle(located)?;
+            self.gaze = self.settle(gaze)?.flatten();
         }
         Ok(self.eyes.views)
+    }
+
+    fn gaze(&self) -> Option<Pose> {
+        self.gaze
     }
 
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {

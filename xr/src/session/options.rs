@@ -11,6 +11,8 @@ pub struct OpenXrOptions {
     pub instance_extensions: Vec<CString>,
     /// Further device extensions, such as `VK_KHR_swapchain`.
     pub device_extensions: Vec<CString>,
+    /// Whether the runtime is asked where the user looks, if it can tell: some ask the user for leave.
+    pub gaze: bool,
     /// Width and height of the panel, pixels.
     pub panel: [u32; 2],
 }

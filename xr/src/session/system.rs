@@ -20,8 +20,8 @@ pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
     crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 
-/// An instance with the extensions of ours that the runtime offers.
-pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, CallFailure> {
+/// An instance with the extensions of ours that the runtime offers, that of the `gaze` only where it is asked for.
+pub(super) fn instance(entry: &xr::Entry, gaze: bool) -> Result<xr::Instance, CallFailure> {
     let absent = |error| none(probe::no_runtime(error));
     let offered = entry.enumerate_extensions().map_err(absent)?;
     if !offered.khr_vulkan_enable2 {
@@ -32,6 +32,7 @@ pub(super) fn instance(entry: &xr::Entry) -> Result<xr::Instance, CallFailure> {
     wanted.khr_composition_layer_depth = offered.khr_composition_layer_depth;
     wanted.khr_visibility_mask = offered.khr_visibility_mask;
     wanted.ext_local_floor = offered.ext_local_floor;
+    wanted.ext_eye_gaze_interaction = gaze && offered.ext_eye_gaze_interaction;
     wanted.ext_hand_interaction = offered.ext_hand_interaction;
     wanted.ext_hand_tracking = offered.ext_hand_tracking;
     wanted.ext_user_presence = offered.ext_user_presence;

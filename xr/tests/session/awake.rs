@@ -11,6 +11,7 @@ fn options() -> OpenXrOptions {
         gpu: Options::default(),
         instance_extensions: Vec::new(),
         device_extensions: Vec::new(),
+        gaze: false,
         panel: [64, 32],
     }
 }

@@ -30,6 +30,11 @@ struct Pictures {
 
 impl Client {
     pub fn open() -> Self {
+        Self::open_with(false)
+    }
+
+    /// The same that asks for the gaze or not.
+    pub fn open_with(gaze: bool) -> Self {
         let options = OpenXrOptions {
             gpu: Options {
                 validation: true,
@@ -37,6 +42,7 @@ impl Client {
             },
             instance_extensions: Vec::new(),
             device_extensions: Vec::new(),
+            gaze,
             panel: PANEL,
         };
         let xr = OpenXr::open(options, |_| false).unwrap();

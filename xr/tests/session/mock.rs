@@ -107,6 +107,58 @@ fn a_controller_arrives_through_its_bindings() {
     assert_eq!(mock.calls_of("xrStopHapticFeedback")[0].with["hand"], 0);
 }
 
+/// Where the extension is offered, and asked for.
+#[test]
+fn the_gaze_arrives() {
+    let changes = [Change::offer_too("XR_EXT_eye_gaze_interaction")];
+    let Some(mock) = mock::enter("mock::the_gaze_arrives", &changes) else {
+        return;
+    };
+    let mut client = Client::open_with(true);
+    client.focus();
+    // Nothing is known of it at first.
+    client.frame();
+    client.xr.locate_views().unwrap();
+    assert_eq!(client.xr.gaze(), None);
+    client.draw();
+    let looks = mock::Pose::new(Vec3::new(0.0, 1.6, 0.0), Quat::from_rotation_y(0.25));
+    mock.say(Change::Gaze(Some(looks)));
+    client.frame();
+    client.xr.locate_views().unwrap();
+    let gaze = client.xr.gaze().unwrap();
+    assert_eq!(gaze.position, looks.position);
+    // 0.25 rad about +Y is to the left.
+    let towards = gaze.orientation * Vec3::NEG_Z;
+    assert!((towards - Vec3::new(-0.25_f32.sin(), 0.0, -0.25_f32.cos())).length() < 1e-6);
+    client.draw();
+    mock.say(Change::Gaze(None));
+    client.frame();
+    client.xr.locate_views().unwrap();
+    assert_eq!(client.xr.gaze(), None);
+    client.draw();
+    client.assert_silent();
+}
+
+/// A runtime that could tell is not asked unless it is to be.
+#[test]
+fn the_gaze_is_not_asked_for_by_itself() {
+    let changes = [
+        Change::offer_too("XR_EXT_eye_gaze_interaction"),
+        Change::Gaze(Some(mock::Pose::IDENTITY)),
+    ];
+    let name = "mock::the_gaze_is_not_asked_for_by_itself";
+    let Some(_mock) = mock::enter(name, &changes) else {
+        return;
+    };
+    let mut client = Client::open();
+    client.focus();
+    client.frame();
+    client.xr.locate_views().unwrap();
+    assert_eq!(client.xr.gaze(), None);
+    client.draw();
+    client.assert_silent();
+}
+
 #[test]
 fn a_change_takes_effect_in_its_frame() {
     let name = "mock::a_change_takes_effect_in_its_frame";
@@ -208,6 +260,7 @@ fn what_is_to_be_refused_is_refused() {
         gpu: Options::default(),
         instance_extensions: Vec::new(),
         device_extensions: Vec::new(),
+        gaze: false,
         panel: [64, 32],
     };
     let Err(refused) = OpenXr::open(options(), |_| false) else {

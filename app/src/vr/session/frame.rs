@@ -306,6 +306,7 @@ impl Session {
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
+        let foveating = self.benches.eyes.foveating;
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {
@@ -317,6 +318,7 @@ impl Session {
             sign: sign.as_ref().map(Drawn::panel),
             shown,
             goggles: self.spills.goggles(),
+            foveation: foveating.foveation(&views, headset.gaze()),
         };
         let (panel, signs) = (&mut self.panel, &mut self.hints.sign);
         let picture = picture.draw(world, &shapes, &sight, targets, |rec| {

@@ -4,12 +4,7 @@
 //!include common/picture/shaded_pixel.wgsl
 //!include common/picture/tile_pixels.wgsl
 
-/// A block in a list: its tile times so much, and the quarter of the tile that it is of (0 to 3, blocks of two by two pixels)
-/// or `WHOLE` (blocks of four by four).
-const PARTS_OF_TILE = 8u;
-const WHOLE = 4u;
-
-/// The block of an invocation, of 8 by 8 in a workgroup.
+/// The block of an invocation, of 8 by 8 in a workgroup: a quarter of a tile, or all of one with blocks of four by four pixels.
 struct CoarseBlock {
     /// The pixel that is shaded.
     place: Place,
@@ -27,18 +22,26 @@ fn corner_of(tile: u32) -> vec3<u32> {
     return vec3<u32>(vec2<u32>(tile - eye * of_view - row * frame.tile_columns, row) * TILE, eye);
 }
 
+/// A coarse tile in a list.
+struct CoarseTile {
+    tile: u32,
+    /// Pixels along its blocks' sides.
+    side: u32,
+}
+
+fn coarse_tile(index: u32) -> CoarseTile {
+    let entry = tile_lists[CLASS * frame.view_count * frame.tile_columns * frame.tile_rows + index];
+    return CoarseTile(entry / 2u, select(2u, 4u, (entry & 1u) != 0u));
+}
+
 fn block_of(group: vec3<u32>, local: vec3<u32>) -> CoarseBlock {
-    let of_view = frame.tile_columns * frame.tile_rows;
-    let entry = tile_lists[CLASS * frame.view_count * of_view + group.x];
-    let tile = entry / PARTS_OF_TILE;
-    let part = entry % PARTS_OF_TILE;
-    let side = select(2u, 4u, part == WHOLE);
-    let corner = corner_of(tile);
-    let quarter = (TILE / 2u) * vec2<u32>(part & 1u, (part >> 1u) & 1u);
-    let low = vec2<i32>(corner.xy + quarter + side * local.xy);
-    let inside = all(low < vec2<i32>(frame.extent));
-    let place = Place(shaded_in(low, i32(side)), corner.z, tile, inside);
-    return CoarseBlock(place, low, i32(side));
+    let shaded_tile = coarse_tile(group.x);
+    let corner = corner_of(shaded_tile.tile);
+    let quarter = (TILE / 2u) * vec2<u32>(group.y & 1u, group.y >> 1u);
+    let low = vec2<i32>(corner.xy + quarter + shaded_tile.side * local.xy);
+    let inside = all(low < vec2<i32>(frame.extent)) && (shaded_tile.side == 2u || group.y == 0u);
+    let place = Place(shaded_in(low, i32(shaded_tile.side)), corner.z, shaded_tile.tile, inside);
+    return CoarseBlock(place, low, i32(shaded_tile.side));
 }
 
 /// Whether no eye sees any of it, as its corners tell.
