@@ -6,8 +6,8 @@ use clap::Args;
 use glam::Vec3;
 use vitriol_experiment::switches::pair;
 use vitriol_experiment::{Colour, HEAD_FIELD, Look};
-use vitriol_sim::scene::{PictureFilter, Preset};
-use vitriol_study::parse::{filter, positive, preset};
+use vitriol_sim::scene::{PictureFilter, PictureRoom, Preset};
+use vitriol_study::parse::{filter, positive, preset, room};
 
 use super::arguments::{CameraName, colour};
 
@@ -60,6 +60,9 @@ pub struct PictureArgs {
     /// Filter of the liquid's surface; without it the scene's
     #[arg(long, value_parser = filter(), value_name = "FILTER")]
     pub filter: Option<PictureFilter>,
+    /// How bright the room is; without it the scene's
+    #[arg(long, value_parser = room(), value_name = "ROOM")]
+    pub room: Option<PictureRoom>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

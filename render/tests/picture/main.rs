@@ -7,6 +7,7 @@ mod glass;
 mod goggles;
 mod golden;
 mod hands;
+mod laboratory;
 mod lanes;
 mod liquid;
 mod pane;
