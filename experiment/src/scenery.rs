@@ -2,12 +2,12 @@
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{
-    BoxDesc, BubbleSource, LiquidDesc, LiquidSource, Neighbours, SceneDesc, ShardDesc, SpraySource,
-    SurfaceFilter, Tint, VesselDesc, VesselTables,
+    BoxDesc, BubbleSource, Label, LiquidDesc, LiquidSource, Neighbours, RoomLight, SceneDesc,
+    ShardDesc, SpraySource, SurfaceFilter, Tint, VesselDesc, VesselTables,
 };
 use vitriol_sim::bodies::{BASE_SHARE, Shard};
 use vitriol_sim::pose::Pose;
-use vitriol_sim::scene::{Flask, PictureFilter, PictureTint, Scene, TableTop};
+use vitriol_sim::scene::{Flask, PictureFilter, PictureRoom, PictureTint, Scene, TableTop};
 use vitriol_sim::world::World;
 
 /// The liquid in the solver's buffers.
@@ -89,44 +89,99 @@ fn table(scene: &Scene) -> Option<BoxDesc> {
 const LEAST_APART: f64 = 0.004;
 
 /// Heights of a vessel's graduation marks: where whole multiples of a round
-/// volume, as drawn, would stand. A funnel, which hangs upside down, has none.
-fn marks(flask: &Flask, length_scale: f64) -> Vec<f64> {
-    let upright = flask.stage_from_flask.orientation * Vec3::Y;
+/// volume, as drawn, would stand; and those volumes, mL. A funnel, which hangs upside down, has none.
+fn marks(flask: &Flask, length_scale: f64) -> (Vec<f64>, Vec<u32>) {
     let capacity = flask.profile.capacity() * length_scale.powi(3);
-    let steps = [1e-6, 2e-6, 5e-6, 10e-6, 25e-6, 50e-6, 100e-6, 250e-6];
-    let step = steps.into_iter().find(|step| capacity / step < 9.0);
-    let Some(step) = step.filter(|_| upright.y > 0.9) else {
-        return Vec::new();
+    let steps = [1, 2, 5, 10, 25, 50, 100, 250];
+    let step = steps
+        .into_iter()
+        .find(|&step| capacity / millilitres(step) < 9.0);
+    let Some(step) = step.filter(|_| is_upright(flask)) else {
+        return Default::default();
     };
     // The uppermost tenth is left free.
-    let marks: Vec<f64> = (1..)
-        .map(|n| f64::from(n) * step)
-        .take_while(|volume| *volume < 0.9 * capacity)
+    let marks: Vec<(f64, u32)> = (1..)
+        .map(|n| n * step)
+        .take_while(|volume| millilitres(*volume) < 0.9 * capacity)
         .filter_map(|volume| {
-            flask
+            let height = flask
                 .profile
-                .level_for_volume(volume / length_scale.powi(3))
+                .level_for_volume(millilitres(volume) / length_scale.powi(3));
+            Some((height?, volume))
         })
         .collect();
-    let close = |pair: &[f64]| length_scale * (pair[1] - pair[0]) < LEAST_APART;
+    let close = |pair: &[(f64, u32)]| length_scale * (pair[1].0 - pair[0].0) < LEAST_APART;
     match marks.windows(2).any(close) {
-        true => Vec::new(),
-        false => marks,
+        true => Default::default(),
+        false => marks.into_iter().unzip(),
     }
+}
+
+/// In m³.
+fn millilitres(volume: u32) -> f64 {
+    1e-6 * f64::from(volume)
+}
+
+fn is_upright(flask: &Flask) -> bool {
+    (flask.stage_from_flask.orientation * Vec3::Y).y > 0.9
+}
+
+/// A label's letters over the vessel's radius, and the middle of the label, rad to the left of the marks.
+const LETTERS: f64 = 0.155;
+const ASIDE: f64 = -0.78;
+/// Its upper edge over the vessel's height.
+const LABEL_TOP: f64 = 0.90;
+/// Height and radius of a vessel below which it has no label, m as drawn: a tray, or what is too narrow to be read.
+const LEAST_LABELLED: [f64; 2] = [0.04, 0.018];
+
+/// The label of a vessel that holds liquid at the start: what it is.
+fn label(scene: &Scene, index: usize, flask: &Flask) -> Option<Label> {
+    let liquid = scene.liquids.iter().find(|it| it.flask == index)?;
+    let outer = flask.profile.outer_outline();
+    let radius = outer.iter().map(|point| point[0]).fold(0.0, f64::max);
+    let top = outer.last()?[1];
+    let scale = scene.scale.length_scale;
+    if !is_upright(flask) || scale * top < LEAST_LABELLED[0] || scale * radius < LEAST_LABELLED[1] {
+        return None;
+    }
+    let lines = match 100.0 * liquid.acid_fraction {
+        0.0 => vec!["H₂O".to_owned()],
+        acid => vec!["H₂SO₄".to_owned(), format!("{acid:.0} %")],
+    };
+    let letters = LETTERS * radius;
+    // Margins and lines as `common/picture/printed.wgsl` has them; five letters of six points and seven high.
+    let height = letters * (0.7 + 1.4 * lines.len() as f64);
+    let half = letters * (0.7 + 2.5 * 6.0 / 7.0);
+    Some(Label {
+        lines,
+        bottom: LABEL_TOP * top - height,
+        letters,
+        angles: [ASIDE, half / radius],
+    })
 }
 
 /// The scene's vessels on their table in the room.
 pub fn laboratory(scene: &Scene) -> SceneDesc {
-    let vessels = scene.flasks.iter().map(|flask| VesselDesc {
-        inner: flask.profile.inner_outline().to_vec(),
-        outer: flask.profile.outer_outline().to_vec(),
-        marks: marks(flask, scene.scale.length_scale),
+    let vessels = scene.flasks.iter().enumerate().map(|(index, flask)| {
+        let (marks, volumes) = marks(flask, scene.scale.length_scale);
+        VesselDesc {
+            inner: flask.profile.inner_outline().to_vec(),
+            outer: flask.profile.outer_outline().to_vec(),
+            marks,
+            volumes,
+            label: label(scene, index, flask),
+        }
     });
     let length_scale = scene.scale.length_scale;
     let top = scene.table.map_or(0.0, |table| table.top) * length_scale;
     let room = SceneDesc::laboratory(vessels.collect(), top as f32, length_scale as f32);
     SceneDesc {
         table: table(scene),
+        light: match scene.picture.room {
+            PictureRoom::Day => RoomLight::DAY,
+            PictureRoom::Bright => RoomLight::BRIGHT,
+            PictureRoom::Dark => RoomLight::DARK,
+        },
         ..room
     }
 }

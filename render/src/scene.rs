@@ -5,7 +5,9 @@ use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
+use crate::light::RoomLight;
 use crate::outline::segments;
+use crate::print::Label;
 
 /// Vessels that a picture has at most, and shards: a tile has a bit for each.
 pub(crate) const MOST_VESSELS: usize = 8;
@@ -15,7 +17,7 @@ pub(crate) const MOST_SHARDS: usize = 16;
 const INNER_RADII: usize = 16;
 
 /// A vessel's glass, in the vessel's frame (+Y along its axis).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct VesselDesc {
     /// The surface that the liquid touches: points (r, y), metres, from the
     /// axis up to the rim.
@@ -25,6 +27,10 @@ pub struct VesselDesc {
     /// Heights of its graduation marks, from the lowest up; every second one
     /// is longer.
     pub marks: Vec<f64>,
+    /// The volumes up to them as they are printed, mL, in the same order: beside every second mark, the longer ones. None are printed where there are none.
+    pub volumes: Vec<u32>,
+    /// Its label; `None` for none.
+    pub label: Option<Label>,
 }
 
 /// Length of a short and of a long mark over the outer radius.
@@ -34,14 +40,21 @@ const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
 const MARK_WIDTH: f32 = 0.02;
 
 impl VesselDesc {
-    /// Its marks for `common/picture/glass_light.wgsl`: height, half the angle, half the strip's width, which is twice the line's.
+    /// Its marks for `common/picture/glass_light.wgsl`: height, half the angle, half the strip's width, which is twice the line's, and
+    /// the number.
     fn marks(&self) -> Vec<[f32; 4]> {
-        let mark = |(&height, length): (&f64, &f32)| {
+        // The uppermost number has the unit beside it.
+        let last = (self.volumes.len() / 2 * 2).checked_sub(1);
+        let mark = |(index, (&height, length)): (usize, (&f64, &f32))| {
             let radius = radius_at(&self.outer, height) as f32;
-            [height as f32, 0.5 * length, MARK_WIDTH * radius, 0.0]
+            let volume = self.volumes.get(index).filter(|_| index % 2 == 1);
+            let unit = if last == Some(index) { 0.5 } else { 0.0 };
+            let number = volume.map_or(0.0, |volume| *volume as f32 + unit);
+            [height as f32, 0.5 * length, MARK_WIDTH * radius, number]
         };
         let lengths = MARK_LENGTHS.iter().cycle();
-        self.marks.iter().zip(lengths).map(mark).collect()
+        let marks = self.marks.iter().zip(lengths).enumerate();
+        marks.map(mark).collect()
     }
 
     /// The inner surface as rays meet it, without its pose.
@@ -131,6 +144,8 @@ pub struct SceneDesc {
     pub table: Option<BoxDesc>,
     /// The room, seen from within: floor, walls and ceiling.
     pub room: Option<BoxDesc>,
+    /// How bright it is in it.
+    pub light: RoomLight,
 }
 
 impl SceneDesc {
@@ -148,7 +163,8 @@ impl SceneDesc {
         Self {
             vessels,
             table: box_of([-0.8, table_top - 0.04, -0.78], [0.8, table_top, -0.12]),
-            room: box_of([-2.4, 0.0, -1.7], [2.4, 2.7, 2.4]),
+            room: box_of([-1.6, 0.0, -1.7], [2.4, 2.7, 2.4]),
+            light: RoomLight::DAY,
         }
     }
 }
@@ -167,6 +183,7 @@ pub(crate) struct Scene {
     pub(crate) outlines: Buffer,
     pub(crate) table: Option<BoxDesc>,
     pub(crate) room: Option<BoxDesc>,
+    pub(crate) light: RoomLight,
 }
 
 impl Scene {
@@ -190,6 +207,7 @@ impl Scene {
                 shape: layout::Vessel {
                     segments: add(segments(&vessel.outer, &vessel.inner)),
                     marks: add(vessel.marks()),
+                    label: (vessel.label.as_ref()).map_or(0, |label| add(label.rows())[0]),
                     ..vessel.inner()
                 },
             })
@@ -203,6 +221,7 @@ impl Scene {
             outlines,
             table: desc.table,
             room: desc.room,
+            light: desc.light,
         })
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
+use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
 
 /// One of a type's values by its name; each value is given with its help.
 pub fn named<T: Copy + Send + Sync + 'static>(
@@ -55,6 +55,16 @@ pub fn tint() -> impl TypedValueParser<Value = PictureTint> {
         ),
     ];
     named(&TINTS, PictureTint::name)
+}
+
+/// How bright the room is.
+pub fn room() -> impl TypedValueParser<Value = PictureRoom> {
+    const ROOMS: [(PictureRoom, &str); 3] = [
+        (PictureRoom::Day, "800 lx on the bench"),
+        (PictureRoom::Bright, "A sunny noon, 1,700 lx"),
+        (PictureRoom::Dark, "By evening, 70 lx"),
+    ];
+    named(&ROOMS, PictureRoom::name)
 }
 
 /// A finite number above zero.

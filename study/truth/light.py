@@ -8,7 +8,7 @@ What the truth makes of it:
 - The ambient light is a hemisphere of CEILING above and one of FLOOR below, infinitely far away. On a surface without
   anything before it, that is the shader's `ambient_light` exactly. Walls and ceiling are seen by the eye, by mirrors and
   through liquid, but keep no light away: the two hemispheres stand for all that they send on.
-- The window is four panes about WINDOW that face BENCH. Their radiance is the shaders' `PANE_LIGHT`, in the
+- The window is four panes about WINDOW, on the wall. Their radiance is the shaders' `PANE_LIGHT`, in the
   key light's colour. Their size is such that the irradiance at BENCH is that of `key_light`; it comes out
   as the shaders' `WINDOW_HALF`. Elsewhere the unshadowed
   irradiance is taken from `key_light`, and what part of it arrives from rays to the panes.
@@ -17,8 +17,8 @@ What the truth makes of it:
 
 import numpy as np
 
-WINDOW = np.array([-1.5, 1.9, 0.5])
-WINDOW_POWER = np.array([7.4, 7.2, 6.9])
+WINDOW = np.array([-1.6, 1.75, 0.35])
+WINDOW_POWER = np.array([7.855, 7.643, 7.324])
 CEILING = np.array([0.52, 0.55, 0.60])
 FLOOR = np.array([0.24, 0.22, 0.20])
 ALBEDO_WALL = np.array([0.62, 0.60, 0.56])
@@ -29,10 +29,10 @@ ALBEDO_TABLE = np.array([0.30, 0.33, 0.35])
 BENCH = np.array([0.0, 0.75, -0.40])
 UP = np.array([0.0, 1.0, 0.0])
 # `PANE_LIGHT`, green.
-PANE_RADIANCE = 5.4
+PANE_RADIANCE = 9.0
 # Half width and height of the window over the way to it, and half the bars' width, as they were chosen.
-PANE_SHAPE = np.array([0.58, 0.95])
-BARS = 0.04
+PANE_SHAPE = np.array([1.0, 0.68])
+BARS = 0.03
 
 # What 60 mm of water and of acid let through (`render/src/tints.rs`), as absorption in 1/m.
 TINT_PATH = 0.06
@@ -59,12 +59,8 @@ def ambient_light(up):
 
 
 def window_axes():
-    """Along the window's width and height, and out of it towards BENCH."""
-    out = BENCH - WINDOW
-    out = out / np.linalg.norm(out)
-    across = np.cross(UP, out)
-    across = across / np.linalg.norm(across)
-    return across, np.cross(out, across), out
+    """Along the window's width and height, and out of it, into the room."""
+    return np.array([0.0, 0.0, -1.0]), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
 
 
 def panes():

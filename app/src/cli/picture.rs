@@ -6,8 +6,8 @@ use clap::Args;
 use glam::Vec3;
 use vitriol_experiment::switches::pair;
 use vitriol_experiment::{Colour, HEAD_FIELD, Look};
-use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
-use vitriol_study::parse::{filter, positive, preset, tint};
+use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
+use vitriol_study::parse::{filter, positive, preset, room, tint};
 
 use super::arguments::{CameraName, colour};
 
@@ -63,6 +63,9 @@ pub struct PictureArgs {
     /// What tells the liquids apart; without it the scene's
     #[arg(long, value_parser = tint(), value_name = "TINT")]
     pub tint: Option<PictureTint>,
+    /// How bright the room is; without it the scene's
+    #[arg(long, value_parser = room(), value_name = "ROOM")]
+    pub room: Option<PictureRoom>,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

@@ -54,7 +54,7 @@ pub fn run(
         track,
         scenes,
         name,
-        scene,
+        mut scene,
         preset,
         seed,
         ..
@@ -66,6 +66,7 @@ pub fn run(
         accept_truncated: args.accept_truncated,
         ..Ask::default()
     })?;
+    scene.picture.room = args.room.unwrap_or(scene.picture.room);
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(

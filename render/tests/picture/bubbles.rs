@@ -25,10 +25,11 @@ fn scene(rig: &mut Rig, table: Option<BoxDesc>, room: Option<BoxDesc>) {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, INNER_FLOOR], [RADIUS, INNER_FLOOR], [RADIUS, 0.05]],
             outer: vec![[0.0, 0.0], [RADIUS + 0.002, 0.0], [RADIUS + 0.002, 0.05]],
-            marks: Vec::new(),
+            ..VesselDesc::default()
         }],
         table,
         room,
+        ..SceneDesc::default()
     });
 }
 

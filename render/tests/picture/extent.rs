@@ -37,6 +37,7 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
         inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
         outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
         marks: vec![0.012, 0.022],
+        ..VesselDesc::default()
     };
     rig.set_scene(&SceneDesc::laboratory(vec![glass], 0.75, 1.0));
     if masked {

@@ -39,6 +39,7 @@ impl Bench {
             inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
             outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
             marks: vec![0.012, 0.022],
+            ..VesselDesc::default()
         };
         rig.set_scene(&SceneDesc::laboratory(vec![glass; 3], 0.75, 1.0));
         let places = lattice(7, 0.3, |x| x.length() < 6.0);

@@ -17,7 +17,7 @@ pub fn beaker(radius: f64, height: f64) -> VesselDesc {
     VesselDesc {
         inner: vec![[0.0, floor], [within, floor], [within, height]],
         outer: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
-        marks: Vec::new(),
+        ..VesselDesc::default()
     }
 }
 

@@ -43,6 +43,7 @@ fn beaker(extent: [u32; 2], filter: SurfaceFilter, view: View) -> (Vec<u8>, Surf
         inner: vec![[0.0, floor], [radius, floor], [radius, 0.05]],
         outer: vec![[0.0, 0.0], [radius + 0.002, 0.0], [radius + 0.002, 0.05]],
         marks: vec![0.012, 0.022, 0.032],
+        ..VesselDesc::default()
     };
     rig.set_scene(&SceneDesc::laboratory(vec![beaker], 0.75, 1.0));
     let foot = FOOT;

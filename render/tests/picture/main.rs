@@ -11,6 +11,7 @@ mod goggles;
 mod golden;
 mod half_depth;
 mod hands;
+mod laboratory;
 mod lanes;
 mod liquid;
 mod meniscus;

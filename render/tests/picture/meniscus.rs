@@ -76,7 +76,7 @@ fn a_meniscus_is_young_and_laplaces() {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.04]],
             outer: vec![[0.0, 0.0], [RADIUS + 0.002, 0.0], [RADIUS + 0.002, 0.04]],
-            marks: Vec::new(),
+            ..VesselDesc::default()
         }],
         ..SceneDesc::default()
     };

@@ -203,7 +203,7 @@ fn glass_is_seen_before_it() {
             [radius - 0.002, height],
         ],
         outer: vec![[0.0, 0.0], [radius, 0.0], [radius, height]],
-        marks: Vec::new(),
+        ..VesselDesc::default()
     };
     rig.set_scene(&SceneDesc {
         vessels: vec![beaker],

@@ -14,7 +14,7 @@ fn beaker() -> VesselDesc {
     VesselDesc {
         inner: vec![[0.0, 0.002], [0.033, 0.002], [0.033, 0.096]],
         outer: vec![[0.0, 0.0], [0.035, 0.0], [0.035, 0.096]],
-        marks: Vec::new(),
+        ..VesselDesc::default()
     }
 }
 
@@ -45,7 +45,7 @@ fn the_window_lights_the_side_that_faces_it() {
     let miss = (centre - eye - ray * along).length();
     let hit = eye + ray * (along - (f64::from(radius).powi(2) - miss * miss).sqrt());
     let normal = (hit - centre).normalize();
-    let to_window = (DVec3::new(-1.5, 1.9, 0.5) - centre).normalize();
+    let to_window = (DVec3::new(-1.6, 1.75, 0.35) - centre).normalize();
     let half = (to_window - ray).normalize();
     let (to_half, half_to_window) = (normal.angle_between(half), half.angle_between(to_window));
     assert!(
@@ -192,7 +192,7 @@ fn another_length_scale_gives_the_same_picture() {
         let vessel = VesselDesc {
             inner: grown(beaker.inner),
             outer: grown(beaker.outer),
-            marks: Vec::new(),
+            ..VesselDesc::default()
         };
         rig.set_scene(&SceneDesc::laboratory(vec![vessel], 0.75, scale));
         let at = Vec3::new(0.12, 0.75, -0.40) / scale;

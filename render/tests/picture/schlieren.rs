@@ -41,7 +41,7 @@ fn clear_rig() -> Rig {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.05]],
             outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
-            marks: Vec::new(),
+            ..VesselDesc::default()
         }],
         ..SceneDesc::default()
     };

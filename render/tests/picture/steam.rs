@@ -215,7 +215,7 @@ fn steam_stays_in_its_vessel() {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, 0.002], [inner, 0.002], [inner, 0.1]],
             outer: vec![[0.0, 0.0], [outer, 0.0], [outer, 0.1]],
-            marks: Vec::new(),
+            ..VesselDesc::default()
         }],
         ..SceneDesc::default()
     });

@@ -29,7 +29,7 @@ fn a_full_cylinder_is_a_lens() {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, 0.002], [RADIUS, 0.002], [RADIUS, 0.05]],
             outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
-            marks: Vec::new(),
+            ..VesselDesc::default()
         }],
         ..SceneDesc::default()
     });

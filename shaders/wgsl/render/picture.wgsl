@@ -94,14 +94,9 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 met = room_meets(origin, direction);
             }
         }
-        var light = bench_light(origin + met.way * direction, met.normal, met.material, through);
-        if (met.way == 0.0) { light = ambient_light(direction.y); }
-        if (wet) {
-            let table = met.material == MATERIAL_TABLE && met.way > 0.0;
-            let end = select(1e9, met.way * frame.metres_per_unit, table);
-            light = mix(light, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction, end));
-        }
-        colour = display(kept * light + mirrored);
+        let seen = room_light(origin, direction, met, through, 1.0 / frame.views[eye].focal);
+        if (room && !wet) { reversed = near / seen.way; }
+        colour = display(kept * seen.light + mirrored);
         if (!room && !wet) { colour = BACKGROUND; }
         if (wet) {
             let behind = meets_panel(origin, direction);

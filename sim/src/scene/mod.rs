@@ -23,8 +23,8 @@ pub use error::SceneError;
 pub use feature::Feature;
 pub use preset::Preset;
 pub use settings::{
-    Boundary, Floor, PictureFilter, PictureSettings, PictureTint, PresetOverrides, RelaxationKind,
-    Scale, SolverSettings, TableTop,
+    Boundary, Floor, PictureFilter, PictureRoom, PictureSettings, PictureTint, PresetOverrides,
+    RelaxationKind, Scale, SolverSettings, TableTop,
 };
 
 pub use tool::{PANE, Tool, ToolKind, sash_heights};

@@ -276,6 +276,30 @@ impl PictureTint {
     }
 }
 
+/// How bright the room is in the picture.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PictureRoom {
+    /// By day: 800 lx on the bench.
+    #[default]
+    Day,
+    /// A sunny noon, 1,700 lx.
+    Bright,
+    /// By evening, 70 lx.
+    Dark,
+}
+
+impl PictureRoom {
+    /// The name as it is given.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Day => "day",
+            Self::Bright => "bright",
+            Self::Dark => "dark",
+        }
+    }
+}
+
 /// How the scene is drawn; the simulation does not depend on it.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(deny_unknown_fields, default)]
@@ -284,4 +308,6 @@ pub struct PictureSettings {
     pub filter: PictureFilter,
     /// What tells the liquids apart.
     pub tint: PictureTint,
+    /// How bright the room is.
+    pub room: PictureRoom,
 }

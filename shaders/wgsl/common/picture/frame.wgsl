@@ -56,6 +56,8 @@ struct Vessel {
     piece: u32,
     /// Height up to which the base of a broken vessel goes.
     base: f32,
+    /// The first row of its label in the same table, and 0 without one.
+    label: u32,
 }
 
 /// The uniforms of one frame.
@@ -104,6 +106,11 @@ struct Frame {
     shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
     goggles: f32,
+    /// The window's light, and that of ceiling and floor, over those of `daylight.wgsl`.
+    window_level: f32,
+    sky_level: f32,
+    /// What light is multiplied by before it is tone mapped.
+    exposure: f32,
     /// To the panel's frame: right, up and out of its face, over half its width and height and in the scene's unit; 0 where there
     /// is none.
     panel_from_stage: mat4x4<f32>,

@@ -1,15 +1,13 @@
 //! The vessels' glass, traced: surfaces of revolution whose outlines are segments, so that a ray meets
-//! cones, and graduation marks printed on them. What is behind is seen where it is; liquid is bent by `through_wall.wgsl`.
+//! cones, and what is printed on them. What is behind is seen where it is; liquid is bent by `through_wall.wgsl`.
 
 //!include common/picture/frame.wgsl
+//!include common/picture/printed.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/shard.wgsl
 //!include common/picture/tile_marks.wgsl
 
-/// Two a segment of an outline: (r, y) of its ends, and the outward normals (r, y) there. A closed outline goes
-/// up outside, over the rim, and down inside. Then a mark each, see `Mark`.
-@group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
-
+/// Two a segment of an outline: (r, y) of its ends, and 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
 const GLASS_REFLECTANCE = 0.036;
 /// Share of a broken edge that is seen over what is behind: as bright as glass a palm thick, through which one looks along the wall.
@@ -18,9 +16,6 @@ const EDGE_OPACITY = 0.75;
 const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
 /// What a rim sends to the eye: light that comes up along the wall. Ours, between what it shows over water and over nothing.
 const RIM = vec3<f32>(0.20, 0.30, 0.34);
-/// Reflectance of white enamel.
-const ENAMEL = 0.8;
-
 /// What lies over something: its colour as displayed, and the share of what is behind that is still seen.
 struct Cover {
     colour: vec3<f32>,
@@ -108,42 +103,6 @@ fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> C
     let reflectance = GLASS_REFLECTANCE + (1.0 - GLASS_REFLECTANCE) * rest_squared * rest_squared * rest;
     // What borosilicate of 2 mm absorbs, 0.05 %, is less than a level.
     return Cover(display(mirrored_light(place, reflect(-to_eye, normal))) * reflectance, 1.0 - reflectance);
-}
-
-/// A graduation mark.
-struct Mark {
-    height: f32,
-    /// Half of its angle about +Z.
-    half_angle: f32,
-    /// Half of its strip's width; half of the strip is the line.
-    half_width: f32,
-}
-
-fn unpack_mark(words: vec4<f32>) -> Mark {
-    return Mark(words.x, words.y, words.z);
-}
-
-/// Half the angle that the longest mark takes up, at most.
-const WIDEST_MARK = 0.25;
-
-/// The marks at p on a vessel's glass, if that is its outside, whose normal (stage) faces the eye; `width` is a
-/// pixel's height there.
-fn marks_at(vessel: u32, p: vec3<f32>, outside: bool, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Cover {
-    let angle = abs(atan2(p.x, p.z));
-    var covered = 0.0;
-    let range = frame.vessels[vessel].marks;
-    let end = select(range.x, range.y, outside && angle < WIDEST_MARK);
-    for (var index = range.x; index < end; index++) {
-        let mark = unpack_mark(outlines[index]);
-        let across = abs(p.y - mark.height) / mark.half_width;
-        // A pixel wider than the line has its share of it.
-        let pixel = max(width / mark.half_width, 1e-6);
-        let share = saturate((0.5 - across) / pixel + 0.5) * min(1.0, 1.0 / pixel);
-        covered = max(covered, select(0.0, share, across <= 1.0 && angle < mark.half_angle));
-    }
-    let key = key_light(stage * frame.metres_per_unit);
-    let lit = ENAMEL * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
-    return Cover(display(lit) * covered, 1.0 - covered);
 }
 
 /// View depth of the middle of the nearest of the vessels in `bits`.
@@ -239,12 +198,15 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             // How far up the wall it is to the next pixel: the step in the picture, moved along the ray on to the wall.
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
-            layer = over(marks_at(index, p, profile.x > 0.5, depth * height, normal, stage), layer);
+            if (profile.x > 0.5) {
+                let print = printed(index, p, cosine < 0.0, depth * height, normal, stage);
+                layer = over(Cover(print.colour, print.open), layer);
+            }
             if (profile.y > 0.9 && p.y > frame.vessels[index].rim - 0.1 * frame.vessels[index].wall) {
-                layer = over(Cover(EDGE_OPACITY * display(RIM), 1.0 - EDGE_OPACITY), layer);
+                layer = over(Cover(EDGE_OPACITY * display(frame.sky_level * RIM), 1.0 - EDGE_OPACITY), layer);
             }
             if (within < frame.vessels[index].wall) {
-                layer = over(Cover(EDGE_OPACITY * display(BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);
+                layer = over(Cover(EDGE_OPACITY * display(frame.sky_level * BROKEN_EDGE), 1.0 - EDGE_OPACITY), layer);
             }
             if (cosine > 0.0) { far = over(layer, far); } else { near = over(layer, near); }
         }

@@ -2,16 +2,19 @@
 
 //!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
+//!include common/picture/laboratory.wgsl
 
 const MATERIAL_TABLE = 0u;
 const MATERIAL_FLOOR = 1u;
 const MATERIAL_WALL = 2u;
 
-/// Half the angle that the window takes up, seen from the bench, rad: the root of half its width times half its height, over the 2.09 m to it.
-const WINDOW_ANGLE = 0.57;
 /// Share of the sky's light that a vessel keeps from where it hides all of the sky: clear glass and water send most of it on.
 const HIDES_SKY = 0.2;
-/// No vessel, for `bench_light`.
+/// How far the dark line about a foot reaches, m, and the share of the sky that is hidden there: a foot is round at its edge and of thick glass, which
+/// shows the dark under it. Ours.
+const CONTACT = 0.0022;
+const CONTACT_HIDES = 0.45;
+/// No vessel, for `table_light`.
 const NO_VESSEL = 0xffffffffu;
 
 /// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`; the vessel `seen_through` keeps none away: what is
@@ -33,6 +36,11 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_thr
         let hidden = saturate(dot(to_sphere, normal) / gap) * ratio * ratio;
         share.x *= 1.0 - HIDES_SKY * hidden;
 
+        // Where it stands: what is close to its foot sees little but glass.
+        let lowest = blocker.foot.y - 0.5 * blocker.radius - position.y;
+        let beside = (length(from_foot.xz) - blocker.radius) * frame.metres_per_unit / CONTACT;
+        share.x *= 1.0 - CONTACT_HIDES * saturate(1.0 - lowest * frame.metres_per_unit / CONTACT) / (1.0 + beside * beside);
+
         // Window: the strip that the blocker hides of it, as angles seen from here, and the strip's length.
         let ray_foot = dot(from_foot, to_window);
         let ray_axis = dot(to_window, axis);
@@ -48,23 +56,19 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_thr
     return share;
 }
 
-/// What the bench, the floor or a wall sends back of the light.
-fn albedo_of(material: u32) -> vec3<f32> {
-    let dark = select(vec3<f32>(0.20, 0.19, 0.18), vec3<f32>(0.30, 0.33, 0.35), material == MATERIAL_TABLE);
-    return select(dark, vec3<f32>(0.62, 0.60, 0.56), material == MATERIAL_WALL);
-}
-
-/// Light that the bench, the floor or a wall sends back from `position`, to an eye that looks through a vessel, or through `NO_VESSEL`.
-fn bench_light(position: vec3<f32>, normal: vec3<f32>, material: u32, seen_through: u32) -> vec3<f32> {
-    let key = key_light(position * frame.metres_per_unit);
-    var ambient = ambient_light(normal.y);
-    var window = max(dot(normal, key.direction), 0.0) * key.light;
-    if material == MATERIAL_TABLE || material == MATERIAL_FLOOR {
-        let share = shadow(position, normal, key.direction, seen_through);
-        ambient *= share.x;
-        window *= share.y;
-    }
-    return albedo_of(material) * (ambient + window);
+const WORKTOP = vec3<f32>(0.30, 0.33, 0.35);
+/// Light that the table sends back from `at` (metres) where `position` is that place in the scene's unit, to an eye that looks through a vessel, or
+/// through `NO_VESSEL`.
+fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal: vec3<f32>, seen_through: u32) -> vec3<f32> {
+    let key = key_light(at);
+    let share = shadow(position, normal, key.direction, seen_through);
+    let light = WORKTOP * (share.x * ambient_light(normal.y) + share.y * max(dot(normal, key.direction), 0.0) * key.light);
+    let far = at.z - frame.table_min.z * frame.metres_per_unit;
+    // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
+    if (far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
+    let fitted_ = fitted(ray, at, max(-ray.direction.y, 0.05) / (way * ray.fine), light, share);
+    let metal = tap(ray, way);
+    return mix(fitted_, metal.light, metal.share);
 }
 
 /// Where a ray meets the room.
@@ -99,15 +103,28 @@ fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
     return Meeting(way, normal, material);
 }
 
-/// What a mirror at `origin` sees along `direction`: the room without shadows, and the window.
+/// The light of what a ray from `origin` meets there, and how far that is; `fine` is a pixel's width over the way.
+fn room_light(origin: vec3<f32>, direction: vec3<f32>, met: Meeting, seen_through: u32, fine: f32) -> Far {
+    let start = origin * frame.metres_per_unit;
+    if (met.way == 0.0) { return Far(mix(ambient_light(direction.y), pane_light(), panes_seen(start, direction)), 0.0, 0.0); }
+    let steep = select(vec3<f32>(-1e-6), vec3<f32>(1e-6), direction >= vec3<f32>(0.0));
+    let ray = Sight(start, direction, 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-6)), fine);
+    let way = met.way * frame.metres_per_unit;
+    var seen: Far;
+    if (met.material == MATERIAL_TABLE) {
+        seen = Far(table_light(ray, origin + met.way * direction, start + way * direction, way, met.normal, seen_through), way, 0.0);
+    } else {
+        seen = laboratory(ray, way, met.normal);
+    }
+    return Far(seen.light, seen.way / frame.metres_per_unit, 0.0);
+}
+
+/// What a mirror at `origin` sees along `direction`: the room without shadows of vessels and small things, and the window.
 fn mirrored_light(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
     let met = room_meets(origin, direction);
-    let position = (origin + met.way * direction) * frame.metres_per_unit;
-    let key = key_light(position);
-    let window = max(dot(met.normal, key.direction), 0.0) * key.light;
-    let room = albedo_of(met.material) * (ambient_light(met.normal.y) + window);
-    let seen = select(room, ambient_light(direction.y), met.way == 0.0);
-    // Walls are left out: the upper panes are above the ceiling.
-    let end = select(1e9, met.way * frame.metres_per_unit, met.material == MATERIAL_TABLE && met.way > 0.0);
-    return mix(seen, PANE_LIGHT, panes_seen(origin * frame.metres_per_unit, direction, end));
+    let start = origin * frame.metres_per_unit;
+    if (met.way == 0.0) { return mix(ambient_light(direction.y), pane_light(), panes_seen(start, direction)); }
+    let at = start + met.way * frame.metres_per_unit * direction;
+    if (met.material == MATERIAL_TABLE) { return lit(WORKTOP, at, met.normal, 1.0); }
+    return mirrored_laboratory(at, met.normal);
 }

@@ -1,0 +1,82 @@
+//! Rays among the room's flat things, and edges that are as soft as a pixel is wide, so that nothing far away shimmers.
+
+//!include common/maths/lot.wgsl
+//!include common/picture/daylight.wgsl
+//!include common/picture/frame.wgsl
+
+/// A ray in metres.
+struct Sight {
+    origin: vec3<f32>,
+    direction: vec3<f32>,
+    inverse: vec3<f32>,
+    /// A pixel's width over the way along the ray.
+    fine: f32,
+}
+
+/// What of a rectangle the ray's pixel sees.
+struct Layer {
+    /// The share of the pixel, 0 to 1.
+    share: f32,
+    /// In lengths of the ray's direction.
+    way: f32,
+    /// Where the ray meets its plane.
+    at: vec3<f32>,
+    /// One over a pixel's width there, 1/m.
+    sharp: f32,
+}
+
+fn rectangle(way: f32, at: vec3<f32>, place: vec2<f32>, low: vec2<f32>, high: vec2<f32>, sharp: f32) -> Layer {
+    let edge = saturate(min(place - low, high - place) * sharp + 0.5);
+    return Layer(select(0.0, edge.x * edge.y, way > 0.0), way, at, sharp);
+}
+
+/// A rectangle in the plane of that z; corners (x, y).
+fn on_z(ray: Sight, z: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
+    let way = (z - ray.origin.z) * ray.inverse.z;
+    let at = ray.origin + way * ray.direction;
+    let slant = abs(ray.direction.xy * ray.inverse.z);
+    return rectangle(way, at, at.xy, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+}
+
+/// A rectangle in the plane of that x; corners (y, z).
+fn on_x(ray: Sight, x: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
+    let way = (x - ray.origin.x) * ray.inverse.x;
+    let at = ray.origin + way * ray.direction;
+    let slant = abs(ray.direction.yz * ray.inverse.x);
+    return rectangle(way, at, at.yz, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+}
+
+/// A rectangle in the plane of that y; corners (x, z).
+fn on_y(ray: Sight, y: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
+    let way = (y - ray.origin.y) * ray.inverse.y;
+    let at = ray.origin + way * ray.direction;
+    let slant = abs(ray.direction.xz * ray.inverse.y);
+    return rectangle(way, at, at.xz, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+}
+
+/// How much of a pixel is in the rectangle; `sharp` is one over its width.
+fn in_rectangle(place: vec2<f32>, low: vec2<f32>, high: vec2<f32>, sharp: f32) -> f32 {
+    let edge = saturate(min(place - low, high - place) * sharp + 0.5);
+    return edge.x * edge.y;
+}
+
+/// How much of a pixel is in lines of that width, so many a metre; from far, their mean.
+fn lines(x: f32, a_metre: f32, width: f32, sharp: f32) -> f32 {
+    let apart = abs(fract(x * a_metre + 0.5) - 0.5);
+    let pixels = sharp / a_metre;
+    let cover = saturate((0.5 * width * sharp - apart * pixels) + 0.5) * min(1.0, width * sharp);
+    return mix(width * a_metre, cover, saturate(0.4 * pixels - 0.6));
+}
+
+/// What a surface sends back, of which `open` of the hemisphere is open.
+fn lit(albedo: vec3<f32>, at: vec3<f32>, normal: vec3<f32>, open: f32) -> vec3<f32> {
+    let key = key_light(at);
+    return albedo * (open * ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
+}
+
+/// The way from within a box to where the ray leaves it (w), and the normal there, inwards.
+fn out_of_box(ray: Sight, origin: vec3<f32>, low: vec3<f32>, high: vec3<f32>) -> vec4<f32> {
+    let ways = (select(low, high, ray.direction > vec3<f32>(0.0)) - origin) * ray.inverse;
+    let way = min(ways.x, min(ways.y, ways.z));
+    return vec4<f32>(-sign(ray.direction) * select(vec3<f32>(0.0), vec3<f32>(1.0), ways <= vec3<f32>(way)), max(way, 0.0));
+}
