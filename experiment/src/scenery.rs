@@ -212,3 +212,53 @@ pub fn shards(world: &World) -> Vec<ShardDesc> {
 pub fn affine(pose: &Pose) -> Affine3A {
     Affine3A::from_rotation_translation(pose.orientation, pose.position)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// What a number says is below its mark: the outline's integral, by frustums, of all vessels of all scenes.
+    #[test]
+    fn a_mark_stands_where_its_volume_does() {
+        let mut numbers = 0;
+        for name in Scene::builtin_names() {
+            let scene = Scene::builtin(name).unwrap();
+            let scale = scene.scale.length_scale;
+            for vessel in laboratory(&scene).vessels {
+                assert_eq!(vessel.marks.len(), vessel.volumes.len());
+                for (&height, &number) in vessel.marks.iter().zip(&vessel.volumes) {
+                    let below: f64 = (vessel.inner.windows(2))
+                        .map(|pair| {
+                            let [[r0, y0], [r1, y1]] = [pair[0], pair[1]];
+                            let share = ((height - y0) / (y1 - y0).max(1e-12)).clamp(0.0, 1.0);
+                            let r = r0 + share * (r1 - r0);
+                            PI / 3.0 * share * (y1 - y0) * (r0 * r0 + r0 * r + r * r)
+                        })
+                        .sum();
+                    let off = below * scale.powi(3) * 1e6 / f64::from(number) - 1.0;
+                    assert!(off.abs() < 0.005, "{name}: {number} mL is off by {off}");
+                    numbers += 1;
+                }
+            }
+        }
+        assert!(numbers > 50, "{numbers}");
+    }
+
+    /// What holds liquid at the start says which; a funnel and an empty beaker say nothing.
+    #[test]
+    fn labels_say_what_is_in_it() {
+        let lines = |scene: &str| -> Vec<Option<Vec<String>>> {
+            let scene = Scene::builtin(scene).unwrap();
+            let vessels = laboratory(&scene).vessels.into_iter();
+            vessels
+                .map(|it| it.label.map(|label| label.lines))
+                .collect()
+        };
+        let of = |lines: &[&str]| Some(lines.iter().map(|it| (*it).to_owned()).collect());
+        let (water, acid) = (of(&["H₂O"]), of(&["H₂SO₄", "98 %"]));
+        assert_eq!(lines("water-into-acid"), [water.clone(), acid]);
+        assert_eq!(lines("two-flasks"), [water, None]);
+        assert_eq!(lines("triple-dilution")[1], None);
+    }
+}
