@@ -1,9 +1,10 @@
-//! What leaves the program for others: particles (VTK), surfaces, room and cameras (PLY, glTF), measurements (CSV, Parquet),
+//! What leaves the program for others: particles (VTK), surfaces, room and cameras (PLY, glTF), bubbles and spray (PLY), measurements (CSV, Parquet),
 //! and recordings with all that viewers show (MCAP).
 //!
 //! Each moment is written when it is there, so that a longer run takes no more memory.
 
 mod cameras;
+mod cloud;
 mod glass;
 mod gltf;
 mod mesh;
@@ -34,9 +35,9 @@ use sink::{Frame, Gltf, Measurements, Ply, Sink, Vtk};
 pub enum Format {
     /// Particles as VTK
     Vtk,
-    /// Surfaces, glass, room and cameras as PLY
+    /// Surfaces, glass, room, cameras, bubbles and spray as PLY
     Ply,
-    /// The same as glTF 2.0
+    /// Surfaces, glass, room and cameras as glTF 2.0
     Gltf,
     /// Measurements as CSV
     Csv,

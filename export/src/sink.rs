@@ -12,6 +12,7 @@ use vitriol_sim::world::World;
 use vitriol_xr::PoseFrame;
 
 use crate::cameras::{self, NamedView};
+use crate::cloud::Cloud;
 use crate::gltf::{self, Matter};
 use crate::surfaces::Surfaces;
 use crate::table::{Column, Csv, Parquet, Table, columns};
@@ -57,6 +58,15 @@ impl<'a> Frame<'a> {
     pub fn surfaces(&self) -> &Surfaces {
         let of = || Surfaces::of(self.world.scene(), self.world.poses(), &self.state);
         self.surfaces.get_or_init(of)
+    }
+
+    /// Bubbles and spray by name, as far as the scene has them.
+    pub fn clouds(&self) -> impl Iterator<Item = (&'static str, Cloud)> {
+        let (scene, parameters) = (self.world.scene(), self.world.solver().parameters());
+        let bubbles = Cloud::of_bubbles(scene, parameters, &self.state);
+        let spray = Cloud::of_spray(scene, parameters, &self.state);
+        let named = [("bubbles", bubbles), ("spray", spray)].into_iter();
+        named.filter_map(|(name, cloud)| Some((name, cloud?)))
     }
 
     /// The scene.
@@ -183,7 +193,7 @@ impl Sink for Vtk {
     }
 }
 
-/// Surfaces and cameras, files a moment; table and room once for each scene.
+/// Surfaces, bubbles, spray and cameras, files a moment; table and room once for each scene.
 #[derive(Default)]
 pub struct Ply {
     /// Whether the scene's are there.
@@ -212,6 +222,13 @@ impl Sink for Ply {
             out.write(
                 &format!("{name}-{:06}.ply", frame.number),
                 &ply::bytes(mesh, &comment),
+            )?;
+        }
+        for (name, cloud) in frame.clouds() {
+            let comment = format!("{name}, SI units, at {} s", frame.seconds);
+            out.write(
+                &format!("{name}-{:06}.ply", frame.number),
+                &ply::points(&cloud, &comment),
             )?;
         }
         let cameras = cameras::json(&frame.cameras(), frame.seconds);

@@ -5,7 +5,7 @@ mod heat;
 mod percentile;
 
 pub use departures::{Departed, Departures};
-pub use heat::{HeatMeasurement, Ledger, Superheat, measure as measure_heat};
+pub use heat::{AIR_OVER_STEAM, HeatMeasurement, Ledger, Superheat, measure as measure_heat};
 
 use crate::flask::Region;
 use crate::scene::Scene;

@@ -20,7 +20,7 @@ from light import AIR, GLASS, LIQUID
 from tools import bend, colour, cosine_lot, greater, lesser, vector
 
 # Surfaces on a path at most; what goes on after that is lost, and counted.
-MOST = 48
+MOST = 128
 # Places on a way through liquid at which its acid is looked up.
 STEPS = 4
 # How far from a surface a ray begins, m: some ten of single precision's steps, and a small part of `bench.GAP`.

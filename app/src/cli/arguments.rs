@@ -135,8 +135,8 @@ pub struct ExportArgs {
     /// The track of a run, where its report names a file that is elsewhere now
     #[arg(long, value_name = "TRACK")]
     pub track: Option<String>,
-    /// What is written: vtk particles; ply and gltf surfaces, glass, room and cameras; csv and parquet
-    /// measurements; mcap a recording with particles, film and measurements beside the track
+    /// What is written: vtk particles; ply and gltf surfaces, glass, room and cameras, ply bubbles and spray too;
+    /// csv and parquet measurements; mcap a recording with particles, film and measurements beside the track
     #[arg(long, required = true, value_delimiter = ',', value_parser = export_format(), value_name = "FORMAT")]
     pub format: Vec<vitriol_export::Format>,
     /// Folder for the files, which may be new; without it out/NAME-NUMBER
@@ -179,8 +179,14 @@ fn export_format() -> impl TypedValueParser<Value = vitriol_export::Format> {
     use vitriol_export::Format;
     const FORMATS: [(Format, &str); 6] = [
         (Format::Vtk, "Particles, for ParaView and PyVista"),
-        (Format::Ply, "Surfaces, glass, room and cameras"),
-        (Format::Gltf, "The same in one file a moment"),
+        (
+            Format::Ply,
+            "Surfaces, glass, room, cameras, bubbles, spray",
+        ),
+        (
+            Format::Gltf,
+            "Surfaces, glass, room, cameras in one file a moment",
+        ),
         (Format::Csv, "Measurements, a row a sample"),
         (Format::Parquet, "The same"),
         (Format::Mcap, "A recording for Foxglove and Rerun"),

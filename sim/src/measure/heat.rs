@@ -111,7 +111,7 @@ fn range(rings: &[[f32; 2]]) -> [f64; 2] {
 }
 
 /// Mass of air over that of as much steam: 28.96 and 18.015 g/mol.
-const AIR_OVER_STEAM: f64 = 28.96 / 18.015;
+pub const AIR_OVER_STEAM: f64 = 28.96 / 18.015;
 
 /// Heat that warms water by 1 K at 20 °C, J/kg.
 const WATER_KELVIN: f64 = 4184.0;
