@@ -162,14 +162,18 @@ fn label(scene: &Scene, index: usize, flask: &Flask) -> Option<Label> {
 
 /// The scene's vessels on their table in the room.
 pub fn laboratory(scene: &Scene) -> SceneDesc {
+    let bare = scene.picture.room == PictureRoom::Bare;
     let vessels = scene.flasks.iter().enumerate().map(|(index, flask)| {
-        let (marks, volumes) = marks(flask, scene.scale.length_scale);
+        let (marks, volumes) = match bare {
+            true => Default::default(),
+            false => marks(flask, scene.scale.length_scale),
+        };
         VesselDesc {
             inner: flask.profile.inner_outline().to_vec(),
             outer: flask.profile.outer_outline().to_vec(),
             marks,
             volumes,
-            label: label(scene, index, flask),
+            label: label(scene, index, flask).filter(|_| !bare),
         }
     });
     let length_scale = scene.scale.length_scale;
@@ -178,10 +182,11 @@ pub fn laboratory(scene: &Scene) -> SceneDesc {
     SceneDesc {
         table: table(scene),
         light: match scene.picture.room {
-            PictureRoom::Day => RoomLight::DAY,
+            PictureRoom::Day | PictureRoom::Bare => RoomLight::DAY,
             PictureRoom::Bright => RoomLight::BRIGHT,
             PictureRoom::Dark => RoomLight::DARK,
         },
+        furnished: !bare,
         ..room
     }
 }

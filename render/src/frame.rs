@@ -201,6 +201,7 @@ impl FrameDesc<'_> {
             window_level: scene.light.window,
             sky_level: scene.light.sky,
             exposure: scene.light.exposure,
+            furnished: scene.furnished.into(),
             panel_from_stage: panel_from_stage(self.panel.as_ref(), self.length_scale),
             sign_from_stage: panel_from_stage(self.sign.as_ref(), self.length_scale),
             pane_from_stage: pane_from_stage(self.pane, self.length_scale),

@@ -146,6 +146,8 @@ pub struct SceneDesc {
     pub room: Option<BoxDesc>,
     /// How bright it is in it.
     pub light: RoomLight,
+    /// Whether the room has more than its window: benches, shelf, fume hood and signs, and a sink in the table.
+    pub furnished: bool,
 }
 
 impl SceneDesc {
@@ -165,6 +167,7 @@ impl SceneDesc {
             table: box_of([-0.8, table_top - 0.04, -0.78], [0.8, table_top, -0.12]),
             room: box_of([-1.6, 0.0, -1.7], [2.4, 2.7, 2.4]),
             light: RoomLight::DAY,
+            furnished: true,
         }
     }
 }
@@ -184,6 +187,7 @@ pub(crate) struct Scene {
     pub(crate) table: Option<BoxDesc>,
     pub(crate) room: Option<BoxDesc>,
     pub(crate) light: RoomLight,
+    pub(crate) furnished: bool,
 }
 
 impl Scene {
@@ -222,6 +226,7 @@ impl Scene {
             table: desc.table,
             room: desc.room,
             light: desc.light,
+            furnished: desc.furnished,
         })
     }
 }

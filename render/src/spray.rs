@@ -8,6 +8,9 @@ use crate::compute::compute;
 use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
+/// Drops that are drawn of a flight at most, as in `common/picture/spray_drops.wgsl`.
+const DROPS: u32 = 8;
+
 /// The nearest drop at each pixel and its light.
 pub(crate) struct Spray {
     nearest_pass: ComputePipeline,
@@ -67,7 +70,7 @@ impl Spray {
                         count: flights.count,
                         numbers,
                     })
-                    .workgroups([flights.count.div_ceil(64), self.views, 1])?;
+                    .workgroups([(DROPS * flights.count).div_ceil(64), self.views, 1])?;
             }
             Ok(())
         })

@@ -59,10 +59,14 @@ pub fn tint() -> impl TypedValueParser<Value = PictureTint> {
 
 /// How bright the room is.
 pub fn room() -> impl TypedValueParser<Value = PictureRoom> {
-    const ROOMS: [(PictureRoom, &str); 3] = [
+    const ROOMS: [(PictureRoom, &str); 4] = [
         (PictureRoom::Day, "800 lx on the bench"),
         (PictureRoom::Bright, "A sunny noon, 1,700 lx"),
         (PictureRoom::Dark, "By evening, 70 lx"),
+        (
+            PictureRoom::Bare,
+            "By day, without furniture and print on glass",
+        ),
     ];
     named(&ROOMS, PictureRoom::name)
 }

@@ -60,7 +60,8 @@ def taken(args, name):
         field = math.degrees(2.0 * math.atan(0.5 * PICTURE / FOCAL))
         size = f"{PICTURE}x{PICTURE}"
         seen = [f"--eye={place[0]}", f"--target={place[1]}", "--field", str(field), "--size", size]
-        run([args.vitriol, "picture", *common, *seen, "-o", str(picture), *device])
+        # Furniture and print are not exported.
+        run([args.vitriol, "picture", *common, *seen, "--room", "bare", "-o", str(picture), *device])
     return exported, picture
 
 

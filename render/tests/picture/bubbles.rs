@@ -182,7 +182,7 @@ fn a_bubble_is_a_lens() {
         max: Vec3::new(2.0, 2.7, 2.0),
     };
     let radius = 0.007;
-    for edge in [0.012, 0.035, 0.06] {
+    for edge in [0.012, 0.035, 0.045] {
         let table = BoxDesc {
             min: Vec3::new(edge as f32, TABLE as f32 - 1e-4, -1.0),
             max: Vec3::new(0.5, TABLE as f32, 0.2),
@@ -204,7 +204,7 @@ fn a_bubble_is_a_lens() {
             for y in 124..=136 {
                 let inside = |x: &u32| {
                     let (at, way) = entered(*x, y);
-                    miss(at, way, ball.0) < 0.6 * radius
+                    miss(at, way, ball.0) < 0.45 * radius
                 };
                 let row: Vec<u32> = (0..EXTENT[0]).filter(inside).collect();
                 let Some(&[first, last]) =

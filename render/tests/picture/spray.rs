@@ -58,7 +58,10 @@ fn hidden(picture: &Picture, plain: &Picture) -> f64 {
 #[test]
 fn drops_hide_their_own_area() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    rig.set_scene(&SceneDesc::laboratory(Vec::new(), 0.75, 1.0));
+    rig.set_scene(&SceneDesc {
+        furnished: false,
+        ..SceneDesc::laboratory(Vec::new(), 0.75, 1.0)
+    });
     // Over many places within a pixel; apart, and not where the window is mirrored alone.
     let places: Vec<[f32; 2]> = (0..180)
         .map(|n| {

@@ -287,6 +287,8 @@ pub enum PictureRoom {
     Bright,
     /// By evening, 70 lx.
     Dark,
+    /// By day, with nothing but table and window, and nothing printed on glass: what is compared with other programs.
+    Bare,
 }
 
 impl PictureRoom {
@@ -296,6 +298,7 @@ impl PictureRoom {
             Self::Day => "day",
             Self::Bright => "bright",
             Self::Dark => "dark",
+            Self::Bare => "bare",
         }
     }
 }

@@ -111,6 +111,8 @@ struct Frame {
     sky_level: f32,
     /// What light is multiplied by before it is tone mapped.
     exposure: f32,
+    /// Whether there is more in the room than table and window.
+    furnished: u32,
     /// To the panel's frame: right, up and out of its face, over half its width and height and in the scene's unit; 0 where there
     /// is none.
     panel_from_stage: mat4x4<f32>,

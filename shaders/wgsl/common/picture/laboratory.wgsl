@@ -330,9 +330,17 @@ fn pedestal(before: Far, ray: Sight) -> Far {
     return seen;
 }
 
+/// A wall, the floor or the ceiling of a room that has nothing but its window.
+fn bare_wall(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    let light = lit(select(PAINT, FLOORING, normal.y > 0.5), at, normal, 1.0);
+    if (normal.x < 0.5) { return light; }
+    return mix(light, pane_light(), panes_at(at.zy - WINDOW.zy, 2.0 * WINDOW_EDGE));
+}
+
 /// What a ray that misses the table sees of the room, whose walls it meets after `way`, at a wall with that normal.
 fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
     let at = ray.origin + way * ray.direction;
+    if (frame.furnished == 0u) { return Far(bare_wall(at, normal), way, 0.0); }
     var seen = Far(vec3<f32>(0.0), way, 1.0);
     if (has_fittings()) {
         let metal = tap(ray, way);
@@ -352,6 +360,7 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
 
 /// The same as a mirror shows it, without what is small: furniture is as flat as the wall that it stands at.
 fn mirrored_laboratory(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    if (frame.furnished == 0u) { return bare_wall(at, normal); }
     if (normal.x > 0.5) {
         let panes = panes_at(at.zy - WINDOW.zy, 2.0 * WINDOW_EDGE);
         return mix(lit(PAINT, at, normal, 0.9), pane_light(), panes);

@@ -18,8 +18,8 @@
 const INDEX = 1.333;
 /// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
 const MOST_WAYS = 5;
-/// The same among bubbles, each of which is a mirror or a lens.
-const MOST_WAYS_AMONG_BUBBLES = 16;
+/// Bubbles on a ray's way, each of which is a mirror or a lens. What goes on after so many comes from all about, and is as bright as what goes straight on.
+const MOST_BUBBLES = 6;
 
 /// Of liquid with that share of acid by mass.
 fn index_of(acid: f32) -> f32 {
@@ -95,13 +95,13 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
     var at = p;
     let bubbly = has_bubbles();
     var mirrors = 0;
-    for (var n = 0; n < MOST_WAYS_AMONG_BUBBLES && mirrors < MOST_WAYS; n++) {
+    for (var n = 0; n < MOST_WAYS + MOST_BUBBLES && mirrors < MOST_WAYS; n++) {
         let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
         let reach = to_glass(vessel, at, direction);
         let up = select(1e9, max(level - ray.exit.y, 0.0) / ray.out.y, n > 0 && ray.out.y > 1e-3);
         var way = min(min(reach.x, reach.y), up);
         var bubble = NO_BUBBLE;
-        if (bubbly) { bubble = meets_bubble(ray.exit, ray.out, way); }
+        if (bubbly && n - mirrors < MOST_BUBBLES) { bubble = meets_bubble(ray.exit, ray.out, way); }
         way = min(way, bubble.way);
         at += way * direction;
         ray.exit += way * ray.out;

@@ -24,7 +24,7 @@ const CHROME = vec3<f32>(0.50, 0.51, 0.52);
 
 fn has_fittings() -> bool {
     let size = (frame.table_max - frame.table_min).xz * frame.metres_per_unit;
-    return all(size > LEAST_BENCH);
+    return frame.furnished != 0u && all(size > LEAST_BENCH);
 }
 
 /// The sink's light where a ray goes down through the opening at `at`; its low corner (x, z) is `low`.

@@ -36,28 +36,29 @@ fn mark_tiles(eye: u32, s: Silhouette) {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if (id.x >= run.count) { return; }
+    let number = id.x / MOST_DROPS;
+    let k = id.x % MOST_DROPS;
+    if (number >= run.count) { return; }
     let eye = id.y;
-    let flight = flights[id.x];
+    let flight = flights[number];
+    if (k >= drops_of(flight)) { return; }
     let view = &frame.views[eye];
-    for (var k = 0u; k < drops_of(flight); k++) {
-        let centre = drop_place(flight, id.x, k);
-        let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
-        if !(depth > (*view).near) { continue; }
-        let radius = drawn_drop(flight.radius, depth, (*view).focal).x;
-        let s = silhouette_of(Ellipsoid(centre, 0.0, vec3<f32>(radius), 1.0, vec3<f32>(0.0)), eye);
-        if (run.numbers == 0u) { mark_tiles(eye, s); }
-        for (var y = s.low.y; y < s.high.y; y++) {
-            for (var x = s.low.x; x < s.high.x; x++) {
-                let reversed = entered_at(s, vec2<f32>(f32(x), f32(y)) + 0.5, (*view).near);
-                if (reversed <= 0.0) { continue; }
-                let bits = bitcast<u32>(reversed);
-                let at = pixel_index(vec2<i32>(x, y), eye);
-                if (run.numbers == 0u) {
-                    atomicMax(&depths[at], bits);
-                } else if (atomicLoad(&depths[at]) == bits) {
-                    atomicMax(&nearest[at], id.x * MOST_DROPS + k + 1u);
-                }
+    let centre = drop_place(flight, number, k);
+    let depth = ((*view).clip_from_stage * vec4<f32>(centre, 1.0)).w;
+    if !(depth > (*view).near) { return; }
+    let radius = drawn_drop(flight.radius, depth, (*view).focal).x;
+    let s = silhouette_of(Ellipsoid(centre, 0.0, vec3<f32>(radius), 1.0, vec3<f32>(0.0)), eye);
+    if (run.numbers == 0u) { mark_tiles(eye, s); }
+    for (var y = s.low.y; y < s.high.y; y++) {
+        for (var x = s.low.x; x < s.high.x; x++) {
+            let reversed = entered_at(s, vec2<f32>(f32(x), f32(y)) + 0.5, (*view).near);
+            if (reversed <= 0.0) { continue; }
+            let bits = bitcast<u32>(reversed);
+            let at = pixel_index(vec2<i32>(x, y), eye);
+            if (run.numbers == 0u) {
+                atomicMax(&depths[at], bits);
+            } else if (atomicLoad(&depths[at]) == bits) {
+                atomicMax(&nearest[at], id.x + 1u);
             }
         }
     }
