@@ -9,11 +9,11 @@ use vitriol_xr::{Pose, View};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Foveating {
-    /// Every pixel
+    /// Every pixel: the rest is faster only where most of the picture is not glass
+    #[default]
     Off,
     /// Every pixel within 10° of a lens's axis and of panel and signs; beyond, one of 4, and of
     /// bare room one of 16 beyond 30°
-    #[default]
     Fixed,
     /// The same within 15° of where you look, in a headset that tells; else as fixed
     Eye,

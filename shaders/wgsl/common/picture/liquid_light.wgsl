@@ -18,8 +18,11 @@
 const INDEX = 1.333;
 /// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
 const MOST_WAYS = 5;
-/// Bubbles on a ray's way, each of which is a mirror or a lens. What goes on after so many comes from all about, and is as bright as what goes straight on.
-const MOST_BUBBLES = 6;
+/// Bubbles on a ray's way, each of which is a mirror or a lens. At the next one the ray ends, in the light that comes from all about: where it would
+/// come from changes from pixel to pixel there, and glitters.
+const MOST_BUBBLES = 3;
+/// Share of the light upon many bubbles that they send on: they are clear.
+const FOAM_WHITENESS = 0.85;
 
 /// Of liquid with that share of acid by mass.
 fn index_of(acid: f32) -> f32 {
@@ -84,6 +87,8 @@ struct Way {
     turned: vec3<f32>,
     /// Whether it leaves it through the base.
     down: bool,
+    /// Whether it ends among bubbles.
+    lost: bool,
 }
 
 /// Follows a ray from `point` (stage; `p` in the vessel's frame) along `within`, both in the liquid: what meets wall, base or the surface at the
@@ -91,23 +96,25 @@ struct Way {
 fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32, level: f32) -> Way {
     let m = frame.vessels[vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
-    var ray = Way(point, within, 0.0, point, false);
+    var ray = Way(point, within, 0.0, point, false, false);
     var at = p;
     let bubbly = has_bubbles();
     var mirrors = 0;
-    for (var n = 0; n < MOST_WAYS + MOST_BUBBLES && mirrors < MOST_WAYS; n++) {
+    for (var n = 0; mirrors < MOST_WAYS; n++) {
         let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
         let reach = to_glass(vessel, at, direction);
         let up = select(1e9, max(level - ray.exit.y, 0.0) / ray.out.y, n > 0 && ray.out.y > 1e-3);
         var way = min(min(reach.x, reach.y), up);
         var bubble = NO_BUBBLE;
-        if (bubbly && n - mirrors < MOST_BUBBLES) { bubble = meets_bubble(ray.exit, ray.out, way); }
+        if (bubbly) { bubble = meets_bubble(ray.exit, ray.out, way); }
         way = min(way, bubble.way);
         at += way * direction;
         ray.exit += way * ray.out;
         ray.length += way;
         if (n == 0) { ray.turned = ray.exit; }
         if (bubble.way <= way) {
+            ray.lost = n - mirrors == MOST_BUBBLES;
+            if (ray.lost) { break; }
             let after = through_bubble(ray.exit, ray.out, bubble, index);
             ray.exit = after.point;
             ray.out = after.direction;
@@ -207,6 +214,10 @@ fn followed(
     let lit = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
     let path = filled * (way.length + lit);
     let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
+    if (way.lost) {
+        let all_about = ambient_light(0.0) + 0.5 * key_light(way.exit * frame.metres_per_unit).light;
+        return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, vessel);
+    }
     return Wet(way.exit, way.out, kept, vec3<f32>(0.0), vessel);
 }
 
@@ -252,7 +263,8 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     // An edge thinner than a drop is none that could mirror.
     let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
     light.kept *= foam.kept * (1.0 - reflectance);
-    light.mirrored = foam.kept * reflectance * mirrored_light(foam.point, reflect(ray, normal));
+    light.mirrored *= foam.kept * (1.0 - reflectance);
+    light.mirrored += foam.kept * reflectance * mirrored_light(foam.point, reflect(ray, normal));
     if (foam.kept < 1.0) { light.mirrored += (1.0 - foam.kept) * mirrored_light(foam.film, foam.mirrored); }
     return light;
 }
