@@ -93,7 +93,7 @@ pub struct Shot {
     pub extent: [u32; 2],
     /// Views side by side: 1, or 2 for both eyes.
     pub eyes: u32,
-    /// The liquid ([`drawn_liquid`](crate::drawn_liquid)), where it is to look like liquid.
+    /// The liquid ([`drawn_liquid`](crate::scenery::drawn_liquid)), where it is to look like liquid.
     pub liquid: Option<LiquidDesc>,
     /// Filter of its surface; `None` for the scene's.
     pub filter: Option<PictureFilter>,

@@ -134,9 +134,12 @@ const LABEL_TOP: f64 = 0.90;
 /// Height and radius of a vessel below which it has no label, m as drawn: a tray, or what is too narrow to be read.
 const LEAST_LABELLED: [f64; 2] = [0.04, 0.018];
 
-/// The label of a vessel that holds liquid at the start: what it is.
+/// The label of a vessel that holds one liquid at the start: what it is.
 fn label(scene: &Scene, index: usize, flask: &Flask) -> Option<Label> {
-    let liquid = scene.liquids.iter().find(|it| it.flask == index)?;
+    let mut liquids = scene.liquids.iter().filter(|it| it.flask == index);
+    let (Some(liquid), None) = (liquids.next(), liquids.next()) else {
+        return None;
+    };
     let outer = flask.profile.outer_outline();
     let radius = outer.iter().map(|point| point[0]).fold(0.0, f64::max);
     let top = outer.last()?[1];
@@ -145,7 +148,7 @@ fn label(scene: &Scene, index: usize, flask: &Flask) -> Option<Label> {
         return None;
     }
     let lines = match 100.0 * liquid.acid_fraction {
-        0.0 => vec!["H₂O".to_owned()],
+        acid if acid < 0.5 => vec!["H₂O".to_owned()],
         acid => vec!["H₂SO₄".to_owned(), format!("{acid:.0} %")],
     };
     let letters = LETTERS * radius;
@@ -219,6 +222,7 @@ pub fn affine(pose: &Pose) -> Affine3A {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use std::f64::consts::PI;

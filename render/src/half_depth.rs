@@ -35,11 +35,11 @@ impl HalfDepth {
         })
     }
 
-    /// Records it after a picture of `extent`, the renderer's own at most; it is in the upper left corner as the picture is, with
+    /// Records it after a picture of `extent` by a renderer whose views are these; it is in the upper left corner as the picture is, with
     /// the nearest depth of each two by two pixels that the lenses do not hide.
     ///
     /// # Errors
-    /// [`GpuError`] where the renderer's views are others than these.
+    /// [`GpuError`] where the device refuses.
     pub fn record(
         &self,
         rec: &mut Recorder,

@@ -1,5 +1,7 @@
 //! Records a frame: the liquid's surface, the picture with the glass over it, then smooth edges and steam.
 
+mod liquid;
+
 use vitriol_gpu::{Buffer, Gpu, Image, ImageDesc, Recorder, Sampler, bytes_of_elements, vk};
 use vitriol_shaders::{Library, ShaderId, layout};
 
@@ -17,9 +19,8 @@ use crate::pipelines::Pipelines;
 use crate::readback::PictureReadback;
 use crate::scene::{Scene, SceneDesc};
 use crate::solids::Solids;
-use crate::source::LiquidSource;
 use crate::spheres::Spheres;
-use crate::spray::{Flights, Spray};
+use crate::spray::Spray;
 use crate::tiles::Tiles;
 
 /// Format of the picture. Shaders cannot write an image of an sRGB format, so they encode the colours
@@ -419,41 +420,6 @@ impl Renderer {
             Ok(())
         })?;
         Ok(())
-    }
-
-    /// The drops of a frame that has them, in that slot.
-    fn flights(
-        &self,
-        frame: &FrameDesc<'_>,
-        slot: usize,
-    ) -> Result<Option<Flights<'_>>, RenderError> {
-        // Coloured particles are seen in their place.
-        if frame.particles.is_some() {
-            return Ok(None);
-        }
-        let Some((fluid, source)) = self.liquid(frame)? else {
-            return Ok(None);
-        };
-        let bubbles = source.bubbles.filter(|bubbles| bubbles.spray.is_some());
-        Ok(bubbles.map(|bubbles| Flights {
-            buffer: &fluid.bubbles(slot).flights,
-            count: 2 * bubbles.count,
-        }))
-    }
-
-    /// The liquid surface of a frame that has one.
-    fn liquid<'a>(
-        &self,
-        frame: &FrameDesc<'a>,
-    ) -> Result<Option<(&Fluid, LiquidSource<'a>)>, RenderError> {
-        let Some(source) = frame.liquid else {
-            return Ok(None);
-        };
-        let Some(fluid) = &self.fluid else {
-            return Err(RenderError::NoLiquid);
-        };
-        fluid.check(&source)?;
-        Ok(Some((fluid, source)))
     }
 
     /// Records the copy of the picture to the host, after

@@ -45,7 +45,7 @@ pub(crate) enum Class {
     Edges = 3,
     /// Steam, and perhaps edges.
     Steam = 4,
-    /// Coloured spheres.
+    /// Coloured spheres, or spray.
     Spheres = 5,
     /// Hands, of which every pixel is shaded.
     Hands = 6,

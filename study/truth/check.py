@@ -53,7 +53,7 @@ def fired(paths, origin, way, medium, count=1, **options):
 
 class Formulas(unittest.TestCase):
     def test_constants_are_the_shaders(self):
-        text = "".join((SHADERS / name).read_text() for name in ("daylight.wgsl", "room.wgsl", "laboratory.wgsl", "liquid_light.wgsl", "through_wall.wgsl"))
+        text = "".join((SHADERS / name).read_text() for name in ("daylight.wgsl", "room.wgsl", "laboratory.wgsl", "worktop.wgsl", "liquid_light.wgsl", "schlieren.wgsl", "through_wall.wgsl"))
         triple = r"vec3<f32>\(([^()]*)\)"
         named = {"WINDOW": lights.WINDOW, "WINDOW_POWER": lights.WINDOW_POWER, "CEILING_LIGHT": lights.CEILING, "FLOOR_LIGHT": lights.FLOOR}
         for name, ours in named.items():

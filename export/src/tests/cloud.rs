@@ -79,9 +79,7 @@ fn clouds_are_what_is_in_the_world() {
     let steam_density = 101_325.0 * 18.015e-3 / (8.314 * 373.15);
     let mut volume = 0.0;
     for (point, (place, radius)) in points.iter().zip(places.iter().zip(RADII)) {
-        let [x, y, z, drawn, steam, air] = point[..] else {
-            panic!("{point:?}")
-        };
+        let [x, y, z, drawn, steam, air] = <[f32; 6]>::try_from(&point[..]).unwrap();
         assert!((Vec3::new(x, y, z).as_dvec3() - *place).length() < 1e-6);
         assert!((f64::from(drawn) / radius - 1.0).abs() < 1e-6);
         let mass = steam_density * 4.0 / 3.0 * PI * radius.powi(3);
@@ -102,9 +100,8 @@ fn clouds_are_what_is_in_the_world() {
     let spray = Cloud::of_spray(&scene, &parameters, &state).unwrap();
     let (_, points) = read(&ply::points(&spray, "spray"), 9);
     assert_eq!(points.len(), 1);
-    let [_, y, _, drawn, number, film, vx, vy, vz] = points[0][..] else {
-        panic!("{points:?}")
-    };
+    let first = <[f32; 9]>::try_from(&points[0][..]).unwrap();
+    let [_, y, _, drawn, number, film, vx, vy, vz] = first;
     assert!((f64::from(y) - base.y - 0.2).abs() < 1e-6);
     assert!((f64::from(drawn) / radius - 1.0).abs() < 1e-6);
     assert!((number - 4.0).abs() < 1e-4, "{number}");

@@ -10,8 +10,10 @@ use crate::source::BubbleSource;
 
 /// Places of the table, as in `common/picture/bubble_cells.wgsl`; behind them is the number of entries.
 const CELLS: usize = 32_768;
-/// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most.
+/// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most. And entries for few bubbles
+/// that may be large.
 const ENTRIES: u32 = 8;
+const LEAST_ENTRIES: u32 = 1 << 16;
 
 /// The cells of the frames that are under way.
 pub(super) struct BubbleCells {
@@ -34,7 +36,10 @@ pub(crate) struct Cells {
 impl BubbleCells {
     /// For `most` bubbles.
     pub(super) fn new(gpu: &Gpu, library: &Library, most: u32) -> Result<Self, RenderError> {
-        let entries = ENTRIES * most;
+        let entries = match most {
+            0 => 0,
+            _ => (ENTRIES * most).max(LEAST_ENTRIES),
+        };
         let cells = || -> Result<Cells, RenderError> {
             let heads = bytes_of_elements::<u32>(CELLS + 1);
             let flights = bytes_of_elements::<layout::Flight>(2 * most.max(1) as usize);

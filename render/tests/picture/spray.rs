@@ -5,7 +5,7 @@ use crate::rig::{Picture, Rig, linear};
 use glam::Vec3;
 use std::f64::consts::PI;
 use vitriol_gpu::Buffer;
-use vitriol_render::{Fov, SceneDesc, SurfaceFilter, View};
+use vitriol_render::{Bone, Finish, Fov, FrameDesc, SceneDesc, SurfaceFilter, View};
 use vitriol_shaders::layout::{Bubble, Drops};
 
 const EXTENT: [u32; 2] = [320, 240];
@@ -19,12 +19,28 @@ fn view() -> View {
     View::look_at(eye, eye - Vec3::Z, Fov::symmetric(field, 4.0 / 3.0))
 }
 
+/// Of jets and of films, as records lie.
+const JET: usize = 0;
+const FILM: usize = 1;
+
 /// A picture of flights of jets: places (m, from the middle), radius of a drop (m) and how many there are in each.
 fn drawn(rig: &Rig, places: &[[f32; 2]], radius: f32, number: f32) -> Picture {
+    drawn_before(rig, &[], JET, places, radius, number)
+}
+
+/// The same of one kind, before a hand.
+fn drawn_before(
+    rig: &Rig,
+    hand: &[Bone],
+    kind: usize,
+    places: &[[f32; 2]],
+    radius: f32,
+    number: f32,
+) -> Picture {
     let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
     let mut drops = vec![Drops::default(); 2 * places.len().max(1)];
     for (n, place) in places.iter().enumerate() {
-        drops[2 * n] = Drops {
+        drops[2 * n + kind] = Drops {
             position: [place[0], 1.0 + place[1], -DISTANCE],
             velocity: [1.0, 0.0, 0.0],
             mass: number * volume * 1000.0 / MASS,
@@ -44,7 +60,12 @@ fn drawn(rig: &Rig, places: &[[f32; 2]], radius: f32, number: f32) -> Picture {
         .unwrap();
     liquid.bubbles = Some((bubbles, count as u32));
     liquid.drops = Some(of_drops);
-    draw(rig, &frame(&[view()], &[], &liquid)).0
+    let views = [view()];
+    let frame = FrameDesc {
+        hands: [hand, &[]],
+        ..frame(&views, &[], &liquid)
+    };
+    draw(rig, &frame).0
 }
 
 /// Sum over the picture of the share that is hidden, pixels: `dark` is what is seen there of a drop that fills pixels.
@@ -114,4 +135,63 @@ fn a_jet_is_as_many_drops_as_its_mass_says_and_they_are_where_it_broke_up() {
         let all = (starts[starts.len() - 1] - starts[0]) as f64;
         assert!((all - step * (starts.len() - 1) as f64).abs() <= 0.2 * step + 1.0);
     }
+}
+
+/// Columns and rows of the pixels in which pictures differ, and by how many levels.
+fn changed(a: &Picture, b: &Picture) -> Vec<[f64; 3]> {
+    let pixels = a.colour[0].chunks(4).zip(b.colour[0].chunks(4)).enumerate();
+    let width = EXTENT[0] as usize;
+    pixels
+        .filter(|(_, (a, b))| a != b)
+        .map(|(n, (a, b))| {
+            let apart = (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap();
+            [(n % width) as f64, (n / width) as f64, f64::from(apart)]
+        })
+        .collect()
+}
+
+/// Drops of a film fly about as far as their bubble reached: R = (2 r 20^0.625)^(1/1.625) by Lhuissier and Villermaux.
+#[test]
+fn drops_of_a_film_are_about_their_bubble() {
+    let rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let radius = 2e-4_f32;
+    let plain = drawn(&rig, &[], 0.0, 0.0);
+    let picture = drawn_before(&rig, &[], FILM, &[[0.0, 0.0]], radius, 8.0);
+    let reach = (2.0 * f64::from(radius) * 20_f64.powf(0.625)).powf(1.0 / 1.625);
+    let places = changed(&picture, &plain);
+    let aside = |at: &[f64; 3]| (at[0] - 159.5).abs().max((at[1] - 119.5).abs());
+    let furthest = places.iter().map(aside).fold(0.0, f64::max);
+    let pixels = reach * FOCAL / f64::from(DISTANCE);
+    // Nearer ones are seen a little larger; the place of each is a lot in a cube.
+    assert!(
+        (0.5 * pixels..1.1 * pixels + 2.0).contains(&furthest),
+        "{furthest} of {pixels}"
+    );
+    assert!(places.len() > 8, "{}", places.len());
+}
+
+/// A drop finer than a pixel hides a part of the glove behind it, and shows nothing through it.
+#[test]
+fn a_fine_drop_makes_no_hole_in_a_glove() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    rig.set_scene(&SceneDesc::laboratory(Vec::new(), 0.75, 1.0));
+    let finger = [Bone {
+        ends: [-0.1, 0.1].map(|x| Vec3::new(x, 1.0, -DISTANCE - 0.1)),
+        radii: [0.04; 2],
+        finish: Finish::Glove,
+        stain: 0.0,
+    }];
+    let radius = (0.2 / FOCAL) as f32 * DISTANCE;
+    let with = |places: &[[f32; 2]]| drawn_before(&rig, &finger, JET, places, radius, 1.0);
+    let (glove, drops) = (
+        with(&[]),
+        with(&[[-0.01, 0.0], [0.0, 0.004], [0.01, -0.003]]),
+    );
+    let places = changed(&drops, &glove);
+    assert!((1..20).contains(&places.len()), "{places:?}");
+    for place in &places {
+        // A share of 0.07 of what is at most 255 levels brighter; what is behind the glove is 100 and more.
+        assert!(place[2] < 40.0, "{places:?}");
+    }
+    assert_eq!(drops.depth, glove.depth);
 }

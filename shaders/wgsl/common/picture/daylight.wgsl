@@ -54,10 +54,12 @@ fn pane_light() -> vec3<f32> {
 /// How much of what is seen from `position` (metres) along `direction` is the window's panes, 0 to 1, where there are no walls.
 fn panes_seen(position: vec3<f32>, direction: vec3<f32>) -> f32 {
     let aside = position - WINDOW;
-    let way = -aside.x / min(direction.x, -1e-6);
-    if (direction.x > -1e-6 || way <= 0.0) { return 0.0; }
-    let place = abs(aside.zy + way * direction.zy);
-    let inside = smoothstep(WINDOW_HALF + WINDOW_EDGE, WINDOW_HALF - WINDOW_EDGE, place);
+    let steep = dot(direction, WINDOW_OUT);
+    let way = -dot(aside, WINDOW_OUT) / min(steep, -1e-6);
+    if (steep > -1e-6 || way <= 0.0) { return 0.0; }
+    let at = aside + way * direction;
+    let place = abs(vec2<f32>(dot(at, WINDOW_ACROSS), dot(at, WINDOW_UP)));
+    let inside = 1.0 - smoothstep(WINDOW_HALF - WINDOW_EDGE, WINDOW_HALF + WINDOW_EDGE, place);
     let bars = smoothstep(vec2<f32>(WINDOW_BAR - WINDOW_EDGE), vec2<f32>(WINDOW_BAR + WINDOW_EDGE), place);
     return inside.x * inside.y * bars.x * bars.y;
 }

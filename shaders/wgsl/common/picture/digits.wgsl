@@ -58,12 +58,13 @@ fn letter_ink(code: u32, at: vec2<f32>, pixel: f32) -> f32 {
     return saturate((mix(above, below, share.y) - 0.45) / clamp(pixel, 0.25, 1.0) + 0.5);
 }
 
-/// The ink of a number with so many digits at most three, and of " mL" after it if `unit`; `at` points from the upper left corner.
+/// The ink of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
 fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
     if (at.x < -1.0 || at.y < -1.0 || at.y > LETTER.y + 1.0) { return 0.0; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);
-    let count = select(select(1u, 2u, number > 9u), 3u, number > 99u);
-    let ten = select(select(1u, 10u, count == place + 2u), 100u, count == place + 3u);
+    let count = 1u + select(0u, 1u, number > 9u) + select(0u, 1u, number > 99u) + select(0u, 1u, number > 999u);
+    let tens = array<u32, 4>(1u, 10u, 100u, 1000u);
+    let ten = tens[min(max(count, place + 1u) - place - 1u, 3u)];
     var code = (number / ten) % 10u;
     if (place >= count) {
         let beyond = place - count;

@@ -127,8 +127,8 @@ fn floor_light(at: vec3<f32>, albedo: vec3<f32>, open: f32) -> vec3<f32> {
     let blurs = rise * vec2<f32>(1.1, WINDOW_ANGLE * 2.0);
     let above = abs(at.xz - middle);
     let lit_through = abs(at.xz + key.direction.xz * (rise / max(key.direction.y, 0.05)) - middle);
-    let under = smoothstep(half + blurs.x * 0.6, half - blurs.x * 0.6, above);
-    let shaded = smoothstep(half + blurs.y, half - blurs.y, lit_through);
+    let under = 1.0 - smoothstep(half - blurs.x * 0.6, half + blurs.x * 0.6, above);
+    let shaded = 1.0 - smoothstep(half - blurs.y, half + blurs.y, lit_through);
     let sky = open * (1.0 - 0.85 * under.x * under.y);
     return albedo * (sky * ambient_light(1.0) + max(key.direction.y, 0.0) * (1.0 - 0.9 * shaded.x * shaded.y) * key.light);
 }

@@ -245,7 +245,7 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
         let gap = vessel_radius(vessel, p.y) - length(p.xz);
         // Liquid that wets the glass has the glass's own surface; what is level there is its upper one.
         let side = 1.0 - levelness(normal);
-        wetted = side * smoothstep(0.8, 0.3, gap / frame.spacing) * smoothstep(0.0, 0.05, dot(wall, -ray));
+        wetted = side * (1.0 - smoothstep(0.3, 0.8, gap / frame.spacing)) * smoothstep(0.0, 0.05, dot(wall, -ray));
         normal = normalize(mix(with_meniscus(normal, wall, gap, acid), wall, wetted));
         // Through glass the surface's height is not known.
         let level = select(1e9, point.y, wetted < 0.5);

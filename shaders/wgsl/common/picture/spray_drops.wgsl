@@ -48,8 +48,8 @@ fn drop_place(flight: Flight, number: u32, k: u32) -> vec3<f32> {
 /// Least radius of a drop in the picture, pixels: such that it covers the middle of a pixel.
 const LEAST_DRAWN = 0.75;
 
-/// The radius that a drop is drawn with at a view depth, in the scene's unit, and the share of what is behind that it hides, so that together they are
-/// its own area.
+/// The radius that a drop is drawn with at a view depth, in the scene's unit, and the share of what is behind that it hides: together its own area,
+/// up to the 31 steps of a share. So what is finer than a tenth of a pixel is not seen.
 fn drawn_drop(radius: f32, depth: f32, focal: f32) -> vec2<f32> {
     let drawn = max(radius, LEAST_DRAWN * max(depth, 1e-6) / focal);
     return vec2<f32>(drawn, (radius / drawn) * (radius / drawn));

@@ -6,7 +6,7 @@
 //!include common/picture/tile_marks.wgsl
 
 /// Whose list: 0 liquid; 1 glass without liquid, 2 neither, 9 liquid, where every pixel is shaded; 3 edges to be smoothed, 4
-/// those with steam over them; 5 coloured spheres; 6 hands, likewise. Where blocks are shaded: 7 all, 8 those with steam; 10 liquid, 11
+/// those with steam over them; 5 coloured spheres or spray; 6 hands, likewise. Where blocks are shaded: 7 all, 8 those with steam; 10 liquid, 11
 /// glass, 12 neither; 13 hands.
 override CLASS: u32 = 0u;
 

@@ -71,7 +71,7 @@ fn fitted(ray: Sight, at: vec3<f32>, sharp: f32, plain: vec3<f32>, share: vec2<f
         let near = length(max(beside, vec2<f32>(0.0))) / 0.012;
         let key = key_light(at);
         let through = abs(at.xz + key.direction.xz * (0.5 * TRAY_HEIGHT / key.direction.y) - middle) - 0.5 * TRAY_SIZE;
-        let hidden = smoothstep(vec2<f32>(0.008), vec2<f32>(-0.008), through);
+        let hidden = 1.0 - smoothstep(vec2<f32>(-0.008), vec2<f32>(0.008), through);
         light *= 1.0 - 0.40 / (1.0 + near * near) - 0.30 * hidden.x * hidden.y;
         // The ray is above the rim's plane there:
         let over = at + (TRAY_HEIGHT / ray.direction.y) * ray.direction;

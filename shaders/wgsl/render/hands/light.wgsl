@@ -188,9 +188,15 @@ fn main(
     met = met || (way < end && apart > 0.0 && apart < pixel * way);
     let index = pixel_index(place.pixel, eye);
     var before = 0.0;
-    if (run.over != 0u) { before = depths[index]; }
+    // A drop of spray may hide only a part of the pixel.
+    var over = vec4<f32>(0.0);
+    if (run.over != 0u) {
+        before = depths[index];
+        if (before > 0.0) { over = unpacked(nearest[index]); }
+    }
     let reversed = select(0.0, near / way, met);
-    if (reversed > before) {
+    if (reversed > before) { over.a = 0.0; }
+    if (reversed > 0.0 && over.a < 1.0) {
         let at = way * ray;
         let hand = nearest_hand;
         let all = atomicLoad(&present[GROUPS * BLOCKS + hand]);
@@ -198,8 +204,9 @@ fn main(
         // Between fingers less of the room is seen.
         let reach = SHADE * run.joined;
         let open = saturate(0.25 + 0.75 * hand_distance(hand, all, at + reach * surface.normal) / reach);
-        nearest[index] = packed(display(glove_light(at + frame.views[eye].eye, ray, surface, open)));
-        depths[index] = reversed;
+        let light = display(glove_light(at + frame.views[eye].eye, ray, surface, open));
+        nearest[index] = packed(mix(light, over.rgb, over.a));
+        depths[index] = select(before, reversed, over.a <= 0.5);
     } else if (run.over == 0u) {
         depths[index] = 0.0;
     }

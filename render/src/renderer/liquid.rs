@@ -1,0 +1,45 @@
+//! What of a frame's liquid is drawn.
+
+use super::Renderer;
+use crate::RenderError;
+use crate::fluid::Fluid;
+use crate::frame::FrameDesc;
+use crate::source::LiquidSource;
+use crate::spray::Flights;
+
+impl Renderer {
+    /// The drops of a frame that has them, in that slot.
+    pub(super) fn flights(
+        &self,
+        frame: &FrameDesc<'_>,
+        slot: usize,
+    ) -> Result<Option<Flights<'_>>, RenderError> {
+        // Coloured particles are seen in their place.
+        if frame.particles.is_some() {
+            return Ok(None);
+        }
+        let Some((fluid, source)) = self.liquid(frame)? else {
+            return Ok(None);
+        };
+        let bubbles = source.bubbles.filter(|bubbles| bubbles.spray.is_some());
+        Ok(bubbles.map(|bubbles| Flights {
+            buffer: &fluid.bubbles(slot).flights,
+            count: 2 * bubbles.count,
+        }))
+    }
+
+    /// The liquid surface of a frame that has one.
+    pub(super) fn liquid<'a>(
+        &self,
+        frame: &FrameDesc<'a>,
+    ) -> Result<Option<(&Fluid, LiquidSource<'a>)>, RenderError> {
+        let Some(source) = frame.liquid else {
+            return Ok(None);
+        };
+        let Some(fluid) = &self.fluid else {
+            return Err(RenderError::NoLiquid);
+        };
+        fluid.check(&source)?;
+        Ok(Some((fluid, source)))
+    }
+}
