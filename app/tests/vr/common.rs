@@ -38,7 +38,9 @@ pub fn scene(folder: &Path) -> PathBuf {
         .replace("substeps = 10", "substeps = 5");
     assert_ne!(small, text);
     let file = folder.join("small.toml");
-    std::fs::write(&file, small).unwrap();
+    // Colours and depths are looked for that furniture has, too.
+    let bare = format!("{small}\n[picture]\nroom = \"bare\"\n");
+    std::fs::write(&file, bare).unwrap();
     file
 }
 

@@ -171,7 +171,7 @@ fn the_filter_gives_way() {
     let folder = tempfile::tempdir().unwrap();
     let file = scene(folder.path());
     let text = std::fs::read_to_string(&file).unwrap();
-    let curved = format!("{text}\n[picture]\nfilter = \"curvature-flow\"\n");
+    let curved = format!("{text}filter = \"curvature-flow\"\n");
     let file = folder.path().join("curved.toml");
     std::fs::write(&file, curved).unwrap();
     let trouble = Rates {

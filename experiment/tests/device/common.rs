@@ -6,7 +6,7 @@ use glam::Vec3;
 use vitriol_experiment::{Colour, Experiment, Setup, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{Preset, Scene};
+use vitriol_sim::scene::{PictureRoom, Preset, Scene};
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame};
 
 /// Width and height of the pictures.
@@ -17,6 +17,8 @@ pub fn scene() -> Scene {
     let mut scene = Scene::builtin("beaker").unwrap();
     scene.scale.spacing *= 2.0;
     scene.solver.substeps = 4;
+    // Colours are looked for that furniture has, too.
+    scene.picture.room = PictureRoom::Bare;
     scene
 }
 

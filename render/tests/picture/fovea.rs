@@ -1,7 +1,7 @@
 //! Foveated pictures against those of which every pixel is shaded.
 
 use glam::{Affine3A, DVec3, Vec3};
-use vitriol_gpu::{Buffer, QueueKind};
+use vitriol_gpu::{Buffer, QueueKind, vk};
 use vitriol_render::{
     Bone, Finish, Fov, Foveation, FrameDesc, LiquidDesc, Panel, RenderDesc, RenderError, SceneDesc,
     SteamSource, VesselDesc, View,
@@ -245,6 +245,7 @@ fn has_blocks(depth: &[f32], [column, row]: [u32; 2], side: u32) -> bool {
 #[test]
 fn beyond_it_pixels_lie_between_those_that_are_shaded() {
     let bench = Bench::new();
+    let on_cpu = bench.rig.gpu.info().kind == vk::PhysicalDeviceType::CPU;
     let views = views(0.0);
     let drawn = bench.drawn(&bench.frame(&views, None));
     let towards = [[0.1, 0.05], [-0.4, -0.2]];
@@ -305,8 +306,12 @@ fn beyond_it_pixels_lie_between_those_that_are_shaded() {
                 };
                 // What is in it, the renderer knows.
                 assert!([plain, marked].contains(&found), "eye {eye}, {tile:?}");
-                // Edges are smoothed where all is sharp.
-                assert!(found == 1 || is(found), "eye {eye}, {tile:?}: {found}");
+                // Edges are smoothed where all is sharp; and on a GPU the four rays of a block's glass are spread over its pixels.
+                let is_spread = found == 2 && !on_cpu;
+                assert!(
+                    found == 1 || is_spread || is(found),
+                    "eye {eye}, {tile:?}: {found}"
+                );
                 of_side[found as usize] += 1;
             }
         }
