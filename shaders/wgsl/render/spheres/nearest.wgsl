@@ -4,8 +4,7 @@
 
 //!include common/liquid/position.wgsl
 //!include common/picture/lanes.wgsl
-//!include common/picture/silhouette.wgsl
-//!include common/picture/tile_marks.wgsl
+//!include common/picture/sphere_marks.wgsl
 
 struct SphereRun {
     /// Number of particles.
@@ -25,20 +24,6 @@ var<immediate> run: SphereRun;
 @group(0) @binding(2) var<storage, read_write> depths: array<atomic<u32>>;
 /// The sphere's number and one more; zero where there is none.
 @group(0) @binding(3) var<storage, read_write> nearest: array<atomic<u32>>;
-/// Marks of the tiles.
-@group(0) @binding(4) var<storage, read_write> tiles: array<atomic<u32>>;
-
-fn mark_tiles(eye: u32, s: Silhouette) {
-    if (any(s.high <= s.low)) { return; }
-    let first = s.low / i32(TILE);
-    let last = (s.high - 1) / i32(TILE);
-    for (var y = first.y; y <= last.y; y++) {
-        for (var x = first.x; x <= last.x; x++) {
-            let tile = (eye * frame.tile_rows + u32(y)) * frame.tile_columns + u32(x);
-            if ((atomicLoad(&tiles[tile]) & MARK_SPHERES) == 0u) { atomicOr(&tiles[tile], MARK_SPHERES); }
-        }
-    }
-}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {

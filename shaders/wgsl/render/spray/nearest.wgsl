@@ -1,9 +1,8 @@
 //! The nearest drop of spray at each pixel, by two runs over them, as those over spheres are (`spheres/nearest.wgsl`): the first finds
 //! its depth, the second its number.
 
-//!include common/picture/silhouette.wgsl
+//!include common/picture/sphere_marks.wgsl
 //!include common/picture/spray_drops.wgsl
-//!include common/picture/tile_marks.wgsl
 
 struct SprayRun {
     /// Flights.
@@ -19,20 +18,6 @@ var<immediate> run: SprayRun;
 @group(0) @binding(2) var<storage, read_write> depths: array<atomic<u32>>;
 /// The drop's number, of `MOST_DROPS` a flight, and one more; zero where there is none.
 @group(0) @binding(3) var<storage, read_write> nearest: array<atomic<u32>>;
-/// Marks of the tiles.
-@group(0) @binding(4) var<storage, read_write> tiles: array<atomic<u32>>;
-
-fn mark_tiles(eye: u32, s: Silhouette) {
-    if (any(s.high <= s.low)) { return; }
-    let first = s.low / i32(TILE);
-    let last = (s.high - 1) / i32(TILE);
-    for (var y = first.y; y <= last.y; y++) {
-        for (var x = first.x; x <= last.x; x++) {
-            let tile = (eye * frame.tile_rows + u32(y)) * frame.tile_columns + u32(x);
-            atomicOr(&tiles[tile], MARK_SPHERES);
-        }
-    }
-}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
