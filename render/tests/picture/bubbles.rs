@@ -1,6 +1,6 @@
 //! Bubbles in a tank, seen from above, against rays that are followed in f64 by Snell's and Fresnel's laws, with every bubble tried.
 
-use crate::liquid::{Liquid, SPACING, draw, frame, rig};
+use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
 use crate::rig::{Picture, Rig, linear, ray};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::Buffer;
@@ -228,4 +228,127 @@ fn a_bubble_is_a_lens() {
         eprintln!("edge at {edge} m: seen {mean} pixels beside its place");
         assert!(mean.abs() < 0.5, "{edge} m: {mean} pixels, {apart:?}");
     }
+}
+
+/// Red light of a level hemisphere's floor and of its zenith, as the room has them without walls.
+const LIGHT: [f64; 2] = [0.24, 0.52];
+
+/// Red light from a direction with the upward part `up`.
+fn sky(up: f64) -> f64 {
+    LIGHT[0] + (LIGHT[1] - LIGHT[0]) * (0.5 + 0.5 * up)
+}
+
+/// As it is displayed: K. Narkowicz's fit of ACES.
+fn displayed(light: f64) -> f64 {
+    light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
+}
+
+/// Fresnel's share of unpolarised light, by the angles before and behind a face.
+fn mirrored(cosine: f64, from: f64, to: f64) -> f64 {
+    let before = cosine.acos();
+    let sine = before.sin() * from / to;
+    if sine >= 1.0 {
+        return 1.0;
+    }
+    let behind = sine.asin();
+    if before < 1e-6 {
+        return ((from - to) / (from + to)).powi(2);
+    }
+    let s = (before - behind).sin() / (before + behind).sin();
+    let p = (before - behind).tan() / (before + behind).tan();
+    0.5 * (s * s + p * p)
+}
+
+/// A bubble half out of the liquid is a film, which mirrors at both faces, over a hollow of its own shape.
+#[test]
+fn foam_is_a_film_over_a_hollow() {
+    let mut rig = clear_rig(EXTENT);
+    scene(&mut rig, None, None);
+    let (middle, radius) = (DVec3::new(0.002, DEPTH, -0.001), 0.008);
+    let picture = drawn(&rig, &[(middle, radius)]);
+    let view = above();
+    let eye = view.stage_from_eye.translation.as_dvec3() - origin();
+    let (mut compared, mut sum, mut worst) = (0, 0.0, 0.0_f64);
+    for y in 0..EXTENT[1] {
+        for x in 0..EXTENT[0] {
+            let way = ray(&view, EXTENT, x, y);
+            let along = (middle - eye).dot(way);
+            let apart = miss(eye, way, middle);
+            // Film and hollow show the window towards it and away from it: aside of that. And not where a pixel has both film and none.
+            let at = eye + way * along - middle;
+            let to_window = DVec3::new(-0.905, 0.0, 0.425).dot(at);
+            if !(0.1 * radius..0.92 * radius).contains(&apart) || to_window.abs() > 0.4 * apart {
+                continue;
+            }
+            let half = (radius * radius - apart * apart).sqrt();
+            let film = eye + way * (along - half);
+            let outward = (film - middle) / radius;
+            let face = mirrored(-way.dot(outward), 1.0, INDEX);
+            let kept = 1.0 - 2.0 * face / (1.0 + face);
+            let reflect = |way: DVec3, normal: DVec3| way - 2.0 * way.dot(normal) * normal;
+            let hollow = (middle - (eye + way * (along + half))) / radius;
+            let surface = mirrored(-way.dot(hollow), 1.0, INDEX);
+            let within = bent(way, hollow, 1.0, INDEX).unwrap();
+            let Some(out) = bent(within, DVec3::Y, INDEX, 1.0) else {
+                continue;
+            };
+            let under = (1.0 - surface) * sky(out.y) + surface * sky(reflect(way, hollow).y);
+            let all = kept * under + (1.0 - kept) * sky(reflect(way, outward).y);
+            let level = picture.colour[0][4 * (y * EXTENT[0] + x) as usize];
+            let off = linear(level) - displayed(all);
+            compared += 1;
+            sum += off;
+            worst = worst.max(off.abs());
+        }
+    }
+    let mean = sum / f64::from(compared);
+    eprintln!("{compared} pixels, off by {mean} on the mean, {worst} at worst");
+    // Water takes 1 % of red on that way, and the hollow's faces lie in a surface of particles.
+    assert!(compared > 200 && mean.abs() < 0.006 && worst < 0.01);
+}
+
+/// Through one layer of bubbles one sees the table's edge. Through five it is white, and the same wherever a ray would have gone.
+#[test]
+fn many_bubbles_are_white_and_even() {
+    let mut rig = clear_rig(EXTENT);
+    let table = BoxDesc {
+        min: Vec3::new(0.0, TABLE as f32 - 1e-4, -1.0),
+        max: Vec3::new(0.5, TABLE as f32, 0.2),
+    };
+    let room = BoxDesc {
+        min: Vec3::new(-2.0, 0.0, -2.0),
+        max: Vec3::new(2.0, 2.7, 2.0),
+    };
+    scene(&mut rig, Some(table), Some(room));
+    // Middle value, and the share of pixels within 0.02 of it, in the tank's middle.
+    let seen = |layers: u32| {
+        let balls: Vec<Ball> = (0..layers * 81)
+            .map(|n| {
+                let [x, y, z] = [n % 9, n / 81, n / 9 % 9].map(f64::from);
+                let aside = 0.5 * (y % 2.0) - 4.0;
+                let at = DVec3::new(x + aside, 0.0, z + aside) * 0.005;
+                (at + DVec3::Y * (DEPTH - 0.0035 - 0.005 * y), 0.00255)
+            })
+            .filter(|ball| ball.0.with_y(0.0).length() < 0.025)
+            .collect();
+        let picture = drawn(&rig, &balls);
+        let mut found = Vec::new();
+        for y in 80..160 {
+            for x in 120..200 {
+                found.push(linear(picture.colour[0][4 * (y * EXTENT[0] + x) as usize]));
+            }
+        }
+        found.sort_by(f64::total_cmp);
+        let middle = found[found.len() / 2];
+        let even = found
+            .iter()
+            .filter(|it| (*it - middle).abs() < 0.02)
+            .count();
+        (middle, even as f64 / found.len() as f64)
+    };
+    let ((one, broken), (white, even)) = (seen(1), seen(5));
+    eprintln!("one layer {one}, {broken} of it even; five {white}, {even}");
+    assert!(broken < 0.5, "{broken}");
+    assert!(even > 0.85, "{even}");
+    assert!(white > one + 0.1, "{one} {white}");
 }

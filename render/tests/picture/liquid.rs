@@ -5,7 +5,7 @@ use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::{
     BoxDesc, BubbleSource, FrameDesc, Lanes, LiquidDesc, LiquidSource, Neighbours, RenderDesc,
-    Renderer, SpraySource, Surface, SurfaceFilter, View,
+    Renderer, SpraySource, Surface, SurfaceFilter, Tint, View,
 };
 use vitriol_shaders::{Library, layout};
 use vitriol_tests::gpu;
@@ -118,6 +118,18 @@ pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: 
             ..LiquidDesc::new(20_000)
         }),
         lanes,
+        ..RenderDesc::film(extent)
+    })
+}
+
+/// A renderer of liquid that has no tint.
+pub fn clear_rig(extent: [u32; 2]) -> Rig {
+    rig_of(&RenderDesc {
+        liquid: Some(LiquidDesc {
+            tint: Tint::None,
+            bubbles: 1024,
+            ..LiquidDesc::new(20_000)
+        }),
         ..RenderDesc::film(extent)
     })
 }

@@ -1,16 +1,12 @@
 //! The meniscus at a vessel's wall, against Young and Laplace's equation integrated in f64: what lies under a vessel is seen from above, through
 //! a surface that climbs its wall.
 
-use crate::liquid::{Liquid, SPACING, draw, frame};
+use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
 use crate::panel::image;
-use crate::rig::{Rig, linear, ray};
+use crate::rig::{linear, ray};
 use glam::{Affine3A, Quat, Vec3};
 use std::f64::consts::FRAC_PI_2;
-use vitriol_render::{
-    Fov, FrameDesc, LiquidDesc, Panel, RenderDesc, Renderer, SceneDesc, Tint, VesselDesc, View,
-};
-use vitriol_shaders::Library;
-use vitriol_tests::gpu;
+use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 const RADIUS: f64 = 0.02;
@@ -63,29 +59,15 @@ fn arrives(across: f64, height: f64, slope: f64) -> f64 {
 
 #[test]
 fn a_meniscus_is_young_and_laplaces() {
-    let gpu = gpu::device();
-    let desc = RenderDesc {
-        liquid: Some(LiquidDesc {
-            tint: Tint::None,
-            ..LiquidDesc::new(20_000)
-        }),
-        ..RenderDesc::film(EXTENT)
-    };
-    let mut renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
-    let scene = SceneDesc {
+    let mut rig = clear_rig(EXTENT);
+    rig.set_scene(&SceneDesc {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.04]],
             outer: vec![[0.0, 0.0], [RADIUS + 0.002, 0.0], [RADIUS + 0.002, 0.04]],
             ..VesselDesc::default()
         }],
         ..SceneDesc::default()
-    };
-    renderer.set_scene(&scene).unwrap();
-    let rig = Rig {
-        gpu,
-        renderer,
-        extent: EXTENT,
-    };
+    });
     let mut places = Vec::new();
     for n in 0..LAYERS * 16 * 16 {
         let [x, y, z] = [n % 16, n / 256, n / 16 % 16];

@@ -1,16 +1,12 @@
 //! What is seen through a liquid whose acid changes from place to place, against rays in f64: d/ds (n dr/ds) = ∇n, by Runge and Kutta's
 //! fourth order.
 
-use crate::liquid::{Liquid, SPACING, draw, frame};
+use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
 use crate::panel::image;
 use crate::rig::{Rig, linear, ray};
 use glam::{Affine3A, DVec2, Vec3};
 use vitriol_gpu::Image;
-use vitriol_render::{
-    Fov, FrameDesc, LiquidDesc, Panel, RenderDesc, Renderer, SceneDesc, Tint, VesselDesc, View,
-};
-use vitriol_shaders::Library;
-use vitriol_tests::gpu;
+use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 /// Of the liquid, and of the glass, m.
@@ -27,30 +23,17 @@ const GLASS: f64 = 1.47;
 const WATER: f64 = 1.333;
 const ACID: f64 = 0.0975 / 0.98;
 
-fn clear_rig() -> Rig {
-    let gpu = gpu::device();
-    let desc = RenderDesc {
-        liquid: Some(LiquidDesc {
-            tint: Tint::None,
-            ..LiquidDesc::new(20_000)
-        }),
-        ..RenderDesc::film(EXTENT)
-    };
-    let mut renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
-    let scene = SceneDesc {
+fn tank() -> Rig {
+    let mut rig = clear_rig(EXTENT);
+    rig.set_scene(&SceneDesc {
         vessels: vec![VesselDesc {
             inner: vec![[0.0, FLOOR], [RADIUS, FLOOR], [RADIUS, 0.05]],
             outer: vec![[0.0, 0.0], [OUTER, 0.0], [OUTER, 0.05]],
             ..VesselDesc::default()
         }],
         ..SceneDesc::default()
-    };
-    renderer.set_scene(&scene).unwrap();
-    Rig {
-        gpu,
-        renderer,
-        extent: EXTENT,
-    }
+    });
+    rig
 }
 
 /// A full cylinder of particles, each shaken by up to so many spacings.
@@ -143,7 +126,7 @@ fn rows(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> V
 
 #[test]
 fn a_gradient_bends_as_rays_are() {
-    let rig = clear_rig();
+    let rig = tank();
     let image = image(&rig);
     let eye = FOOT + Vec3::new(0.0, EYE.x as f32, EYE.y as f32);
     let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.12, 4.0 / 3.0));
@@ -212,7 +195,7 @@ fn a_gradient_bends_as_rays_are() {
 /// that stands glass, which mirrors some 4 % of some of the room at each face.
 #[test]
 fn untinted_liquids_are_clear() {
-    let rig = clear_rig();
+    let rig = tank();
     let image = image(&rig);
     let eye = FOOT + Vec3::new(0.0, EYE.x as f32, EYE.y as f32);
     let view = View::look_at(eye, eye - Vec3::Z, Fov::symmetric(0.12, 4.0 / 3.0));
