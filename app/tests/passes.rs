@@ -35,6 +35,7 @@ fn take(folder: &Path, name: &str, more: &[&str]) -> Result<(), Failure> {
     let Command::Picture(args) = Cli::parse_from(arguments).command else {
         panic!("picture is parsed as another command");
     };
+    let device = gpu::device();
     picture::run(&args, Format::Json, |setup| {
         let coarse = Setup {
             scene: &scene(),
@@ -42,7 +43,7 @@ fn take(folder: &Path, name: &str, more: &[&str]) -> Result<(), Failure> {
             shaders: setup.shaders.clone(),
             ..*setup
         };
-        on_device(&gpu::device(), &coarse)
+        on_device(&device, &coarse)
     })
 }
 

@@ -19,6 +19,10 @@ pub struct Watched(Gpu);
 /// The process's device, opened at the first call; `VITRIOL_DEVICE` (index or
 /// part of the name) chooses which.
 ///
+/// Bind it: `&device()` as an argument is dropped, and the layer asked, before
+/// the work that follows is done. Nothing waits for that work then, and a
+/// process that exits while the software driver works at it may abort.
+///
 /// # Panics
 /// Where there is no device or no validation layer, with the remedy.
 pub fn device() -> Watched {

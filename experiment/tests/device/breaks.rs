@@ -79,7 +79,8 @@ fn a_dropped_beaker_lies_in_shards() {
 
 #[test]
 fn glass_that_does_neither_is_refused() {
-    let mut laboratory = coloured(&gpu::device(), None, Library::embedded(), Colour::Liquid);
+    let device = gpu::device();
+    let mut laboratory = coloured(&device, None, Library::embedded(), Colour::Liquid);
     let mut frame = step(0);
     frame.scenario.push(glass("melts"));
     let error = laboratory.step(&frame).unwrap_err();
@@ -94,7 +95,8 @@ fn glass_that_does_neither_is_refused() {
 /// What a student asked of a lesson in another version's words is nothing to a replay that judges none.
 #[test]
 fn a_wish_without_a_judge_is_let_pass() {
-    let mut laboratory = coloured(&gpu::device(), None, Library::embedded(), Colour::Liquid);
+    let device = gpu::device();
+    let mut laboratory = coloured(&device, None, Library::embedded(), Colour::Liquid);
     let mut frame = step(0);
     frame.scenario.push(Switch {
         key: "lesson".into(),

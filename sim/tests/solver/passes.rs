@@ -104,7 +104,8 @@ fn a_buffer_that_the_solver_lacks_is_named() {
     };
     let setup = Setup::new(parameters(), Vec::new(), Vec::new());
     let shaders = Library::from_sources(PASSES.map(renamed));
-    let made = setup.solver_of(&gpu::device(), &shaders);
+    let device = gpu::device();
+    let made = setup.solver_of(&device, &shaders);
     let Err(SolverError::Gpu(GpuError::Binding { pass, binding, .. })) = made else {
         panic!("{:?}", made.err());
     };

@@ -30,9 +30,10 @@ fn boils(
 
 /// A third of a second, after which all is finite and there; the solver, and what it held at the start.
 fn finite(setup: &Setup, pose: Pose) -> (Solver, [f64; 2]) {
-    let solver = setup.solver(&gpu::device());
+    let device = gpu::device();
+    let solver = setup.solver(&device);
     let start = held(&solver);
-    frames(&gpu::device(), &solver, &[pose], 30);
+    frames(&device, &solver, &[pose], 30);
     let state = solver.snapshot().unwrap();
     assert_eq!(solver.counters().unwrap().nan_particles, 0);
     for found in particles(&state) {
@@ -193,14 +194,15 @@ fn acid_and_water_200_kelvin_too_hot() {
         (300.0, if at.y < 0.0045 { 0.98 } else { 0.0 })
     });
     let setup = Setup::new(of(with_bubbles(), parameters()), vec![profile], particles);
-    let solver = setup.solver(&gpu::device());
+    let device = gpu::device();
+    let solver = setup.solver(&device);
     let ledger = || {
         let state = solver.snapshot().unwrap();
         let heat = vitriol_sim::measure::measure_heat(solver.parameters(), &state);
         heat.and_then(|heat| heat.ledger).unwrap()
     };
     let start = ledger();
-    frames(&gpu::device(), &solver, &[Pose::IDENTITY], 45);
+    frames(&device, &solver, &[Pose::IDENTITY], 45);
     let end = ledger();
     let mass = (end.mass + end.steam) / start.mass - 1.0;
     let acid = end.acid / start.acid - 1.0;
