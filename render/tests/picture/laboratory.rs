@@ -200,3 +200,43 @@ fn rooms_are_as_bright_as_they_say() {
         );
     }
 }
+
+/// Panes, bar and wall of the window, where geometry has them, with their own light; in sight, and in still water's mirror.
+#[test]
+fn the_window_is_seen_and_mirrored() {
+    let displayed =
+        |light: f64| light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
+    for furnished in [false, true] {
+        let mut rig = Rig::new(EXTENT, 1);
+        rig.set_scene(&SceneDesc {
+            furnished,
+            ..SceneDesc::laboratory(Vec::new(), TOP, 1.0)
+        });
+        let window = Vec3::new(-1.6, 1.75, 0.35);
+        let view = look(window + Vec3::new(2.2, 0.1, 0.2), window, 1.3);
+        let picture = rig.draw(&without_particles(&[view]));
+        let light = |up: f32, across: f32| {
+            let at = seen(&view, window + Vec3::new(0.0, up, across));
+            rgb(&picture, at[0] as usize, at[1] as usize)[1]
+        };
+        // Panes are as bright as can be shown; what is beside and between them has the ambient light alone.
+        for (up, across) in [
+            (0.4, 0.6),
+            (-0.4, 0.6),
+            (0.4, -0.6),
+            (-0.4, -0.6),
+            (0.7, 1.08),
+        ] {
+            assert!(light(up, across) > 0.99, "{furnished} ({up}, {across})");
+        }
+        let wall = displayed(0.60 * 0.385);
+        for (up, across) in [(0.0, 0.6), (0.4, 0.0), (0.95, 0.3), (0.3, 1.4)] {
+            let found = light(up, across);
+            let least = if furnished { 0.1 } else { wall - 0.01 };
+            assert!(
+                (least..wall + 0.01).contains(&found),
+                "{furnished} ({up}, {across}): {found}"
+            );
+        }
+    }
+}

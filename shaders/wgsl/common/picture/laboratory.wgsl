@@ -73,7 +73,7 @@ fn corner_shade(near: f32) -> f32 {
     return 1.0 - 0.42 / (1.0 + far * far);
 }
 
-/// How much of the pixel at that place of the window's wall is panes: (z, y) from the window's middle.
+/// How much of the pixel at that place of the window's wall is panes: (z, y) from the window's middle; `sharp` is one over a pixel's width, 1/m.
 fn panes_at(at: vec2<f32>, sharp: f32) -> f32 {
     let place = abs(at);
     let inside = saturate((WINDOW_HALF - place) * sharp + 0.5);
@@ -334,7 +334,7 @@ fn pedestal(before: Far, ray: Sight) -> Far {
 fn bare_wall(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let light = lit(select(PAINT, FLOORING, normal.y > 0.5), at, normal, 1.0);
     if (normal.x < 0.5) { return light; }
-    return mix(light, pane_light(), panes_at(at.zy - WINDOW.zy, 2.0 * WINDOW_EDGE));
+    return mix(light, pane_light(), panes_at(at.zy - WINDOW.zy, 0.5 / WINDOW_EDGE));
 }
 
 /// What a ray that misses the table sees of the room, whose walls it meets after `way`, at a wall with that normal.
@@ -362,7 +362,7 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
 fn mirrored_laboratory(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     if (frame.furnished == 0u) { return bare_wall(at, normal); }
     if (normal.x > 0.5) {
-        let panes = panes_at(at.zy - WINDOW.zy, 2.0 * WINDOW_EDGE);
+        let panes = panes_at(at.zy - WINDOW.zy, 0.5 / WINDOW_EDGE);
         return mix(lit(PAINT, at, normal, 0.9), pane_light(), panes);
     }
     var albedo = select(PAINT, FLOORING, normal.y > 0.5);
