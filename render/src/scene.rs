@@ -66,13 +66,14 @@ impl VesselDesc {
             let share = (index as f64).max(0.05) / (INNER_RADII - 1) as f64;
             radius_at(&self.inner, low + share * (high - low)) as f32
         };
-        let bounds = self.bounds();
+        // Half-way up, where neither base nor rim is.
+        let middle = 0.5 * (low + high);
         layout::Vessel {
             radii: std::array::from_fn(|row| std::array::from_fn(|n| radius(4 * row + n))),
             inner_floor: low as f32,
             rim: high as f32,
-            outer: bounds.radius,
-            wall: low as f32 - bounds.bottom,
+            outer: self.bounds().radius,
+            wall: (radius_at(&self.outer, middle) - radius_at(&self.inner, middle)).max(0.0) as f32,
             ..layout::Vessel::default()
         }
     }

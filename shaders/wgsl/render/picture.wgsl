@@ -64,7 +64,7 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
         var kept = vec3<f32>(1.0);
         var mirrored = vec3<f32>(0.0);
         var wet = false;
-        var through = NO_VESSEL;
+        var through = Through(NO_VESSEL, 1.0);
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
             var ray: Wet;
@@ -85,7 +85,7 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
             let liquid = BEFORE_GLASS * near / abs(depth);
             if (depth != 0.0 && liquid > reversed) {
                 wet = true;
-                through = ray.vessel;
+                through = ray.through;
                 reversed = liquid;
                 origin = ray.origin;
                 direction = ray.direction;

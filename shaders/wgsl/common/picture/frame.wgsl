@@ -46,7 +46,7 @@ struct Vessel {
     rim: f32,
     /// Largest radius of the outer surface.
     outer: f32,
-    /// Thickness of the glass.
+    /// Thickness of the wall's glass, half-way up.
     wall: f32,
     /// The first of its outline's segments in `common/picture/glass_light.wgsl`'s table, and the one after its last.
     segments: vec2<u32>,

@@ -2,32 +2,21 @@
 //! and traced against the vessel and the room. Beside the pixel only the acid where a ray turns and the liquid behind a wall are
 //! looked up, at places in the stage, so both eyes see the same things in the same places.
 
-//!include common/picture/bubble_light.wgsl
 //!include common/picture/fresnel.wgsl
+//!include common/picture/liquid_way.wgsl
 //!include common/picture/meniscus.wgsl
 //!include common/picture/room.wgsl
 //!include common/picture/schlieren.wgsl
 //!include common/picture/thickness_sums.wgsl
 //!include common/picture/through_wall.wgsl
+//!include common/picture/under_vessel.wgsl
 //!include common/picture/vessel_rays.wgsl
 
 /// Filtered reversed depth, 0 where there is no liquid.
 @group(0) @binding(2) var<storage, read> surface: array<f32>;
 
-/// Refractive index of water at 20 °C.
-const INDEX = 1.333;
-/// Ways through the liquid, each but the first behind a mirror: after that, what is left is little.
-const MOST_WAYS = 5;
-/// Bubbles on a ray's way, each of which is a mirror or a lens. At the next one the ray ends, in the light that comes from all about: where it would
-/// come from changes from pixel to pixel there, and glitters.
-const MOST_BUBBLES = 3;
 /// Share of the light upon many bubbles that they send on: they are clear.
 const FOAM_WHITENESS = 0.85;
-
-/// Of liquid with that share of acid by mass.
-fn index_of(acid: f32) -> f32 {
-    return INDEX + INDEX_OF_ACID * acid;
-}
 
 /// Where a point of the stage is seen (pixels), and its view depth.
 fn pixel_of(point: vec3<f32>, eye: u32) -> vec3<f32> {
@@ -73,82 +62,12 @@ struct Wet {
     direction: vec3<f32>,
     kept: vec3<f32>,
     mirrored: vec3<f32>,
-    /// The vessel that it is in, or `NO_VESSEL`.
-    vessel: u32,
+    /// What it sees the bench through.
+    through: Through,
 }
 
-/// A ray on its way through a vessel's liquid, and out of it.
-struct Way {
-    /// Where it leaves it, and along what.
-    exit: vec3<f32>,
-    out: vec3<f32>,
-    /// How far it has come in the liquid, and where it first turned.
-    length: f32,
-    turned: vec3<f32>,
-    /// Whether it leaves it through the base.
-    down: bool,
-    /// Whether it ends among bubbles.
-    lost: bool,
-}
-
-/// Follows a ray from `point` (stage; `p` in the vessel's frame) along `within`, both in the liquid: what meets wall, base or the surface at the
-/// height `level` (stage) too flat is mirrored there, and goes on.
-fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, index: f32, level: f32) -> Way {
-    let m = frame.vessels[vessel].vessel_from_stage;
-    let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
-    var ray = Way(point, within, 0.0, point, false, false);
-    var at = p;
-    let bubbly = has_bubbles();
-    var mirrors = 0;
-    for (var n = 0; mirrors < MOST_WAYS; n++) {
-        let direction = (m * vec4<f32>(ray.out, 0.0)).xyz;
-        let reach = to_glass(vessel, at, direction);
-        let up = select(1e9, max(level - ray.exit.y, 0.0) / ray.out.y, n > 0 && ray.out.y > 1e-3);
-        var way = min(min(reach.x, reach.y), up);
-        var bubble = NO_BUBBLE;
-        if (bubbly) { bubble = meets_bubble(ray.exit, ray.out, way); }
-        way = min(way, bubble.way);
-        at += way * direction;
-        ray.exit += way * ray.out;
-        ray.length += way;
-        if (n == 0) { ray.turned = ray.exit; }
-        if (bubble.way <= way) {
-            ray.lost = n - mirrors == MOST_BUBBLES;
-            if (ray.lost) { break; }
-            let after = through_bubble(ray.exit, ray.out, bubble, index);
-            ray.exit = after.point;
-            ray.out = after.direction;
-            at = (m * vec4<f32>(ray.exit, 1.0)).xyz;
-            continue;
-        }
-        ray.down = reach.y <= min(reach.x, up);
-        var back = vec3<f32>(0.0, 1.0, 0.0);
-        var through = vec3<f32>(0.0);
-        if (up < min(reach.x, reach.y)) {
-            back = vec3<f32>(0.0, -1.0, 0.0);
-            through = refract(ray.out, back, index);
-        } else if (ray.down) {
-            back = stage_from_vessel * back;
-            through = refract(ray.out, back, index);
-        } else {
-            // Glass is a lens here: what its inner face would mirror, if there were air behind, its outer one lets pass.
-            let wall = inward(vessel, at);
-            back = stage_from_vessel * wall;
-            let in_glass = refract((m * vec4<f32>(ray.out, 0.0)).xyz, wall, index / GLASS_INDEX);
-            let on = out_of_cylinder(at, in_glass, vessel_radius(vessel, at.y) + frame.vessels[vessel].wall);
-            let outer = at + on * in_glass;
-            through = stage_from_vessel * refract(in_glass, inward(vessel, outer), GLASS_INDEX);
-            ray.exit += select(vec3<f32>(0.0), on * (stage_from_vessel * in_glass), dot(through, through) > 0.0);
-        }
-        if (dot(through, through) > 0.0) {
-            ray.out = through;
-            break;
-        }
-        ray.out = reflect(ray.out, back);
-        mirrors += 1;
-    }
-    return ray;
-}
+/// How far off the glass particles are whole, spacings: they lie half of one from it.
+const OFF_GLASS = 0.6;
 
 /// The liquid behind a vessel's wall, as a ray sees it that comes out of the wall's inside; `depth` is 0 where there is none.
 struct Behind {
@@ -158,26 +77,33 @@ struct Behind {
 
 /// See `Behind`. There is liquid where the picture has it at that place, at the wall.
 fn liquid_behind(inside: Inside, eye: u32) -> Behind {
-    let seen = pixel_of(inside.point, eye);
-    let place = seen.xy;
-    let here = seen_at(vec2<i32>(floor(place)), eye);
-    let none = Wet(inside.point, inside.direction, vec3<f32>(1.0), vec3<f32>(0.0), NO_VESSEL);
-    if (here.w <= 0.0 || abs(here.w - seen.z) > frame.spacing) { return Behind(none, 0.0); }
-    let thickness = thickness_at(place, eye);
-    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
-    let index = index_of(acid);
     let m = frame.vessels[inside.vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
     let p = (m * vec4<f32>(inside.point, 1.0)).xyz;
-    let wall = -(stage_from_vessel * inward(inside.vessel, p));
+    let inwards = inward(inside.vessel, p);
+    // Down to the floor there is liquid where it is a spacing higher; nearer, particles are round.
+    let lift = vec3<f32>(0.0, max(frame.spacing - p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
+    let lifted = pixel_of(inside.point + stage_from_vessel * lift, eye);
+    let here = seen_at(vec2<i32>(floor(lifted.xy)), eye);
+    let none = Wet(inside.point, inside.direction, vec3<f32>(1.0), vec3<f32>(0.0), Through(NO_VESSEL, 1.0));
+    if (here.w <= 0.0 || abs(here.w - lifted.z) > frame.spacing) { return Behind(none, 0.0); }
+    // How much there is is asked where particles are whole, too.
+    let off = lift + OFF_GLASS * frame.spacing * inwards;
+    let whole = inside.point + stage_from_vessel * off;
+    let seen = pixel_of(whole, eye);
+    let thickness = thickness_at(seen.xy, eye);
+    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
+    let index = index_of(acid);
+    let wall = -(stage_from_vessel * inwards);
     let within = refract(inside.direction, wall, GLASS_INDEX / index);
     // Glass as thick as that mirrors it.
     if (dot(within, within) == 0.0) { return Behind(none, 0.0); }
-    let sight = normalize(inside.point - frame.views[eye].eye);
-    let straight = length(inside.point - frame.views[eye].eye) / seen.z * thickness.x;
-    let filled = filled_along(inside.vessel, p, (m * vec4<f32>(sight, 0.0)).xyz, straight);
-    let mixing = striae_at(place, eye, thickness, seen.z, straight);
-    return Behind(followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled, mixing), seen.z);
+    let sight = whole - frame.views[eye].eye;
+    let straight = length(sight) / seen.z * thickness.x;
+    let filled = filled_along(inside.vessel, p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, straight);
+    let mixing = striae_at(seen.xy, eye, thickness, seen.z, straight);
+    let light = followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled, mixing);
+    return Behind(light, pixel_of(inside.point, eye).z);
 }
 
 /// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
@@ -211,14 +137,21 @@ fn followed(
     let mixed = select(acid, 0.5 * (acid + saturate(there.y / max(there.x, 1e-9))), there.x > frame.spacing);
     // What the bench under it sends back has come down through the liquid before. The vessel's y is up, or is not.
     let upright = saturate(frame.vessels[vessel].vessel_from_stage[1].y);
-    let lit = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
-    let path = filled * (way.length + lit);
-    let kept = exp(-path * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
+    let depth = select(0.0, upright * max(p.y - frame.vessels[vessel].inner_floor, 0.0), way.down);
+    let kept = exp(-filled * (way.length + depth) * frame.metres_per_unit * mix(frame.water, frame.acid, mixed));
     if (way.lost) {
         let all_about = ambient_light(0.0) + 0.5 * key_light(way.exit * frame.metres_per_unit).light;
-        return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, vessel);
+        return Wet(way.exit, way.out, vec3<f32>(0.0), FOAM_WHITENESS * kept * all_about, Through(NO_VESSEL, 1.0));
     }
-    return Wet(way.exit, way.out, kept, vec3<f32>(0.0), vessel);
+    // Beside its foot the bench is in the vessel's shadow, as for all others.
+    var through = Through(select(NO_VESSEL, vessel, way.down), 1.0);
+    if (depth > 0.0) {
+        let m = frame.vessels[vessel].vessel_from_stage;
+        let foot = (m * vec4<f32>(way.exit, 1.0)).xz;
+        let to_window = (m * vec4<f32>(middle_of_light(way.exit * frame.metres_per_unit), 0.0)).xyz;
+        through.window = mix(1.0, window_under(vessel, foot, depth, index, to_window), smoothstep(0.8, 0.95, upright));
+    }
+    return Wet(way.exit, way.out, kept, vec3<f32>(0.0), through);
 }
 
 /// The liquid at a pixel; `here` is `seen_at` of it, of view depth above 0.
@@ -236,7 +169,7 @@ fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
     var wetted = 0.0;
     var foam = Foamed(point, vec3<f32>(0.0), 1.0, point, ray);
     let kept = exp(-straight * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
-    var light = Wet(point, refract(ray, normal, 1.0 / index), kept, vec3<f32>(0.0), NO_VESSEL);
+    var light = Wet(point, refract(ray, normal, 1.0 / index), kept, vec3<f32>(0.0), Through(NO_VESSEL, 1.0));
     if vessel < frame.blocker_count {
         let m = frame.vessels[vessel].vessel_from_stage;
         let p = (m * vec4<f32>(point, 1.0)).xyz;

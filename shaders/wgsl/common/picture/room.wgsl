@@ -14,15 +14,23 @@ const HIDES_SKY = 0.2;
 /// shows the dark under it. Ours.
 const CONTACT = 0.0022;
 const CONTACT_HIDES = 0.45;
-/// No vessel, for `table_light`.
+/// No vessel, for `Through`.
 const NO_VESSEL = 0xffffffffu;
 
-/// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`; the vessel `seen_through` keeps none away: what is
+/// What the bench is seen through.
+struct Through {
+    /// A vessel, which keeps nothing away from what is under it, or `NO_VESSEL`.
+    vessel: u32,
+    /// The share of the window's light that comes down through its liquid.
+    window: f32,
+}
+
+/// The share of the hemisphere's light (x) and of the window's (y) that reaches `position`; the vessel `under` keeps none away: what is
 /// under it is lit through it.
-fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_through: u32) -> vec2<f32> {
+fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, under: u32) -> vec2<f32> {
     var share = vec2<f32>(1.0);
     for (var index = 0u; index < frame.blocker_count; index++) {
-        if (index == seen_through) { continue; }
+        if (index == under) { continue; }
         let blocker = frame.blockers[index];
         let axis = blocker.top - blocker.foot;
         let from_foot = position - blocker.foot;
@@ -57,11 +65,10 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, seen_thr
 }
 
 const WORKTOP = vec3<f32>(0.30, 0.33, 0.35);
-/// Light that the table sends back from `at` (metres) where `position` is that place in the scene's unit, to an eye that looks through a vessel, or
-/// through `NO_VESSEL`.
-fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal: vec3<f32>, seen_through: u32) -> vec3<f32> {
+/// Light that the table sends back from `at` (metres) where `position` is that place in the scene's unit.
+fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal: vec3<f32>, through: Through) -> vec3<f32> {
     let key = key_light(at);
-    let share = shadow(position, normal, key.direction, seen_through);
+    let share = vec2<f32>(1.0, through.window) * shadow(position, normal, key.direction, through.vessel);
     let light = WORKTOP * (share.x * ambient_light(normal.y) + share.y * max(dot(normal, key.direction), 0.0) * key.light);
     let far = at.z - frame.table_min.z * frame.metres_per_unit;
     // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
@@ -104,7 +111,7 @@ fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
 }
 
 /// The light of what a ray from `origin` meets there, and how far that is; `fine` is a pixel's width over the way.
-fn room_light(origin: vec3<f32>, direction: vec3<f32>, met: Meeting, seen_through: u32, fine: f32) -> Far {
+fn room_light(origin: vec3<f32>, direction: vec3<f32>, met: Meeting, through: Through, fine: f32) -> Far {
     let start = origin * frame.metres_per_unit;
     if (met.way == 0.0) { return Far(mix(ambient_light(direction.y), pane_light(), panes_seen(start, direction)), 0.0, 0.0); }
     let steep = select(vec3<f32>(-1e-6), vec3<f32>(1e-6), direction >= vec3<f32>(0.0));
@@ -112,7 +119,7 @@ fn room_light(origin: vec3<f32>, direction: vec3<f32>, met: Meeting, seen_throug
     let way = met.way * frame.metres_per_unit;
     var seen: Far;
     if (met.material == MATERIAL_TABLE) {
-        seen = Far(table_light(ray, origin + met.way * direction, start + way * direction, way, met.normal, seen_through), way, 0.0);
+        seen = Far(table_light(ray, origin + met.way * direction, start + way * direction, way, met.normal, through), way, 0.0);
     } else {
         seen = laboratory(ray, way, met.normal);
     }
