@@ -230,6 +230,7 @@ pub fn options(folder: &Path) -> Options {
             solver: None,
             filter: None,
             tint: None,
+            room: None,
         },
         posture: Posture::Seated,
         grip: Grip::Hold,
