@@ -235,9 +235,10 @@ pub struct VrArgs {
     /// without it both do with less where the display would miss frames
     #[arg(long)]
     pub fixed: bool,
-    /// Where the pictures are sharp
-    #[arg(long, value_enum, default_value_t, value_name = "FOVEATION")]
-    pub foveation: Foveating,
+    /// Where the pictures are sharp; without it everywhere, and about the lenses' axes alone where frames would not fit and
+    /// that helps
+    #[arg(long, value_enum, value_name = "FOVEATION")]
+    pub foveation: Option<Foveating>,
     /// Seed of the particles' initial jitter
     #[arg(long, default_value_t = 0)]
     pub seed: u64,

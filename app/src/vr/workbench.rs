@@ -6,6 +6,7 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
 use vitriol_sim::world::{World, WorldError};
 
+use super::foveating::gives_way;
 use super::ladder::Ladder;
 use super::picture::{Eyes, Picture, Subject};
 use crate::budget;
@@ -61,7 +62,8 @@ impl Workbench {
         let mut scene = loaded.with_preset(plan.preset);
         let of_preset = [scene.solver.substeps, scene.solver.iterations];
         scene = scene.with_effort(plan.solver.unwrap_or(of_preset));
-        let ladder = Ladder::of(&scene, budget::balanced(&loaded));
+        let foveated = gives_way(eyes.foveating, &scene);
+        let ladder = Ladder::of(&scene, budget::balanced(&loaded), foveated);
         scene.picture.filter = plan.filter.unwrap_or(scene.picture.filter);
         scene.picture.tint = plan.tint.unwrap_or(scene.picture.tint);
         scene.picture.room = plan.room.unwrap_or(scene.picture.room);

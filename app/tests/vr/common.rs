@@ -239,7 +239,7 @@ pub fn options(folder: &Path) -> Options {
         // What a software driver takes is no matter to most.
         governed: false,
         // Pictures are looked at to the pixel.
-        foveating: Foveating::Off,
+        foveating: Some(Foveating::Off),
         sound: Device::Silent,
         // Most look at other things.
         hints: false,

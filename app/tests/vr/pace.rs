@@ -4,8 +4,10 @@ use std::sync::mpsc::channel;
 
 use crate::common::{Trouble, Worn, hash, heard, nobody, options, pour, scene, session_with};
 use crate::loss::replayed;
+use crate::seen::Seen;
 use vitriol::vr::decision::Decision;
-use vitriol::vr::session::{SWITCH_FILTER, SWITCH_RESOLUTION, WARM_UP};
+use vitriol::vr::foveating::Foveating;
+use vitriol::vr::session::{SWITCH_FILTER, SWITCH_FOVEATION, SWITCH_RESOLUTION, WARM_UP};
 use vitriol::vr::stand_in::StandIn;
 use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SOLVER, SWITCH_START};
@@ -195,6 +197,65 @@ fn the_filter_gives_way() {
         .collect();
     assert_eq!(filters[0], PictureFilter::CurvatureFlow);
     assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));
+}
+
+/// Pixels aside of the lenses' axes give way before any that are looked at, and come back last: for who has not said whether they
+/// may. A replay knows nothing of it.
+#[test]
+fn pixels_aside_give_way_first() {
+    let gpu = timed();
+    let run = |foveating, until| {
+        let folder = tempfile::tempdir().unwrap();
+        let trouble = Rates {
+            until,
+            between: |_: &mut StandIn, _| None,
+            awaits: None,
+        };
+        let track = pour().sample_track();
+        let mut headset = Worn::of_extent(&gpu, track, [640, 680], (90.0, 120), trouble);
+        let mut options = options(folder.path());
+        options.governed = true;
+        options.foveating = foveating;
+        let (outcome, track) = session_with(&mut headset, options, nobody());
+        (Seen::last(&gpu, "gives-way", &headset), outcome, track)
+    };
+    let (_, outcome, track) = run(None, 30);
+    let said = switches(&track);
+    assert_eq!(values(&said, SWITCH_FOVEATION), ["fixed", "off"]);
+    let at = |key: &str| -> Vec<u64> {
+        let of = said.iter().filter(|(_, of, _)| of == key);
+        of.map(|(step, _, _)| *step).collect()
+    };
+    let [on, off] = at(SWITCH_FOVEATION)[..] else {
+        panic!("{said:?}")
+    };
+    let smaller = at(SWITCH_RESOLUTION);
+    assert!(smaller.len() > 1, "{said:?}");
+    assert!(
+        smaller.iter().all(|step| (on..=off).contains(step)),
+        "{said:?}"
+    );
+    let settings = outcome.governor.settings.iter().map(|with| with.setting);
+    for setting in settings {
+        assert!(setting.foveated || setting.resolution == 1.0, "{setting:?}");
+    }
+    assert_eq!(outcome.foveating, None);
+    assert_eq!(replayed(&gpu, track), hash(&outcome));
+
+    // Of two pictures that end as small the room is the same to the bit, unless one is drawn in blocks there.
+    let pictures = [None, Some(Foveating::Off)].map(|asked| run(asked, u64::MAX));
+    let [(seen, _, _), (sharp, of_sharp, track)] = &pictures;
+    assert!(values(&switches(track), SWITCH_FOVEATION).is_empty());
+    assert!(
+        of_sharp
+            .governor
+            .settings
+            .iter()
+            .all(|with| !with.setting.foveated)
+    );
+    let pairs = seen.pixels.iter().zip(&sharp.pixels);
+    let differ = pairs.filter(|(a, b)| a != b).count();
+    assert!(differ > 20_000, "{differ}");
 }
 
 /// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
