@@ -26,4 +26,5 @@ mod spheres;
 mod spray;
 mod steam;
 mod surface;
+mod thermometer;
 mod wall;
