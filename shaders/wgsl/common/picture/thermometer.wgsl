@@ -1,8 +1,8 @@
 //! What is seen of a thermometer's stem: a plate with marks and numbers, and the column before it, as inside glass.
 //!
 //! The plate stands on the axis and is turned to the eye, so that it is read from wherever one stands; who rolls a thermometer in
-//! her hand sees nothing turn. Column and marks are drawn at the height of the glass's face, so that there is no parallax between
-//! them: who looks from above reads what who looks from the side does.
+//! her hand sees nothing turn. Column and marks are both on it, so that there is no parallax between them: who looks from above
+//! reads what who looks from the side does. The glass bends nothing.
 //!
 //! Across it runs from −1 to 1, the glass's edges: the column, marks to its right, and numbers that are read from the bulb
 //! upwards. Lengths are over the glass's radius.
@@ -66,7 +66,10 @@ fn stem_tint(stem: Cone, at: vec3<f32>, ray: vec3<f32>, width: f32, glass: vec3<
     let right = cross(ray, stem.axis);
     let x = dot(from_end, right) / (max(length(right), 1e-6) * stem.radius);
     let pixel = width / stem.radius;
-    let celsius = run.scale_low + (dot(from_end, stem.axis) - run.scale_from) / run.scale_degree;
+    // From the glass's face on to the plate.
+    let facing = cross(right, stem.axis);
+    let behind = dot(from_end, facing) / min(dot(ray, facing), -1e-6);
+    let celsius = run.scale_low + (dot(from_end - behind * ray, stem.axis) - run.scale_from) / run.scale_degree;
     let degree = run.scale_degree / stem.radius;
     let over = min(celsius - run.scale_low + PLATE_OVER.x, run.scale_high + PLATE_OVER.y - celsius);
     let plate = inside_edge(min(PLATE_HALF - abs(x), over * degree), pixel);
