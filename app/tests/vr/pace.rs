@@ -204,7 +204,7 @@ fn the_filter_gives_way() {
 #[test]
 fn pixels_aside_give_way_first() {
     let gpu = timed();
-    let run = |foveating, until| {
+    let run = |foveating, until, frames| {
         let folder = tempfile::tempdir().unwrap();
         let trouble = Rates {
             until,
@@ -212,14 +212,16 @@ fn pixels_aside_give_way_first() {
             awaits: None,
         };
         let track = pour().sample_track();
-        let mut headset = Worn::of_extent(&gpu, track, [320, 340], (90.0, 60), trouble);
+        let mut headset = Worn::of_extent(&gpu, track, [320, 340], (90.0, frames), trouble);
         let mut options = options(folder.path());
         options.governed = true;
         options.foveating = foveating;
         let (outcome, track) = session_with(&mut headset, options, nobody());
-        (Seen::last(&gpu, "gives-way", &headset), outcome, track)
+        let extent = headset.shown.last().unwrap().extent;
+        let seen = Seen::last(&gpu, "gives-way", &headset);
+        ((seen, extent), outcome, track)
     };
-    let (_, outcome, track) = run(None, 20);
+    let (_, outcome, track) = run(None, 45, 150);
     let said = switches(&track);
     assert_eq!(values(&said, SWITCH_FOVEATION), ["fixed", "off"]);
     let at = |key: &str| -> Vec<u64> {
@@ -243,8 +245,9 @@ fn pixels_aside_give_way_first() {
     assert_eq!(replayed(&gpu, track), hash(&outcome));
 
     // Of two pictures that end as small the room is the same to the bit, unless one is drawn in blocks there.
-    let pictures = [None, Some(Foveating::Off)].map(|asked| run(asked, u64::MAX));
-    let [(seen, _, _), (sharp, of_sharp, track)] = &pictures;
+    let pictures = [None, Some(Foveating::Off)].map(|asked| run(asked, u64::MAX, 60));
+    let [((seen, small), _, _), ((sharp, as_small), of_sharp, track)] = &pictures;
+    assert_eq!((small, as_small), (&[192, 204], &[192, 204]));
     assert!(values(&switches(track), SWITCH_FOVEATION).is_empty());
     assert!(
         of_sharp
