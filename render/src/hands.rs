@@ -243,7 +243,6 @@ fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
         joined: JOINED / frame.length_scale,
         over: frame.has_spheres().into(),
         thinnest: thinnest / frame.length_scale,
-        ..layout::HandsRun::default()
     }
 }
 
