@@ -2,6 +2,7 @@
 //! of what measures in the crate `vitriol_study`.
 
 mod arguments;
+mod drawn;
 mod lesson;
 mod picture;
 
@@ -11,6 +12,7 @@ pub use arguments::{
     CameraName, ConsoleArgs, ExportArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs, PagesArgs,
     ReplayArgs, ScenesArgs, TrackArgs, VrArgs,
 };
+pub use drawn::DrawnArgs;
 pub use lesson::{JudgeArgs, LessonArgs};
 pub use picture::PictureArgs;
 

@@ -2,6 +2,7 @@
 //! what the loop, the observer and the report make of them.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -17,6 +18,7 @@ use vitriol_experiment::{
 use vitriol_lesson::{Attempt, Cause, Ending, Event, Incident, Rubric, Texts, What};
 use vitriol_record::store::Store;
 use vitriol_render::PassPicture;
+use vitriol_sim::scene::PictureRoom;
 use vitriol_tests::browser::{self, Look};
 use vitriol_xr::PoseFrame;
 use vitriol_xr::track::{Existing, save};
@@ -346,6 +348,36 @@ fn numbers_come_through() {
     let worst = report.series[1..].iter().map(|s| s.density_error_p99);
     assert_eq!(report.density_error_p99, worst.fold(0.0, f64::max));
     assert!((report.mass_kg.total() - 0.217).abs() < 1e-12);
+}
+
+/// A film is drawn in the room that is asked for, and its report's command asks for it again.
+#[test]
+fn the_room_of_a_film_is_asked_for_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("dark");
+    let asked = Cell::new(None);
+    let line = [
+        "vitriol",
+        "replay",
+        "two-flasks",
+        "--room",
+        "dark",
+        "--seconds",
+        "0.1",
+        "--out",
+    ];
+    let line = line.into_iter().chain([out.to_str().unwrap()]);
+    let Command::Replay(args) = <Cli as clap::Parser>::parse_from(line).command else {
+        panic!("replay is parsed as another command");
+    };
+    run(&args, Format::Json, |setup| {
+        asked.set(setup.room);
+        Ok(Box::new(Toy::new(u64::MAX)))
+    })
+    .unwrap();
+    assert_eq!(asked.get(), Some(PictureRoom::Dark));
+    let command = report_of(&out).command;
+    assert!(command.contains(" --room dark"), "{command}");
 }
 
 #[test]

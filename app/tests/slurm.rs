@@ -79,6 +79,7 @@ fn recording(folder: &Path) -> Track {
         eyes: 1,
         filter: None,
         tint: None,
+        room: None,
         head: None,
         look: None,
         shaders: Arc::new(Library::embedded()),

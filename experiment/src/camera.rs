@@ -9,7 +9,7 @@ use vitriol_render::{
 use vitriol_shaders::Library;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::table::SolutionTable;
-use vitriol_sim::scene::{Liquid, PictureFilter, PictureTint, Scene};
+use vitriol_sim::scene::{Liquid, PictureFilter, PictureRoom, PictureTint, Scene};
 use vitriol_sim::world::World;
 use vitriol_sound::Listener;
 use vitriol_xr::Hand;
@@ -99,6 +99,8 @@ pub struct Shot {
     pub filter: Option<PictureFilter>,
     /// What tells the liquids apart; `None` for the scene's.
     pub tint: Option<PictureTint>,
+    /// How bright the room is; `None` for the scene's.
+    pub room: Option<PictureRoom>,
     /// Where it is seen from; `None` for the tripod.
     pub look: Option<Look>,
     /// Where it is sharp; `None` for everywhere, as in every film.
@@ -114,6 +116,7 @@ impl Shot {
             liquid: None,
             filter: None,
             tint: None,
+            room: None,
             look: None,
             foveation: None,
         }
@@ -157,7 +160,9 @@ impl Camera {
             ..RenderDesc::film(extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
-        renderer.set_scene(&laboratory(scene)).other()?;
+        let mut drawn = scene.clone();
+        drawn.picture.room = shot.room.unwrap_or(scene.picture.room);
+        renderer.set_scene(&laboratory(&drawn)).other()?;
         let aspect = extent[0] as f32 / extent[1] as f32;
         let seen = |look: &Look| look.view(scene, aspect);
         Ok(Self {

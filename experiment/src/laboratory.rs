@@ -12,7 +12,7 @@ use vitriol_lesson::procedure::Progress;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
-use vitriol_sim::scene::{PictureFilter, PictureTint, Preset, Scene};
+use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset, Scene};
 use vitriol_sim::solver::Held;
 use vitriol_sim::world::{World, WorldError};
 use vitriol_sound::Event;
@@ -59,6 +59,8 @@ pub struct Setup<'a> {
     pub filter: Option<PictureFilter>,
     /// What tells the liquids apart; `None` for the scene's.
     pub tint: Option<PictureTint>,
+    /// How bright the room is; `None` for the scene's.
+    pub room: Option<PictureRoom>,
     /// The head at the start (stage_from_view), where the pictures are what it
     /// sees; `None` for a fixed camera.
     pub head: Option<Pose>,
@@ -176,6 +178,7 @@ impl Laboratory {
             liquid: None,
             filter: setup.filter,
             tint: setup.tint,
+            room: setup.room,
             look: setup.look,
             foveation: None,
         });

@@ -1,18 +1,18 @@
 //! What lies on the bench beside the glass, as it is drawn: of bones, as hands are.
 
 use glam::{Affine3A, Mat3A, Vec3};
-use vitriol_render::{Bone, Finish, Pane};
+use vitriol_render::{Bone, Finish, Pane, Scale};
 use vitriol_sim::scene::{PANE, ToolKind};
 use vitriol_sim::world::World;
 use vitriol_xr::Pose;
 
-/// What a thermometer's column shows between its bulb and its top, °C.
-const SHOWN: [f64; 2] = [-10.0, 150.0];
+/// The lowest and highest mark of a thermometer's scale, just over its bulb and under its top, °C.
+const SHOWN: [f32; 2] = [-10.0, 150.0];
 /// Height of a thermometer's bulb, and by how much it is thicker than the stem, m.
 const BULB: f32 = 0.012;
 const BULB_OVER: f32 = 0.0015;
-/// By how much the column is thicker than the stem, so that it is seen, m.
-const COLUMN_OVER: f32 = 0.0004;
+/// How far the scale keeps away from bulb and top, m.
+const SCALE_INSIDE: f32 = 0.006;
 
 /// One tool's parts in its own frame, real metres; `celsius` is what a thermometer shows.
 fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
@@ -34,12 +34,15 @@ fn parts(kind: ToolKind, celsius: f64) -> Vec<Bone> {
     match kind {
         ToolKind::Rod => vec![stem(Finish::Rod, 0.0, height, radius)],
         ToolKind::Thermometer => {
-            let share = ((celsius - SHOWN[0]) / (SHOWN[1] - SHOWN[0])).clamp(0.0, 1.0) as f32;
-            let level = BULB + share * (height - 2.0 * BULB);
+            let scale = Scale {
+                celsius: SHOWN,
+                // From the middle of the stem's lower end.
+                heights: [BULB + SCALE_INSIDE, height - SCALE_INSIDE].map(|y| y - radius),
+                reading: celsius as f32,
+            };
             vec![
                 stem(Finish::Column, 0.0, BULB, radius + BULB_OVER),
-                stem(Finish::Column, 0.0, level, radius + COLUMN_OVER),
-                stem(Finish::Rod, 0.0, height, radius),
+                stem(Finish::Scale(scale), 0.0, height, radius),
             ]
         }
         ToolKind::Cloth => {
@@ -154,6 +157,7 @@ pub fn pane(world: &World) -> Option<Pane> {
 }
 
 #[cfg(test)]
+#[allow(clippy::panic)]
 mod tests {
     use super::*;
     use vitriol_render::MOST_BONES;
@@ -180,18 +184,24 @@ mod tests {
         }
     }
 
-    /// Warmer is higher, from the bulb to below the top.
+    /// The scale is on the stem, over the bulb and under the top, and shows what it is told; a degree is longer than a millimetre,
+    /// so that it can be read.
     #[test]
-    fn a_column_rises_with_the_temperature() {
-        let top = |celsius: f64| {
-            let column = parts(ToolKind::Thermometer, celsius)[1];
-            column.ends[1].y + column.radii[1]
+    fn a_thermometer_has_a_scale() {
+        let [bulb, stem] = parts(ToolKind::Thermometer, 37.5)[..] else {
+            panic!("a bulb and a stem")
         };
-        let length = ToolKind::Thermometer.cylinder()[1] as f32 - 2.0 * BULB;
-        let a_degree = length / 160.0;
-        assert!((top(60.0) - top(20.0) - 40.0 * a_degree).abs() < 1e-5);
-        assert_eq!(top(-10.0), top(-40.0));
-        assert!(top(150.0) <= ToolKind::Thermometer.cylinder()[1] as f32);
-        assert_eq!(top(150.0), top(300.0));
+        let Finish::Scale(scale) = stem.finish else {
+            panic!("{:?}", stem.finish)
+        };
+        assert_eq!(scale.reading, 37.5);
+        assert_eq!((stem.ends[0] - stem.ends[1]).with_y(0.0), Vec3::ZERO);
+        let [low, high] = scale.heights.map(|height| stem.ends[0].y + height);
+        assert!(low > bulb.ends[1].y + bulb.radii[1]);
+        assert!(high < stem.ends[1].y + stem.radii[1]);
+        let [cold, hot] = scale.celsius;
+        // Ice and boiling acid of the lessons are on it.
+        assert!(cold <= 0.0 && hot >= 140.0);
+        assert!((high - low) / (hot - cold) > 1e-3);
     }
 }

@@ -7,6 +7,7 @@ use crate::RenderError;
 use crate::camera::{NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
+use crate::fluid::bubble_cell;
 use crate::fovea::Foveation;
 use crate::hands::{Bone, MOST_BONES};
 use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
@@ -187,6 +188,7 @@ impl FrameDesc<'_> {
             table_max: corner(scene.table.map(|table| table.max)),
             room_min: corner(scene.room.map(|room| room.min)),
             room_max: corner(scene.room.map(|room| room.max)),
+            bubble_cell: bubble_cell(self.length_scale),
             spacing: self.liquid.map_or(0.0, |liquid| liquid.spacing),
             extent: extent.map(|side| side as f32),
             held: held.map(|side| side as f32),

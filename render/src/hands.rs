@@ -21,7 +21,7 @@ pub const JOINED: f32 = 0.004;
 const CHARRED: Vec3 = Vec3::new(0.048, 0.023, 0.011);
 
 /// What a bone is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
     /// A glove.
     Glove,
@@ -35,10 +35,12 @@ pub enum Finish {
     HandleAtHand,
     /// A hand without a glove.
     Skin,
-    /// A glass rod, and a thermometer above its column.
+    /// A glass rod.
     Rod,
-    /// A thermometer's column.
+    /// A thermometer's bulb.
     Column,
+    /// A thermometer's stem, of which only tools have one.
+    Scale(Scale),
     /// Frame and strap of goggles.
     Frame,
     /// Woven cotton.
@@ -61,7 +63,7 @@ impl Finish {
             Self::Handle => ([0.55, 0.28, 0.05], 0.0),
             Self::HandleAtHand => ([0.90, 0.52, 0.11], 0.6),
             Self::Skin => ([0.420, 0.220, 0.140], 0.0),
-            Self::Rod => ([0.550, 0.610, 0.620], 0.0),
+            Self::Rod | Self::Scale(_) => ([0.550, 0.610, 0.620], 0.0),
             Self::Column => ([0.450, 0.020, 0.020], 0.0),
             Self::Frame => ([0.060, 0.075, 0.085], 0.0),
             Self::Cloth => ([0.620, 0.560, 0.300], 0.0),
@@ -69,6 +71,17 @@ impl Finish {
             Self::Steel => ([0.380, 0.390, 0.400], 0.0),
         }
     }
+}
+
+/// A thermometer's scale on its stem, which begins at the bone's first end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// The lowest and the highest mark, whole °C.
+    pub celsius: [f32; 2],
+    /// How far they are from the middle of the bone's first end, metres.
+    pub heights: [f32; 2],
+    /// What it shows, °C: the column's end is there.
+    pub reading: f32,
 }
 
 /// One bone of a glove, or what is drawn like one: the convex hull of two spheres.
@@ -205,12 +218,31 @@ fn groups<'a>(frame: &FrameDesc<'a>) -> [&'a [Bone]; GROUPS] {
 fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
     let bones = || groups(frame).into_iter().flat_map(drawn);
     let thinnest = bones().flat_map(|bone| bone.radii).fold(FARTHEST, f32::min);
+    let scales = drawn(frame.tools).enumerate();
+    let mut scales = scales.filter_map(|(index, bone)| match bone.finish {
+        Finish::Scale(scale) => Some((index as u32, scale)),
+        _ => None,
+    });
+    // All zeros, of which nothing is drawn.
+    let nothing = Scale {
+        celsius: [0.0; 2],
+        heights: [0.0; 2],
+        reading: 0.0,
+    };
+    let (scale_bone, scale) = scales.next().unwrap_or((MOST_BONES as u32, nothing));
+    let [from, to] = scale.heights.map(|height| height / frame.length_scale);
+    let [low, high] = scale.celsius;
     layout::HandsRun {
+        scale_bone,
+        scale_from: from,
+        scale_degree: (to - from) / (high - low).max(1.0),
+        scale_low: low,
+        scale_high: high,
+        reading: scale.reading.clamp(low, high.max(low)),
         counts: groups(frame).map(|hand| drawn(hand).count() as u32),
         joined: JOINED / frame.length_scale,
         over: frame.has_spheres().into(),
         thinnest: thinnest / frame.length_scale,
-        ..layout::HandsRun::default()
     }
 }
 

@@ -62,7 +62,7 @@ pub use fluid::{Surface, SurfaceReadback};
 pub use fovea::Foveation;
 pub use frame::{ColourBy, FrameDesc};
 pub use half_depth::HalfDepth;
-pub use hands::{Bone, Finish, JOINED, MOST_BONES};
+pub use hands::{Bone, Finish, JOINED, MOST_BONES, Scale};
 pub use light::RoomLight;
 pub use panel::{Pane, Panel};
 pub use pass_pictures::{PassPicture, PassesReadback};

@@ -12,9 +12,10 @@ use vitriol_experiment::switches::pair;
 use vitriol_lesson::{Language, Mode};
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
-use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
-use vitriol_study::parse::{filter, named, positive, preset, tint};
+use vitriol_sim::scene::{PictureFilter, Preset};
+use vitriol_study::parse::{filter, named, positive, preset};
 
+use super::drawn::DrawnArgs;
 use super::lesson::JudgeArgs;
 use crate::command::grade::Tolerance;
 use crate::live::hub_address;
@@ -95,9 +96,9 @@ pub struct ReplayArgs {
     /// Filter of the liquid's surface; without it the scene's
     #[arg(long, value_parser = filter(), value_name = "FILTER", conflicts_with = "no_video")]
     pub filter: Option<PictureFilter>,
-    /// What tells the liquids apart; without it the scene's
-    #[arg(long, value_parser = tint(), value_name = "TINT", conflicts_with = "no_video")]
-    pub tint: Option<PictureTint>,
+    /// How its film is drawn
+    #[command(flatten)]
+    pub drawn: DrawnArgs,
     /// Glass that is struck too hard breaks: by a fall of half a metre and more
     #[arg(long)]
     pub breakable: bool,
@@ -114,7 +115,7 @@ pub struct ReplayArgs {
     #[command(flatten)]
     pub console: ConsoleArgs,
     /// Make the report without a film
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["tint", "room"])]
     pub no_video: bool,
     /// Replay what is whole of a track that breaks off or lacks steps
     #[arg(long)]
@@ -227,16 +228,17 @@ pub struct VrArgs {
     /// Substeps and iterations of the scene to begin with in place of the preset's, such as 10x3
     #[arg(long, value_name = "SxI", value_parser = pair)]
     pub solver: Option<[u32; 2]>,
-    /// What tells the liquids apart; without it the scene's
-    #[arg(long, value_parser = tint(), value_name = "TINT")]
-    pub tint: Option<PictureTint>,
+    /// How it is drawn
+    #[command(flatten)]
+    pub drawn: DrawnArgs,
     /// Keep solver and picture as they are asked for, whatever frames take;
     /// without it both do with less where the display would miss frames
     #[arg(long)]
     pub fixed: bool,
-    /// Where the pictures are sharp
-    #[arg(long, value_enum, default_value_t, value_name = "FOVEATION")]
-    pub foveation: Foveating,
+    /// Where the pictures are sharp; without it everywhere, and about the lenses' axes alone where frames would not fit and
+    /// that helps
+    #[arg(long, value_enum, value_name = "FOVEATION")]
+    pub foveation: Option<Foveating>,
     /// Seed of the particles' initial jitter
     #[arg(long, default_value_t = 0)]
     pub seed: u64,

@@ -6,10 +6,11 @@ use clap::Args;
 use glam::Vec3;
 use vitriol_experiment::switches::pair;
 use vitriol_experiment::{Colour, HEAD_FIELD, Look};
-use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
-use vitriol_study::parse::{filter, positive, preset, room, tint};
+use vitriol_sim::scene::{PictureFilter, Preset};
+use vitriol_study::parse::{filter, positive, preset};
 
 use super::arguments::{CameraName, colour};
+use super::drawn::DrawnArgs;
 
 /// Arguments of `vitriol picture`.
 #[derive(Debug, Args)]
@@ -60,12 +61,9 @@ pub struct PictureArgs {
     /// Filter of the liquid's surface; without it the scene's
     #[arg(long, value_parser = filter(), value_name = "FILTER")]
     pub filter: Option<PictureFilter>,
-    /// What tells the liquids apart; without it the scene's
-    #[arg(long, value_parser = tint(), value_name = "TINT")]
-    pub tint: Option<PictureTint>,
-    /// How bright the room is; without it the scene's
-    #[arg(long, value_parser = room(), value_name = "ROOM")]
-    pub room: Option<PictureRoom>,
+    /// How it is drawn
+    #[command(flatten)]
+    pub drawn: DrawnArgs,
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,

@@ -177,6 +177,7 @@ fn simulated(
             eyes: 1,
             filter: None,
             tint: None,
+            room: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::watching()),

@@ -54,7 +54,7 @@ pub fn run(
         track,
         scenes,
         name,
-        mut scene,
+        scene,
         preset,
         seed,
         ..
@@ -66,7 +66,6 @@ pub fn run(
         accept_truncated: args.accept_truncated,
         ..Ask::default()
     })?;
-    scene.picture.room = args.room.unwrap_or(scene.picture.room);
     if args.colour.is_of_heat() && !scene.models(Feature::Heat) {
         let colour = args.colour.name();
         return Err(format!(
@@ -86,7 +85,8 @@ pub fn run(
         eyes,
         colours: vec![args.colour],
         filter: args.filter,
-        tint: args.tint,
+        tint: args.drawn.tint,
+        room: args.drawn.room,
         head: head(args.camera, &args.track, &track)?,
         look: args.look(),
         shaders: Arc::new(Library::watching()),

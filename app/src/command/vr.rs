@@ -60,8 +60,9 @@ struct SessionReport {
     devices_lost: u32,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
-    /// Where the pictures were sharp.
-    foveation: Foveating,
+    /// Where the pictures were to be sharp; absent where that was the governor's to say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foveation: Option<Foveating>,
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -143,7 +144,8 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             seed: args.seed,
             solver: None,
             filter: None,
-            tint: args.tint,
+            tint: args.drawn.tint,
+            room: args.drawn.room,
         },
         posture: args.posture,
         grip: args.grip,
@@ -211,7 +213,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 },
                 instance_extensions: Vec::new(),
                 device_extensions: Vec::new(),
-                gaze: args.foveation == Foveating::Eye,
+                gaze: args.foveation == Some(Foveating::Eye),
                 panel: PANEL,
             };
             let mut told = false;
@@ -413,10 +415,14 @@ fn governed(governor: &GovernorReport) -> String {
     for FramesWith { setting, frames } in &governor.settings {
         let [substeps, iterations] = setting.solver;
         let picture = 100.0 * setting.resolution;
+        let aside = match setting.foveated {
+            true => ", fewer pixels aside",
+            false => "",
+        };
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {substeps} × {iterations}, picture {picture:.0} %, {:?}: {} frames",
+            "  {substeps} × {iterations}, picture {picture:.0} %{aside}, {:?}: {} frames",
             setting.filter,
             grouped(*frames)
         );
@@ -457,9 +463,13 @@ fn describe(session: &SessionReport) -> String {
     );
     text += &governed(&session.governor);
     text += match session.foveation {
-        Foveating::Off => "every pixel shaded\n",
-        Foveating::Eye => "every pixel shaded about where the user looks, if known, fewer beyond\n",
-        Foveating::Fixed => "every pixel shaded about the lenses' axes, fewer beyond\n",
+        Some(Foveating::Off) => "every pixel shaded\n",
+        Some(Foveating::Eye) => {
+            "every pixel shaded about where the user looks, if known, fewer beyond\n"
+        }
+        Some(Foveating::Fixed) => "every pixel shaded about the lenses' axes, fewer beyond\n",
+        // The settings say it.
+        None => "",
     };
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),

@@ -187,6 +187,8 @@ pub struct Effort {
     pub asked: [u32; 2],
     /// Each side of the picture, per cent of the display's.
     pub picture: u32,
+    /// Whether fewer pixels than were asked for are drawn at the picture's edges.
+    pub foveated: bool,
     /// Whether the liquid's surface is drawn by another filter than was asked for.
     pub other_filter: bool,
     /// The display's rate, Hz, where it was higher at first.
@@ -201,6 +203,9 @@ impl Effort {
             let pair = |[substeps, iterations]: [u32; 2]| format!("{substeps} × {iterations}");
             let solver = words.solver.replace("{now}", &pair(self.solver));
             parts.push(solver.replace("{asked}", &pair(self.asked)));
+        }
+        if self.foveated {
+            parts.push(words.edges.clone());
         }
         if self.other_filter {
             parts.push(words.surface.clone());

@@ -15,7 +15,7 @@ use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, PoseFrame, Targets};
 
-use super::foveating::Foveating;
+use super::foveating::{Foveating, may_foveate};
 use super::panel::{SIZE, scene_from_panel};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
@@ -29,13 +29,13 @@ pub struct Eyes {
     pub extent: [u32; 2],
     /// By eye, corners of the triangles that the lens hides.
     pub hidden: [Vec<[f32; 2]>; 2],
-    /// Where they are sharp.
-    pub foveating: Foveating,
+    /// Where they are sharp; without it everywhere, for as long as frames fit.
+    pub foveating: Option<Foveating>,
 }
 
 impl Eyes {
     /// Those of a headset.
-    pub fn of(headset: &dyn Headset, foveating: Foveating) -> Self {
+    pub fn of(headset: &dyn Headset, foveating: Option<Foveating>) -> Self {
         Self {
             extent: headset.extent(),
             hidden: headset.hidden_area(),
@@ -121,7 +121,7 @@ impl Picture {
         let desc = RenderDesc {
             views: 2,
             liquid: Some(subject.liquid),
-            foveated: eyes.foveating != Foveating::Off,
+            foveated: may_foveate(eyes.foveating, scene),
             ..RenderDesc::film(eyes.extent)
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;

@@ -72,7 +72,7 @@ use track::{Finished, SessionTrack};
 
 pub use counts::WARM_UP;
 pub use guide::Course;
-pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_RESOLUTION};
+pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_FOVEATION, SWITCH_RESOLUTION};
 pub use sounds::SoundReport;
 pub use spills::{Contacts, Spilt, Touched};
 
@@ -93,8 +93,8 @@ pub struct Options {
     pub sound: Device,
     /// Whether a governor gives solver and picture less to do where frames would not fit the display's period.
     pub governed: bool,
-    /// Where the pictures are sharp.
-    pub foveating: Foveating,
+    /// Where the pictures are sharp; without it everywhere, but where the governor has to give way.
+    pub foveating: Option<Foveating>,
     /// Whether signs show a first user what to do.
     pub hints: bool,
     /// The instructor's console, if there is one.
@@ -119,8 +119,8 @@ pub struct SessionOutcome {
     pub frames: u64,
     /// Display periods without a frame, of those that count.
     pub skipped: u64,
-    /// Where the pictures were sharp.
-    pub foveating: Foveating,
+    /// Where the pictures were to be sharp; `None` where that was the governor's to say.
+    pub foveating: Option<Foveating>,
     /// Times that a session was found again.
     pub renewals: u64,
     /// Times that a device was lost, and the bench was brought back on another.
@@ -219,7 +219,10 @@ impl Session {
         decisions: Receiver<Decision>,
     ) -> Result<Self, Failure> {
         let gpu = headset.gpu();
-        let mut benches = Benches::new(headset, &options.plan, options.foveating)?;
+        // Without a governor nothing gives way.
+        let fixed = (!options.governed).then_some(Foveating::Off);
+        let foveating = options.foveating.or(fixed);
+        let mut benches = Benches::new(headset, &options.plan, foveating)?;
         let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
@@ -238,7 +241,7 @@ impl Session {
                 value: GLASS[1].into(),
             });
         }
-        pacing.begin(true, 1.0, &mut benches.current, &mut track)?;
+        pacing.begin(true, None, &mut benches.current, &mut track)?;
         let scene = benches.current.world.scene();
         let steps = Steps::new(&benches.current.plan.scene, scene);
         let sounds = Sounds::new(options.sound, scene, options.plan.seed);

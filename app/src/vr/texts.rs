@@ -110,6 +110,8 @@ pub struct EffortTexts {
     pub coarser: String,
     /// Substeps and iterations.
     pub solver: String,
+    /// Fewer pixels are drawn at the picture's edges.
+    pub edges: String,
     /// Another filter draws the liquid's surface.
     pub surface: String,
     /// The picture's size.

@@ -3,9 +3,10 @@
 use vitriol_experiment::{Failure, Scenes};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::scene::{PictureFilter, PictureTint, Preset};
+use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset};
 use vitriol_sim::world::{World, WorldError};
 
+use super::foveating::gives_way;
 use super::ladder::Ladder;
 use super::picture::{Eyes, Picture, Subject};
 use crate::budget;
@@ -28,6 +29,8 @@ pub struct Plan {
     pub filter: Option<PictureFilter>,
     /// What tells the liquids apart; `None` for the scene's.
     pub tint: Option<PictureTint>,
+    /// How bright the room is; `None` for the scene's.
+    pub room: Option<PictureRoom>,
     /// Whether glass breaks.
     pub breakable: bool,
     /// Seed of the initial jitter.
@@ -59,9 +62,11 @@ impl Workbench {
         let mut scene = loaded.with_preset(plan.preset);
         let of_preset = [scene.solver.substeps, scene.solver.iterations];
         scene = scene.with_effort(plan.solver.unwrap_or(of_preset));
-        let ladder = Ladder::of(&scene, budget::balanced(&loaded));
+        let foveated = gives_way(eyes.foveating, &scene);
+        let ladder = Ladder::of(&scene, budget::balanced(&loaded), foveated);
         scene.picture.filter = plan.filter.unwrap_or(scene.picture.filter);
         scene.picture.tint = plan.tint.unwrap_or(scene.picture.tint);
+        scene.picture.room = plan.room.unwrap_or(scene.picture.room);
         let mut world =
             World::new(gpu, library, &scene, plan.seed).map_err(|error| match error {
                 WorldError::Fill(_) => Failure::Input(format!("{}: {error}", plan.scene).into()),

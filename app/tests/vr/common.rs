@@ -230,6 +230,7 @@ pub fn options(folder: &Path) -> Options {
             solver: None,
             filter: None,
             tint: None,
+            room: None,
         },
         posture: Posture::Seated,
         grip: Grip::Hold,
@@ -238,7 +239,7 @@ pub fn options(folder: &Path) -> Options {
         // What a software driver takes is no matter to most.
         governed: false,
         // Pictures are looked at to the pixel.
-        foveating: Foveating::Off,
+        foveating: Some(Foveating::Off),
         sound: Device::Silent,
         // Most look at other things.
         hints: false,

@@ -16,9 +16,9 @@ fn look(gpu: &Gpu, foveating: Foveating) -> (Seen, String) {
     let track = pour().sample_track();
     let mut headset = Worn::of_extent(gpu, track, EXTENT, (90.0, 6), Calm);
     let mut options = options(folder.path());
-    options.foveating = foveating;
+    options.foveating = Some(foveating);
     let (outcome, _) = session_with(&mut headset, options, nobody());
-    assert_eq!(outcome.foveating, foveating);
+    assert_eq!(outcome.foveating, Some(foveating));
     let hash = outcome.bench.world.snapshot().unwrap().solver.hash();
     let name = format!("foveating-{foveating:?}").to_lowercase();
     (Seen::last(gpu, &name, &headset), format!("{hash:016x}"))
@@ -66,7 +66,7 @@ fn pictures_are_sharp_where_the_user_looks() {
     let gaze = Pose::new(head.transform_point(0.0315 * Vec3::X), turn);
     headset.inner.gaze = Some(gaze);
     let mut options = options(folder.path());
-    options.foveating = Foveating::Eye;
+    options.foveating = Some(Foveating::Eye);
     session_with(&mut headset, options, nobody());
     let foveated = Seen::last(&gpu, "foveating-eye", &headset);
     let place = gaze.transform_point(0.5 * Vec3::NEG_Z);

@@ -57,6 +57,7 @@ fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, O
             eyes: 1,
             filter: None,
             tint: None,
+            room: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::embedded()),

@@ -45,6 +45,7 @@ fn info() -> Info {
             solver: [10, 2],
             asked: [10, 3],
             picture: 85,
+            foveated: true,
             other_filter: false,
             rate: Some(72),
         }),

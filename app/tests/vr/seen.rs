@@ -6,12 +6,12 @@ use glam::{Quat, Vec3};
 use vitriol::vr::handle::middles;
 use vitriol::vr::panel::{PANEL, SIZE, scene_from_panel};
 use vitriol_gpu::{Gpu, Image, QueueKind};
-use vitriol_sim::scene::Scene;
+use vitriol_sim::scene::{PictureRoom, Scene};
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{Hand, Headset, HeadsetFrame, Pose, View};
 
-use crate::common::{Trouble, Worn, nobody, session};
+use crate::common::{Calm, Trouble, Worn, nobody, options, pour, session, session_with};
 
 const EXTENT: [u32; 2] = [640, 680];
 
@@ -195,6 +195,28 @@ fn the_panel_is_in_the_picture_and_seen_through_it() {
             .iter()
             .any(|pixel| is_amber(*pixel) && pixel[3] == 255)
     );
+}
+
+/// The room that is asked for is seen, whatever the scene says: an evening's, of 70 lx, is darker than a day's, of 800 lx.
+#[test]
+fn the_room_that_is_asked_for_is_seen() {
+    let gpu = gpu::device();
+    let mean = |room: Option<PictureRoom>| {
+        let folder = tempfile::tempdir().unwrap();
+        let track = pour().sample_track();
+        let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 4), Calm);
+        let mut options = options(folder.path());
+        options.plan.room = room;
+        let (outcome, _) = session_with(&mut headset, options, nobody());
+        let drawn = outcome.bench.world.scene().picture.room;
+        assert_eq!(drawn, room.unwrap_or(PictureRoom::Bare));
+        let name = format!("room-{}", drawn.name());
+        let seen = Seen::last(&gpu, &name, &headset);
+        let levels = seen.pixels.iter().map(|pixel| u64::from(pixel[1]));
+        levels.sum::<u64>() / seen.pixels.len() as u64
+    };
+    let (day, evening) = (mean(None), mean(Some(PictureRoom::Dark)));
+    assert!(10 * evening < 7 * day, "{evening} of {day}");
 }
 
 /// A hand before the panel is seen, and neither the panel nor its layer there. One behind it is not.

@@ -1,13 +1,15 @@
 //! The camera from the track's head.
 
-use crate::common::{BEFORE, SIZE, coloured, experiment, frame, liquid};
+use crate::common::{BEFORE, SIZE, coloured, experiment, frame, in_room, liquid, scene};
 use std::f32::consts::FRAC_PI_2;
 
 use glam::{Quat, Vec3};
 use vitriol_experiment::Colour;
+use vitriol_experiment::switches::SWITCH_SCENE;
 use vitriol_shaders::Library;
+use vitriol_sim::scene::{PictureRoom, Scene};
 use vitriol_tests::gpu;
-use vitriol_xr::{Hand, Pose};
+use vitriol_xr::{Hand, Pose, Switch};
 
 /// Half of the vertical field of view, 40°.
 const HALF_FIELD: f64 = 20.0;
@@ -67,6 +69,37 @@ fn a_fixed_camera_stays() {
     // the picture.
     let moved = (after.0 - before.0).hypot(after.1 - before.1);
     assert!(moved < 5.0, "{moved}");
+}
+
+/// A room that is asked for stands in for the scene's, in the scene that a track changes to as well: an evening's, of 70 lx, is darker
+/// than a day's, of 800 lx, whatever the eye adapts to.
+#[test]
+fn the_room_that_is_asked_for_is_drawn() {
+    let device = gpu::device();
+    let of = |scene: &Scene, asked| in_room(&device, scene, asked);
+    let evening = Some(PictureRoom::Dark);
+    let mean = |picture: &[u8]| {
+        let levels = picture.chunks_exact(4).map(|pixel| u64::from(pixel[1]));
+        levels.sum::<u64>() / (picture.len() as u64 / 4)
+    };
+    let mut asked = of(&scene(), evening);
+    let mut dark = scene();
+    dark.picture.room = PictureRoom::Dark;
+    let said = of(&dark, None).picture(0).unwrap().to_vec();
+    assert!(
+        asked.picture(0).unwrap() == said,
+        "another picture than of a scene that says so"
+    );
+    let day = mean(of(&scene(), None).picture(0).unwrap());
+    assert!(10 * mean(&said) < 7 * day, "{} of {day}", mean(&said));
+    let mut other = frame(0, Pose::IDENTITY);
+    other.scenario.push(Switch {
+        key: SWITCH_SCENE.into(),
+        value: "beaker".into(),
+    });
+    asked.step(&other).unwrap();
+    let after = mean(asked.picture(0).unwrap());
+    assert!(10 * after < 7 * day, "{after} of {day}");
 }
 
 /// A hand is drawn where it is, by OpenXR's axes: held up beside the glass it covers what it covers and nothing else; a hand that

@@ -32,8 +32,18 @@ pub fn coloured(
     shaders: Library,
     colour: Colour,
 ) -> Box<dyn Experiment> {
+    made(gpu, (&scene(), None), head, shaders, colour)
+}
+
+fn made(
+    gpu: &Gpu,
+    (scene, room): (&Scene, Option<PictureRoom>),
+    head: Option<Pose>,
+    shaders: Library,
+    colour: Colour,
+) -> Box<dyn Experiment> {
     let setup = Setup {
-        scene: &scene(),
+        scene,
         scene_name: "beaker",
         scenes: &vitriol_experiment::Scenes::default(),
         preset: Preset::Balanced,
@@ -44,11 +54,23 @@ pub fn coloured(
         eyes: 1,
         filter: None,
         tint: None,
+        room,
         head,
         look: None,
         shaders: Arc::new(shaders),
     };
     on_device(gpu, &setup).unwrap()
+}
+
+/// Liquid in that scene, in the room that is asked for.
+pub fn in_room(gpu: &Gpu, scene: &Scene, room: Option<PictureRoom>) -> Box<dyn Experiment> {
+    made(
+        gpu,
+        (scene, room),
+        None,
+        Library::embedded(),
+        Colour::Liquid,
+    )
 }
 
 /// A user without hands, whose head is there.

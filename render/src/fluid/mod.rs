@@ -17,7 +17,7 @@ use crate::scene::MOST_VESSELS;
 use crate::source::{LiquidSource, Neighbours};
 use crate::tiles::{Class, Tiles};
 use bubbles::BubbleCells;
-pub(crate) use bubbles::Cells;
+pub(crate) use bubbles::{Cells, bubble_cell};
 use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
 
@@ -176,7 +176,8 @@ impl Fluid {
                 ..layout::Neighbourhood::default()
             })
             .invocations(source.count * self.passes.lanes)?;
-        self.bubbles.record(rec, source.bubbles, slot)?;
+        self.bubbles
+            .record(rec, source.bubbles, frame.length_scale, slot)?;
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
 use crate::rig::{Picture, Rig, linear, ray};
 use glam::{Affine3A, DVec3, Vec3};
 use vitriol_gpu::Buffer;
-use vitriol_render::{BoxDesc, Fov, SceneDesc, SurfaceFilter, VesselDesc, View};
+use vitriol_render::{BoxDesc, Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
 use vitriol_shaders::layout::Bubble;
 
 const EXTENT: [u32; 2] = [320, 240];
@@ -22,23 +22,30 @@ type Ball = (DVec3, f64);
 
 fn scene(rig: &mut Rig, table: Option<BoxDesc>, room: Option<BoxDesc>) {
     rig.set_scene(&SceneDesc {
-        vessels: vec![VesselDesc {
-            inner: vec![[0.0, INNER_FLOOR], [RADIUS, INNER_FLOOR], [RADIUS, 0.05]],
-            outer: vec![[0.0, 0.0], [RADIUS + 0.002, 0.0], [RADIUS + 0.002, 0.05]],
-            ..VesselDesc::default()
-        }],
+        vessels: vec![tank(1.0)],
         table,
         room,
         ..SceneDesc::default()
     });
 }
 
+/// The tank in a scene whose unit is drawn as so many metres.
+fn tank(unit: f64) -> VesselDesc {
+    let outline = |points: [[f64; 2]; 3]| points.map(|[r, y]| [r / unit, y / unit]).to_vec();
+    let thick = RADIUS + 0.002;
+    VesselDesc {
+        inner: outline([[0.0, INNER_FLOOR], [RADIUS, INNER_FLOOR], [RADIUS, 0.05]]),
+        outer: outline([[0.0, 0.0], [thick, 0.0], [thick, 0.05]]),
+        ..VesselDesc::default()
+    }
+}
+
 fn origin() -> DVec3 {
     FOOT.as_dvec3() + DVec3::Y * INNER_FLOOR
 }
 
-/// The tank's liquid with these bubbles.
-fn liquid(rig: &Rig, balls: &[Ball]) -> Liquid {
+/// The tank's liquid with these bubbles, in a scene whose unit is drawn as so many metres.
+fn liquid(rig: &Rig, balls: &[Ball], unit: f32) -> Liquid {
     let mut places = Vec::new();
     for n in 0..12 * 24 * 24 {
         let [x, y, z] = [n % 24, n / 576, n / 24 % 24];
@@ -47,12 +54,12 @@ fn liquid(rig: &Rig, balls: &[Ball]) -> Liquid {
             places.push(origin().as_vec3() + at);
         }
     }
-    let mut liquid = Liquid::new(rig, &places, |_| 0.0);
+    let mut liquid = Liquid::in_units(rig, &places, |_| 0.0, unit);
     let bubbles: Vec<_> = balls
         .iter()
         .map(|&(middle, radius)| Bubble {
-            position: (origin() + middle).as_vec3().to_array(),
-            radius: radius as f32,
+            position: ((origin() + middle).as_vec3() / unit).to_array(),
+            radius: radius as f32 / unit,
             mass: 1.0,
             ..Bubble::default()
         })
@@ -71,8 +78,17 @@ fn above() -> View {
 }
 
 fn drawn(rig: &Rig, balls: &[Ball]) -> Picture {
-    let vessels = [Affine3A::from_translation(FOOT)];
-    draw(rig, &frame(&[above()], &vessels, &liquid(rig, balls))).0
+    drawn_in_units(rig, balls, 1.0)
+}
+
+fn drawn_in_units(rig: &Rig, balls: &[Ball], unit: f32) -> Picture {
+    let vessels = [Affine3A::from_translation(FOOT / unit)];
+    let (views, liquid) = ([above()], liquid(rig, balls, unit));
+    let frame = FrameDesc {
+        length_scale: unit,
+        ..frame(&views, &vessels, &liquid)
+    };
+    draw(rig, &frame).0
 }
 
 /// Snell's law: the direction behind a face whose normal is on the ray's side; `None` for total reflection.
@@ -97,21 +113,57 @@ fn miss(at: DVec3, way: DVec3, middle: DVec3) -> f64 {
     (middle - at).reject_from(way).length()
 }
 
-/// Bubbles of 0.5 to 4.5 mm all over the tank. Beyond the radius over n a bubble mirrors all, and its ring differs from the liquid; beside all of them
-/// nothing does.
-#[test]
-fn rays_find_the_bubbles_that_they_meet_and_no_others() {
-    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
-    scene(&mut rig, None, None);
+/// Bubbles of 0.5 to 4.5 mm all over the tank.
+fn all_over() -> Vec<Ball> {
     let lot = |n: u32| f64::from(n.wrapping_mul(2_654_435_769) >> 8) / f64::from(1 << 24);
-    let balls: Vec<Ball> = (0..70)
+    (0..70)
         .map(|n| {
             let radius = 5e-4 * (1.0 + 8.0 * lot(4 * n).powi(2));
             let (angle, out) = (6.3 * lot(4 * n + 1), 0.022 * lot(4 * n + 2).sqrt());
             let up = radius + (DEPTH - 2.5 * radius) * lot(4 * n + 3);
             (DVec3::new(out * angle.cos(), up, out * angle.sin()), radius)
         })
-        .collect();
+        .collect()
+}
+
+/// A scene whose unit is drawn as 5 cm, and one drawn at twice its size, have the same bubbles and foam at the same pixels as one at real size.
+#[test]
+fn bubbles_are_seen_at_every_scale() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    let mut balls = all_over();
+    let half_out = |x: f64, z: f64| (DVec3::new(x, DEPTH, z), 0.005);
+    balls.extend([half_out(0.010, 0.004), half_out(-0.008, -0.009)]);
+    let mut pictures = [1.0, 0.05, 2.0].map(|unit: f32| {
+        rig.set_scene(&SceneDesc {
+            vessels: vec![tank(unit.into())],
+            ..SceneDesc::default()
+        });
+        [&[][..], &balls].map(|balls| drawn_in_units(&rig, balls, unit))
+    });
+    let [[plain, real], others @ ..] = &mut pictures;
+    let differ = |a: &Picture, b: &Picture, levels: u8| -> usize {
+        let pairs = a.colour[0].chunks_exact(4).zip(b.colour[0].chunks_exact(4));
+        let apart = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max();
+        pairs.filter(|(a, b)| apart(a, b) > Some(levels)).count()
+    };
+    let seen = differ(plain, real, 3);
+    assert!(seen > 3000, "{seen} pixels of bubbles");
+    for [other_plain, other] in others {
+        // Rays may pass an edge on either side by rounding, and what is behind it is far from what is beside it.
+        let of_liquid = differ(plain, other_plain, 3);
+        let of_bubbles = differ(real, other, 3);
+        eprintln!("{of_bubbles} of {seen} pixels differ, {of_liquid} without bubbles");
+        assert!(of_bubbles * 100 <= seen, "{of_bubbles} of {seen}");
+    }
+}
+
+/// Among bubbles all over the tank, beyond the radius over n a bubble mirrors all, and its ring differs from the liquid; beside all of them
+/// nothing does.
+#[test]
+fn rays_find_the_bubbles_that_they_meet_and_no_others() {
+    let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
+    scene(&mut rig, None, None);
+    let balls = all_over();
     let [plain, bubbly] = [drawn(&rig, &[]), drawn(&rig, &balls)];
     let differs = |index: usize| {
         let levels = |picture: &Picture| picture.colour[0][4 * index..][..3].to_vec();

@@ -28,6 +28,8 @@ pub struct Liquid {
     counts: Buffer,
     list: Buffer,
     count: u32,
+    /// Metres that its unit is drawn as.
+    unit: f32,
     pub table: Option<BoxDesc>,
     pub volumes: Option<Buffer>,
     /// Places of bubbles, how many, and drops that they threw up.
@@ -37,6 +39,11 @@ pub struct Liquid {
 
 impl Liquid {
     pub fn new(rig: &Rig, positions: &[Vec3], acid: impl Fn(Vec3) -> f32) -> Self {
+        Self::in_units(rig, positions, acid, 1.0)
+    }
+
+    /// The same liquid, in a scene whose unit is drawn as so many metres.
+    pub fn in_units(rig: &Rig, positions: &[Vec3], acid: impl Fn(Vec3) -> f32, unit: f32) -> Self {
         let n = positions.len();
         let mut counts = vec![0_u32; n.max(1)];
         let mut list = vec![0_u32; CAPACITY * n.max(1)];
@@ -62,13 +69,15 @@ impl Liquid {
             .iter()
             .map(|&x| [20.0, acid(x), 0.0, 0.0])
             .collect();
-        let places: Vec<_> = positions.iter().map(|x| x.extend(1.0).to_array()).collect();
+        let places = positions.iter().map(|&x| (x / unit).extend(1.0).to_array());
+        let places: Vec<_> = places.collect();
         Self {
             positions: rig.buffer("positions", &places),
             heat: rig.buffer("heat", &heat),
             counts: words("list counts", &counts),
             list: words("list", &list),
             count: n as u32,
+            unit,
             table: None,
             volumes: None,
             bubbles: None,
@@ -90,11 +99,11 @@ impl Liquid {
             heat: Some(&self.heat),
             volumes: self.volumes.as_ref(),
             count: self.count,
-            spacing: SPACING,
+            spacing: SPACING / self.unit,
             neighbours: Some(Neighbours {
                 counts: &self.counts,
                 list: &self.list,
-                support: SUPPORT,
+                support: SUPPORT / self.unit,
             }),
             vessels: None,
             table: self.table,

@@ -27,4 +27,5 @@ mod spray;
 mod steam;
 mod surface;
 mod under;
+mod thermometer;
 mod wall;

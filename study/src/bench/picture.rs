@@ -94,6 +94,7 @@ fn ready(
         liquid: Some(drawn_liquid(&world)),
         filter: args.filter,
         tint: None,
+        room: None,
         look: None,
         foveation,
     };

@@ -100,6 +100,7 @@ impl Verified {
             eyes: 1,
             filter: None,
             tint: None,
+            room: None,
             head: None,
             look: None,
             shaders: Arc::new(Library::embedded()),

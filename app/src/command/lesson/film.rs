@@ -78,6 +78,7 @@ pub fn make(
         eyes: 1,
         filter: None,
         tint: None,
+        room: None,
         // Hands show how it is done, and only the head's view shows hands.
         head: (plan.track.frames.first()).map(|frame| frame.stage_from_view),
         look: None,

@@ -130,7 +130,8 @@ fn command_line(
         ("camera", head),
         ("colour", args.colour.map(|it| it.name().to_owned())),
         ("filter", args.filter.map(|it| it.name().to_owned())),
-        ("tint", args.tint.map(|it| it.name().to_owned())),
+        ("tint", args.drawn.tint.map(|it| it.name().to_owned())),
+        ("room", args.drawn.room.map(|it| it.name().to_owned())),
         ("lesson", args.judge.lesson.as_deref().map(quoted)),
         ("mode", args.judge.mode.map(|it| it.name().to_owned())),
     ];

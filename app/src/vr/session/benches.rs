@@ -42,7 +42,11 @@ struct Coming {
 
 impl Benches {
     /// The first bench, at its start.
-    pub fn new(headset: &dyn Headset, plan: &Plan, foveating: Foveating) -> Result<Self, Failure> {
+    pub fn new(
+        headset: &dyn Headset,
+        plan: &Plan,
+        foveating: Option<Foveating>,
+    ) -> Result<Self, Failure> {
         let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset, foveating));
         Ok(Self {
             current: Workbench::new(headset.gpu(), &library, plan, &eyes)?,

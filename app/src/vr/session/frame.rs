@@ -16,6 +16,7 @@ use super::Session;
 use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
 use crate::vr::closing;
+use crate::vr::foveating;
 use crate::vr::haptics;
 use crate::vr::info::{Info, Lying};
 use crate::vr::inputs::sound;
@@ -171,7 +172,7 @@ impl Session {
 
     /// Goes on with the bench that was built meanwhile, if one was. The picture is dark.
     fn replace_bench(&mut self) -> Result<(), Failure> {
-        let resolution = self.pacing.setting(&self.benches.current).resolution;
+        let drawn = self.pacing.setting(&self.benches.current);
         let before = self.benches.current.plan.scene.clone();
         if let Some(switch) = self.benches.replace_if_built() {
             let same = switch.key == SWITCH_START;
@@ -179,7 +180,7 @@ impl Session {
             // Before the switches of its settings: a replay brings up the scene first.
             self.track.switch(switch);
             let (bench, track) = (&mut self.benches.current, &mut self.track);
-            self.pacing.begin(same, resolution, bench, track)?;
+            self.pacing.begin(same, Some(drawn), bench, track)?;
             self.readings.clear();
             let (name, scene) = (
                 &self.benches.current.plan.scene,
@@ -306,7 +307,7 @@ impl Session {
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
-        let foveating = self.benches.eyes.foveating;
+        let foveating = foveating::now(self.benches.eyes.foveating, setting.foveated);
         let views = headset.locate_views().map_err(blame)?;
         let located = Instant::now();
         let sight = Sight {

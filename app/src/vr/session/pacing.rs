@@ -11,6 +11,7 @@ use super::ended::NoFrameOpen;
 use super::repaint::Repainter;
 use super::track::SessionTrack;
 use crate::vr::clock::MOST_STEPS;
+use crate::vr::foveating;
 use crate::vr::governor::{FrameTimes, Governor, Level};
 use crate::vr::info::Effort;
 use crate::vr::ladder::Setting;
@@ -22,6 +23,8 @@ use crate::vr::workbench::{TAKEN_UP, Workbench};
 pub const SWITCH_RESOLUTION: &str = "resolution";
 /// Key of the switch to another filter of the liquid's surface, its value as `--filter` takes it.
 pub const SWITCH_FILTER: &str = "filter";
+/// Key of the switch to pictures that are sharp everywhere, or about the lenses' axes alone, its value as `--foveation` takes it.
+pub const SWITCH_FOVEATION: &str = "foveation";
 
 /// What the governor did in a session.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -237,20 +240,28 @@ impl Pacing {
             track.switch(solver_switch(after.solver));
         }
         let ([substeps, iterations], percent) = (after.solver, 100.0 * after.resolution);
-        tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %");
+        let aside = if after.foveated {
+            ", fewer pixels aside"
+        } else {
+            ""
+        };
+        tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %{aside}");
         if after.resolution != before.resolution {
             track.switch(resolution_switch(after.resolution));
+        }
+        if after.foveated != before.foveated {
+            track.switch(foveation_switch(after.foveated));
         }
         Ok(())
     }
 
     /// A bench has come. With the `same` scene as before it goes on at the level that there was, with another one as
-    /// it was asked for. `resolution` is the last picture's. A replay begins with what the preset has, so what
-    /// differs from it is recorded.
+    /// it was asked for. `drawn` is what the last picture was drawn with, if there was one. A replay begins with what the preset has,
+    /// so what differs from it is recorded.
     pub fn begin(
         &mut self,
         same: bool,
-        resolution: f64,
+        drawn: Option<Setting>,
         bench: &mut Workbench,
         track: &mut SessionTrack,
     ) -> Result<(), Failure> {
@@ -266,8 +277,12 @@ impl Pacing {
         if setting.solver != bench.of_preset {
             track.switch(solver_switch(setting.solver));
         }
+        let (resolution, foveated) = drawn.map_or((1.0, false), |it| (it.resolution, it.foveated));
         if setting.resolution != resolution {
             track.switch(resolution_switch(setting.resolution));
+        }
+        if setting.foveated != foveated {
+            track.switch(foveation_switch(setting.foveated));
         }
         Ok(())
     }
@@ -281,6 +296,7 @@ impl Pacing {
             solver: now.solver,
             asked: asked.solver,
             picture: (100.0 * now.resolution).round() as u32,
+            foveated: now.foveated != asked.foveated,
             other_filter: now.filter != asked.filter,
             rate: rate.map(|rate| rate.round() as u32),
         })
@@ -300,4 +316,9 @@ fn solver_switch([substeps, iterations]: [u32; 2]) -> Switch {
 
 fn resolution_switch(resolution: f64) -> Switch {
     switch(SWITCH_RESOLUTION, resolution.to_string())
+}
+
+fn foveation_switch(foveated: bool) -> Switch {
+    let value = foveating::now(None, foveated);
+    switch(SWITCH_FOVEATION, value.name().into())
 }

@@ -216,6 +216,7 @@ mod tests {
             solver: None,
             filter: None,
             tint: None,
+            room: None,
             breakable: false,
             seed: 7,
         }

@@ -27,6 +27,15 @@ struct HandsRun {
     over: u32,
     /// The least radius of all bones.
     thinnest: f32,
+    /// Which of the tools' bones is a thermometer's stem; one that there is not, for none.
+    scale_bone: u32,
+    /// How far its lowest mark is from its first end's middle, and one degree's length, in the scene's unit.
+    scale_from: f32,
+    scale_degree: f32,
+    /// Its lowest and highest mark, and what it shows, °C.
+    scale_low: f32,
+    scale_high: f32,
+    reading: f32,
 }
 
 var<immediate> run: HandsRun;

@@ -1,10 +1,9 @@
 // Cells in which rays look for bubbles: a grid over all of the stage, folded into a table. A bubble is in each cell that it
-// reaches into, and cells that share a place of the table share its bubbles, which a ray then meets or does not.
+// reaches into, and cells that share a place of the table share its bubbles, which a ray then meets or does not. The side of a
+// cell is given by the host (`BubbleRun`, `Frame`), so that who fills the cells and who looks into them have the same.
 
 /// Places of the table; behind them is how many entries there are.
 const BUBBLE_CELLS = 32768u;
-/// Side of a cell, in the scene's unit: wider than most bubbles are, and a tenth of a beaker.
-const BUBBLE_CELL = 0.006;
 
 /// A bubble in a cell.
 struct BubbleEntry {

@@ -3,6 +3,7 @@
 //! where they are, and both eyes see the same.
 
 //!include common/picture/bubble_cells.wgsl
+//!include common/picture/frame.wgsl
 //!include common/picture/fresnel.wgsl
 
 @group(0) @binding(15) var<storage, read> bubble_heads: array<u32>;
@@ -31,7 +32,7 @@ fn meets_bubble(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> MetBubble 
     let steep = select(vec3<f32>(-1e-9), vec3<f32>(1e-9), direction >= vec3<f32>(0.0));
     let inverse = 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-9));
     let forth = select(vec3<i32>(-1), vec3<i32>(1), direction >= vec3<f32>(0.0));
-    var cell = vec3<i32>(floor(origin / BUBBLE_CELL));
+    var cell = vec3<i32>(floor(origin / frame.bubble_cell));
     for (var n = 0; n < MOST_CELLS; n++) {
         for (var next = bubble_heads[place_of_cell(cell)]; next != 0u; next = bubble_entries[next - 1u].next) {
             let entry = bubble_entries[next - 1u];
@@ -44,7 +45,7 @@ fn meets_bubble(origin: vec3<f32>, direction: vec3<f32>, end: f32) -> MetBubble 
                 met = MetBubble(way, entry.centre, entry.radius);
             }
         }
-        let to_side = (vec3<f32>(cell + max(forth, vec3<i32>(0))) * BUBBLE_CELL - origin) * inverse;
+        let to_side = (vec3<f32>(cell + max(forth, vec3<i32>(0))) * frame.bubble_cell - origin) * inverse;
         let leaves = min(to_side.x, min(to_side.y, to_side.z));
         if (min(met.way, end) <= leaves) { break; }
         cell += select(vec3<i32>(0), forth, to_side <= vec3<f32>(leaves));
@@ -69,7 +70,7 @@ fn through_bubble(point: vec3<f32>, direction: vec3<f32>, met: MetBubble, index:
     return Bubbled(out, refract(within, (met.centre - out) / met.radius, 1.0 / index));
 }
 
-/// How far before the surface a film is looked for, in the scene's unit: the height of the largest bubble that lasts.
+/// How far before the surface a film is looked for, metres as drawn: the height of the largest bubble that lasts.
 const FOAM_HEIGHT = 0.012;
 
 /// A ray from the eye at the liquid's surface, behind what foam is over it.
@@ -87,9 +88,10 @@ struct Foamed {
 /// What of a ray that meets the surface at `point` is left by films over it. A film is thinner than an eye resolves, and bends nothing.
 fn through_foam(point: vec3<f32>, ray: vec3<f32>, index: f32) -> Foamed {
     var foamed = Foamed(point, vec3<f32>(0.0), 1.0, point, ray);
-    let start = point - FOAM_HEIGHT * ray;
-    let met = meets_bubble(start, ray, FOAM_HEIGHT);
-    if (met.way > FOAM_HEIGHT) { return foamed; }
+    let before = FOAM_HEIGHT / frame.metres_per_unit;
+    let start = point - before * ray;
+    let met = meets_bubble(start, ray, before);
+    if (met.way > before) { return foamed; }
     foamed.film = start + met.way * ray;
     let normal = (foamed.film - met.centre) / met.radius;
     let face = fresnel(saturate(-dot(ray, normal)), index);

@@ -1,4 +1,4 @@
-//! What is printed on glass: numbers at graduation marks, "mL", and a label's formula. Letters are five by seven points, between which they are
+//! What is printed on glass: numbers at graduation marks, "mL" and "°C", and a label's formula. Letters are five by seven points, between which they are
 //! interpolated, so that their edges are round and as soft as a pixel.
 
 /// Points of a letter, across and down, and from one letter to the next.
@@ -8,13 +8,15 @@ const LETTER_STEP = 6.0;
 const LETTER_M = 10u;
 const LETTER_L = 11u;
 const LETTER_SPACE = 16u;
+const LETTER_DEGREE = 17u;
+const LETTER_C = 18u;
 const LOWERED = 32u;
 /// How much smaller an index is, and by how many points its top is lower.
 const INDEX_SIZE = 0.7;
 const INDEX_DROP = 3.4;
 
 /// Each letter's rows, five bits each with the leftmost highest: the upper four rows, the topmost lowest, and then the lower three.
-const LETTERS = array<vec2<u32>, 17>(
+const LETTERS = array<vec2<u32>, 19>(
     vec2<u32>(0x8C62Eu, 0x3A31u), // 0
     vec2<u32>(0x21184u, 0x3884u), // 1
     vec2<u32>(0x3062Eu, 0x7E08u), // 2
@@ -32,6 +34,8 @@ const LETTERS = array<vec2<u32>, 17>(
     vec2<u32>(0x8C62Eu, 0x3A31u), // O
     vec2<u32>(0x20B38u, 0x0E68u), // %
     vec2<u32>(0u, 0u),
+    vec2<u32>(0x64A4Cu, 0u), // °
+    vec2<u32>(0x8422Eu, 0x3A30u), // C
 );
 
 /// A point of a letter, 0 or 1.
@@ -47,7 +51,7 @@ fn letter_ink(code: u32, at: vec2<f32>, pixel: f32) -> f32 {
     let lowered = code >= LOWERED;
     let place = select(at, (at - vec2<f32>(0.0, INDEX_DROP)) / INDEX_SIZE, lowered);
     if (any(place < vec2<f32>(-1.0)) || any(place > LETTER + 1.0)) { return 0.0; }
-    let letter = LETTERS[min(code & 31u, LETTER_SPACE)];
+    let letter = LETTERS[min(code & 31u, LETTER_C)];
     let corner = floor(place - 0.5);
     let share = place - 0.5 - corner;
     let x = i32(corner.x);
@@ -58,11 +62,16 @@ fn letter_ink(code: u32, at: vec2<f32>, pixel: f32) -> f32 {
     return saturate((mix(above, below, share.y) - 0.45) / clamp(pixel, 0.25, 1.0) + 0.5);
 }
 
+/// Digits of a number of four at most.
+fn digits_of(number: u32) -> u32 {
+    return 1u + select(0u, 1u, number > 9u) + select(0u, 1u, number > 99u) + select(0u, 1u, number > 999u);
+}
+
 /// The ink of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
 fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
     if (at.x < -1.0 || at.y < -1.0 || at.y > LETTER.y + 1.0) { return 0.0; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);
-    let count = 1u + select(0u, 1u, number > 9u) + select(0u, 1u, number > 99u) + select(0u, 1u, number > 999u);
+    let count = digits_of(number);
     let tens = array<u32, 4>(1u, 10u, 100u, 1000u);
     let ten = tens[min(max(count, place + 1u) - place - 1u, 3u)];
     var code = (number / ten) % 10u;

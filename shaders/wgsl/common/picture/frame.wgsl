@@ -100,7 +100,9 @@ struct Frame {
     hides: u32,
     /// What water absorbs of red, green and blue light, 1/m.
     water: vec3<f32>,
-    /// The same of pure acid.
+    /// Side of a cell in which rays look for bubbles, in the scene's unit.
+    bubble_cell: f32,
+    /// What pure acid absorbs, 1/m.
     acid: vec3<f32>,
     /// Share of the light that is shown: less where the picture fades.
     shown: f32,

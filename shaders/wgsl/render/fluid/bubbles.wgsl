@@ -8,6 +8,10 @@ struct BubbleRun {
     count: u32,
     /// Entries at most.
     entries: u32,
+    /// Side of a cell, in the scene's unit.
+    cell: f32,
+    /// Radius from which on a bubble is none, or of a solver that has failed, in the scene's unit.
+    largest: f32,
 }
 
 var<immediate> run: BubbleRun;
@@ -17,16 +21,13 @@ var<immediate> run: BubbleRun;
 @group(0) @binding(1) var<storage, read_write> bubble_heads: array<atomic<u32>>;
 @group(0) @binding(2) var<storage, read_write> bubble_entries: array<BubbleEntry>;
 
-/// The largest bubble that is drawn, in the scene's unit: larger ones are none, or of a solver that has failed.
-const LARGEST = 0.05;
-
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (id.x >= run.count) { return; }
     let bubble = bubbles[id.x];
-    if !(is_there(bubble) && bubble.radius > 0.0 && bubble.radius < LARGEST) { return; }
-    let low = vec3<i32>(floor((bubble.position - bubble.radius) / BUBBLE_CELL));
-    let high = vec3<i32>(floor((bubble.position + bubble.radius) / BUBBLE_CELL));
+    if !(is_there(bubble) && bubble.radius > 0.0 && bubble.radius < run.largest) { return; }
+    let low = vec3<i32>(floor((bubble.position - bubble.radius) / run.cell));
+    let high = vec3<i32>(floor((bubble.position + bubble.radius) / run.cell));
     for (var z = low.z; z <= high.z; z++) {
         for (var y = low.y; y <= high.y; y++) {
             for (var x = low.x; x <= high.x; x++) {

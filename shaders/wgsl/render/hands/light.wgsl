@@ -6,6 +6,7 @@
 //!include common/picture/glove_surface.wgsl
 //!include common/picture/packed_light.wgsl
 //!include common/picture/shaded_pixel.wgsl
+//!include common/picture/thermometer.wgsl
 //!include common/picture/tile_pixels.wgsl
 
 /// Reversed depth of the nearest hand or sphere, 0 where there is none; in tiles that have neither, of no meaning.
@@ -200,7 +201,13 @@ fn main(
         let at = way * ray;
         let hand = nearest_hand;
         let all = atomicLoad(&present[GROUPS * BLOCKS + hand]);
-        let surface = hand_place(hand, all, at);
+        var surface = hand_place(hand, all, at);
+        if (hand == GROUPS - 1u && run.scale_bone < BONES) {
+            let stem = cones[BONES * hand + run.scale_bone];
+            if (way_from(stem, at).distance < 0.5 * stem.radius) {
+                surface.tint = stem_tint(stem, at, ray, pixel * way, bones[BONES * hand + run.scale_bone].tint);
+            }
+        }
         // Between fingers less of the room is seen.
         let reach = SHADE * run.joined;
         let open = saturate(0.25 + 0.75 * hand_distance(hand, all, at + reach * surface.normal) / reach);
