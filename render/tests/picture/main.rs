@@ -26,6 +26,6 @@ mod spheres;
 mod spray;
 mod steam;
 mod surface;
-mod under;
 mod thermometer;
+mod under;
 mod wall;
