@@ -24,8 +24,13 @@ fn has_dew(vessel: u32) -> bool {
     return vessel < frame.blocker_count && (vessel + 1u) * DEW_AROUND * DEW_UP <= arrayLength(&dew);
 }
 
-/// Water on the wall of a vessel at p (its frame), kg/m².
-fn dew_film(vessel: u32, p: vec3<f32>) -> f32 {
+/// Share of a wall that a film's drops cover.
+fn dew_cover(film: f32) -> f32 {
+    return DEW_COVER * min(pow(film / DEW_TOUCHES, 2.0 / 3.0), 1.0);
+}
+
+/// Share that dew covers of the wall of a vessel at p (its frame). Between places with much and without, films would make an edge.
+fn dew_at(vessel: u32, p: vec3<f32>) -> f32 {
     let floor_ = frame.vessels[vessel].inner_floor;
     let share = (p.y - floor_) / (frame.vessels[vessel].rim - floor_);
     let up = clamp(share * f32(DEW_UP) - 0.5, 0.0, f32(DEW_UP - 1u));
@@ -35,21 +40,20 @@ fn dew_film(vessel: u32, p: vec3<f32>) -> f32 {
     let left = u32(around) % DEW_AROUND;
     let right = (left + 1u) % DEW_AROUND;
     let first = (vessel * DEW_UP + low) * DEW_AROUND;
-    let below = mix(dew[first + left].film, dew[first + right].film, fract(around));
-    let above = mix(dew[first + DEW_AROUND + left].film, dew[first + DEW_AROUND + right].film, fract(around));
-    return mix(below, above, up - f32(low));
+    let next = first + DEW_AROUND;
+    let below = vec2<f32>(dew[first + left].film, dew[first + right].film);
+    let above = vec2<f32>(dew[next + left].film, dew[next + right].film);
+    if (all(below == vec2<f32>(0.0)) && all(above == vec2<f32>(0.0))) { return 0.0; }
+    let low_cover = mix(dew_cover(below.x), dew_cover(below.y), fract(around));
+    let high_cover = mix(dew_cover(above.x), dew_cover(above.y), fract(around));
+    return mix(low_cover, high_cover, up - f32(low));
 }
 
-/// Share of a wall that a film's drops cover.
-fn dew_cover(film: f32) -> f32 {
-    return DEW_COVER * min(pow(film / DEW_TOUCHES, 2.0 / 3.0), 1.0);
-}
-
-/// What dew of that film sends to the eye at `place` (stage), times the share that it covers, and the share that is still open. `facing` is the
+/// What dew that covers that share sends to the eye at `place` (stage), times what it hides, and the share that is still open. `facing` is the
 /// cosine between the wall's normal on the eye's side and the way to the eye.
-fn dew_seen(film: f32, place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, facing: f32) -> vec4<f32> {
+fn dew_seen(cover: f32, place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, facing: f32) -> vec4<f32> {
     // From aside a hemisphere shows more of itself over the wall that it is on.
-    let depth = -log(1.0 - dew_cover(film)) * 0.5 * (1.0 + 1.0 / facing);
+    let depth = -log(1.0 - cover) * 0.5 * (1.0 + 1.0 / facing);
     let open = exp(-depth);
     let key = key_light(place * frame.metres_per_unit);
     // On the mean what is scattered has come through half of it.

@@ -201,9 +201,9 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let stage = (*view).eye + depth * seen;
             var layer = wall(stage, to_eye, normal, grain);
             if (profile.x < INNER && has_dew(index)) {
-                let film = dew_film(index, p);
-                if (film > 0.0) {
-                    let dewy = dew_seen(film, stage, to_eye, normal, max(dot(normal, to_eye), STEEPEST));
+                let cover = dew_at(index, p);
+                if (cover > 0.0) {
+                    let dewy = dew_seen(cover, stage, to_eye, normal, max(dot(normal, to_eye), STEEPEST));
                     let veil = Cover(dewy.rgb, dewy.a);
                     // It is on the cavity's side of the wall.
                     if (cosine > 0.0) { layer = over(layer, veil); } else { layer = over(veil, layer); }

@@ -5,8 +5,9 @@ use glam::Vec3;
 use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, bytes_of_elements};
 use vitriol_shaders::layout::{Dew, DewRow, Flask, FlaskPose, Puff, Step};
 use vitriol_shaders::{Library, sim};
-use vitriol_sim::chemistry::dew::{AROUND, QUANTUM, UP, rows, still, swept};
+use vitriol_sim::chemistry::dew::{AROUND, Air, QUANTUM, UP, flux, rows, still, swept};
 use vitriol_sim::chemistry::glass::RINGS;
+use vitriol_sim::chemistry::puff::dew_point;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
 use vitriol_tests::gpu::{self, Watched};
@@ -239,6 +240,43 @@ fn steam_condenses_on_a_cold_wall_by_stefans_law_and_warms_it() {
                 );
             }
             eprintln!("{warm} °C, {speed} m/s, {second} s: {mass} kg/m², {wall} °C");
+        }
+    }
+}
+
+/// One frame on walls from cold to as hot as steam, in a puff and in the room, has the flux of the f64 law.
+#[test]
+fn a_frame_has_the_flux_of_the_f64_law() {
+    for wall in [5.0, 20.0, 59.0, 61.0, 95.0] {
+        for puff in [true, false] {
+            let rig = Rig::new(&[Pose::IDENTITY], 0.002, 12.0, 1.0 / 90.0);
+            let glass = vec![[wall as f32, 0.0]; RINGS];
+            rig.gpu.write(&rig.buffers[4], &glass).unwrap();
+            rig.film(0.010);
+            let before = rig.dew()[200].water;
+            let mut air = Air {
+                temperature: 20.0,
+                vapour: 0.5 * saturated(20.0),
+                transfer: still(),
+            };
+            if puff {
+                let middle = Vec3::new(0.0, 0.05, 0.0);
+                let puff = saturated_puff(middle, 60.0, [0.06, 0.5, 0.0]);
+                rig.puffs([puff, Puff::default()]);
+                let ratio = f64::from(puff.water) / f64::from(puff.air);
+                air.temperature = dew_point(ratio);
+                air.vapour = saturated(60.0);
+            }
+            rig.run(1, false);
+            let changed = f64::from(rig.dew()[200].water) - f64::from(before);
+            let area = rig.areas[200 / AROUND];
+            let expected = -flux(wall, &air) * area / 90.0 / QUANTUM;
+            // A frame's quanta, and what f32 leaves of a difference of two logarithms.
+            let most = 2.0 + 1e-3 * expected.abs();
+            assert!(
+                (changed - expected).abs() < most,
+                "{wall} °C: {changed} of {expected}"
+            );
         }
     }
 }

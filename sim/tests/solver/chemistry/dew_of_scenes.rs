@@ -86,17 +86,17 @@ fn run(solver: &Solver, device: &vitriol_gpu::Gpu, poses: &[Pose], count: usize)
 fn dew_has_the_same_bits_again_and_on_a_new_device() {
     let device = gpu::device();
     let (setup, poses) = kettles();
-    let states = [0, 1].map(|_| run(&setup.solver(&device), &device, &poses, 30));
-    assert!(states[0].dew_mass() > 0.0);
-    assert!(states[0] == states[1]);
     let solver = setup.solver(&device);
-    let middle = run(&solver, &device, &poses, 24);
+    let middle = run(&solver, &device, &poses, 20);
     assert!(middle.dew_mass() > 0.0);
+    let end = run(&solver, &device, &poses, 4);
+    assert!(end.dew_mass() > middle.dew_mass());
+    assert!(run(&setup.solver(&device), &device, &poses, 24) == end);
     let bytes = postcard::to_allocvec(&middle).unwrap();
     drop(solver);
     let device = gpu::another_device(|_| {});
     let solver = setup.solver(&device);
     let stored: SolverState = postcard::from_bytes(&bytes).unwrap();
     solver.restore(&stored).unwrap();
-    assert!(run(&solver, &device, &poses, 6) == states[0]);
+    assert!(run(&solver, &device, &poses, 4) == end);
 }
