@@ -317,6 +317,7 @@ impl Camera {
                 .map(|puffs| SteamSource {
                     puffs,
                     count: vitriol_sim::solver::PUFFS,
+                    dew: solver.dew(),
                 }),
             panel: None,
             sign: None,

@@ -356,6 +356,7 @@ impl Renderer {
         };
         let cells = liquid.as_ref().map(|(fluid, _)| fluid.bubbles(slot));
         let of_cells = |of: fn(&Cells) -> &Buffer| cells.map_or(&self.nothing, of);
+        let dew = frame.steam.and_then(|steam| steam.dew);
         let shown = |panel: Option<Panel<'a>>| panel.map_or(&self.no_panel, |panel| panel.image);
         let (panel, sign) = (shown(frame.panel), shown(frame.sign));
         rec.group("picture", |rec| {
@@ -371,6 +372,7 @@ impl Renderer {
                     .read("bubble_entries", of_cells(|cells| &cells.entries))
                     .read("hidden_area", self.hidden())
                     .read("outlines", &self.scene.outlines)
+                    .read("dew", dew.unwrap_or(&self.nothing))
                     .read("tiles", self.tiles.marks())
                     .read("solid_light", &self.solids.nearest)
                     .read("solid_depths", &self.solids.depths)

@@ -33,6 +33,9 @@ pub struct SteamSource<'a> {
     pub puffs: &'a Buffer,
     /// How many of them are drawn.
     pub count: u32,
+    /// What of it is water on the vessels' inner walls, `array<Dew>` ([`Dew`](vitriol_shaders::layout::Dew)), as
+    /// `common/chemistry/dew.wgsl` has it, by vessel; `None` for none.
+    pub dew: Option<&'a Buffer>,
 }
 
 /// The solver's neighbour list.

@@ -50,6 +50,8 @@ pub struct Picture {
     half_depth: HalfDepth,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
+    /// The same of what condensed on glass.
+    dew: Option<[Buffer; 2]>,
     gloves: Gloves,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
     under_way: Vec<Ticket>,
@@ -63,6 +65,8 @@ pub struct Subject {
     liquid: LiquidDesc,
     /// Bytes of the puffs of steam, where there are any.
     puffs: Option<u64>,
+    /// Those of the water on glass.
+    dew: Option<u64>,
 }
 
 impl Subject {
@@ -71,6 +75,7 @@ impl Subject {
         Self {
             liquid: drawn_liquid(world),
             puffs: world.solver().puffs().map(Buffer::bytes),
+            dew: world.solver().dew().map(Buffer::bytes),
         }
     }
 }
@@ -126,17 +131,16 @@ impl Picture {
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
-        let puffs = subject
-            .puffs
-            .map(|bytes| -> Result<_, Failure> {
-                let copy = || Buffer::storage(gpu, "puffs, drawn", bytes).other();
-                Ok([copy()?, copy()?])
-            })
-            .transpose()?;
+        let copies = |label, bytes: Option<u64>| {
+            let copy = |bytes| Buffer::storage(gpu, label, bytes).other();
+            let both = |bytes| -> Result<_, Failure> { Ok([copy(bytes)?, copy(bytes)?]) };
+            bytes.map(both).transpose()
+        };
         let mut picture = Self {
             half_depth: HalfDepth::new(gpu, library, eyes.extent, desc.views).other()?,
             renderer,
-            puffs,
+            puffs: copies("puffs, drawn", subject.puffs)?,
+            dew: copies("dew, drawn", subject.dew)?,
             gloves: Gloves::of(scene),
             under_way: Vec::new(),
             drawn: 0,
@@ -165,13 +169,16 @@ impl Picture {
         let mut rec = gpu.recorder(QueueKind::Async).other()?;
         let record = |frame: &FrameDesc<'_>| self.renderer.record_shapes(&mut rec, frame, slot);
         self.with_frame(world, None, record)?;
-        if let (Some(from), Some(copies)) = (world.solver().puffs(), &self.puffs) {
-            let whole = CopyRegion {
-                from: 0,
-                to: 0,
-                bytes: from.bytes(),
-            };
-            rec.copy(from, &copies[slot], &[whole]).other()?;
+        let solver = world.solver();
+        for (from, copies) in [(solver.puffs(), &self.puffs), (solver.dew(), &self.dew)] {
+            if let (Some(from), Some(copies)) = (from, copies) {
+                let whole = CopyRegion {
+                    from: 0,
+                    to: 0,
+                    bytes: from.bytes(),
+                };
+                rec.copy(from, &copies[slot], &[whole]).other()?;
+            }
         }
         also(&mut rec)?;
         // Wait on the device for the picture that used this slot before.
@@ -263,6 +270,7 @@ impl Picture {
             steam: self.puffs.as_ref().map(|puffs| SteamSource {
                 puffs: &puffs[self.drawn % 2],
                 count: PUFFS,
+                dew: self.dew.as_ref().map(|dew| &dew[self.drawn % 2]),
             }),
             panel: sight.and_then(|sight| sight.panel),
             sign: sight.and_then(|sight| sight.sign),

@@ -80,6 +80,7 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
         steam: Some(SteamSource {
             puffs: &puffs,
             count: 1,
+            dew: None,
         }),
         ..frame(&views, &vessels, &liquid)
     };

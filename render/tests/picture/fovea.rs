@@ -93,6 +93,7 @@ impl Bench {
         Some(SteamSource {
             puffs: &self.puffs,
             count: 1,
+            dew: None,
         })
     }
 

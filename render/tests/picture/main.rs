@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bubbles;
+mod dew;
 mod ellipsoids;
 mod extent;
 mod fovea;

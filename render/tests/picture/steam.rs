@@ -44,6 +44,7 @@ fn puffs_fade_against_what_is_there() {
         let steam = Some(SteamSource {
             puffs: &puffs,
             count: 1,
+            dew: None,
         });
         rig.draw(&FrameDesc {
             steam,
@@ -89,6 +90,7 @@ fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f
             steam: Some(SteamSource {
                 puffs: &puffs,
                 count: 6,
+                dew: None,
             }),
             panel: Some(Panel {
                 image: &image,
@@ -107,7 +109,7 @@ fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f
 }
 
 /// An image of one colour.
-fn even(rig: &Rig, colour: u32) -> Image {
+pub fn even(rig: &Rig, colour: u32) -> Image {
     let desc = ImageDesc {
         extent: [1, 1],
         layers: 1,
@@ -238,6 +240,7 @@ fn steam_stays_in_its_vessel() {
             steam: Some(SteamSource {
                 puffs: &puffs,
                 count,
+                dew: None,
             }),
             ..without_particles(&[view])
         })

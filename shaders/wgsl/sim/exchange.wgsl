@@ -4,6 +4,7 @@
 //!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/compensated.wgsl
+//!include common/chemistry/dew.wgsl
 //!include common/chemistry/drops.wgsl
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/evaporation.wgsl
@@ -34,6 +35,8 @@ override SPACING: f32 = 0.0025;
 /// Heat transfer of drops through what they lie on, and at the surface, over ρ0, W m/(kg K).
 override GLASS_LOSS: f32 = 0.0;
 override SURFACE_LOSS: f32 = 0.0;
+/// Whether steam condenses on glass, of which liquid washes it.
+override DEW: bool = false;
 /// 1/ρ0, m³/kg.
 override SPECIFIC_VOLUME: f32 = 0.001;
 
@@ -48,6 +51,8 @@ override SPECIFIC_VOLUME: f32 = 0.001;
 @group(0) @binding(7) var<storage, read_write> matter: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> mixing: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> ledger: array<vec4<f32>>;
+/// By flask and row of its wall: a bit a place that liquid touched in this frame.
+@group(0) @binding(10) var<storage, read_write> wetted: array<atomic<u32>>;
 @group(0) @binding(11) var<storage, read_write> counters: Counters;
 @group(0) @binding(12) var<storage, read> bulk: array<vec4<f32>>;
 /// By flask and ring: T (°C), and quanta of heat that the liquid took in this frame.
@@ -163,6 +168,17 @@ fn heat_from(own: Potential, around: f32, transfer_area: f32) -> f32 {
 /// Most quanta of a particle and a substep: 2048 such fit into a ring's sum.
 const MOST_QUANTA: f32 = 1048575.0;
 
+/// Washes the dew from the place of flask k's wall that is nearest to `at` (flask's frame).
+fn wash(k: u32, at: vec3<f32>) {
+    let up = (at.y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(DEW_UP);
+    let row = k * DEW_UP + u32(clamp(up, 0.0, f32(DEW_UP - 1u)));
+    let turn = atan2(at.z, at.x) / 6.2831853;
+    let around = u32(clamp((turn - floor(turn)) * f32(DEW_AROUND), 0.0, f32(DEW_AROUND - 1u)));
+    let bit = 1u << around;
+    // Most have been touched in this frame.
+    if ((atomicLoad(&wetted[row]) & bit) == 0u) { atomicOr(&wetted[row], bit); }
+}
+
 /// Heat that a particle takes in a substep from the glass of its flask, in whole quanta, as sums of integers
 /// do not depend on order; drops elsewhere lose theirs to what is around.
 fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, gradient: vec3<f32>) -> f32 {
@@ -171,8 +187,9 @@ fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, g
     if (membership == NOBODYS) { return heat_from(own, AMBIENT, GLASS_LOSS * volume * slope); }
     let k = membership - 1u;
     // Where it touches, half a spacing away.
-    let y = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope)).y;
-    let place = (y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_RINGS);
+    let at = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope));
+    if (DEW) { wash(k, at); }
+    let place = (at.y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_RINGS);
     let place_of_ring = k * GLASS_RINGS + u32(clamp(place, 0.0, f32(GLASS_RINGS - 1u)));
     let ring = glass_rings[place_of_ring];
     let wanted = heat_from(own, glass[place_of_ring].x, ring.to_liquid * volume * slope);

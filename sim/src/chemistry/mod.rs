@@ -13,6 +13,7 @@ pub mod adiabatic;
 pub mod bubbles;
 mod constants;
 pub mod curve;
+pub mod dew;
 pub mod eddies;
 mod error;
 pub mod evaporation;

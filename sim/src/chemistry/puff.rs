@@ -7,8 +7,8 @@
 //! further up the puff is so thin that the droplets evaporate again.
 //!
 //! A puff knows nothing of glass: inside a vessel it takes in room air, and
-//! its sides may reach through a wall. It takes nothing from the liquid, whose
-//! ledger has seen it off.
+//! its sides may reach through a wall. What condenses there leaves it (`dew.rs`). It takes
+//! nothing from the liquid, whose ledger has seen it off.
 
 use super::constants::ABSOLUTE_ZERO;
 use super::table::{STEAM_CAPACITY, steam_enthalpy};

@@ -83,6 +83,8 @@ pub struct Ledger {
     pub steam: f64,
     /// Mass of the mist that it is in the air over the liquid, kg.
     pub mist: f64,
+    /// Mass of it that is on the glass over the liquid, kg.
+    pub dew: f64,
     /// Enthalpy that it took along, J.
     pub steam_enthalpy: f64,
     /// Σ m|h|, J: what an error is compared with.
@@ -293,6 +295,7 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         exchanged: m * sum.exchanged,
         steam: m * sum.steam,
         mist: state.mist(),
+        dew: state.dew_mass(),
         steam_enthalpy: m * sum.steam_enthalpy,
         turnover: m * sum.turnover,
     })

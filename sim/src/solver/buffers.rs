@@ -3,12 +3,14 @@
 
 use super::colour::{self, Colour};
 use super::counters::Counters;
+use super::dew;
 use super::glass;
 use super::pipelines::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
 use super::vessels::Vessels;
 use crate::chemistry::Chemistry;
+use crate::chemistry::dew::AROUND;
 use crate::chemistry::segregation::Lamellae;
 use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
@@ -98,6 +100,8 @@ pub(super) struct Buffers {
     /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
     pub(super) glass: Buffer,
     pub(super) glass_taken: Buffer,
+    /// By flask and row of its wall: places that liquid touched in this frame, a bit each.
+    pub(super) wetted: Buffer,
     // Surface tension's nodes.
     pub(super) colour_keys: Buffer,
     pub(super) colour_used: Buffer,
@@ -152,6 +156,7 @@ impl Buffers {
             _ => Vec::new(),
         };
         let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
+        let dew_rows = (dew::places(&spec.parameters, spec.flasks.len()) / AROUND) as u64;
         let bubbles = spec.parameters.bubbles();
         let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
         let bubbly = where_asked(bubbles.is_some(), n);
@@ -212,6 +217,7 @@ impl Buffers {
             spray_left: words("spray_left", where_asked(places_of_drops > 0, flasks))?,
             glass: words("glass", 2 * rings)?,
             glass_taken: words("glass_taken", rings)?,
+            wetted: words("wetted", dew_rows)?,
             colour_keys: words("colour_keys", 2 * slots)?,
             colour_used: words("colour_used", slots)?,
             colour_blocks: words("colour_blocks", 4 * slots)?,
@@ -236,7 +242,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 28] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 29] {
         [
             &self.position,
             &self.velocity,
@@ -299,6 +305,7 @@ impl Buffers {
             &self.spray_left,
             &self.glass,
             &self.glass_taken,
+            &self.wetted,
             &self.poses,
             &self.loads,
             &vessels.flasks,

@@ -100,7 +100,8 @@ impl Solver {
                 .workgroups([self.flasks as u32, 1, 1])?;
         }
         if let Some(steam) = &self.steam {
-            steam.record(rec, &self.buffers)?;
+            let step = self.step(substeps - 1);
+            steam.record(rec, (&self.buffers, &self.vessels), &step)?;
         }
         Ok(FrameRecord {
             loads: self.load(rec)?,

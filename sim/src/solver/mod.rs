@@ -16,6 +16,7 @@ mod carry;
 mod census;
 mod colour;
 mod counters;
+mod dew;
 mod error;
 mod frame;
 mod glass;
@@ -97,7 +98,7 @@ impl Solver {
         let constants = Constants::new(spec, count, &grid, lanes);
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
-        let steam = Steam::new(gpu, library, &spec.parameters, count, &constants, &buffers)?;
+        let steam = Steam::new(gpu, library, spec, count, &constants, (&buffers, &vessels))?;
         let sizes = [count as usize, spec.flasks.len()];
         let looks = Looks::new(
             gpu,
@@ -225,6 +226,12 @@ impl Solver {
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(Steam::puffs)
+    }
+
+    /// Water on the flasks' inner walls, `array<Dew>` of `common/chemistry/dew.wgsl`: by flask, from the inner floor up, and around
+    /// from +X towards +Z. `None` where none condenses.
+    pub fn dew(&self) -> Option<&Buffer> {
+        self.steam.as_ref().and_then(Steam::dew)
     }
 
     /// Bubbles, `array<Bubble>` of `common/chemistry/bubble.wgsl`, and how many places of them there are: those without steam and

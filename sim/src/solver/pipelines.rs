@@ -1,6 +1,7 @@
 //! The passes, specialised for what the scene asks for.
 
 use super::colour::Colour;
+use super::dew;
 use super::glass;
 use super::lanes;
 use super::vessels::PLANE_ENTRIES;
@@ -361,6 +362,7 @@ impl Constants {
             ("SOLIDS", flag(spec.solids.is_some())),
             ("LOADS", flag(spec.loads)),
             ("CONSTRAINT", flag(spec.constraint)),
+            ("DEW", flag(dew::places(p, spec.flasks.len()) > 0)),
             ("PLANE_COUNT", PLANE_ENTRIES as f64),
             ("FLOOR", spec.ground.floor),
         ];

@@ -82,6 +82,9 @@ impl Solver {
             to.copy(rec, puffs, |it| &mut it.steam.puffs)?;
             to.copy(rec, vented, |it| &mut it.steam.vented)?;
             to.copy(rec, made, |it| &mut it.steam.made)?;
+            if let Some(dew) = steam.state_of_dew() {
+                to.copy(rec, dew, |it| &mut it.steam.dew)?;
+            }
         }
         let count = (&b.bubbles, bubbles.bubbles.len());
         to.copy(rec, count, |it| &mut it.bubbles.bubbles)?;
@@ -123,7 +126,7 @@ impl Solver {
         let n = self.count as usize;
         let listed = n * self.grid.list_capacity as usize;
         let [heat, matter] = self.lengths();
-        let (steam, start) = (&state.steam, Steam::start(&self.parameters, n));
+        let (steam, start) = (&state.steam, Steam::start(&self.parameters, n, self.flasks));
         let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());
         let (spray, no_spray) = (&state.spray, self.spray_at_start());
         for (what, found, expected) in [
@@ -143,6 +146,7 @@ impl Solver {
             ("puffs", steam.puffs.len(), start.puffs.len()),
             ("vented steam", steam.vented.len(), start.vented.len()),
             ("vents", steam.made.len(), start.made.len()),
+            ("dew", steam.dew.len(), start.dew.len()),
             ("bubbles", bubbles.bubbles.len(), none.bubbles.len()),
             (
                 "bubbled particles",
@@ -207,6 +211,7 @@ impl Solver {
             rec.upload(&b.live_args, &NO_PLACES)?;
         }
         rec.fill(&b.glass_taken, 0)?;
+        rec.fill(&b.wetted, 0)?;
         if self.parameters.surface.is_some() {
             // Volumes are added to it, and each impulse leaves it at 0.
             rec.fill(&b.colour, 0)?;

@@ -9,10 +9,11 @@ use super::spec::Particle;
 use super::spray::{SprayAccount, SprayState};
 use super::steam::{Steam, SteamState};
 use crate::chemistry::Chemistry;
+use crate::chemistry::dew::QUANTUM;
 use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_shaders::layout::{Bubble, Drops};
+use vitriol_shaders::layout::{Bubble, Dew, Drops};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
@@ -88,7 +89,7 @@ impl SolverState {
             bulk: Vec::new(),
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
-            steam: Steam::start(parameters, n),
+            steam: Steam::start(parameters, n, flasks),
             bubbles: BubbleState::start(parameters, n, [grid.cells(), grid.blocks()]),
             spray: SprayState::start(parameters, n, flasks),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
@@ -193,6 +194,23 @@ impl SolverState {
     /// Where the vapour of bubbles is.
     pub(crate) fn vapour(&self) -> VapourAccount {
         self.bubbles.account()
+    }
+
+    /// Water on the flasks' inner walls: by flask, from the inner floor up, and around from +X towards +Z; empty where none
+    /// condenses.
+    pub fn dew(&self) -> &[Dew] {
+        self.steam.dew()
+    }
+
+    /// The same, to be changed.
+    pub fn dew_mut(&mut self) -> &mut [Dew] {
+        bytemuck::cast_slice_mut(&mut self.steam.dew)
+    }
+
+    /// Mass of that water, kg.
+    pub fn dew_mass(&self) -> f64 {
+        let quanta: u64 = self.dew().iter().map(|place| u64::from(place.water)).sum();
+        QUANTUM * quanta as f64
     }
 
     /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.

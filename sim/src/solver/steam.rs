@@ -1,15 +1,18 @@
 //! Steam in the room's air, as passes after a frame's substeps.
 
 use super::buffers::Buffers;
+use super::dew::{self, Dew};
 use super::error::SolverError;
 use super::pipelines::{Constants, SolverPass};
+use super::spec::SolverSpec;
 use super::transfer::write;
+use super::vessels::Vessels;
 use crate::chemistry::puff::Room;
 use crate::chemistry::{Chemistry, Physical};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
-use vitriol_shaders::layout::Puff;
+use vitriol_shaders::layout::{self, Puff, Step};
 use vitriol_shaders::{Library, sim};
 
 /// Puffs of steam at most; a new one replaces its vent's oldest.
@@ -30,8 +33,10 @@ const ROOM_TEMPERATURE: f64 = 20.0;
 
 /// Puffs and what makes them.
 pub(super) struct Steam {
-    /// `puffs`, `vented` and `made`.
-    own: [Buffer; 3],
+    /// `puffs`, `vented`, `made`, and `taken`: what walls take of each puff.
+    own: [Buffer; 4],
+    /// Where it condenses on glass.
+    dew: Option<Dew>,
     rise: SolverPass,
     vent: SolverPass,
 }
@@ -42,12 +47,19 @@ pub(super) struct SteamState {
     pub(super) puffs: Vec<[f32; 12]>,
     pub(super) vented: Vec<[f32; 2]>,
     pub(super) made: Vec<u32>,
+    /// What the flasks' walls have of it, by place: the words of `Dew`.
+    pub(super) dew: Vec<[u32; 4]>,
 }
 
 impl SteamState {
     /// Mass of the mist, kg.
     pub(super) fn mist(&self) -> f64 {
         self.puffs.iter().map(|puff| f64::from(puff[10])).sum()
+    }
+
+    /// Its water on glass.
+    pub(super) fn dew(&self) -> &[layout::Dew] {
+        bytemuck::cast_slice(&self.dew)
     }
 }
 
@@ -56,11 +68,12 @@ impl Steam {
     pub(super) fn new(
         gpu: &Gpu,
         library: &Library,
-        parameters: &Parameters,
+        spec: &SolverSpec<'_>,
         count: u32,
         constants: &Constants,
-        buffers: &Buffers,
+        of_solver: (&Buffers, &Vessels),
     ) -> Result<Option<Self>, SolverError> {
+        let parameters = &spec.parameters;
         let Some(physical) = physical(parameters) else {
             return Ok(None);
         };
@@ -82,18 +95,22 @@ impl Steam {
             buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
             buffer("vented", bytes_of_elements::<[f32; 2]>(count as usize))?,
             buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
+            buffer("taken", bytes_of_elements::<u32>(PUFFS as usize))?,
         ];
-        let bound = bound(&own, buffers);
+        let [puffs, .., taken] = &own;
+        let dew = Dew::new(gpu, library, spec, &constants, of_solver, [puffs, taken])?;
+        let bound = bound(&own, of_solver.0);
         let make = |shader| constants.pass(gpu, library, &bound, shader, &[]);
         Ok(Some(Self {
             rise: make(sim::RISE)?,
             vent: make(sim::VENT)?,
+            dew,
             own,
         }))
     }
 
     /// The state in which nothing has left yet, of `parameters`' scene.
-    pub(super) fn start(parameters: &Parameters, count: usize) -> SteamState {
+    pub(super) fn start(parameters: &Parameters, count: usize, flasks: usize) -> SteamState {
         if physical(parameters).is_none() {
             return SteamState::default();
         }
@@ -101,6 +118,7 @@ impl Steam {
             puffs: vec![[0.0; 12]; PUFFS as usize],
             vented: vec![[0.0; 2]; count],
             made: vec![0; VENTS as usize],
+            dew: vec![[0; 4]; dew::places(parameters, flasks)],
         }
     }
 
@@ -108,9 +126,14 @@ impl Steam {
         &self.own[0]
     }
 
+    /// Its water on glass, where any condenses there.
+    pub(super) fn dew(&self) -> Option<&Buffer> {
+        self.dew.as_ref().map(|dew| dew.places().0)
+    }
+
     /// What a state has of it, with `count` particles: buffers and their elements.
     pub(super) fn state(&self, count: usize) -> [(&Buffer, usize); 3] {
-        let [puffs, vented, made] = &self.own;
+        let [puffs, vented, made, _] = &self.own;
         [
             (puffs, PUFFS as usize),
             (vented, count),
@@ -119,23 +142,43 @@ impl Steam {
     }
 
     pub(super) fn restore(&self, gpu: &Gpu, state: &SteamState) -> Result<(), GpuError> {
-        let [puffs, vented, made] = &self.own;
+        let [puffs, vented, made, taken] = &self.own;
+        write(gpu, taken, &[0_u32; PUFFS as usize])?;
+        if let Some(dew) = self.dew() {
+            write(gpu, dew, &state.dew)?;
+        }
         write(gpu, puffs, &state.puffs)?;
         write(gpu, vented, &state.vented)?;
         write(gpu, made, &state.made)
     }
 
-    /// Records the rise of the puffs, and new ones of what left the liquid.
-    pub(super) fn record(&self, rec: &mut Recorder, b: &Buffers) -> Result<(), GpuError> {
-        let all = bound(&self.own, b);
+    /// What of the state is on glass: the buffer and its elements.
+    pub(super) fn state_of_dew(&self) -> Option<(&Buffer, usize)> {
+        self.dew.as_ref().map(Dew::places)
+    }
+
+    /// Records what condenses of the puffs, their rise, and new ones of what left the liquid; `step` is that of the
+    /// frame's last substep.
+    pub(super) fn record(
+        &self,
+        rec: &mut Recorder,
+        of_solver: (&Buffers, &Vessels),
+        step: &Step,
+    ) -> Result<(), GpuError> {
+        let [puffs, .., taken] = &self.own;
+        if let Some(dew) = &self.dew {
+            dew.record(rec, of_solver, [puffs, taken], step)?;
+        }
+        let all = bound(&self.own, of_solver.0);
         self.rise.begin(rec, &all).invocations(PUFFS)?;
         self.vent.begin(rec, &all).workgroups([VENTS, 1, 1])
     }
 }
 
 /// What the two passes bind.
-fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buffer; 7] {
+fn bound<'a>([puffs, vented, made, taken]: &'a [Buffer; 4], b: &'a Buffers) -> [&'a Buffer; 8] {
     [
+        taken,
         puffs,
         vented,
         made,
@@ -147,7 +190,7 @@ fn bound<'a>([puffs, vented, made]: &'a [Buffer; 3], b: &'a Buffers) -> [&'a Buf
 }
 
 /// The chemistry, where steam leaves the liquid.
-fn physical(parameters: &Parameters) -> Option<&Physical> {
+pub(super) fn physical(parameters: &Parameters) -> Option<&Physical> {
     match &parameters.chemistry {
         Some(Chemistry::Physical(p)) if p.bubbles.is_some() => Some(p),
         _ => None,

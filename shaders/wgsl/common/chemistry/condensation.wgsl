@@ -1,4 +1,5 @@
 // Steam in the room's air: `chemistry/puff.rs` in f32.
+//!include common/chemistry/humid_air.wgsl
 //!include common/chemistry/puff.wgsl
 
 @group(0) @binding(0) var<storage, read_write> puffs: array<Puff>;
@@ -14,32 +15,10 @@ override ROOM_DENSITY: f32 = 1.2;
 const FIRST_AIR: f32 = 0.1;
 const ENTRAINMENT: f32 = 0.25;
 const VIRTUAL_MASS: f32 = 0.5;
-const PRESSURE: f32 = 101325.0;
-const AIR_CONSTANT: f32 = 287.05;
-const VAPOUR_CONSTANT: f32 = 461.5;
 const AIR_CAPACITY: f32 = 1006.0;
-const VAPOUR_CAPACITY: f32 = 1860.0;
-const WATER_CAPACITY: f32 = 4186.0;
-const VAPORISATION: f32 = 2.501e6;
 const DROPLET_RADIUS: f32 = 5e-6;
 const WATER_DENSITY: f32 = 1000.0;
-const KELVIN: f32 = 273.15;
 const PI: f32 = 3.14159265;
-
-fn saturation_pressure(t: f32) -> f32 {
-    return 610.94 * exp(17.625 * t / (t + 243.04));
-}
-
-fn dew_point(ratio: f32) -> f32 {
-    let pressure = PRESSURE * ratio / (AIR_CONSTANT / VAPOUR_CONSTANT + ratio);
-    let logarithm = log(pressure / 610.94);
-    return 243.04 * logarithm / (17.625 - logarithm);
-}
-
-/// Vapour over dry air when saturated, of a pressure below the room's.
-fn saturation_ratio(pressure: f32) -> f32 {
-    return AIR_CONSTANT / VAPOUR_CONSTANT * pressure / (PRESSURE - pressure);
-}
 
 /// The puff with the mist, radius and optical depth of what it holds.
 fn condensed(before: Puff) -> Puff {

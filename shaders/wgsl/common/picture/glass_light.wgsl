@@ -1,6 +1,7 @@
 //! The vessels' glass, traced: surfaces of revolution whose outlines are segments, so that a ray meets
 //! cones, and what is printed on them. What is behind is seen where it is; liquid is bent by `through_wall.wgsl`.
 
+//!include common/picture/dew_light.wgsl
 //!include common/picture/frame.wgsl
 //!include common/picture/printed.wgsl
 //!include common/picture/room.wgsl
@@ -16,6 +17,10 @@ const EDGE_OPACITY = 0.75;
 const BROKEN_EDGE = vec3<f32>(0.30, 0.46, 0.42);
 /// What a rim sends to the eye: light that comes up along the wall. Ours, between what it shows over water and over nothing.
 const RIM = vec3<f32>(0.20, 0.30, 0.34);
+/// Least cosine between a wall's normal and the way to the eye that counts.
+const STEEPEST = 0.18;
+/// A wall whose normal's outward part is below this looks into the vessel.
+const INNER = -0.1;
 /// What lies over something: its colour as displayed, and the share of what is behind that is still seen.
 struct Cover {
     colour: vec3<f32>,
@@ -97,7 +102,7 @@ fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> vec2<f32> {
 /// One wall's light at `place` (stage). `grain` is the least cosine between its normal and the way to the eye that a pixel can show.
 fn wall(place: vec3<f32>, to_eye: vec3<f32>, normal: vec3<f32>, grain: f32) -> Cover {
     // A silhouette thinner than a pixel would break into dots.
-    let facing = max(max(dot(normal, to_eye), grain), 0.18);
+    let facing = max(max(dot(normal, to_eye), grain), STEEPEST);
     let rest = 1.0 - facing;
     let rest_squared = rest * rest;
     let reflectance = GLASS_REFLECTANCE + (1.0 - GLASS_REFLECTANCE) * rest_squared * rest_squared * rest;
@@ -195,6 +200,15 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             let normal = stage_from_vessel * (outward * select(1.0, -1.0, cosine > 0.0));
             let stage = (*view).eye + depth * seen;
             var layer = wall(stage, to_eye, normal, grain);
+            if (profile.x < INNER && has_dew(index)) {
+                let cover = dew_at(index, p);
+                if (cover > 0.0) {
+                    let dewy = dew_seen(cover, stage, to_eye, normal, max(dot(normal, to_eye), STEEPEST));
+                    let veil = Cover(dewy.rgb, dewy.a);
+                    // It is on the cavity's side of the wall.
+                    if (cosine > 0.0) { layer = over(layer, veil); } else { layer = over(veil, layer); }
+                }
+            }
             // How far up the wall it is to the next pixel: the step in the picture, moved along the ray on to the wall.
             let height = abs(across.y - direction.y * dot(outward, across) / cosine)
                 + abs(down.y - direction.y * dot(outward, down) / cosine);

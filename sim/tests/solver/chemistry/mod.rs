@@ -5,6 +5,8 @@ mod boiling;
 pub mod bubbles;
 mod bubbly_liquid;
 mod conserved;
+mod dew;
+mod dew_of_scenes;
 mod extremes;
 mod figures;
 mod idle;

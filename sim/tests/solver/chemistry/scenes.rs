@@ -69,6 +69,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         all.extend(["smooth"].repeat(smoothing as usize));
         all.push("strain");
         all.extend(physical.losses.map(|_| "glass"));
+        all.extend(physical.losses.and(bubbles).map(|_| "dew"));
         all.extend(bubbles.iter().flat_map(|_| ["rise", "vent"]));
     }
     all.extend(loads.then_some("load"));

@@ -1,0 +1,110 @@
+//! Water on the flasks' inner walls, as a pass after a frame's substeps.
+
+use super::buffers::Buffers;
+use super::error::SolverError;
+use super::glass;
+use super::pipelines::{Constants, SolverPass};
+use super::steam::PUFFS;
+use super::transfer::upload;
+use super::vessels::Vessels;
+use super::{SolverSpec, steam};
+use crate::chemistry::dew;
+use crate::chemistry::puff::Room;
+use crate::parameters::Parameters;
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
+use vitriol_shaders::layout::{Dew as Place, DewRow, Step};
+use vitriol_shaders::{Library, sim};
+
+/// Places of a flask.
+const PLACES: usize = dew::AROUND * dew::UP;
+
+/// Threads of a workgroup.
+const THREADS: usize = 256;
+
+/// Places of all flasks: none where no steam leaves the liquid, or no heat goes to the glass.
+pub(super) fn places(parameters: &Parameters, flasks: usize) -> usize {
+    let chemistry = parameters.chemistry.as_ref();
+    match (steam::physical(parameters), glass::losses(chemistry)) {
+        (Some(_), Some(_)) => PLACES * flasks,
+        _ => 0,
+    }
+}
+
+/// The walls' water, and what condenses it.
+pub(super) struct Dew {
+    dew: Buffer,
+    rows: Buffer,
+    pass: SolverPass,
+    places: usize,
+}
+
+impl Dew {
+    /// `None` where none condenses; `steam` are its puffs, and what walls take of them.
+    pub(super) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        spec: &SolverSpec<'_>,
+        constants: &Constants,
+        (buffers, vessels): (&Buffers, &Vessels),
+        steam: [&Buffer; 2],
+    ) -> Result<Option<Self>, SolverError> {
+        let places = places(&spec.parameters, spec.flasks.len());
+        let losses = glass::losses(spec.parameters.chemistry.as_ref());
+        let (Some(losses), 1..) = (losses, places) else {
+            return Ok(None);
+        };
+        let room = Room::at(losses.ambient);
+        let constants = constants.and(&[
+            ("PUFFS", f64::from(PUFFS)),
+            ("ROOM_VAPOUR", dew::vapour_of(&room)),
+            ("ROOM_DENSITY", room.density),
+            ("STILL", dew::still()),
+            ("SWEPT", dew::swept()),
+            ("DEW_LOSS", losses.glass),
+            ("LATENT", dew::latent_heat(losses.ambient)),
+        ]);
+        let rows: Vec<DewRow> = spec.flasks.iter().flat_map(dew::rows).map(row).collect();
+        let own = [
+            Buffer::storage(gpu, "dew", bytes_of_elements::<Place>(places))?,
+            upload(gpu, "dew_rows", &rows)?,
+        ];
+        let mut bound = buffers.all(vessels).to_vec();
+        bound.extend(own.iter().chain(steam));
+        let pass = constants.pass(gpu, library, &bound, sim::DEW, &[])?;
+        let [dew, rows] = own;
+        Ok(Some(Self {
+            places,
+            dew,
+            rows,
+            pass,
+        }))
+    }
+
+    /// The walls' water, `array<Dew>`, and how many places it has.
+    pub(super) fn places(&self) -> (&Buffer, usize) {
+        (&self.dew, self.places)
+    }
+
+    /// Records what condenses and evaporates in a frame; `step` is that of its last substep.
+    pub(super) fn record(
+        &self,
+        rec: &mut Recorder,
+        (buffers, vessels): (&Buffers, &Vessels),
+        steam: [&Buffer; 2],
+        step: &Step,
+    ) -> Result<(), GpuError> {
+        let mut bound = buffers.all(vessels).to_vec();
+        bound.extend([&self.dew, &self.rows].into_iter().chain(steam));
+        let pass = self.pass.begin(rec, &bound).constants(step);
+        pass.workgroups([(self.places / THREADS) as u32, 1, 1])
+    }
+}
+
+fn row(row: dew::Row) -> DewRow {
+    DewRow {
+        height: row.height as f32,
+        radius: row.radius as f32,
+        area: row.area as f32,
+        capacity: row.capacity as f32,
+    }
+}
