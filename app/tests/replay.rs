@@ -62,6 +62,7 @@ fn heat(t: f64) -> HeatSample {
             closure: 2e-7,
             steam_kg: 1e-5 * t,
             mist_kg: 0.0,
+            dew_kg: 0.0,
             vapour_kg: 0.0,
             spray_kg: 0.0,
             spray_fallen_kg: 0.0,

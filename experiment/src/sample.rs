@@ -111,6 +111,9 @@ pub struct LedgerSample {
     pub steam_kg: f64,
     /// Mist that it is in the air over the liquid, kg.
     pub mist_kg: f64,
+    /// What of it condensed on the glass, kg.
+    #[serde(default)]
+    pub dew_kg: f64,
     /// Vapour that is still in the liquid, kg.
     pub vapour_kg: f64,
     /// Drops that bubbles threw up and that fly, kg.

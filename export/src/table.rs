@@ -120,7 +120,7 @@ pub fn columns(first: &Sample) -> Vec<Column> {
         columns.push(column);
     }
     if heat.ledger.is_some() {
-        let of_ledger: [(&str, &str, OfLedger); 14] = [
+        let of_ledger: [(&str, &str, OfLedger); 15] = [
             ("enthalpy at the start", "J", |l| l.initial_j),
             ("heat gained from around", "J", |l| l.exchanged_j),
             ("enthalpy of what is there", "J", |l| l.held_j),
@@ -128,6 +128,7 @@ pub fn columns(first: &Sample) -> Vec<Column> {
             ("error of the balance of enthalpy", "1", |l| l.closure),
             ("steam that left", "kg", |l| l.steam_kg),
             ("mist in the air", "kg", |l| l.mist_kg),
+            ("dew on the glass", "kg", |l| l.dew_kg),
             ("vapour in the liquid", "kg", |l| l.vapour_kg),
             ("drops of bubbles that fly", "kg", |l| l.spray_kg),
             ("drops of bubbles at rest", "kg", |l| l.spray_fallen_kg),

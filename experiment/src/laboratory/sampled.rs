@@ -44,6 +44,7 @@ pub(super) fn of_heat(scene: &Scene, heat: &HeatMeasurement, start: &Ledger) -> 
             closure: ledger.closure(start),
             steam_kg: ledger.steam,
             mist_kg: ledger.mist,
+            dew_kg: ledger.dew,
             vapour_kg: ledger.vapour,
             spray_kg: ledger.spray,
             spray_fallen_kg: ledger.spray_fallen,

@@ -22,6 +22,8 @@ override SWEPT: f32 = 0.0039;
 override DEW_LOSS: f32 = 12.0;
 /// Heat that water evolves where it condenses, J/kg.
 override LATENT: f32 = 2.454e6;
+/// Of the room's air, kg/m³.
+override ROOM_DENSITY: f32 = 1.2;
 
 @group(0) @binding(0) var<storage, read> puffs: array<Puff>;
 @group(0) @binding(1) var<storage, read_write> dew: array<Dew>;
@@ -40,7 +42,6 @@ const MOST_PRESSURE: f32 = 0.98;
 const MOST_TAKEN: f32 = 0.5;
 const TAU: f32 = 6.2831853;
 const THREADS: u32 = 256u;
-override ROOM_DENSITY: f32 = 1.2;
 
 /// Puffs that may reach the flask: in any order.
 var<workgroup> near: array<u32, 1024>;
@@ -123,7 +124,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let gained = -flux_from_wall(wall, vapour, air, transfer) * row.area * FRAME_TIME / DEW_QUANTUM;
     var quanta = i32(clamp(round(gained), -f32(own.water), most));
     quanta = max(quanta, -i32(own.water));
-    // Liquid takes what is there, and none condenses behind it.
+    // What liquid washes off is gone, as it is too little for the liquid to gain by; none condenses behind it.
     let is_wet = (wet[n / DEW_AROUND] & (1u << around)) != 0u;
     if (is_wet) { quanta = 0; }
     if (quanta > 0 && source < PUFFS) { atomicAdd(&taken[source], u32(quanta)); }

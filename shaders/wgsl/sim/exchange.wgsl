@@ -188,7 +188,9 @@ fn heat_from_glass(own: Potential, volume: f32, membership: u32, x: vec3<f32>, g
     let k = membership - 1u;
     // Where it touches, half a spacing away.
     let at = flask_from_stage(poses[step.after + k], x + gradient * (0.5 * SPACING / slope));
-    if (DEW) { wash(k, at); }
+    // What stands on the floor alone touches no wall.
+    let aside = at.xz - flask_from_stage(poses[step.after + k], x).xz;
+    if (DEW && dot(aside, aside) > 0.0625 * SPACING * SPACING) { wash(k, at); }
     let place = (at.y - flasks[k].floor) / (flasks[k].rim - flasks[k].floor) * f32(GLASS_RINGS);
     let place_of_ring = k * GLASS_RINGS + u32(clamp(place, 0.0, f32(GLASS_RINGS - 1u)));
     let ring = glass_rings[place_of_ring];

@@ -38,8 +38,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let speed = puff.momentum / (puff.air + puff.water + VIRTUAL_MASS * displaced);
         puff.position += vec3<f32>(puff.drift.x, 1.0, puff.drift.y) * (speed * STEP_TIME);
         let surface = 4.0 * PI * puff.radius * puff.radius;
-        let taken = ROOM_DENSITY * surface * ENTRAINMENT * abs(speed) * STEP_TIME;
-        let air = taken / (1.0 + ROOM_HUMIDITY);
+        let entrained = ROOM_DENSITY * surface * ENTRAINMENT * abs(speed) * STEP_TIME;
+        let air = entrained / (1.0 + ROOM_HUMIDITY);
         puff.air += air;
         puff.water += air * ROOM_HUMIDITY;
         puff.enthalpy += air * ROOM_ENTHALPY;

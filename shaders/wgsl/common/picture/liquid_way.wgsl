@@ -82,12 +82,12 @@ fn way_through(vessel: u32, point: vec3<f32>, p: vec3<f32>, within: vec3<f32>, i
                 ray.down = false;
                 let round = normalize(vec3<f32>(-at.x - base.x, under, -at.z - base.z));
                 through = stage_from_vessel * refract(in_glass, round, GLASS_INDEX);
-                ray.exit += ABOVE_BENCH * (stage_from_vessel * base);
+                if (dot(through, through) > 0.0) { ray.exit += ABOVE_BENCH * (stage_from_vessel * base); }
             } else {
                 through = refract(ray.out, back, index);
                 let passes = dot(through, through) > 0.0;
                 let returned = at.xz + 2.0 * base.xz;
-                let aside = select(returned * min(1.0, radius / length(returned)) - at.xz, ABOVE_BENCH * base.xz, passes);
+                let aside = select(returned * min(1.0, radius / max(length(returned), 1e-9)) - at.xz, ABOVE_BENCH * base.xz, passes);
                 let moved = vec3<f32>(aside.x, select(0.0, ABOVE_BENCH * base.y, passes), aside.y);
                 ray.exit += stage_from_vessel * moved;
                 at += moved;

@@ -282,7 +282,7 @@ fn a_frame_has_the_flux_of_the_f64_law() {
 }
 
 /// 10 g/m² in a room of 20 °C and 50 %: on a wall so thick that it stays as warm, as long as Lewis' relation and the psychrometric table say
-/// (17.3 g/m³ saturated); on one of 2 mm, which the film cools, as long as the integration.
+/// (17.3 g/m³ saturated). On one of 2 mm, which the film cools, as long as the integration.
 #[test]
 fn a_film_clears_in_the_time_of_lewis_relation() {
     let clears = |wall: f64, time: f64| {
