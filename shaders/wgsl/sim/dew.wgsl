@@ -35,8 +35,7 @@ override ROOM_DENSITY: f32 = 1.2;
 @group(0) @binding(4) var<storage, read> glass: array<vec2<f32>>;
 @group(0) @binding(5) var<storage, read> dew_rows: array<DewRow>;
 
-/// Virtual mass of a sphere (`chemistry/puff.rs`), and most of the room's pressure that vapour has: near the boiling point the flux has no bound.
-const VIRTUAL_MASS: f32 = 0.5;
+/// Most of the room's pressure that vapour has: near the boiling point the flux has no bound.
 const MOST_PRESSURE: f32 = 0.98;
 /// Most of what a puff can give that it gives in a frame, over all places that it reaches.
 const MOST_TAKEN: f32 = 0.5;

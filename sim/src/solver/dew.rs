@@ -9,6 +9,7 @@ use super::transfer::upload;
 use super::vessels::Vessels;
 use super::{SolverSpec, steam};
 use crate::chemistry::dew;
+use crate::chemistry::glass::RINGS;
 use crate::chemistry::puff::Room;
 use crate::parameters::Parameters;
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
@@ -17,6 +18,9 @@ use vitriol_shaders::{Library, sim};
 
 /// Places of a flask.
 const PLACES: usize = dew::AROUND * dew::UP;
+
+/// What `sim/dew.wgsl` takes for granted: room for all puffs in a workgroup's memory, and two rings of the glass a row.
+const _: () = assert!(PUFFS <= 1024 && RINGS == 2 * dew::UP);
 
 /// Threads of a workgroup.
 const THREADS: usize = 256;

@@ -14,7 +14,6 @@ override ROOM_DENSITY: f32 = 1.2;
 
 const FIRST_AIR: f32 = 0.1;
 const ENTRAINMENT: f32 = 0.25;
-const VIRTUAL_MASS: f32 = 0.5;
 const AIR_CAPACITY: f32 = 1006.0;
 const DROPLET_RADIUS: f32 = 5e-6;
 const WATER_DENSITY: f32 = 1000.0;

@@ -1,6 +1,9 @@
 // A puff of steam in the room's air: the place of one, what it holds and what is
 // drawn of it.
 
+/// Air that a sphere moves along, over what it displaces (`chemistry/puff.rs`).
+const VIRTUAL_MASS: f32 = 0.5;
+
 struct Puff {
     /// Centre in the stage, m.
     position: vec3<f32>,

@@ -150,8 +150,7 @@ fn followed(
         let foot = (m * vec4<f32>(way.exit, 1.0)).xz;
         let to_window = (m * vec4<f32>(middle_of_light(way.exit * frame.metres_per_unit), 0.0)).xyz;
         // A vessel that is lifted has light come in from aside. Through its wall the liquid's depth is not known.
-        let lifted = abs(way.exit.y - frame.table_max.y) / frame.vessels[vessel].outer;
-        let standing = select(0.0, smoothstep(0.8, 0.95, upright) * (1.0 - smoothstep(0.1, 0.6, lifted)), level < 1e9);
+        let standing = select(0.0, stands(vessel, upright, way.exit.y), level < 1e9);
         if (standing > 0.0) { through.window = mix(1.0, window_under(vessel, foot, depth, index, to_window), standing); }
     }
     return Wet(way.exit, way.out, kept, vec3<f32>(0.0), through);

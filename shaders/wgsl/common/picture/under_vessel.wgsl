@@ -6,11 +6,12 @@
 //!include common/picture/frame.wgsl
 //!include common/picture/vessel_rays.wgsl
 
-/// Directions about the vertical in which light is followed back from the bench, and heights of the window: its middle's, and rad to either side.
+/// Directions about the vertical in which light is followed back from the bench, and heights of the window, rad from its middle's: the root of their
+/// mean square from the bench. Both ours.
 const AZIMUTHS = 16u;
 const HEIGHTS = array<f32, 2>(-0.2, 0.2);
-/// The window is ((1 + cos φ)/2)¹⁶ wide: as a box of ±0.6 rad, its width seen from the bench, is in mean square. Even directions sum that
-/// without an error. This is its mean over all φ, (32 over 16)/4¹⁶.
+/// The window is ((1 + cos φ)/2)¹⁶ wide: as a box of ±0.6 rad, its width seen from the bench, is in mean square. Where nothing is in the way,
+/// even directions sum that without an error. This is its mean over all φ, (32 over 16)/4¹⁶.
 const MEAN_OF_LOBE = 0.13995;
 /// Half of how much further aside the next height comes to the surface, depths.
 const SOONER = 0.19;
@@ -20,6 +21,17 @@ const MOST_WALLS = 3u;
 /// Its nearer panes give more: across, the middle of their light upon a bench is at this share of the way from straight ahead to the window's own middle.
 /// Over its width light falls as the fourth power of the distance, here 1.9 m.
 const NEARER = 0.68;
+
+/// Upward part of a vessel's axis from which on it counts as upright, and the height of its base over the bench, in outer radii, up to which all of its
+/// light comes down through it and from which on none does. Ours.
+const UPRIGHT = vec2<f32>(0.8, 0.95);
+const LIFTED = vec2<f32>(0.1, 0.6);
+
+/// How far a vessel stands on the bench, 0 to 1; `base` is the height of its base in the stage.
+fn stands(vessel: u32, upright: f32, base: f32) -> f32 {
+    let lifted = abs(base - frame.table_max.y) / frame.vessels[vessel].outer;
+    return smoothstep(UPRIGHT.x, UPRIGHT.y, upright) * (1.0 - smoothstep(LIFTED.x, LIFTED.y, lifted));
+}
 
 /// Of length 1, towards the middle of the window's light.
 fn middle_of_light(position: vec3<f32>) -> vec3<f32> {

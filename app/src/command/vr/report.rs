@@ -1,0 +1,331 @@
+//! What `vitriol vr` says of a session at its end, as a document and in words.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+use vitriol_experiment::units::{grouped, three_digits};
+use vitriol_experiment::{Blame, DeviceStatement, Failure, device};
+use vitriol_lesson::Attempt;
+use vitriol_lesson::procedure::Verdict;
+
+use crate::command::keeping::Kept;
+use crate::live::WatchReport;
+use crate::vr::first_minute::FirstMinuteReport;
+use crate::vr::foveating::Foveating;
+use crate::vr::record::RecordingStatus;
+use crate::vr::session::{
+    Contacts, FramesWith, GovernorReport, SessionOutcome, SoundReport, Spilt, WARM_UP,
+};
+use crate::vr::stand_in::{Ready, StandInSpec};
+use crate::vr::tally::{FramesReport, Holdings, Spread, WaitsReport};
+
+/// What `vitriol vr` prints at the session's end.
+#[derive(Debug, Serialize)]
+pub(super) struct SessionReport {
+    /// The headset, or what stood in for it.
+    headset: String,
+    device: DeviceStatement,
+    scene: String,
+    fluid_particles: u64,
+    lost_particles: u64,
+    nan_particles: u64,
+    /// Frames that count.
+    frames: u64,
+    steps: u64,
+    simulated_s: f64,
+    /// Time that was shown as slow motion, s.
+    slow_motion_s: f64,
+    /// Display periods without a picture of their own.
+    missed_frames: u64,
+    /// Times that a lost session was found again.
+    renewals: u64,
+    /// Times that a device was lost and the bench was brought back on another.
+    devices_lost: u32,
+    /// What was done to keep pace with the display.
+    governor: GovernorReport,
+    /// Where the pictures were to be sharp; absent where that was the governor's to say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foveation: Option<Foveating>,
+    /// Processor time of a frame from begin to end, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cpu_ms: Option<Spread>,
+    /// Of these, frames with nothing beside them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frames_alone: Option<FramesReport>,
+    /// Frames while a bench or a picture was built on another thread.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frames_while_building: Option<FramesReport>,
+    /// The solver's time on the device in a frame, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu_solver_ms: Option<Spread>,
+    /// The picture's, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gpu_picture_ms: Option<Spread>,
+    /// From a frame's begin to the end of all its work on the device, ms; of a stand-in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ready_ms: Option<Spread>,
+    /// Length of a display period, ms; of a stand-in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period_ms: Option<f64>,
+    /// From the eyes' location to the picture's submission, ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_age_ms: Option<Spread>,
+    /// From the hand's pose to the flask in the picture, simulation steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input_to_flask_steps: Option<Spread>,
+    /// The same, displayed frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input_to_flask_frames: Option<Spread>,
+    /// Sound, and how much of it is buffered.
+    sound: SoundReport,
+    /// What lies beside the flasks at the end, real mL.
+    spilt_ml: Spilt,
+    /// Acid that touched the user.
+    acid_touched: Contacts,
+    /// Flasks that broke.
+    flasks_broken: u32,
+    /// What was done and what went wrong, from each start of a scene on.
+    pub(super) attempts: Vec<Attempt>,
+    /// What the lesson came to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lesson: Option<Verdict>,
+    /// What was kept under a pseudonym.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) kept: Option<Kept>,
+    /// What pages saw that looked meanwhile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) watched: Option<WatchReport>,
+    /// Which of the signs' four steps were done, and when.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first_minute: Option<FirstMinuteReport>,
+    /// What the process held after warming up and at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holdings: Option<[Holdings; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<RecordingStatus>,
+    state_hash: String,
+}
+
+/// What there is to say of a session; `stand_in` is what timed its frames, if not a headset.
+pub(super) fn report(
+    headset: String,
+    outcome: &SessionOutcome,
+    stand_in: Option<(StandInSpec, Vec<Ready>)>,
+) -> Result<SessionReport, Failure> {
+    let world = &outcome.bench.world;
+    let measured = world.measure().other()?;
+    let tally = &outcome.tally;
+    let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {
+        let counted = ready.iter().filter(|frame| frame.index >= WARM_UP);
+        counted
+            .map(|frame| 1e3 * frame.after.as_secs_f64())
+            .collect()
+    });
+    let period = stand_in.as_ref().map(|(spec, _)| 1e3 / spec.rate_hz);
+    let late = counted.iter().filter(|ready| Some(**ready) > period);
+    Ok(SessionReport {
+        headset,
+        device: device::statement(world.gpu()),
+        scene: outcome.bench.plan.scene.clone(),
+        fluid_particles: world.solver().count().into(),
+        lost_particles: measured.lost_particles,
+        nan_particles: measured.nan_particles,
+        frames: outcome.frames.saturating_sub(WARM_UP),
+        steps: outcome.steps,
+        simulated_s: outcome.simulated,
+        slow_motion_s: outcome.slowed,
+        missed_frames: outcome.skipped + late.count() as u64,
+        renewals: outcome.renewals,
+        devices_lost: outcome.devices_lost,
+        governor: outcome.governor.clone(),
+        foveation: outcome.foveating,
+        cpu_ms: Spread::of(&tally.cpu_ms),
+        frames_alone: tally.alone.report(),
+        frames_while_building: tally.building.report(),
+        gpu_solver_ms: Spread::of(&tally.solve_ms),
+        gpu_picture_ms: Spread::of(&tally.picture_ms),
+        ready_ms: Spread::of(&counted),
+        period_ms: period,
+        pose_age_ms: Spread::of(&tally.pose_age_ms),
+        input_to_flask_steps: Spread::of(&tally.delay_steps),
+        input_to_flask_frames: Spread::of(&tally.delay_frames),
+        sound: outcome.sound.clone(),
+        spilt_ml: outcome.spilt,
+        acid_touched: outcome.contacts,
+        flasks_broken: outcome.broken,
+        attempts: outcome.attempts.clone(),
+        lesson: outcome.verdict.clone(),
+        kept: None,
+        watched: None,
+        first_minute: outcome.first_minute,
+        holdings: match outcome.holdings {
+            [Some(before), Some(after)] => Some([before, after]),
+            _ => None,
+        },
+        recording: outcome.recorded.clone(),
+        state_hash: format!("{:016x}", world.snapshot().other()?.solver.hash()),
+    })
+}
+
+/// What the governor did, a line for each setting.
+fn governed(governor: &GovernorReport) -> String {
+    if !governor.on {
+        let cause = governor.cause.as_deref().unwrap_or("as was asked for");
+        return format!("settings fixed: {cause}\n");
+    }
+    let mut text = format!("settings changed {} times to keep pace\n", governor.changes);
+    for FramesWith { setting, frames } in &governor.settings {
+        let [substeps, iterations] = setting.solver;
+        let picture = 100.0 * setting.resolution;
+        let aside = match setting.foveated {
+            true => ", fewer pixels aside",
+            false => "",
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {substeps} × {iterations}, picture {picture:.0} %{aside}, {:?}: {} frames",
+            setting.filter,
+            grouped(*frames)
+        );
+    }
+    text
+}
+
+/// "3 times, 0.12 ms in all, 0.08 ms at most".
+fn waited(waits: &WaitsReport) -> String {
+    let WaitsReport {
+        waits,
+        total_ms,
+        longest_ms,
+    } = waits;
+    if *waits == 0 {
+        return "never".into();
+    }
+    format!(
+        "{} times, {total_ms:.3} ms in all, {longest_ms:.3} ms at most",
+        grouped(*waits)
+    )
+}
+
+/// It in words, as the terminal shows it.
+pub(super) fn describe(session: &SessionReport) -> String {
+    let mut text = format!(
+        "{}\n{}, {} particles; {} steps, {} s simulated, {} s of slow motion; lost {}, not finite {}\n\
+         {} frames, {} missed\n",
+        session.headset,
+        session.scene,
+        grouped(session.fluid_particles),
+        session.steps,
+        three_digits(session.simulated_s),
+        three_digits(session.slow_motion_s),
+        session.lost_particles,
+        session.nan_particles,
+        session.frames,
+        session.missed_frames,
+    );
+    text += &governed(&session.governor);
+    text += match session.foveation {
+        Some(Foveating::Off) => "every pixel shaded\n",
+        Some(Foveating::Eye) => {
+            "every pixel shaded about where the user looks, if known, fewer beyond\n"
+        }
+        Some(Foveating::Fixed) => "every pixel shaded about the lenses' axes, fewer beyond\n",
+        // The settings say it.
+        None => "",
+    };
+    let rows = [
+        ("processor, a frame, ms", session.cpu_ms),
+        (
+            "  while one builds, ms",
+            session.frames_while_building.map(|frames| frames.cpu_ms),
+        ),
+        ("device, solver, ms", session.gpu_solver_ms),
+        ("device, picture, ms", session.gpu_picture_ms),
+        ("from begin to done, ms", session.ready_ms),
+        ("age of the eyes' pose, ms", session.pose_age_ms),
+        ("hand to flask, steps", session.input_to_flask_steps),
+        ("hand to flask, frames", session.input_to_flask_frames),
+        (
+            "from a page's order to done, ms",
+            session.watched.as_ref().and_then(|it| it.switch_ms),
+        ),
+    ];
+    text += "                                median      95 %      99 %      most\n";
+    for (name, spread) in rows {
+        if let Some(Spread { p50, p95, p99, max }) = spread {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{name:<28} {p50:>9.3} {p95:>9.3} {p99:>9.3} {max:>9.3}"
+            );
+        }
+    }
+    for (kind, frames) in [
+        ("alone", session.frames_alone),
+        ("while one builds", session.frames_while_building),
+    ] {
+        if let Some(FramesReport {
+            frames,
+            queue_lock,
+            memory_lock,
+            ..
+        }) = frames
+        {
+            let _ = writeln!(
+                text,
+                "{} frames {kind}: waited for the queue {}, for memory {}",
+                grouped(frames),
+                waited(&queue_lock),
+                waited(&memory_lock)
+            );
+        }
+    }
+    if let (Some(period), Some(ready)) = (session.period_ms, session.ready_ms) {
+        let _ = writeln!(
+            text,
+            "left of {period:.2} ms: {:.2} ms in the 99th percentile",
+            period - ready.p99
+        );
+    }
+    let sound = &session.sound;
+    let _ = match (&sound.buffered_ms, &sound.cause) {
+        (Some(held), None) => writeln!(
+            text,
+            "sound: {held:.1} ms buffered, ran dry {} times",
+            sound.underflows
+        ),
+        (_, Some(cause)) => writeln!(text, "no sound: {cause}"),
+        (None, None) => Ok(()),
+    };
+    if let Some([before, after]) = session.holdings {
+        let _ = writeln!(
+            text,
+            "memory {} to {} MB, {} to {} handles",
+            before.memory / 1_000_000,
+            after.memory / 1_000_000,
+            before.handles,
+            after.handles
+        );
+    }
+    if let Some(recording) = &session.recording {
+        let _ = writeln!(
+            text,
+            "recorded {} steps, not {}{}",
+            grouped(recording.steps),
+            recording.unwritten,
+            recording
+                .cause
+                .as_ref()
+                .map_or_else(String::new, |cause| format!(": {cause}"))
+        );
+    }
+    if let Some(verdict) = &session.lesson {
+        let Verdict {
+            lesson, points, of, ..
+        } = verdict;
+        let _ = writeln!(text, "lesson {lesson}: {points} of {of} points");
+    }
+    let _ = write!(text, "state {}", session.state_hash);
+    text
+}
