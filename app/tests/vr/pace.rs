@@ -244,7 +244,7 @@ fn pixels_aside_give_way_first() {
     assert_eq!(outcome.foveating, None);
     assert_eq!(replayed(&gpu, track), hash(&outcome));
 
-    // Pictures that end as small are nearly the same, unless one is drawn in blocks: 2 pixels differed, and 14,223 in blocks.
+    // Pictures that end as small are nearly the same, unless one is drawn in blocks: 2 to 185 pixels differed, and 14,223 in blocks.
     let off = Some(Foveating::Off);
     let pictures = [None, off, off].map(|asked| run(asked, u64::MAX, 60));
     for ((_, small), outcome, track) in &pictures {
@@ -268,7 +268,7 @@ fn pixels_aside_give_way_first() {
         "of {} pixels {in_blocks} differ, and {else_} in as sharp a picture",
         192 * 204
     );
-    assert!(in_blocks > 5_000 && else_ < 2_500, "{in_blocks} {else_}");
+    assert!(in_blocks > 5_000 && else_ < 1_000, "{in_blocks} {else_}");
 }
 
 /// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
