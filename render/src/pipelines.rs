@@ -13,12 +13,16 @@ const GLASS_RAYS: [f64; 2] = [4.0, 1.0];
 /// Pixels over which they are spread in blocks, which glass has of two by two.
 const OVER_BLOCK: f64 = 2.0;
 
+/// The parts of the room that a pipeline is for, as in `common/picture/room_parts.wgsl`.
+const SEES_BENCH: f64 = 1.0;
+const SEES_WALLS: f64 = 2.0;
+
 /// A pass over the tiles of a class.
 type OfClass = (Class, ComputePipeline);
 
 /// Of the picture, and of its finish, one for each class of tiles.
 pub(crate) struct Pipelines {
-    pub(crate) picture: [OfClass; 3],
+    pub(crate) picture: [OfClass; 6],
     pub(crate) finish: [OfClass; 2],
     /// The same of blocks, where frames may be foveated.
     coarse: Option<([OfClass; 3], [OfClass; 2])>,
@@ -33,15 +37,16 @@ impl Pipelines {
             constants.extend(switches);
             Ok::<_, RenderError>((class, compute_of(gpu, library, shader, &constants)?))
         };
-        let glass = [("GLASS", 1.0), rays];
-        let liquid = [("GLASS", 1.0), ("LIQUID", 1.0), rays];
+        let sheets = ("SHEETS", 1.0);
+        let glass = [("GLASS", 1.0), sheets, rays];
+        let liquid = [("GLASS", 1.0), ("LIQUID", 1.0), sheets, rays];
         let steam = [("STEAM", 1.0)];
         let (picture, finish) = ((render::PICTURE, "main"), (render::FINISH, "main"));
         let (blocks, spread) = ((render::PICTURE, "coarse"), (render::SPREAD, "main"));
         let coarse = || -> Result<_, RenderError> {
             let spreads = ("GLASS_SPREAD", OVER_BLOCK);
             let picture = [
-                over(blocks, Class::CoarsePlain, &[])?,
+                over(blocks, Class::CoarsePlain, &[sheets])?,
                 over(
                     blocks,
                     Class::CoarseGlass,
@@ -61,7 +66,10 @@ impl Pipelines {
         };
         Ok(Self {
             picture: [
+                over(picture, Class::Bench, &[("SEES", SEES_BENCH)])?,
+                over(picture, Class::Walls, &[("SEES", SEES_WALLS)])?,
                 over(picture, Class::Plain, &[])?,
+                over(picture, Class::Sheets, &[sheets])?,
                 over(picture, Class::Glass, &glass)?,
                 over(picture, Class::SharpLiquid, &liquid)?,
             ],

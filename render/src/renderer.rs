@@ -364,7 +364,7 @@ impl Renderer {
             for (class, pipeline) in self.pipelines.picture.iter().chain(coarse) {
                 let pass = rec
                     .pass(pipeline)
-                    .label("picture")
+                    .label(class.picture())
                     .uniform("frame", &self.frame)
                     .read("surface", of_liquid(Fluid::surface))
                     .read("sums", of_liquid(Fluid::sums))

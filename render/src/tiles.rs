@@ -39,7 +39,7 @@ pub(crate) enum Class {
     Liquid = 0,
     /// Glass without liquid, of which every pixel is shaded.
     Glass = 1,
-    /// Neither, likewise.
+    /// Neither, likewise: of the room what the others of these have not alone.
     Plain = 2,
     /// Edges to be smoothed, without steam.
     Edges = 3,
@@ -63,10 +63,29 @@ pub(crate) enum Class {
     CoarsePlain = 12,
     /// Hands, likewise.
     CoarseHands = 13,
+    /// Neither glass nor liquid, and nothing but the table's top; every pixel is shaded.
+    Bench = 14,
+    /// The same, with nothing of the table and no details of the room.
+    Walls = 15,
+    /// The same with a panel, a sign or a pane.
+    Sheets = 16,
+}
+
+impl Class {
+    /// What its share of the pass "picture" is called.
+    pub(crate) fn picture(self) -> &'static str {
+        match self {
+            Self::Bench => "picture: bench",
+            Self::Walls => "picture: walls",
+            Self::Plain | Self::CoarsePlain | Self::Sheets => "picture: room",
+            Self::Glass | Self::CoarseGlass => "picture: glass",
+            _ => "picture: liquid",
+        }
+    }
 }
 
 /// As in `render/tile_lists.wgsl`.
-const LISTS: u64 = 14;
+const LISTS: u64 = 17;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {

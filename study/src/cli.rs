@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
+use vitriol_experiment::switches::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 use crate::parse::{cases, filter, positive, preset};
@@ -52,6 +53,9 @@ pub struct BenchArgs {
     /// With --render: filter of the liquid's surface; without it the scene's
     #[arg(long, value_parser = filter(), value_name = "FILTER", requires = "render")]
     pub filter: Option<PictureFilter>,
+    /// With --render: one picture of that width and height alone, as on a screen
+    #[arg(long, value_name = "WxH", value_parser = pair, requires = "render")]
+    pub size: Option<[u32; 2]>,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,

@@ -19,6 +19,7 @@ mod meniscus;
 mod pane;
 mod panel;
 mod rig;
+mod room_parts;
 mod scene;
 mod schlieren;
 mod shards;

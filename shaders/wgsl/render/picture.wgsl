@@ -16,9 +16,10 @@
 //!include common/picture/sign.wgsl
 //!include common/picture/tile_pixels.wgsl
 
-/// Whether the class's tiles have glass, and liquid.
+/// Whether the class's tiles may have glass, liquid, and a panel, a sign or a pane.
 override GLASS: bool = false;
 override LIQUID: bool = false;
+override SHEETS: bool = false;
 
 /// Marks of the tiles.
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
@@ -109,7 +110,7 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 let sign = meets_sign(origin, direction);
                 if (sign.way < end && is_on_sign(sign.at)) { colour = kept * sign_light(sign.at) + display(mirrored); }
             }
-        } else {
+        } else if (SHEETS) {
             let panel = panel_seen(eye, at, near / max(reversed, 1e-9));
             if (panel.share > 0.0) {
                 colour = mix(colour, panel.light, panel.share);
@@ -117,11 +118,13 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 alpha = select(1.0, 0.0, panel.see_through);
             }
         }
-        let sign = sign_seen(eye, at, near / max(reversed, 1e-9));
-        if (sign.share > 0.0) {
-            colour = mix(colour, sign.light, sign.share);
-            reversed = near / sign.depth;
-            alpha = 1.0;
+        if (SHEETS) {
+            let sign = sign_seen(eye, at, near / max(reversed, 1e-9));
+            if (sign.share > 0.0) {
+                colour = mix(colour, sign.light, sign.share);
+                reversed = near / sign.depth;
+                alpha = 1.0;
+            }
         }
         if ((tiles[place.tile] & (MARK_SPHERES | MARK_HANDS)) != 0u) {
             let index = pixel_index(place.pixel, eye);
@@ -134,7 +137,8 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
                 alpha = 1.0;
             }
         }
-        let pane = pane_over(eye, at, select(near / reversed, 1e9, reversed == 0.0));
+        var pane = PaneSeen(vec3<f32>(0.0), vec3<f32>(1.0), 1e9);
+        if (SHEETS) { pane = pane_over(eye, at, select(near / reversed, 1e9, reversed == 0.0)); }
         if (pane.way < 1e9) { alpha = 1.0; }
         var before_pane = false;
         if (GLASS) {

@@ -4,24 +4,38 @@
 //!include common/picture/frame.wgsl
 //!include common/picture/hidden_area.wgsl
 //!include common/picture/tile_marks.wgsl
+//!include common/picture/tile_room.wgsl
 
 @group(0) @binding(1) var<storage, read> tiles: array<u32>;
 @group(0) @binding(2) var<storage, read_write> tile_lists: array<u32>;
 /// Three workgroup counts for each class.
 @group(0) @binding(3) var<storage, read_write> arguments: array<atomic<u32>>;
 
-/// Lists, of which the last is of hands in coarse tiles, as `tiles.rs` numbers them.
-const LISTS = 14u;
+/// Lists, as `tiles.rs` numbers them.
+const LISTS = 17u;
+/// That of hands in coarse tiles, which a workgroup has all of.
+const COARSE_HANDS = 13u;
+/// Those of tiles that have neither glass nor liquid: with a panel, a sign or a pane; the table's top and nothing else; nothing of the table and no
+/// details; and the others.
+const SHEET_TILES = 16u;
+const BENCH_TILES = 14u;
+const WALL_TILES = 15u;
+const ROOM_TILES = 2u;
 
 fn append(class_: u32, tile: u32, all: u32) {
     let place = atomicAdd(&arguments[3u * class_], 1u);
     tile_lists[class_ * all + place] = tile;
 }
 
+fn plain_class(eye: u32, low: vec2<f32>, high: vec2<f32>) -> u32 {
+    if (may_show_sheets(eye, low - SOFT, high + SOFT)) { return SHEET_TILES; }
+    return room_class(eye, low, high);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (id.x < LISTS) {
-        atomicStore(&arguments[3u * id.x + 1u], select(4u, 1u, id.x == LISTS - 1u));
+        atomicStore(&arguments[3u * id.x + 1u], select(4u, 1u, id.x == COARSE_HANDS));
         atomicStore(&arguments[3u * id.x + 2u], 1u);
     }
     let of_view = frame.tile_columns * frame.tile_rows;
@@ -44,9 +58,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if ((marks & MARK_SPHERES) != 0u) { append(5u, id.x, all); }
     var side = 1u;
     if (!hidden) { side = block_side(eye, low, high, marks); }
-    if ((marks & MARK_HANDS) != 0u) { append(select(6u, 13u, side != 1u), id.x, all); }
+    if ((marks & MARK_HANDS) != 0u) { append(select(6u, COARSE_HANDS, side != 1u), id.x, all); }
     if (side == 1u) {
-        append(select(select(2u, 1u, has_glass), 9u, has_liquid), id.x, all);
+        var class_ = select(1u, 9u, has_liquid);
+        if (!has_glass && !has_liquid) { class_ = plain_class(eye, vec2<f32>(low), vec2<f32>(high)); }
+        append(class_, id.x, all);
         if (marks != 0u) { append(select(3u, 4u, has_steam), id.x, all); }
     } else {
         // As `common/picture/coarse_blocks.wgsl` reads it.

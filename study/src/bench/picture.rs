@@ -32,7 +32,7 @@ const HEAD: [Vec3; 2] = [Vec3::new(0.0, 1.12, 0.02), Vec3::new(0.0, 0.84, -0.40)
 /// A headset's hands: open, palms towards each other, half a metre from the eyes, real metres.
 const HANDS: [Vec3; 2] = [Vec3::new(-0.10, 0.87, -0.36), Vec3::new(0.10, 0.87, -0.36)];
 
-/// The scene's picture at each size.
+/// The scene's picture at each size, or at the one that is asked for.
 ///
 /// # Errors
 /// [`Failure::Input`] for a scene that is not there; what the device says.
@@ -63,7 +63,10 @@ pub fn rows(
             solver: self::queued(plain, &world, None, args.frames)?,
         })
     };
-    cases().map(row).collect()
+    match args.size {
+        Some(extent) => [(1, extent, None)].into_iter().map(row).collect(),
+        None => cases().map(row).collect(),
+    }
 }
 
 /// A size and where its picture is sharp: a headset's everywhere, and foveated as in a session.

@@ -83,6 +83,12 @@ fn may_show(face_from_stage: mat4x4<f32>, eye: u32, low: vec2<f32>, high: vec2<f
     return behind < 4u && all(first <= high) && all(last >= low);
 }
 
+/// Whether anything flat may be seen between two places of the picture.
+fn may_show_sheets(eye: u32, low: vec2<f32>, high: vec2<f32>) -> bool {
+    return may_show(frame.panel_from_stage, eye, low, high) || may_show(frame.sign_from_stage, eye, low, high)
+        || may_show(frame.pane_from_stage, eye, low, high);
+}
+
 /// Pixels along a block of a tile of which one is shaded: 1, 2 or 4.
 fn block_side(eye: u32, low: vec2<u32>, high: vec2<u32>, marks: u32) -> u32 {
     if (foveae.of_views[eye].sharp < -1.0) { return 1u; }

@@ -4,6 +4,7 @@
 //! None of it is in the way of anything: no hand or vessel touches it. Lengths in metres, in the stage.
 
 //!include common/picture/bottles.wgsl
+//!include common/picture/room_parts.wgsl
 //!include common/picture/signs.wgsl
 //!include common/picture/worktop.wgsl
 
@@ -38,9 +39,10 @@ const OPENING_HIGH = vec2<f32>(2.01, 1.92);
 const HOOD_INNER_TOP = 2.15;
 /// Its sash's lower edge.
 const HOOD_SASH = 1.44;
-/// The poster's lower left corner, and the edge of its cells; the signs' middles and half their sizes.
+/// The poster's lower left corner, the edge of its cells, and how many it has; the signs' middles and half their sizes.
 const POSTER = vec2<f32>(-1.48, 1.52);
 const POSTER_CELL = 0.046;
+const POSTER_SIZE = vec2<f32>(20.0, 12.0);
 const CORROSIVE = vec3<f32>(0.65, 1.92, 0.15);
 const EYE_PROTECTION = vec3<f32>(0.65, 1.62, 0.11);
 const EYE_WASH = vec3<f32>(0.65, 1.34, 0.10);
@@ -133,6 +135,20 @@ fn floor_light(at: vec3<f32>, albedo: vec3<f32>, open: f32) -> vec3<f32> {
     return albedo * (sky * ambient_light(1.0) + max(key.direction.y, 0.0) * (1.0 - 0.9 * shaded.x * shaded.y) * key.light);
 }
 
+fn with_signs(wall: vec3<f32>, at: vec2<f32>, sharp: f32) -> vec3<f32> {
+    var albedo = wall;
+    let poster = (at - POSTER) / POSTER_CELL;
+    let on_poster = in_rectangle(poster, vec2<f32>(0.0), POSTER_SIZE, sharp * POSTER_CELL);
+    if (on_poster > 0.0) { albedo = mix(albedo, periodic_table(poster, sharp * POSTER_CELL), on_poster); }
+    if (abs(at.x - CORROSIVE.x) < 0.2) {
+        var sign = corrosive((at - CORROSIVE.xy) / CORROSIVE.z, sharp * CORROSIVE.z);
+        if (at.y < 1.76) { sign = eye_protection((at - EYE_PROTECTION.xy) / EYE_PROTECTION.z, sharp * EYE_PROTECTION.z); }
+        if (at.y < 1.47) { sign = eye_wash((at - EYE_WASH.xy) / EYE_WASH.z, sharp * EYE_WASH.z); }
+        albedo = mix(albedo, sign.rgb, sign.a);
+    }
+    return albedo;
+}
+
 /// The wall that the user faces: tiles up to the shelf, paint, signs and a poster.
 fn back_wall(at: vec3<f32>, normal: vec3<f32>, open: f32, sharp: f32) -> vec3<f32> {
     var albedo = PAINT;
@@ -141,15 +157,7 @@ fn back_wall(at: vec3<f32>, normal: vec3<f32>, open: f32, sharp: f32) -> vec3<f3
         let grout = max(lines(at.x, 1.0 / 0.15, 0.003, sharp), lines(at.y - COUNTER_TOP, 1.0 / 0.15, 0.003, sharp));
         albedo = mix(albedo, mix(TILE_WHITE, GROUT, grout), tiled);
     }
-    let poster = (at.xy - POSTER) / POSTER_CELL;
-    let on_poster = in_rectangle(poster, vec2<f32>(0.0), vec2<f32>(20.0, 12.0), sharp * POSTER_CELL);
-    if (on_poster > 0.0) { albedo = mix(albedo, periodic_table(poster, sharp * POSTER_CELL), on_poster); }
-    if (abs(at.x - CORROSIVE.x) < 0.2) {
-        var sign = corrosive((at.xy - CORROSIVE.xy) / CORROSIVE.z, sharp * CORROSIVE.z);
-        if (at.y < 1.76) { sign = eye_protection((at.xy - EYE_PROTECTION.xy) / EYE_PROTECTION.z, sharp * EYE_PROTECTION.z); }
-        if (at.y < 1.47) { sign = eye_wash((at.xy - EYE_WASH.xy) / EYE_WASH.z, sharp * EYE_WASH.z); }
-        albedo = mix(albedo, sign.rgb, sign.a);
-    }
+    if (sees(SEES_DETAILS)) { albedo = with_signs(albedo, at.xy, sharp); }
     // Less light over the counter, under the shelf and beside the hood.
     let under_shelf = max(abs(at.x) - SHELF_HIGH.x, 0.0) + max(SHELF_LOW.y - at.y, 0.0);
     let near = saturate(1.0 - vec3<f32>(3.5 * (at.y - COUNTER_TOP), 2.5 * (HOOD_LOW.x - at.x), 3.5 * under_shelf));
@@ -342,7 +350,7 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
     let at = ray.origin + way * ray.direction;
     if (frame.furnished == 0u) { return Far(bare_wall(at, normal), way, 0.0); }
     var seen = Far(vec3<f32>(0.0), way, 1.0);
-    if (has_fittings()) {
+    if (sees(SEES_DETAILS) && has_fittings()) {
         let metal = tap(ray, way);
         seen = put_behind(seen, Layer(metal.share, metal.way, vec3<f32>(0.0), 0.0), metal.light);
     }
@@ -350,9 +358,9 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
     // Furniture stands along the back wall: of a ray the part before that.
     if (at.z < HOOD_FRONT && ray.origin.z > HOOD_FRONT) {
         let lowest = min(at.y, ray.origin.y);
-        if (max(at.x, ray.origin.x) > HOOD_LOW.x && max(at.y, ray.origin.y) > HOOD_LOW.y) { seen = hood(seen, ray); }
+        if (sees(SEES_DETAILS) && max(at.x, ray.origin.x) > HOOD_LOW.x && max(at.y, ray.origin.y) > HOOD_LOW.y) { seen = hood(seen, ray); }
         if (seen.open > 0.0 && lowest < COUNTER_TOP) { seen = counter(seen, ray); }
-        if (seen.open > 0.0 && max(at.y, ray.origin.y) > SHELF_LOW.y && lowest < SHELF_HIGH.y) { seen = shelf(seen, ray); }
+        if (sees(SEES_DETAILS) && seen.open > 0.0 && max(at.y, ray.origin.y) > SHELF_LOW.y && lowest < SHELF_HIGH.y) { seen = shelf(seen, ray); }
     }
     if (seen.open > 0.0) { seen.light += seen.open * wall_light(ray, at, way, normal); }
     return seen;

@@ -3,6 +3,7 @@
 //!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
 //!include common/picture/laboratory.wgsl
+//!include common/picture/room_parts.wgsl
 
 const MATERIAL_TABLE = 0u;
 const MATERIAL_FLOOR = 1u;
@@ -72,7 +73,7 @@ fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal:
     let light = WORKTOP * (share.x * ambient_light(normal.y) + share.y * max(dot(normal, key.direction), 0.0) * key.light);
     let far = at.z - frame.table_min.z * frame.metres_per_unit;
     // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
-    if (far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
+    if (!sees(SEES_DETAILS) || far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
     let fitted_ = fitted(ray, at, max(-ray.direction.y, 0.05) / (way * ray.fine), light, share);
     let metal = tap(ray, way);
     return mix(fitted_, metal.light, metal.share);
@@ -88,6 +89,7 @@ struct Meeting {
 
 /// What a ray from `origin` within the room meets first: table, floor, walls or ceiling.
 fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
+    if (SEES == SEES_BENCH) { return Meeting((frame.table_max.y - origin.y) * (1.0 / direction.y), vec3<f32>(0.0, 1.0, 0.0), MATERIAL_TABLE); }
     let steep = select(vec3<f32>(-1e-6), vec3<f32>(1e-6), direction >= vec3<f32>(0.0));
     let inverse = 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-6));
     let walls = (select(frame.room_min, frame.room_max, inverse > vec3<f32>(0.0)) - origin) * inverse;
@@ -96,6 +98,7 @@ fn room_meets(origin: vec3<f32>, direction: vec3<f32>) -> Meeting {
     var material = select(MATERIAL_WALL, MATERIAL_FLOOR, normal.y > 0.5);
     if !(frame.room_max.y > frame.room_min.y) { way = 0.0; }
 
+    if (!sees(SEES_BENCH)) { return Meeting(way, normal, material); }
     let low = (frame.table_min - origin) * inverse;
     let high = (frame.table_max - origin) * inverse;
     let enter = min(low, high);
@@ -118,7 +121,7 @@ fn room_light(origin: vec3<f32>, direction: vec3<f32>, met: Meeting, through: Th
     let ray = Sight(start, direction, 1.0 / select(steep, direction, abs(direction) > vec3<f32>(1e-6)), fine);
     let way = met.way * frame.metres_per_unit;
     var seen: Far;
-    if (met.material == MATERIAL_TABLE) {
+    if (SEES == SEES_BENCH || (sees(SEES_BENCH) && met.material == MATERIAL_TABLE)) {
         seen = Far(table_light(ray, origin + met.way * direction, start + way * direction, way, met.normal, through), way, 0.0);
     } else {
         seen = laboratory(ray, way, met.normal);

@@ -26,7 +26,8 @@ struct Layer {
 }
 
 fn rectangle(way: f32, at: vec3<f32>, place: vec2<f32>, low: vec2<f32>, high: vec2<f32>, sharp: f32) -> Layer {
-    let edge = saturate(min(place - low, high - place) * sharp + 0.5);
+    // Less than a pixel wide it fills no more of it: seen along its plane it would be half of one wherever the plane is.
+    let edge = saturate(min(place - low, high - place) * sharp + 0.5) * saturate((high - low) * sharp);
     return Layer(select(0.0, edge.x * edge.y, way > 0.0), way, at, sharp);
 }
 

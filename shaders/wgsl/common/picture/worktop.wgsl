@@ -16,6 +16,8 @@ const TRAY_FROM_CORNER = vec2<f32>(0.06, 0.07);
 const TRAY_SIZE = vec2<f32>(0.34, 0.135);
 const TRAY_HEIGHT = 0.018;
 const TRAY_WALL = 0.004;
+/// How far about it the tray keeps light away, m.
+const TRAY_SHADOW = 0.08;
 /// The tap's.
 const TAP_RADIUS = 0.0095;
 const BASIN = vec3<f32>(0.23, 0.235, 0.24);
@@ -66,7 +68,7 @@ fn fitted(ray: Sight, at: vec3<f32>, sharp: f32, plain: vec3<f32>, share: vec2<f
     let tray = low.xz + TRAY_FROM_CORNER;
     let middle = tray + 0.5 * TRAY_SIZE;
     let beside = abs(at.xz - middle) - 0.5 * TRAY_SIZE;
-    if (max(beside.x, beside.y) < 0.08) {
+    if (max(beside.x, beside.y) < TRAY_SHADOW) {
         // Its shadow, which is darkest where it stands, and what of the window it hides.
         let near = length(max(beside, vec2<f32>(0.0))) / 0.012;
         let key = key_light(at);

@@ -1,0 +1,99 @@
+//! Tiles that see one part of the room are drawn by a pipeline that knows no other: the picture is the same as by the one that knows all.
+
+use crate::rig::{Rig, without_particles};
+use glam::{Affine3A, Vec3};
+use vitriol_render::{BoxDesc, Fov, FrameDesc, Pane, SceneDesc, View};
+
+const EXTENT: [u32; 2] = [320, 240];
+
+/// A pane behind all walls, before which everything is: each tile may see it, so none is drawn by a pipeline for a part.
+fn pane_behind(view: &View) -> Pane {
+    Pane {
+        stage_from_pane: view.stage_from_eye
+            * Affine3A::from_translation(Vec3::new(0.0, 0.0, -4e9)),
+        size: [4e10; 2],
+    }
+}
+
+/// Eyes all over the room, near and far, that look anywhere; the fields of a headset and of a long lens.
+fn views() -> impl Iterator<Item = View> {
+    // Steps of the plastic number's powers fill a space evenly.
+    let places = (1..=60u32).map(|n| {
+        [
+            0.754_877_7,
+            0.569_840_3,
+            0.430_159_7,
+            0.324_718,
+            0.245_122_3,
+        ]
+        .map(|step: f32| (f32::from(n as u16) * step).fract())
+    });
+    places.map(|[x, y, z, u, v]| {
+        let eye =
+            Vec3::new(-1.5, 0.1, -0.9) + Vec3::new(3.8, 2.5, 3.2) * Vec3::new(x, 0.3 + 0.7 * y, z);
+        let target = Vec3::new(-1.2, 0.2, -1.7) + Vec3::new(2.6, 2.0, 1.9) * Vec3::new(u, v, x);
+        View::look_at(
+            eye,
+            target,
+            Fov::symmetric(if v < 0.5 { 0.35 } else { 1.4 }, 4.0 / 3.0),
+        )
+    })
+}
+
+/// Of how many pixels colour (by more than one level, by which two programs may round) or depth are not the same.
+fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
+    let views = [view];
+    let frame = FrameDesc {
+        length_scale,
+        ..without_particles(&views)
+    };
+    let parts = rig.draw(&frame);
+    let all = rig.draw(&FrameDesc {
+        pane: Some(pane_behind(&view)),
+        ..frame
+    });
+    let colours = parts.colour[0].chunks(4).zip(all.colour[0].chunks(4));
+    let depths = parts.depth[0].iter().zip(&all.depth[0]);
+    colours
+        .zip(depths)
+        .filter(|((a, b), (near, far))| {
+            a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1)
+                || (*near - *far).abs() > 1e-6 * near.abs()
+        })
+        .count()
+}
+
+#[test]
+fn a_part_of_the_room_is_drawn_as_the_whole_is() {
+    let mut rig = Rig::new(EXTENT, 1);
+    let whole = SceneDesc::laboratory(Vec::new(), 0.75, 1.0);
+    let small = SceneDesc {
+        table: Some(BoxDesc {
+            min: Vec3::new(-0.3, 0.4, -0.6),
+            max: Vec3::new(0.3, 0.44, -0.2),
+        }),
+        ..whole.clone()
+    };
+    let bare = SceneDesc {
+        furnished: false,
+        ..whole.clone()
+    };
+    let open = SceneDesc {
+        room: None,
+        ..whole.clone()
+    };
+    // Twenty times as large, as solved.
+    let scaled = SceneDesc::laboratory(Vec::new(), 0.75, 0.05);
+    for (name, scene, scale) in [
+        ("whole", &whole, 1.0),
+        ("small table", &small, 1.0),
+        ("bare", &bare, 1.0),
+        ("no room", &open, 1.0),
+        ("scaled", &scaled, 0.05),
+    ] {
+        rig.set_scene(scene);
+        for (n, view) in views().enumerate() {
+            assert_eq!(differ(&rig, view, scale), 0, "{name}, view {n}");
+        }
+    }
+}
