@@ -95,7 +95,7 @@ impl Renderer {
             tiles: Tiles::new(gpu, library, extent, views)?,
             nothing: zeros(gpu)?,
             spheres: Spheres::new(gpu, library, views, lanes)?,
-            spray: Spray::new(gpu, library, views)?,
+            spray: Spray::new(gpu, library)?,
             hands: Hands::new(gpu, library, views, desc.foveated)?,
             solids: Solids::new(gpu, extent, views)?,
             drawn: image("drawn")?,
@@ -126,7 +126,7 @@ impl Renderer {
         let fluid = fluid.transpose()?;
         let spheres = Spheres::uses(changed).then(|| Spheres::new(gpu, library, views, lanes));
         let spheres = spheres.transpose()?;
-        let spray = Spray::uses(changed).then(|| Spray::new(gpu, library, views));
+        let spray = Spray::uses(changed).then(|| Spray::new(gpu, library));
         let spray = spray.transpose()?;
         let hands = Hands::uses(changed).then(|| Hands::new(gpu, library, views, foveated));
         let hands = hands.transpose()?;

@@ -8,14 +8,10 @@ use crate::compute::compute;
 use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
-/// Drops that are drawn of a flight at most, as in `common/picture/spray_drops.wgsl`.
-const DROPS: u32 = 8;
-
 /// The nearest drop at each pixel and its light.
 pub(crate) struct Spray {
     nearest_pass: ComputePipeline,
     light_pass: ComputePipeline,
-    views: u32,
 }
 
 /// Flights of drops as they are drawn.
@@ -23,18 +19,17 @@ pub(crate) struct Spray {
 pub(crate) struct Flights<'a> {
     /// `array<Flight>`.
     pub(crate) buffer: &'a Buffer,
-    /// How many.
-    pub(crate) count: u32,
+    /// Which of them have drops, and the dispatch over those.
+    pub(crate) flying: &'a Buffer,
 }
 
 impl Spray {
-    pub(crate) fn new(gpu: &Gpu, library: &Library, views: u32) -> Result<Self, RenderError> {
+    pub(crate) fn new(gpu: &Gpu, library: &Library) -> Result<Self, RenderError> {
         // One kind of spheres is drawn at a time: particles that are coloured, or spray.
         let class = ("CLASS", f64::from(Class::Spheres as u32));
         Ok(Self {
             nearest_pass: compute(gpu, library, spray::NEAREST, &[])?,
             light_pass: compute(gpu, library, spray::LIGHT, &[class])?,
-            views,
         })
     }
 
@@ -63,14 +58,12 @@ impl Spray {
                     .label("spray")
                     .uniform("frame", uniforms)
                     .read("flights", flights.buffer)
+                    .read("flying", flights.flying)
                     .write("depths", &solids.depths)
                     .write("nearest", &solids.nearest)
                     .write("tiles", tiles.marks())
-                    .constants(&layout::SprayRun {
-                        count: flights.count,
-                        numbers,
-                    })
-                    .workgroups([(DROPS * flights.count).div_ceil(64), self.views, 1])?;
+                    .constants(&layout::SprayRun { numbers })
+                    .indirect(flights.flying, 0)?;
             }
             Ok(())
         })

@@ -20,6 +20,9 @@ const LARGEST: f32 = 0.05;
 const ENTRIES: u32 = 8;
 const LEAST_ENTRIES: u32 = 1 << 16;
 
+/// Words before the numbers of flights, as in `common/picture/spray_drops.wgsl`.
+const FLYING: usize = 4;
+
 /// Side of a cell in a scene's unit, which is drawn as `length_scale` metres.
 pub(crate) fn bubble_cell(length_scale: f32) -> f32 {
     CELL / length_scale
@@ -31,6 +34,7 @@ pub(super) struct BubbleCells {
     flights_pass: ComputePipeline,
     /// Entries that they hold.
     entries: u32,
+    views: u32,
     cells: [Cells; SLOTS],
 }
 
@@ -41,11 +45,18 @@ pub(crate) struct Cells {
     pub(crate) entries: Buffer,
     /// Two flights of drops for each place of a bubble.
     pub(crate) flights: Buffer,
+    /// Which of them have drops, and the dispatch over those (`common/picture/spray_drops.wgsl`).
+    pub(crate) flying: Buffer,
 }
 
 impl BubbleCells {
-    /// For `most` bubbles.
-    pub(super) fn new(gpu: &Gpu, library: &Library, most: u32) -> Result<Self, RenderError> {
+    /// For `most` bubbles, seen in so many views.
+    pub(super) fn new(
+        gpu: &Gpu,
+        library: &Library,
+        most: u32,
+        views: u32,
+    ) -> Result<Self, RenderError> {
         let entries = match most {
             0 => 0,
             _ => (ENTRIES * most).max(LEAST_ENTRIES),
@@ -53,11 +64,13 @@ impl BubbleCells {
         let cells = || -> Result<Cells, RenderError> {
             let heads = bytes_of_elements::<u32>(CELLS + 1);
             let flights = bytes_of_elements::<layout::Flight>(2 * most.max(1) as usize);
+            let flying = bytes_of_elements::<u32>(FLYING + 2 * most.max(1) as usize);
             let held = bytes_of_elements::<layout::BubbleEntry>(entries.max(1) as usize);
             let cells = Cells {
                 heads: Buffer::storage(gpu, "bubble cells", heads)?,
                 entries: Buffer::storage(gpu, "bubbles in cells", held)?,
                 flights: Buffer::storage(gpu, "flights of drops", flights)?,
+                flying: Buffer::storage(gpu, "flights with drops", flying)?,
             };
             // Frames without bubbles do not write them.
             gpu.write(&cells.heads, &vec![0_u32; CELLS + 1])?;
@@ -67,6 +80,7 @@ impl BubbleCells {
             pass: compute(gpu, library, fluid::BUBBLES, &[])?,
             flights_pass: compute(gpu, library, fluid::FLIGHTS, &[])?,
             entries,
+            views,
             cells: [cells()?, cells()?],
         })
     }
@@ -102,13 +116,16 @@ impl BubbleCells {
                 return Ok(());
             };
             let count = 2 * source.count;
+            rec.fill(&cells.flying, 0)?;
             rec.pass(&self.flights_pass)
                 .label("bubbles")
                 .read("drops", spray.drops)
                 .write("flights", &cells.flights)
+                .write("flying", &cells.flying)
                 .constants(&layout::FlightRun {
                     count,
                     mass: spray.mass,
+                    views: self.views,
                 })
                 .invocations(count)
         })

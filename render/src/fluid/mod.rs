@@ -76,7 +76,7 @@ impl Fluid {
             depth: floats("liquid depth")?,
             filtered: [floats("liquid surface")?, floats("half-filtered")?],
             sums: Buffer::storage(gpu, "thickness", bytes_of_elements::<[u32; 2]>(blocks))?,
-            bubbles: BubbleCells::new(gpu, library, desc.bubbles)?,
+            bubbles: BubbleCells::new(gpu, library, desc.bubbles, views)?,
         })
     }
 

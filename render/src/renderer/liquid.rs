@@ -22,9 +22,10 @@ impl Renderer {
             return Ok(None);
         };
         let bubbles = source.bubbles.filter(|bubbles| bubbles.spray.is_some());
-        Ok(bubbles.map(|bubbles| Flights {
-            buffer: &fluid.bubbles(slot).flights,
-            count: 2 * bubbles.count,
+        let cells = fluid.bubbles(slot);
+        Ok(bubbles.map(|_| Flights {
+            buffer: &cells.flights,
+            flying: &cells.flying,
         }))
     }
 

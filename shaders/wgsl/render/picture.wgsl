@@ -68,23 +68,19 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
         var through = Through(NO_VESSEL, 1.0);
         if (LIQUID) {
             let here = seen_at(place.pixel, eye);
-            var ray: Wet;
-            var depth = here.w;
+            var entry: Entry;
             if (GLASS) {
                 let end = select(1e9, near / reversed, reversed > 0.0);
                 let inside = inside_of_wall(tiles[place.tile], eye, at, end);
                 if (inside.vessel < frame.blocker_count) {
-                    let behind = liquid_behind(inside, eye);
-                    // Drops before the glass are nearer.
-                    if (behind.depth > 0.0 && !(here.w > 0.0 && here.w < behind.depth - 2.0 * frame.spacing)) {
-                        ray = behind.light;
-                        depth = -behind.depth;
-                    }
+                    entry = behind_wall(inside, eye);
                 }
             }
-            if (depth > 0.0) { ray = liquid_at(place.pixel, eye, here); }
-            let liquid = BEFORE_GLASS * near / abs(depth);
-            if (depth != 0.0 && liquid > reversed) {
+            // Drops before the glass are nearer.
+            if (here.w > 0.0 && (entry.depth == 0.0 || here.w < -entry.depth - 2.0 * frame.spacing)) { entry = at_surface(place.pixel, eye, here); }
+            let liquid = BEFORE_GLASS * near / abs(entry.depth);
+            if (entry.depth != 0.0 && liquid > reversed) {
+                let ray = liquid_light(entry, eye);
                 wet = true;
                 through = ray.through;
                 reversed = liquid;

@@ -69,41 +69,72 @@ struct Wet {
 /// How far off the glass particles are whole, spacings: they lie half of one from it.
 const OFF_GLASS = 0.6;
 
-/// The liquid behind a vessel's wall, as a ray sees it that comes out of the wall's inside; `depth` is 0 where there is none.
-struct Behind {
-    light: Wet,
+/// Where a ray comes into liquid: through a vessel's wall or at the surface. From there on both are followed by the same code, which a GPU's invocations
+/// in step go through once, and the software driver too.
+struct Entry {
+    /// View depth; 0 where there is no liquid, negative behind a wall.
     depth: f32,
+    /// Of the eye, of length 1.
+    ray: vec3<f32>,
+    /// The vessel, or `NO_VESSEL`.
+    vessel: u32,
+    /// Where the bent ray begins in the stage, in the vessel's frame, and along what.
+    point: vec3<f32>,
+    p: vec3<f32>,
+    within: vec3<f32>,
+    /// Share of acid that the eye's straight ray meets, and how far it is in liquid.
+    acid: f32,
+    straight: f32,
+    /// The share of its way through the vessel that is in liquid.
+    filled: f32,
+    /// The surface's height, 1e9 where it is not known.
+    level: f32,
+    mixing: Striae,
+    normal: vec3<f32>,
+    /// The share of the light that the surface mirrors.
+    reflectance: f32,
+    foam: Foamed,
 }
 
-/// See `Behind`. There is liquid where the picture has it at that place, at the wall.
-fn liquid_behind(inside: Inside, eye: u32) -> Behind {
+fn no_entry(point: vec3<f32>, ray: vec3<f32>) -> Entry {
+    var entry: Entry;
+    entry.ray = ray;
+    entry.vessel = NO_VESSEL;
+    entry.point = point;
+    entry.level = 1e9;
+    entry.foam = Foamed(point, vec3<f32>(0.0), 1.0, point, ray);
+    return entry;
+}
+
+/// Through a vessel's wall, for a ray that comes out of its inside. There is liquid where the picture has it at that place, at the wall.
+fn behind_wall(inside: Inside, eye: u32) -> Entry {
+    var entry = no_entry(inside.point, inside.direction);
     let m = frame.vessels[inside.vessel].vessel_from_stage;
     let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
-    let p = (m * vec4<f32>(inside.point, 1.0)).xyz;
-    let inwards = inward(inside.vessel, p);
+    entry.p = (m * vec4<f32>(inside.point, 1.0)).xyz;
+    let inwards = inward(inside.vessel, entry.p);
     // Down to the floor there is liquid where it is a spacing higher; nearer, particles are round.
-    let lift = vec3<f32>(0.0, max(frame.spacing - p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
+    let lift = vec3<f32>(0.0, max(frame.spacing - entry.p.y + frame.vessels[inside.vessel].inner_floor, 0.0), 0.0);
     let lifted = pixel_of(inside.point + stage_from_vessel * lift, eye);
     let here = seen_at(vec2<i32>(floor(lifted.xy)), eye);
-    let none = Wet(inside.point, inside.direction, vec3<f32>(1.0), vec3<f32>(0.0), Through(NO_VESSEL, 1.0));
-    if (here.w <= 0.0 || abs(here.w - lifted.z) > frame.spacing) { return Behind(none, 0.0); }
+    if (here.w <= 0.0 || abs(here.w - lifted.z) > frame.spacing) { return entry; }
     // How much there is is asked where particles are whole, too.
     let off = lift + OFF_GLASS * frame.spacing * inwards;
     let whole = inside.point + stage_from_vessel * off;
     let seen = pixel_of(whole, eye);
     let thickness = thickness_at(seen.xy, eye);
-    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
-    let index = index_of(acid);
+    entry.acid = saturate(thickness.y / max(thickness.x, 1e-9));
     let wall = -(stage_from_vessel * inwards);
-    let within = refract(inside.direction, wall, GLASS_INDEX / index);
+    entry.within = refract(inside.direction, wall, GLASS_INDEX / index_of(entry.acid));
     // Glass as thick as that mirrors it.
-    if (dot(within, within) == 0.0) { return Behind(none, 0.0); }
+    if (dot(entry.within, entry.within) == 0.0) { return entry; }
+    entry.vessel = inside.vessel;
     let sight = whole - frame.views[eye].eye;
-    let straight = length(sight) / seen.z * thickness.x;
-    let filled = filled_along(inside.vessel, p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, straight);
-    let mixing = striae_at(seen.xy, eye, thickness, seen.z, straight);
-    let light = followed(inside.vessel, eye, inside.point, p, within, acid, 1e9, filled, mixing);
-    return Behind(light, pixel_of(inside.point, eye).z);
+    entry.straight = length(sight) / seen.z * thickness.x;
+    entry.filled = filled_along(inside.vessel, entry.p + off, (m * vec4<f32>(normalize(sight), 0.0)).xyz, entry.straight);
+    entry.mixing = striae_at(seen.xy, eye, thickness, seen.z, entry.straight);
+    entry.depth = -pixel_of(inside.point, eye).z;
+    return entry;
 }
 
 /// The share of a way through a vessel that is in liquid, of which a ray that is not bent meets `straight`; p and direction in the vessel's frame.
@@ -112,25 +143,19 @@ fn filled_along(vessel: u32, p: vec3<f32>, direction: vec3<f32>, straight: f32) 
     return saturate(straight / max(min(reach.x, reach.y), 1e-9));
 }
 
-/// What comes along a ray in a vessel's liquid; `filled` is the share of its way that is in liquid, and `acid` that of what the eye's straight ray
-/// goes through, where it comes in; `striae` turn it.
-fn followed(
-    vessel: u32,
-    eye: u32,
-    point: vec3<f32>,
-    p: vec3<f32>,
-    within: vec3<f32>,
-    acid: f32,
-    level: f32,
-    filled: f32,
-    striae: Striae,
-) -> Wet {
+/// What comes along a ray in a vessel's liquid.
+fn followed(entry: Entry, eye: u32) -> Wet {
+    let vessel = entry.vessel;
+    let p = entry.p;
+    let level = entry.level;
+    let filled = entry.filled;
+    let acid = entry.acid;
     let index = index_of(acid);
-    let turn = turned_by(striae, within, acid, index);
+    let turn = turned_by(entry.mixing, entry.within, acid, index);
     // A ray that turns evenly comes out as one that turns half way.
-    let aside = -0.5 * striae.way * turn;
+    let aside = -0.5 * entry.mixing.way * turn;
     let begun = p + (frame.vessels[vessel].vessel_from_stage * vec4<f32>(aside, 0.0)).xyz;
-    let way = way_through(vessel, point + aside, begun, normalize(within + turn), index, level);
+    let way = way_through(vessel, entry.point + aside, begun, normalize(entry.within + turn), index, level);
     // The bent ray goes elsewhere: half of it is as where it first turns.
     let turned = pixel_of(way.turned, eye);
     let there = thickness_at(turned.xy, eye);
@@ -156,50 +181,63 @@ fn followed(
     return Wet(way.exit, way.out, kept, vec3<f32>(0.0), through);
 }
 
-/// The liquid at a pixel; `here` is `seen_at` of it, of view depth above 0.
-fn liquid_at(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Wet {
+/// At the surface of a pixel's liquid; `here` is `seen_at` of it, of view depth above 0.
+fn at_surface(pixel: vec2<i32>, eye: u32, here: vec4<f32>) -> Entry {
     let slant = length(here.xyz) / here.w;
     let ray = here.xyz / (slant * here.w);
     let point = frame.views[eye].eye + here.xyz;
+    var entry = no_entry(point, ray);
+    entry.depth = here.w;
     let thickness = thickness_at(vec2<f32>(pixel) + 0.5, eye);
-    let acid = saturate(thickness.y / max(thickness.x, 1e-9));
-    let straight = slant * thickness.x;
-    let index = index_of(acid);
-    var normal = normal_at(pixel, eye, here);
+    entry.acid = saturate(thickness.y / max(thickness.x, 1e-9));
+    entry.straight = slant * thickness.x;
+    let index = index_of(entry.acid);
+    entry.normal = normal_at(pixel, eye, here);
 
     let vessel = vessel_around(point);
     var wetted = 0.0;
-    var foam = Foamed(point, vec3<f32>(0.0), 1.0, point, ray);
-    let kept = exp(-straight * frame.metres_per_unit * mix(frame.water, frame.acid, acid));
-    var light = Wet(point, refract(ray, normal, 1.0 / index), kept, vec3<f32>(0.0), Through(NO_VESSEL, 1.0));
     if vessel < frame.blocker_count {
+        entry.vessel = vessel;
         let m = frame.vessels[vessel].vessel_from_stage;
         let p = (m * vec4<f32>(point, 1.0)).xyz;
         let stage_from_vessel = transpose(mat3x3<f32>(m[0].xyz, m[1].xyz, m[2].xyz));
         let wall = -(stage_from_vessel * inward(vessel, p));
         let gap = vessel_radius(vessel, p.y) - length(p.xz);
         // Liquid that wets the glass has the glass's own surface; what is level there is its upper one.
-        let side = 1.0 - levelness(normal);
+        let side = 1.0 - levelness(entry.normal);
         wetted = side * (1.0 - smoothstep(0.3, 0.8, gap / frame.spacing)) * smoothstep(0.0, 0.05, dot(wall, -ray));
-        normal = normalize(mix(with_meniscus(normal, wall, gap, acid), wall, wetted));
+        entry.normal = normalize(mix(with_meniscus(entry.normal, wall, gap, entry.acid), wall, wetted));
         // Through glass the surface's height is not known.
-        let level = select(1e9, point.y, wetted < 0.5);
-        let filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, straight);
-        var into = point;
+        entry.level = select(1e9, point.y, wetted < 0.5);
+        entry.filled = filled_along(vessel, p, (m * vec4<f32>(ray, 0.0)).xyz, entry.straight);
         if (has_bubbles() && wetted < 0.5) {
-            foam = through_foam(point, ray, index);
-            into = foam.point;
-            if (any(foam.normal != vec3<f32>(0.0))) { normal = foam.normal; }
+            entry.foam = through_foam(point, ray, index);
+            entry.point = entry.foam.point;
+            if (any(entry.foam.normal != vec3<f32>(0.0))) { entry.normal = entry.foam.normal; }
         }
-        let start = p + (m * vec4<f32>(into - point, 0.0)).xyz;
-        let mixing = striae_at(vec2<f32>(pixel) + 0.5, eye, thickness, here.w, straight);
-        light = followed(vessel, eye, into, start, refract(ray, normal, 1.0 / index), acid, level, filled, mixing);
+        entry.p = p + (m * vec4<f32>(entry.point - point, 0.0)).xyz;
+        entry.mixing = striae_at(vec2<f32>(pixel) + 0.5, eye, thickness, here.w, entry.straight);
     }
+    entry.within = refract(ray, entry.normal, 1.0 / index);
     // An edge thinner than a drop is none that could mirror.
-    let reflectance = fresnel(saturate(dot(normal, -ray)), index) * (1.0 - wetted) * saturate(straight / frame.spacing);
-    light.kept *= foam.kept * (1.0 - reflectance);
-    light.mirrored *= foam.kept * (1.0 - reflectance);
-    light.mirrored += foam.kept * reflectance * mirrored_light(foam.point, reflect(ray, normal));
+    entry.reflectance = fresnel(saturate(dot(entry.normal, -ray)), index) * (1.0 - wetted) * saturate(entry.straight / frame.spacing);
+    return entry;
+}
+
+/// What comes to the eye along a ray that is in liquid from `entry` on.
+fn liquid_light(entry: Entry, eye: u32) -> Wet {
+    var light: Wet;
+    if (entry.vessel == NO_VESSEL) {
+        let kept = exp(-entry.straight * frame.metres_per_unit * mix(frame.water, frame.acid, entry.acid));
+        light = Wet(entry.point, entry.within, kept, vec3<f32>(0.0), Through(NO_VESSEL, 1.0));
+    } else {
+        light = followed(entry, eye);
+    }
+    let foam = entry.foam;
+    let passes = foam.kept * (1.0 - entry.reflectance);
+    light.kept *= passes;
+    light.mirrored *= passes;
+    if (entry.depth > 0.0) { light.mirrored += foam.kept * entry.reflectance * mirrored_light(foam.point, reflect(entry.ray, entry.normal)); }
     if (foam.kept < 1.0) { light.mirrored += (1.0 - foam.kept) * mirrored_light(foam.film, foam.mirrored); }
     return light;
 }

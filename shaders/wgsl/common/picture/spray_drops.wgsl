@@ -18,6 +18,10 @@ struct Flight {
 const OF_A_FILM = 0x100u;
 /// Most drops that are drawn of a flight; a jet has seven at most.
 const MOST_DROPS = 8u;
+/// Places of flights are mostly empty. So a list says which are not: workgroups along x, y and z of a dispatch over it, an invocation a drop and view; how many
+/// are listed; and from `FLYING` on their numbers, in any order.
+const FLYING = 4u;
+const FLIGHTS_GROUP = 64u;
 /// From drop to drop of a jet, in their radii: it breaks up 9.01 of its own radii apart, and a drop has 1.89 (Rayleigh 1878).
 const JET_STEP = 4.77;
 /// The thickness of a film that bursts is its bubble's radius squared over this, m; its drops' radius then is the bubble's to the power 1.625 over twice

@@ -5,8 +5,6 @@
 //!include common/picture/spray_drops.wgsl
 
 struct SprayRun {
-    /// Flights.
-    count: u32,
     /// Whether this run finds numbers.
     numbers: u32,
 }
@@ -14,16 +12,18 @@ struct SprayRun {
 var<immediate> run: SprayRun;
 
 @group(0) @binding(1) var<storage, read> flights: array<Flight>;
+@group(0) @binding(5) var<storage, read> flying: array<u32>;
 /// Reversed depth; zero where there is none.
 @group(0) @binding(2) var<storage, read_write> depths: array<atomic<u32>>;
 /// The drop's number, of `MOST_DROPS` a flight, and one more; zero where there is none.
 @group(0) @binding(3) var<storage, read_write> nearest: array<atomic<u32>>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(FLIGHTS_GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let number = id.x / MOST_DROPS;
+    let place = id.x / MOST_DROPS;
     let k = id.x % MOST_DROPS;
-    if (number >= run.count) { return; }
+    if (place >= flying[FLYING - 1u]) { return; }
+    let number = flying[FLYING + place];
     let eye = id.y;
     let flight = flights[number];
     if (k >= drops_of(flight)) { return; }
@@ -43,7 +43,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if (run.numbers == 0u) {
                 atomicMax(&depths[at], bits);
             } else if (atomicLoad(&depths[at]) == bits) {
-                atomicMax(&nearest[at], id.x + 1u);
+                atomicMax(&nearest[at], number * MOST_DROPS + k + 1u);
             }
         }
     }
