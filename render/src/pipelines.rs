@@ -16,13 +16,15 @@ const OVER_BLOCK: f64 = 2.0;
 /// The parts of the room that a pipeline is for, as in `common/picture/room_parts.wgsl`.
 const SEES_BENCH: f64 = 1.0;
 const SEES_WALLS: f64 = 2.0;
+/// Those two and the table's fittings.
+const SEES_TABLE: f64 = 7.0;
 
 /// A pass over the tiles of a class.
 type OfClass = (Class, ComputePipeline);
 
 /// Of the picture, and of its finish, one for each class of tiles.
 pub(crate) struct Pipelines {
-    pub(crate) picture: [OfClass; 6],
+    pub(crate) picture: [OfClass; 7],
     pub(crate) finish: [OfClass; 2],
     /// The same of blocks, where frames may be foveated.
     coarse: Option<([OfClass; 3], [OfClass; 2])>,
@@ -68,6 +70,7 @@ impl Pipelines {
             picture: [
                 over(picture, Class::Bench, &[("SEES", SEES_BENCH)])?,
                 over(picture, Class::Walls, &[("SEES", SEES_WALLS)])?,
+                over(picture, Class::Table, &[("SEES", SEES_TABLE)])?,
                 over(picture, Class::Plain, &[])?,
                 over(picture, Class::Sheets, &[sheets])?,
                 over(picture, Class::Glass, &glass)?,

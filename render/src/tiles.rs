@@ -65,10 +65,12 @@ pub(crate) enum Class {
     CoarseHands = 13,
     /// Neither glass nor liquid, and nothing but the table's top; every pixel is shaded.
     Bench = 14,
-    /// The same, with nothing of the table and no details of the room.
+    /// The same, with walls and nothing that is at them.
     Walls = 15,
     /// The same with a panel, a sign or a pane.
     Sheets = 16,
+    /// The same with walls, the table and its fittings.
+    Table = 17,
 }
 
 impl Class {
@@ -77,6 +79,7 @@ impl Class {
         match self {
             Self::Bench => "picture: bench",
             Self::Walls => "picture: walls",
+            Self::Table => "picture: table",
             Self::Plain | Self::CoarsePlain | Self::Sheets => "picture: room",
             Self::Glass | Self::CoarseGlass => "picture: glass",
             _ => "picture: liquid",
@@ -85,7 +88,7 @@ impl Class {
 }
 
 /// As in `render/tile_lists.wgsl`.
-const LISTS: u64 = 17;
+const LISTS: u64 = 18;
 
 /// The marks of all views' tiles, and their lists.
 pub(crate) struct Tiles {

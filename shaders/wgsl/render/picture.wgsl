@@ -166,21 +166,31 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) l
     textureStore(finished, place.pixel, place.eye, seen.colour);
 }
 
-/// The same of blocks; `spread.wgsl` finishes them.
+/// What a workgroup saw of its blocks.
+var<workgroup> seen_blocks: array<Seen, 64>;
+
+/// The same of blocks; `spread.wgsl` finishes them. A workgroup writes its pixels row by row, since writes beside one another are one.
 @compute @workgroup_size(8, 8)
-fn coarse(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
+fn coarse(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(local_invocation_id) local: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
     let block = block_of(group, local);
-    if (!block.place.inside) { return; }
     let eye = block.place.eye;
-    let seen = seen_at_place(block.place, is_block_hidden(block));
-    let high = min(block.low + block.side, vec2<i32>(frame.extent));
-    for (var y = block.low.y; y < high.y; y++) {
-        for (var x = block.low.x; x < high.x; x++) {
-            let pixel = vec2<i32>(x, y);
-            // As hidden pixels are elsewhere.
-            let hidden = frame.hides != 0u && is_hidden(pixel, eye);
-            depths[pixel_index(pixel, eye)] = select(seen.depth, 1.0, hidden);
-            textureStore(drawn, pixel, eye, seen.colour);
-        }
+    if (block.place.inside) { seen_blocks[lane] = seen_at_place(block.place, is_block_hidden(block)); }
+    workgroupBarrier();
+    let first = block.low - block.side * vec2<i32>(local.xy);
+    let width = 8 * block.side;
+    let end = select(0, width * width, has_blocks(block.side, group));
+    for (var n = i32(lane); n < end; n += 64) {
+        let at = vec2<i32>(n % width, n / width);
+        let pixel = first + at;
+        if (any(pixel >= vec2<i32>(frame.extent))) { continue; }
+        let seen = seen_blocks[8 * (at.y / block.side) + at.x / block.side];
+        // As hidden pixels are elsewhere.
+        let hidden = frame.hides != 0u && is_hidden(pixel, eye);
+        depths[pixel_index(pixel, eye)] = select(seen.depth, 1.0, hidden);
+        textureStore(drawn, pixel, eye, seen.colour);
     }
 }

@@ -12,14 +12,15 @@
 @group(0) @binding(3) var<storage, read_write> arguments: array<atomic<u32>>;
 
 /// Lists, as `tiles.rs` numbers them.
-const LISTS = 17u;
+const LISTS = 18u;
 /// That of hands in coarse tiles, which a workgroup has all of.
 const COARSE_HANDS = 13u;
-/// Those of tiles that have neither glass nor liquid: with a panel, a sign or a pane; the table's top and nothing else; nothing of the table and no
-/// details; and the others.
+/// Those of tiles that have neither glass nor liquid: with a panel, a sign or a pane; the table's top and nothing else; walls and nothing that is at them or
+/// of the table; the same with table and fittings; and the others.
 const SHEET_TILES = 16u;
 const BENCH_TILES = 14u;
 const WALL_TILES = 15u;
+const TABLE_TILES = 17u;
 const ROOM_TILES = 2u;
 
 fn append(class_: u32, tile: u32, all: u32) {

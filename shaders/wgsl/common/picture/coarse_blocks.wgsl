@@ -34,12 +34,17 @@ fn coarse_tile(index: u32) -> CoarseTile {
     return CoarseTile(entry / 2u, select(2u, 4u, (entry & 1u) != 0u));
 }
 
+/// Whether a workgroup of four a tile has any: blocks of four by four pixels of a tile are all the first one's.
+fn has_blocks(side: i32, group: vec3<u32>) -> bool {
+    return side == 2 || group.y == 0u;
+}
+
 fn block_of(group: vec3<u32>, local: vec3<u32>) -> CoarseBlock {
     let shaded_tile = coarse_tile(group.x);
     let corner = corner_of(shaded_tile.tile);
     let quarter = (TILE / 2u) * vec2<u32>(group.y & 1u, group.y >> 1u);
     let low = vec2<i32>(corner.xy + quarter + shaded_tile.side * local.xy);
-    let inside = all(low < vec2<i32>(frame.extent)) && (shaded_tile.side == 2u || group.y == 0u);
+    let inside = all(low < vec2<i32>(frame.extent)) && has_blocks(i32(shaded_tile.side), group);
     let place = Place(shaded_in(low, i32(shaded_tile.side)), corner.z, shaded_tile.tile, inside);
     return CoarseBlock(place, low, i32(shaded_tile.side));
 }

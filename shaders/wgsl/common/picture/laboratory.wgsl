@@ -157,7 +157,7 @@ fn back_wall(at: vec3<f32>, normal: vec3<f32>, open: f32, sharp: f32) -> vec3<f3
         let grout = max(lines(at.x, 1.0 / 0.15, 0.003, sharp), lines(at.y - COUNTER_TOP, 1.0 / 0.15, 0.003, sharp));
         albedo = mix(albedo, mix(TILE_WHITE, GROUT, grout), tiled);
     }
-    if (sees(SEES_DETAILS)) { albedo = with_signs(albedo, at.xy, sharp); }
+    if (sees(SEES_FURNITURE)) { albedo = with_signs(albedo, at.xy, sharp); }
     // Less light over the counter, under the shelf and beside the hood.
     let under_shelf = max(abs(at.x) - SHELF_HIGH.x, 0.0) + max(SHELF_LOW.y - at.y, 0.0);
     let near = saturate(1.0 - vec3<f32>(3.5 * (at.y - COUNTER_TOP), 2.5 * (HOOD_LOW.x - at.x), 3.5 * under_shelf));
@@ -350,7 +350,7 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
     let at = ray.origin + way * ray.direction;
     if (frame.furnished == 0u) { return Far(bare_wall(at, normal), way, 0.0); }
     var seen = Far(vec3<f32>(0.0), way, 1.0);
-    if (sees(SEES_DETAILS) && has_fittings()) {
+    if (sees(SEES_FITTINGS) && has_fittings()) {
         let metal = tap(ray, way);
         seen = put_behind(seen, Layer(metal.share, metal.way, vec3<f32>(0.0), 0.0), metal.light);
     }
@@ -358,9 +358,9 @@ fn laboratory(ray: Sight, way: f32, normal: vec3<f32>) -> Far {
     // Furniture stands along the back wall: of a ray the part before that.
     if (at.z < HOOD_FRONT && ray.origin.z > HOOD_FRONT) {
         let lowest = min(at.y, ray.origin.y);
-        if (sees(SEES_DETAILS) && max(at.x, ray.origin.x) > HOOD_LOW.x && max(at.y, ray.origin.y) > HOOD_LOW.y) { seen = hood(seen, ray); }
+        if (sees(SEES_FURNITURE) && max(at.x, ray.origin.x) > HOOD_LOW.x && max(at.y, ray.origin.y) > HOOD_LOW.y) { seen = hood(seen, ray); }
         if (seen.open > 0.0 && lowest < COUNTER_TOP) { seen = counter(seen, ray); }
-        if (sees(SEES_DETAILS) && seen.open > 0.0 && max(at.y, ray.origin.y) > SHELF_LOW.y && lowest < SHELF_HIGH.y) { seen = shelf(seen, ray); }
+        if (sees(SEES_FURNITURE) && seen.open > 0.0 && max(at.y, ray.origin.y) > SHELF_LOW.y && lowest < SHELF_HIGH.y) { seen = shelf(seen, ray); }
     }
     if (seen.open > 0.0) { seen.light += seen.open * wall_light(ray, at, way, normal); }
     return seen;

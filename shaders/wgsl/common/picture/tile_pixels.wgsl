@@ -6,7 +6,7 @@
 //!include common/picture/tile_marks.wgsl
 
 /// Whose list: 0 liquid; where every pixel is shaded 1 glass without liquid, 9 liquid, and of those that have neither 14 with the table's top alone, 15
-/// with nothing of it, 16 with a panel, a sign or a pane, 2 the others; 3 edges to be smoothed, 4
+/// with walls, 17 with walls, table and fittings, 16 with a panel, a sign or a pane, 2 the others; 3 edges to be smoothed, 4
 /// those with steam over them; 5 coloured spheres or spray; 6 hands, likewise. Where blocks are shaded: 7 all, 8 those with steam; 10 liquid, 11
 /// glass, 12 neither; 13 hands.
 override CLASS: u32 = 0u;

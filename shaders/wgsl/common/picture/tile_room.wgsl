@@ -57,21 +57,22 @@ fn is_on_bench(beam: Beam) -> bool {
     return true;
 }
 
-/// Whether a ray may meet what `SEES_DETAILS` stands for.
-fn may_see_details(beam: Beam) -> bool {
-    if (frame.furnished == 0u) { return false; }
+fn may_see_fittings(beam: Beam) -> bool {
+    if (!has_fittings()) { return false; }
     let low = frame.table_min * frame.metres_per_unit;
     let high = frame.table_max * frame.metres_per_unit;
-    if (has_fittings()) {
-        let sink = vec2<f32>(high.x, low.z) + vec2<f32>(-SINK_FROM_CORNER.x, SINK_FROM_CORNER.y);
-        let sink_end = sink + SINK_SIZE + SINK_RIM;
-        let tap_end = vec3<f32>(sink_end.x, high.y + 0.26, low.z + 0.15);
-        if (may_meet(beam, vec3<f32>(sink.x - SINK_RIM, high.y, sink.y - SINK_RIM), vec3<f32>(sink_end.x, high.y, sink_end.y))) { return true; }
-        if (may_meet(beam, vec3<f32>(sink.x, high.y, low.z), tap_end)) { return true; }
-        let tray = low.xz + TRAY_FROM_CORNER - TRAY_SHADOW;
-        let tray_end = low.xz + TRAY_FROM_CORNER + TRAY_SIZE + TRAY_SHADOW;
-        if (may_meet(beam, vec3<f32>(tray.x, high.y, tray.y), vec3<f32>(tray_end.x, high.y + TRAY_HEIGHT, tray_end.y))) { return true; }
-    }
+    let sink = vec2<f32>(high.x, low.z) + vec2<f32>(-SINK_FROM_CORNER.x, SINK_FROM_CORNER.y);
+    let sink_end = sink + SINK_SIZE + SINK_RIM;
+    let tap_end = vec3<f32>(sink_end.x, high.y + 0.26, low.z + 0.15);
+    if (may_meet(beam, vec3<f32>(sink.x - SINK_RIM, high.y, sink.y - SINK_RIM), vec3<f32>(sink_end.x, high.y, sink_end.y))) { return true; }
+    if (may_meet(beam, vec3<f32>(sink.x, high.y, low.z), tap_end)) { return true; }
+    let tray = low.xz + TRAY_FROM_CORNER - TRAY_SHADOW;
+    let tray_end = low.xz + TRAY_FROM_CORNER + TRAY_SIZE + TRAY_SHADOW;
+    return may_meet(beam, vec3<f32>(tray.x, high.y, tray.y), vec3<f32>(tray_end.x, high.y + TRAY_HEIGHT, tray_end.y));
+}
+
+fn may_see_furniture(beam: Beam) -> bool {
+    if (frame.furnished == 0u) { return false; }
     let wall = frame.room_min.z * frame.metres_per_unit;
     if (may_meet(beam, vec3<f32>(HOOD_LOW, wall), vec3<f32>(HOOD_HIGH, HOOD_FRONT))) { return true; }
     if (may_meet(beam, vec3<f32>(SHELF_LOW, wall), vec3<f32>(SHELF_HIGH, SHELF_FRONT))) { return true; }
@@ -83,9 +84,11 @@ fn may_see_details(beam: Beam) -> bool {
 /// The list of the tile, of those of tiles without glass and liquid.
 fn room_class(eye: u32, low: vec2<f32>, high: vec2<f32>) -> u32 {
     let beam = beam_between(eye, low, high);
-    if (may_see_details(beam)) { return ROOM_TILES; }
-    if (is_on_bench(beam)) { return BENCH_TILES; }
+    let fittings = may_see_fittings(beam);
+    // What stands at the wall is behind the bench, and the eye may be over that.
+    if (!fittings && is_on_bench(beam)) { return BENCH_TILES; }
+    if (may_see_furniture(beam)) { return ROOM_TILES; }
     let bench = frame.table_max.y > frame.table_min.y
         && may_meet(beam, frame.table_min * frame.metres_per_unit, frame.table_max * frame.metres_per_unit);
-    return select(WALL_TILES, ROOM_TILES, bench);
+    return select(WALL_TILES, TABLE_TILES, bench || fittings);
 }
