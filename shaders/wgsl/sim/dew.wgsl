@@ -10,8 +10,9 @@
 
 /// Δt_f, s.
 override FRAME_TIME: f32 = 0.0111;
-/// How many puffs there are.
+/// How many puffs there are, and workgroups that make them.
 override PUFFS: u32 = 1024u;
+override VENTS: u32 = 4u;
 /// T of what is around, °C, and the pressure of the vapour in its air, Pa.
 override AMBIENT: f32 = 20.0;
 override ROOM_VAPOUR: f32 = 1170.0;
@@ -34,6 +35,8 @@ override ROOM_DENSITY: f32 = 1.2;
 /// By flask and ring: T, °C.
 @group(0) @binding(4) var<storage, read> glass: array<vec2<f32>>;
 @group(0) @binding(5) var<storage, read> dew_rows: array<DewRow>;
+/// Behind what `vent.wgsl` counts, quanta that liquid washed off: low and high word.
+@group(0) @binding(6) var<storage, read_write> made: array<atomic<u32>>;
 
 /// Most of the room's pressure that vapour has: near the boiling point the flux has no bound.
 const MOST_PRESSURE: f32 = 0.98;
@@ -125,7 +128,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     quanta = max(quanta, -i32(own.water));
     // What liquid washes off is gone, as it is too little for the liquid to gain by; none condenses behind it.
     let is_wet = (wet[n / DEW_AROUND] & (1u << around)) != 0u;
-    if (is_wet) { quanta = 0; }
+    if (is_wet) {
+        quanta = 0;
+        let before = atomicAdd(&made[VENTS], own.water);
+        if (before > 0xffffffffu - own.water) { atomicAdd(&made[VENTS + 1u], 1u); }
+    }
     if (quanta > 0 && source < PUFFS) { atomicAdd(&taken[source], u32(quanta)); }
     let mass = f32(quanta) * DEW_QUANTUM / row.area;
     let warmed = (LATENT * mass - DEW_LOSS * own.excess * FRAME_TIME) / row.capacity;

@@ -43,14 +43,14 @@ pub(super) struct Dew {
 }
 
 impl Dew {
-    /// `None` where none condenses; `steam` are its puffs, and what walls take of them.
+    /// `None` where none condenses; `steam` are its puffs, what walls take of them, and the counts.
     pub(super) fn new(
         gpu: &Gpu,
         library: &Library,
         spec: &SolverSpec<'_>,
         constants: &Constants,
         (buffers, vessels): (&Buffers, &Vessels),
-        steam: [&Buffer; 2],
+        steam: [&Buffer; 3],
     ) -> Result<Option<Self>, SolverError> {
         let places = places(&spec.parameters, spec.flasks.len());
         let losses = glass::losses(spec.parameters.chemistry.as_ref());
@@ -94,7 +94,7 @@ impl Dew {
         &self,
         rec: &mut Recorder,
         (buffers, vessels): (&Buffers, &Vessels),
-        steam: [&Buffer; 2],
+        steam: [&Buffer; 3],
         step: &Step,
     ) -> Result<(), GpuError> {
         let mut bound = buffers.all(vessels).to_vec();

@@ -213,6 +213,11 @@ impl SolverState {
         QUANTUM * quanta as f64
     }
 
+    /// Mass of the water that liquid washed off its vessels' walls, kg: it is too little for the liquid to gain by.
+    pub fn washed_mass(&self) -> f64 {
+        QUANTUM * self.steam.washed() as f64
+    }
+
     /// Mass of the mist over the liquid, kg; 0 where no steam is modelled.
     pub fn mist(&self) -> f64 {
         self.steam.mist()

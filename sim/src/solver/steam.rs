@@ -21,6 +21,10 @@ pub const PUFFS: u32 = 1024;
 /// Puffs that a frame may bring.
 const VENTS: u32 = 4;
 
+/// Counts that are kept: puffs of each workgroup that makes them, and quanta of water that were washed off glass, as
+/// low and high word.
+const COUNTS: usize = VENTS as usize + 2;
+
 /// Least steam of a puff, kg: 0.5 mg is a sphere of 12 mm across.
 const LEAST_PUFF: f64 = 5e-7;
 
@@ -46,6 +50,7 @@ pub(super) struct Steam {
 pub(super) struct SteamState {
     pub(super) puffs: Vec<[f32; 12]>,
     pub(super) vented: Vec<[f32; 2]>,
+    /// [`COUNTS`].
     pub(super) made: Vec<u32>,
     /// What the flasks' walls have of it, by place: the words of `Dew`.
     pub(super) dew: Vec<[u32; 4]>,
@@ -55,6 +60,14 @@ impl SteamState {
     /// Mass of the mist, kg.
     pub(super) fn mist(&self) -> f64 {
         self.puffs.iter().map(|puff| f64::from(puff[10])).sum()
+    }
+
+    /// Quanta of water that liquid washed off glass.
+    pub(super) fn washed(&self) -> u64 {
+        match self.made[..] {
+            [.., low, high] => u64::from(low) | (u64::from(high) << 32),
+            _ => 0,
+        }
     }
 
     /// Its water on glass.
@@ -94,11 +107,12 @@ impl Steam {
         let own = [
             buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
             buffer("vented", bytes_of_elements::<[f32; 2]>(count as usize))?,
-            buffer("made", bytes_of_elements::<u32>(VENTS as usize))?,
+            buffer("made", bytes_of_elements::<u32>(COUNTS))?,
             buffer("taken", bytes_of_elements::<u32>(PUFFS as usize))?,
         ];
-        let [puffs, .., taken] = &own;
-        let dew = Dew::new(gpu, library, spec, &constants, of_solver, [puffs, taken])?;
+        let [puffs, _, made, taken] = &own;
+        let of_steam = [puffs, taken, made];
+        let dew = Dew::new(gpu, library, spec, &constants, of_solver, of_steam)?;
         let bound = bound(&own, of_solver.0);
         let make = |shader| constants.pass(gpu, library, &bound, shader, &[]);
         Ok(Some(Self {
@@ -117,7 +131,7 @@ impl Steam {
         SteamState {
             puffs: vec![[0.0; 12]; PUFFS as usize],
             vented: vec![[0.0; 2]; count],
-            made: vec![0; VENTS as usize],
+            made: vec![0; COUNTS],
             dew: vec![[0; 4]; dew::places(parameters, flasks)],
         }
     }
@@ -134,11 +148,7 @@ impl Steam {
     /// What a state has of it, with `count` particles: buffers and their elements.
     pub(super) fn state(&self, count: usize) -> [(&Buffer, usize); 3] {
         let [puffs, vented, made, _] = &self.own;
-        [
-            (puffs, PUFFS as usize),
-            (vented, count),
-            (made, VENTS as usize),
-        ]
+        [(puffs, PUFFS as usize), (vented, count), (made, COUNTS)]
     }
 
     pub(super) fn restore(&self, gpu: &Gpu, state: &SteamState) -> Result<(), GpuError> {
@@ -165,9 +175,9 @@ impl Steam {
         of_solver: (&Buffers, &Vessels),
         step: &Step,
     ) -> Result<(), GpuError> {
-        let [puffs, .., taken] = &self.own;
+        let [puffs, _, made, taken] = &self.own;
         if let Some(dew) = &self.dew {
-            dew.record(rec, of_solver, [puffs, taken], step)?;
+            dew.record(rec, of_solver, [puffs, taken, made], step)?;
         }
         let all = bound(&self.own, of_solver.0);
         self.rise.begin(rec, &all).invocations(PUFFS)?;

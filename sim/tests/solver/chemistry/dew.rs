@@ -39,8 +39,8 @@ fn condenses(wall: f64, pressure: f64, warm: f64, transfer: f64) -> f64 {
 struct Rig {
     pass: ComputePipeline,
     rise: ComputePipeline,
-    /// puffs, dew, taken, wetted, glass, dew_rows, flasks, poses.
-    buffers: [Buffer; 8],
+    /// puffs, dew, taken, wetted, glass, dew_rows, flasks, poses, made.
+    buffers: [Buffer; 9],
     areas: Vec<f64>,
     gpu: Watched,
 }
@@ -99,6 +99,7 @@ impl Rig {
             buffer("dew_rows", bytes_of_elements::<DewRow>(UP * flasks)),
             buffer("flasks", bytes_of_elements::<Flask>(flasks)),
             buffer("poses", bytes_of_elements::<FlaskPose>(flasks)),
+            buffer("made", bytes_of_elements::<u32>(6)),
         ];
         let rig = Self {
             pass: ComputePipeline::new(&gpu, &compiled).unwrap(),
@@ -122,6 +123,9 @@ impl Rig {
         rig.gpu
             .write(write(7), &of_poses.collect::<Vec<_>>())
             .unwrap();
+        // The next quantum that is washed off carries.
+        let counts = [7, 7, 7, 7, u32::MAX, 0];
+        rig.gpu.write(write(8), &counts).unwrap();
         rig
     }
 
@@ -144,7 +148,7 @@ impl Rig {
 
     fn run(&self, frames: usize, rises: bool) {
         let names = [
-            "puffs", "dew", "taken", "wetted", "glass", "dew_rows", "flasks", "poses",
+            "puffs", "dew", "taken", "wetted", "glass", "dew_rows", "flasks", "poses", "made",
         ];
         let places: Vec<Dew> = self.gpu.read(&self.buffers[1]).unwrap();
         for _ in 0..frames {
@@ -154,7 +158,7 @@ impl Rig {
                 .iter()
                 .zip(&self.buffers)
                 .fold(pass, |pass, (name, buffer)| {
-                    if ["dew", "taken", "wetted"].contains(name) {
+                    if ["dew", "taken", "wetted", "made"].contains(name) {
                         pass.write(name, buffer)
                     } else {
                         pass.read(name, buffer)
@@ -366,6 +370,10 @@ fn dew_is_where_steam_is(pose: Pose) {
             "{place}"
         );
     }
+    // The count carries, and those of puffs stay.
+    let off: u32 = dew[row * AROUND].water + dew[row * AROUND + 1].water;
+    let counts: Vec<u32> = rig.gpu.read(&rig.buffers[8]).unwrap();
+    assert_eq!(counts, [7, 7, 7, 7, off - 1, 1]);
     // The bits are of one frame.
     rig.run(1, false);
     assert!(rig.dew()[row * AROUND].water > 0);

@@ -100,8 +100,8 @@ fn what_leaves_the_liquid_is_in_the_puffs() {
             .filter(|puff| puff.radius > 0.0)
             .map(|puff| f64::from(puff.water) - f64::from(puff.air) * room.humidity)
             .sum();
-        // And on the glass over the liquid.
-        let held = held + state.dew_mass();
+        // And on the glass over the liquid, or washed off that.
+        let held = held + state.dew_mass() + state.washed_mass();
         // Four workgroups may each wait for another half milligram.
         let waits = 4.0 * 5e-7;
         assert!(held <= left * (1.0 + 1e-5), "{held} of {left}");
