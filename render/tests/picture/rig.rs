@@ -1,6 +1,8 @@
 //! A device with the validation layer, and spheres drawn by plain ray casting
 //! in f64 to compare with.
 
+use std::path::Path;
+
 use glam::{DVec3, Vec3};
 use vitriol_gpu::{Buffer, QueueKind};
 use vitriol_render::camera::NEAR;
@@ -25,12 +27,37 @@ pub struct Rig {
 
 impl Rig {
     pub fn new(extent: [u32; 2], views: u32) -> Self {
+        Self::of(&Library::watching(), extent, views)
+    }
+
+    /// One whose shaders are those of the folder, each changed by `edit`.
+    pub fn edited(extent: [u32; 2], edit: impl Fn(&str, String) -> String) -> Self {
+        let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders/wgsl"));
+        let mut folders = vec![root.to_path_buf()];
+        let mut sources = Vec::new();
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    folders.push(path);
+                    continue;
+                }
+                let name = path.strip_prefix(root).unwrap().to_str().unwrap();
+                let name = name.replace('\\', "/");
+                let text = std::fs::read_to_string(&path).unwrap();
+                sources.push((name.clone(), edit(&name, text)));
+            }
+        }
+        Self::of(&Library::from_sources(sources), extent, 1)
+    }
+
+    fn of(library: &Library, extent: [u32; 2], views: u32) -> Self {
         let gpu = gpu::device();
         let desc = RenderDesc {
             views,
             ..RenderDesc::film(extent)
         };
-        let renderer = Renderer::new(&gpu, &Library::watching(), &desc).unwrap();
+        let renderer = Renderer::new(&gpu, library, &desc).unwrap();
         Self {
             gpu,
             renderer,

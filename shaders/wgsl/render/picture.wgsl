@@ -157,8 +157,10 @@ fn seen_at_place(place: Place, hidden: bool) -> Seen {
 }
 
 @compute @workgroup_size(32, 8)
-fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
-    let place = place_of(group, local);
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    // Invocations in step have a block of pixels: edges are in fewer of these than of rows.
+    let block = lane / 32u;
+    let place = place_of(group, vec3<u32>(8u * (block % 4u) + lane % 8u, 4u * (block / 4u) + lane / 8u % 4u, 0u));
     if (!place.inside) { return; }
     let seen = seen_at_place(place, is_hidden(place.pixel, place.eye));
     depths[pixel_index(place.pixel, place.eye)] = seen.depth;

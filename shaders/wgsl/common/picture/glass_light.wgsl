@@ -39,6 +39,8 @@ struct GlassRay {
     depth: f32,
     /// View depth, in front of which glass is seen.
     end: f32,
+    /// How far beside it a pixel's other rays are there.
+    aside: f32,
 }
 
 /// Where a ray meets a vessel's glass, the first to be dealt with in front: eight at most, through two walls and a
@@ -69,8 +71,18 @@ fn without_front(before: Meetings) -> Meetings {
     );
 }
 
-/// The ways along the ray at which it meets a segment of an outline; 1e9 for none.
-fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> vec2<f32> {
+/// Where a ray meets a segment of an outline.
+struct SegmentMet {
+    /// The ways along it; 1e9 for none.
+    ways: vec2<f32>,
+    /// Whether another ray of its pixel may meet more or less: this one passes next to an end, or nearly touches the cone.
+    edge: bool,
+}
+
+/// How near an end of a segment is next to it, over `aside`: from above, a pixel covers more of a wall.
+const NEXT_TO = 2.0;
+
+fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> SegmentMet {
     let o = ray.origin;
     let d = ray.direction;
     let rise = ends.w - ends.y;
@@ -96,7 +108,14 @@ fn meets_segment(ray: GlassRay, ends: vec4<f32>) -> vec2<f32> {
         & (r >= vec2<f32>(0.0));
     let depth = ray.depth + ways;
     let seen = (depth > vec2<f32>(0.0)) & (depth < vec2<f32>(ray.end)) & (vec2<bool>(discriminant >= 0.0) | vec2<bool>(flat_));
-    return select(vec2<f32>(1e9), ways, fits & seen);
+    let from_end = min(abs(place - limits.x), abs(place - limits.y));
+    let is_next = any((from_end < vec2<f32>(NEXT_TO * ray.aside)) & seen);
+    // Beside a cylinder by δ of its radius r the discriminant is 2 a r δ.
+    let middle = -b / a;
+    let height = o.y + middle * d.y;
+    let touches = !flat_ && abs(discriminant) < 2.0 * a * abs(radius + slope * middle) * ray.aside
+        && height > min(ends.y, ends.w) - ray.aside && height < max(ends.y, ends.w) + ray.aside;
+    return SegmentMet(select(vec2<f32>(1e9), ways, fits & seen), is_next || touches);
 }
 
 /// One wall's light at `place` (stage). `grain` is the least cosine between its normal and the way to the eye that a pixel can show.
@@ -122,7 +141,7 @@ fn nearest_vessel(bits: u32, eye: u32) -> f32 {
     return nearest;
 }
 
-/// How many of `RAYS` are traced.
+/// How many of `RAYS` are traced where a pixel has an edge of glass; one through its middle elsewhere. With one, that one everywhere.
 override GLASS_RAYS: u32 = 4u;
 /// Pixels over which they are spread.
 override GLASS_SPREAD: f32 = 1.0;
@@ -135,20 +154,34 @@ const RAYS = array<vec2<f32>, 4>(
     vec2<f32>(0.375, -0.125),
 );
 
+/// Of them the distance from the middle, pixels.
+const FURTHEST_RAY = 0.4;
+
 /// All glass of the vessels in `bits` that is nearer to an eye than view depth `end`, over the pixel with its
 /// middle at `place`.
 fn glass_over(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
-    if (GLASS_RAYS == 1u) { return glass_along(bits, eye, place, end); }
     var sum = Cover(vec3<f32>(0.0), 0.0);
-    for (var n = 0u; n < GLASS_RAYS; n++) {
-        let cover = glass_along(bits, eye, place + GLASS_SPREAD * RAYS[n], end);
-        sum = Cover(sum.colour + cover.colour, sum.open + cover.open);
+    // The first one is in the middle; all are one loop, so that their code is there once.
+    for (var n = 0u; n <= GLASS_RAYS; n++) {
+        let ray = glass_along(bits, eye, place + GLASS_SPREAD * select(RAYS[(n + 3u) % 4u], vec2<f32>(0.0), n == 0u), end);
+        if (n == 0u) {
+            if (GLASS_RAYS == 1u || !ray.edge) { return ray.cover; }
+            continue;
+        }
+        sum = Cover(sum.colour + ray.cover.colour, sum.open + ray.cover.open);
     }
     return Cover(sum.colour / f32(GLASS_RAYS), sum.open / f32(GLASS_RAYS));
 }
 
+/// What is along a ray of a pixel, and whether other rays of it may meet more or less glass.
+struct GlassSeen {
+    cover: Cover,
+    edge: bool,
+}
+
 /// The same along one ray: first the walls that look away from the eye, over them those that look at it.
-fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
+fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> GlassSeen {
+    var edge = false;
     var far = Cover(vec3<f32>(0.0), 1.0);
     var near = far;
     let view = &frame.views[eye];
@@ -162,9 +195,10 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
         let direction = (m * vec4<f32>(seen, 0.0)).xyz;
         let middle = vec3<f32>(0.0, 0.5 * frame.vessels[index].rim, 0.0);
         let nearest = dot(middle - eye_place, direction) / dot(direction, direction);
-        let ray = GlassRay(eye_place + nearest * direction, direction, nearest, end);
+        let aside = FURTHEST_RAY * GLASS_SPREAD * nearest / (*view).focal;
+        let ray = GlassRay(eye_place + nearest * direction, direction, nearest, end, aside);
         // Most rays of a tile pass beside the vessel.
-        let outer = frame.vessels[index].outer;
+        let outer = frame.vessels[index].outer + max(aside, 0.0);
         let a = dot(direction.xz, direction.xz);
         let b = dot(ray.origin.xz, direction.xz);
         let passes = b * b < a * (dot(ray.origin.xz, ray.origin.xz) - outer * outer);
@@ -174,10 +208,13 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
         var met: Meetings;
         for (var segment = segments.y; segment > segments.x; ) {
             segment -= 2u;
-            let ways = meets_segment(ray, outlines[segment]);
-            if (ways.y < 1e8) { met = put_in_front(met, ways.y, segment); }
-            if (ways.x < 1e8) { met = put_in_front(met, ways.x, segment); }
+            let here = meets_segment(ray, outlines[segment]);
+            edge = edge || here.edge;
+            if (here.ways.y < 1e8) { met = put_in_front(met, here.ways.y, segment); }
+            if (here.ways.x < 1e8) { met = put_in_front(met, here.ways.x, segment); }
         }
+        // A broken edge is anywhere.
+        edge = edge || (frame.vessels[index].piece != 0u && met.count > 0u);
         let across = (m * vec4<f32>((*view).across, 0.0)).xyz;
         let down = (m * vec4<f32>((*view).down, 0.0)).xyz;
         for (; met.count > 0u; met = without_front(met)) {
@@ -214,6 +251,7 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
                 + abs(down.y - direction.y * dot(outward, down) / cosine);
             if (profile.x > 0.5) {
                 let print = printed(index, p, cosine < 0.0, depth * height, normal, stage);
+                edge = edge || print.open < 1.0;
                 layer = over(Cover(print.colour, print.open), layer);
             }
             if (profile.y > 0.9 && p.y > frame.vessels[index].rim - 0.1 * frame.vessels[index].wall) {
@@ -225,5 +263,5 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
             if (cosine > 0.0) { far = over(layer, far); } else { near = over(layer, near); }
         }
     }
-    return over(near, far);
+    return GlassSeen(over(near, far), edge);
 }
