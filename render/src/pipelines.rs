@@ -7,7 +7,7 @@ use crate::RenderError;
 use crate::compute::compute_of;
 use crate::tiles::Class;
 
-/// Rays of a pixel that are traced to the glass, on a GPU and on a CPU, whose film has to come in time.
+/// Rays that are traced to the glass of a pixel that has an edge of it, on a GPU and on a CPU, whose film has to come in time.
 const GLASS_RAYS: [f64; 2] = [4.0, 1.0];
 
 /// Pixels over which they are spread in blocks, which glass has of two by two.

@@ -175,12 +175,12 @@ fn edges_are_as_smooth_as_by_four_rays_everywhere() {
     // The software driver traces one, so the shader is told to trace more.
     let four = |text: String| {
         let text = text.replace("GLASS_RAYS == 1u || !ray.edge", "!ray.edge");
-        text.replace("n <= GLASS_RAYS", "n <= 4u")
+        text.replace("n < GLASS_RAYS", "n < 4u")
             .replace("f32(GLASS_RAYS)", "4.0")
     };
     let chosen = with_rays(four);
-    let everywhere = with_rays(|text| four(text).replace("if (!ray.edge)", "if (false)"));
-    let one = with_rays(|text| text);
+    let everywhere = with_rays(|text| four(text).replace("(!ray.edge)", "(false)"));
+    let one = with_rays(|text| four(text).replace("(!ray.edge)", "(true)"));
     let apart = |picture: &[u8]| {
         let pixels = picture.chunks(4).zip(everywhere.chunks(4));
         let apart = pixels.map(|(a, b)| {

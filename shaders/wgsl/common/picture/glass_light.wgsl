@@ -141,19 +141,18 @@ fn nearest_vessel(bits: u32, eye: u32) -> f32 {
     return nearest;
 }
 
-/// How many of `RAYS` are traced where a pixel has an edge of glass; one through its middle elsewhere. With one, that one everywhere.
+/// Rays of a pixel that has an edge of glass or print: places of `RAYS`, of which the first one alone serves elsewhere. With one, that one everywhere.
 override GLASS_RAYS: u32 = 4u;
 /// Pixels over which they are spread.
 override GLASS_SPREAD: f32 = 1.0;
 
-/// Places in a pixel, that a rim thinner than it does not break into dots: a grid, turned.
+/// Places in a pixel, that a rim thinner than it does not break into dots: its middle and a triangle about it, turned.
 const RAYS = array<vec2<f32>, 4>(
-    vec2<f32>(0.125, 0.375),
-    vec2<f32>(-0.375, 0.125),
-    vec2<f32>(-0.125, -0.375),
-    vec2<f32>(0.375, -0.125),
+    vec2<f32>(0.0, 0.0),
+    vec2<f32>(0.376, 0.137),
+    vec2<f32>(-0.306, 0.257),
+    vec2<f32>(-0.069, -0.394),
 );
-
 /// Of them the distance from the middle, pixels.
 const FURTHEST_RAY = 0.4;
 
@@ -161,13 +160,9 @@ const FURTHEST_RAY = 0.4;
 /// middle at `place`.
 fn glass_over(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> Cover {
     var sum = Cover(vec3<f32>(0.0), 0.0);
-    // The first one is in the middle; all are one loop, so that their code is there once.
-    for (var n = 0u; n <= GLASS_RAYS; n++) {
-        let ray = glass_along(bits, eye, place + GLASS_SPREAD * select(RAYS[(n + 3u) % 4u], vec2<f32>(0.0), n == 0u), end);
-        if (n == 0u) {
-            if (GLASS_RAYS == 1u || !ray.edge) { return ray.cover; }
-            continue;
-        }
+    for (var n = 0u; n < GLASS_RAYS; n++) {
+        let ray = glass_along(bits, eye, place + GLASS_SPREAD * RAYS[n], end);
+        if (n == 0u && (GLASS_RAYS == 1u || !ray.edge)) { return ray.cover; }
         sum = Cover(sum.colour + ray.cover.colour, sum.open + ray.cover.open);
     }
     return Cover(sum.colour / f32(GLASS_RAYS), sum.open / f32(GLASS_RAYS));
