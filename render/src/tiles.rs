@@ -39,7 +39,7 @@ pub(crate) enum Class {
     Liquid = 0,
     /// Glass without liquid, of which every pixel is shaded.
     Glass = 1,
-    /// Neither, likewise: of the room what the others of these have not alone.
+    /// Neither, likewise; any of the room.
     Plain = 2,
     /// Edges to be smoothed, without steam.
     Edges = 3,
@@ -63,13 +63,13 @@ pub(crate) enum Class {
     CoarsePlain = 12,
     /// Hands, likewise.
     CoarseHands = 13,
-    /// Neither glass nor liquid, and nothing but the table's top; every pixel is shaded.
+    /// Neither, likewise; of the room the table's top alone.
     Bench = 14,
-    /// The same, with walls and nothing that is at them.
+    /// Neither, likewise; of the room all but the table, its fittings and what hangs at the back wall.
     Walls = 15,
-    /// The same with a panel, a sign or a pane.
+    /// Neither, likewise; any of the room, and a panel, a sign or a pane.
     Sheets = 16,
-    /// The same with walls, the table and its fittings.
+    /// Neither, likewise; of the room all but what hangs at the back wall.
     Table = 17,
 }
 

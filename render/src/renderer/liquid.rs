@@ -21,7 +21,8 @@ impl Renderer {
         let Some((fluid, source)) = self.liquid(frame)? else {
             return Ok(None);
         };
-        let bubbles = source.bubbles.filter(|bubbles| bubbles.spray.is_some());
+        let bubbles = source.bubbles;
+        let bubbles = bubbles.filter(|bubbles| bubbles.spray.is_some() && bubbles.count > 0);
         let cells = fluid.bubbles(slot);
         Ok(bubbles.map(|_| Flights {
             buffer: &cells.flights,

@@ -18,17 +18,18 @@ fn pane_behind(view: &View) -> Pane {
 /// Eyes all over the room, near and far, that look anywhere; the fields of a headset and of a long lens.
 fn views() -> impl Iterator<Item = View> {
     // Steps of the plastic number's powers fill a space evenly.
-    let places = (1..=60u32).map(|n| {
+    let places = (1..=80u32).map(|n| {
         [
             0.754_877_7,
             0.569_840_3,
             0.430_159_7,
             0.324_718,
             0.245_122_3,
+            0.185_037_6,
         ]
         .map(|step: f32| (f32::from(n as u16) * step).fract())
     });
-    places.map(|[x, y, z, u, v]| {
+    places.map(|[x, y, z, u, v, w]| {
         let eye =
             Vec3::new(-1.5, 0.1, -0.9) + Vec3::new(3.8, 2.5, 3.2) * Vec3::new(x, 0.3 + 0.7 * y, z);
         let target = Vec3::new(-1.2, 0.2, -1.7) + Vec3::new(2.6, 2.0, 1.9) * Vec3::new(u, v, x);
@@ -37,6 +38,15 @@ fn views() -> impl Iterator<Item = View> {
             target,
             Fov::symmetric(if v < 0.5 { 0.35 } else { 1.4 }, 4.0 / 3.0),
         )
+    })
+}
+
+/// Eyes next to the planes of the shelf's and the hood's sides, which are soft far from where they end.
+fn along_planes() -> impl Iterator<Item = View> {
+    [-0.5, -0.42, 0.42, 0.5, 0.8, 0.88].into_iter().map(|x| {
+        let eye = Vec3::new(x, 1.5, -0.2);
+        let fov = Fov::symmetric(1.2, 4.0 / 3.0);
+        View::look_at(eye, Vec3::new(x + 0.1, 2.0, -1.7), fov)
     })
 }
 
@@ -92,8 +102,37 @@ fn a_part_of_the_room_is_drawn_as_the_whole_is() {
         ("scaled", &scaled, 0.05),
     ] {
         rig.set_scene(scene);
-        for (n, view) in views().enumerate() {
+        for (n, view) in views().chain(along_planes()).enumerate() {
             assert_eq!(differ(&rig, view, scale), 0, "{name}, view {n}");
         }
     }
+}
+
+/// Each of the lists has tiles: what a pipeline paints black is seen black.
+#[test]
+fn each_part_is_drawn_by_its_pipeline() {
+    let scene = SceneDesc::laboratory(Vec::new(), 0.75, 1.0);
+    let view = View::look_at(
+        Vec3::new(0.0, 1.2, 0.0),
+        Vec3::new(0.1, 0.95, -0.9),
+        Fov::symmetric(1.5, 4.0 / 3.0),
+    );
+    let painted = |sees: u32| {
+        let black = format!("if (SEES == {sees}u) {{ colour = vec3<f32>(0.0); }}");
+        let mut rig = Rig::edited(EXTENT, |name, text| match name {
+            "render/picture.wgsl" => {
+                let end = "return Seen(vec4<f32>(colour, alpha), reversed);";
+                text.replace(end, &format!("{black}\n    {end}"))
+            }
+            _ => text,
+        });
+        rig.set_scene(&scene);
+        let picture = rig.draw(&without_particles(&[view]));
+        let pixels = picture.colour[0].chunks(4);
+        pixels.filter(|pixel| pixel[..3] == [0, 0, 0]).count()
+    };
+    // The bench, walls, the table, all.
+    let found = [1, 2, 7, 15].map(painted);
+    assert!(found.iter().all(|&count| count > 1000), "{found:?}");
+    assert!(found.iter().sum::<usize>() <= 320 * 240, "{found:?}");
 }

@@ -15,17 +15,18 @@
 const LISTS = 18u;
 /// That of hands in coarse tiles, which a workgroup has all of.
 const COARSE_HANDS = 13u;
-/// Those of tiles that have neither glass nor liquid: with a panel, a sign or a pane; the table's top and nothing else; walls and nothing that is at them or
-/// of the table; the same with table and fittings; and the others.
+/// That of tiles without glass and liquid that have a panel, a sign or a pane.
 const SHEET_TILES = 16u;
-const BENCH_TILES = 14u;
-const WALL_TILES = 15u;
-const TABLE_TILES = 17u;
-const ROOM_TILES = 2u;
 
 fn append(class_: u32, tile: u32, all: u32) {
     let place = atomicAdd(&arguments[3u * class_], 1u);
     tile_lists[class_ * all + place] = tile;
+}
+
+/// Whether anything flat may be seen between two places of the picture.
+fn may_show_sheets(eye: u32, low: vec2<f32>, high: vec2<f32>) -> bool {
+    return may_show(frame.panel_from_stage, eye, low, high) || may_show(frame.sign_from_stage, eye, low, high)
+        || may_show(frame.pane_from_stage, eye, low, high);
 }
 
 fn plain_class(eye: u32, low: vec2<f32>, high: vec2<f32>) -> u32 {

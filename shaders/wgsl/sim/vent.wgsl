@@ -19,7 +19,7 @@ override LEAST_PUFF: f32 = 5e-7;
 @group(0) @binding(3) var<storage, read> ledger: array<vec4<f32>>;
 /// By identity: steam's mass and enthalpy of which puffs were made.
 @group(0) @binding(4) var<storage, read_write> vented: array<vec2<f32>>;
-/// Puffs made, by workgroup.
+/// Puffs made, by workgroup; behind them what `dew.wgsl` counts.
 @group(0) @binding(5) var<storage, read_write> made: array<u32>;
 
 @group(0) @binding(6) var<storage, read_write> bubbles: array<Bubble>;

@@ -4,7 +4,7 @@ use super::buffers::Buffers;
 use super::error::SolverError;
 use super::glass;
 use super::pipelines::{Constants, SolverPass};
-use super::steam::PUFFS;
+use super::steam::{PUFFS, VENTS};
 use super::transfer::upload;
 use super::vessels::Vessels;
 use super::{SolverSpec, steam};
@@ -60,6 +60,7 @@ impl Dew {
         let room = Room::at(losses.ambient);
         let constants = constants.and(&[
             ("PUFFS", f64::from(PUFFS)),
+            ("VENTS", f64::from(VENTS)),
             ("ROOM_VAPOUR", dew::vapour_of(&room)),
             ("ROOM_DENSITY", room.density),
             ("STILL", dew::still()),

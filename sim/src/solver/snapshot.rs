@@ -145,7 +145,7 @@ impl Solver {
             ("glass", state.glass.len(), self.rings()),
             ("puffs", steam.puffs.len(), start.puffs.len()),
             ("vented steam", steam.vented.len(), start.vented.len()),
-            ("vents", steam.made.len(), start.made.len()),
+            ("counts of steam", steam.made.len(), start.made.len()),
             ("dew", steam.dew.len(), start.dew.len()),
             ("bubbles", bubbles.bubbles.len(), none.bubbles.len()),
             (

@@ -19,7 +19,7 @@ use vitriol_shaders::{Library, sim};
 pub const PUFFS: u32 = 1024;
 
 /// Puffs that a frame may bring.
-const VENTS: u32 = 4;
+pub(super) const VENTS: u32 = 4;
 
 /// Counts that are kept: puffs of each workgroup that makes them, and quanta of water that were washed off glass, as
 /// low and high word.

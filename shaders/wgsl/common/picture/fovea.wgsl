@@ -57,7 +57,7 @@ fn nearest_to_fovea(eye: u32, low: vec2<f32>, high: vec2<f32>) -> f32 {
     return max(upright, level);
 }
 
-/// Whether a panel or a sign may be seen between two places of the picture: within the box around its corners.
+/// Whether something flat may be seen between two places of the picture: within the box around its corners.
 fn may_show(face_from_stage: mat4x4<f32>, eye: u32, low: vec2<f32>, high: vec2<f32>) -> bool {
     let rows = transpose(face_from_stage);
     // Without one all of it is 0.
@@ -81,12 +81,6 @@ fn may_show(face_from_stage: mat4x4<f32>, eye: u32, low: vec2<f32>, high: vec2<f
         behind += select(0u, 1u, near);
     }
     return behind < 4u && all(first <= high) && all(last >= low);
-}
-
-/// Whether anything flat may be seen between two places of the picture.
-fn may_show_sheets(eye: u32, low: vec2<f32>, high: vec2<f32>) -> bool {
-    return may_show(frame.panel_from_stage, eye, low, high) || may_show(frame.sign_from_stage, eye, low, high)
-        || may_show(frame.pane_from_stage, eye, low, high);
 }
 
 /// Pixels along a block of a tile of which one is shaded: 1, 2 or 4.

@@ -8,7 +8,6 @@
 //!include common/picture/shard.wgsl
 //!include common/picture/tile_marks.wgsl
 
-/// Two a segment of an outline: (r, y) of its ends, and 
 /// Reflectance of borosilicate glass (n = 1.47) at normal incidence, ((n−1)/(n+1))².
 const GLASS_REFLECTANCE = 0.036;
 /// Share of a broken edge that is seen over what is behind: as bright as glass a palm thick, through which one looks along the wall.
@@ -190,10 +189,11 @@ fn glass_along(bits: u32, eye: u32, place: vec2<f32>, end: f32) -> GlassSeen {
         let direction = (m * vec4<f32>(seen, 0.0)).xyz;
         let middle = vec3<f32>(0.0, 0.5 * frame.vessels[index].rim, 0.0);
         let nearest = dot(middle - eye_place, direction) / dot(direction, direction);
-        let aside = FURTHEST_RAY * GLASS_SPREAD * nearest / (*view).focal;
+        // An eye over a vessel or in it sees glass as far off as that is wide.
+        let aside = FURTHEST_RAY * GLASS_SPREAD * max(abs(nearest), frame.vessels[index].outer) / (*view).focal;
         let ray = GlassRay(eye_place + nearest * direction, direction, nearest, end, aside);
         // Most rays of a tile pass beside the vessel.
-        let outer = frame.vessels[index].outer + max(aside, 0.0);
+        let outer = frame.vessels[index].outer + aside;
         let a = dot(direction.xz, direction.xz);
         let b = dot(ray.origin.xz, direction.xz);
         let passes = b * b < a * (dot(ray.origin.xz, ray.origin.xz) - outer * outer);

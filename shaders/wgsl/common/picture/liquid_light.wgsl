@@ -69,8 +69,7 @@ struct Wet {
 /// How far off the glass particles are whole, spacings: they lie half of one from it.
 const OFF_GLASS = 0.6;
 
-/// Where a ray comes into liquid: through a vessel's wall or at the surface. From there on both are followed by the same code, which a GPU's invocations
-/// in step go through once, and the software driver too.
+/// Where a ray comes into liquid: through a vessel's wall or at the surface. From there on both are followed by the same code.
 struct Entry {
     /// View depth; 0 where there is no liquid, negative behind a wall.
     depth: f32,

@@ -74,7 +74,7 @@ fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal:
     let far = at.z - frame.table_min.z * frame.metres_per_unit;
     // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
     if (!sees(SEES_FITTINGS) || far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
-    let fitted_ = fitted(ray, at, max(-ray.direction.y, 0.05) / (way * ray.fine), light, share);
+    let fitted_ = fitted(ray, at, max(-ray.direction.y, 1.0 / (1.0 + MOST_SLANT)) / (way * ray.fine), light, share);
     let metal = tap(ray, way);
     return mix(fitted_, metal.light, metal.share);
 }

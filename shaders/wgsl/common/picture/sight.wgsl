@@ -4,6 +4,10 @@
 //!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
 
+/// Most that an edge is softer where its plane is seen along: tiles are listed by what they see with a margin that holds so much (`SOFT` of
+/// `tile_room.wgsl`).
+const MOST_SLANT = 15.0;
+
 /// A ray in metres.
 struct Sight {
     origin: vec3<f32>,
@@ -36,7 +40,7 @@ fn on_z(ray: Sight, z: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (z - ray.origin.z) * ray.inverse.z;
     let at = ray.origin + way * ray.direction;
     let slant = abs(ray.direction.xy * ray.inverse.z);
-    return rectangle(way, at, at.xy, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+    return rectangle(way, at, at.xy, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
 }
 
 /// A rectangle in the plane of that x; corners (y, z).
@@ -44,7 +48,7 @@ fn on_x(ray: Sight, x: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (x - ray.origin.x) * ray.inverse.x;
     let at = ray.origin + way * ray.direction;
     let slant = abs(ray.direction.yz * ray.inverse.x);
-    return rectangle(way, at, at.yz, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+    return rectangle(way, at, at.yz, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
 }
 
 /// A rectangle in the plane of that y; corners (x, z).
@@ -52,7 +56,7 @@ fn on_y(ray: Sight, y: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (y - ray.origin.y) * ray.inverse.y;
     let at = ray.origin + way * ray.direction;
     let slant = abs(ray.direction.xz * ray.inverse.y);
-    return rectangle(way, at, at.xz, low, high, 1.0 / max(way * ray.fine * (1.0 + max(slant.x, slant.y)), 1e-6));
+    return rectangle(way, at, at.xz, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
 }
 
 /// How much of a pixel is in the rectangle; `sharp` is one over its width.

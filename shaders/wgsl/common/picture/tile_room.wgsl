@@ -1,11 +1,18 @@
-//! What of the room the rays of a tile may meet. A pipeline without the rest takes half of the time: registers that it does not need are other rays', and
-//! the software driver walks both sides of every branch.
+//! What of the room the rays of a tile may meet. The software driver walks both sides of every branch, so a pipeline without the rest takes a
+//! fraction of the time there; on an H100 it takes 0.285 ms for 0.336.
 
 //!include common/picture/frame.wgsl
 //!include common/picture/laboratory.wgsl
 
-/// Pixels around a tile that count as its own: an edge is as soft as a pixel is wide where it meets the slanted plane.
+/// Pixels around a tile that count as its own: half of 1 + `MOST_SLANT`, as far as an edge is soft.
 const SOFT = 8.0;
+
+/// The lists of tiles that have neither glass nor liquid: the table's top and nothing else; walls and what is along them, but not the table and what hangs
+/// there; the same with the table and its fittings; and the others.
+const BENCH_TILES = 14u;
+const WALL_TILES = 15u;
+const TABLE_TILES = 17u;
+const ROOM_TILES = 2u;
 
 /// The rays between two places of the picture, in metres.
 struct Beam {
