@@ -30,9 +30,8 @@ fn views() -> impl Iterator<Item = View> {
         .map(|step: f32| (f32::from(n as u16) * step).fract())
     });
     places.map(|[x, y, z, u, v, w]| {
-        let eye =
-            Vec3::new(-1.5, 0.1, -0.9) + Vec3::new(3.8, 2.5, 3.2) * Vec3::new(x, 0.3 + 0.7 * y, z);
-        let target = Vec3::new(-1.2, 0.2, -1.7) + Vec3::new(2.6, 2.0, 1.9) * Vec3::new(u, v, x);
+        let eye = Vec3::new(-1.5, 0.1, -0.9) + Vec3::new(3.8, 2.5, 3.2) * Vec3::new(x, y, z);
+        let target = Vec3::new(-1.2, 0.2, -1.7) + Vec3::new(2.6, 2.0, 1.9) * Vec3::new(u, v, w);
         View::look_at(
             eye,
             target,
