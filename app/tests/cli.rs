@@ -1,7 +1,9 @@
 //! The binary from outside: exit codes, one message, pure JSON.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::collections::BTreeSet;
+#[path = "cli/shown.rs"]
+mod shown;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -253,55 +255,6 @@ fn keyframes_become_a_track_and_are_not_overwritten() {
 }
 
 #[test]
-fn built_in_tracks_are_listed() {
-    let folder = tempfile::tempdir().unwrap();
-    let list = object(folder.path(), &["track", "--list"]);
-    let tracks = list["tracks"].as_array().unwrap();
-    let two_flasks = tracks.iter().find(|t| t["track"] == "two-flasks").unwrap();
-    assert!(two_flasks["duration_s"].as_f64().unwrap() >= 8.0, "{list}");
-    assert!(tracks.len() >= 3);
-}
-
-/// The lessons are listed, shown in each language and as a file to begin with; a spoiled one gets one message with file, field and what
-/// would be right.
-#[test]
-fn lessons_are_listed_shown_and_checked() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let all = object(here, &["lesson"]);
-    let names: Vec<_> = all["lessons"].as_array().unwrap().iter().collect();
-    assert!(names.len() >= 3 && names.iter().any(|it| it["name"] == "dilute"));
-    let titles: BTreeSet<String> = ["en", "de", "es", "zh"]
-        .map(|language| {
-            let told = object(here, &["lesson", "dilute", "--language", language]);
-            assert_eq!(told["points"], 100);
-            told["title"].as_str().unwrap().to_owned()
-        })
-        .into();
-    assert_eq!(titles.len(), 4, "{titles:?}");
-
-    let own = vitriol(here, &["lesson", "dilute", "--toml"]);
-    let own = text(&own.stdout);
-    let file = here.join("own.toml");
-    fs::write(&file, own).unwrap();
-    assert_eq!(object(here, &["lesson", "own.toml"])["points"], 100);
-    fs::write(&file, own.replace("into = \"target\"", "into = \"vase\"")).unwrap();
-    let parts = &["own.toml", "step[2].condition.poured.into", "target"];
-    refuses(here, &["lesson", "own.toml"], 2, parts);
-    let stand_in = ["vr", "--no-console", "--stand-in", "two-flasks", "--lesson"];
-    refuses(here, &[&stand_in[..], &["own.toml"]].concat(), 2, parts);
-    let examined = [&stand_in[..], &["dilute", "--mode", "examination"]].concat();
-    refuses(here, &examined, 2, &["examination", "guided"]);
-    refuses(here, &["lesson", "nowhere"], 2, &["nowhere", "dilute"]);
-    // The panel's language needs no lesson; this one is refused for its track alone.
-    let stand_in = ["vr", "--no-console", "--stand-in", "nowhere"];
-    let in_german = [&stand_in[..], &["--language", "de"]].concat();
-    refuses(here, &in_german, 2, &["nowhere", "two-flasks"]);
-    let in_french = [&stand_in[..], &["--language", "fr"]].concat();
-    refuses(here, &in_french, 2, &["fr", "en, de, es, zh"]);
-}
-
-#[test]
 fn who_is_forgotten_is_in_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
@@ -377,81 +330,6 @@ fn who_is_forgotten_is_in_no_file() {
         assert!(forget(&["Otter"]).status.success());
         assert!(!here.join("data").exists());
     }
-}
-
-#[test]
-fn doctor_says_what_is_missing() {
-    let folder = tempfile::tempdir().unwrap();
-    let found = object(folder.path(), &["doctor"]);
-    let devices = found["devices"].as_array().unwrap();
-    let usable = devices.iter().any(|device| device["usable"] == true);
-    assert_eq!(found["can_replay"], usable);
-    let missing = found["missing"].as_array().unwrap();
-    if found["can_enter_vr"] == false {
-        assert!(!missing.is_empty(), "{found}");
-    }
-    for lack in missing {
-        assert!(lack.as_str().unwrap().ends_with('.'), "a sentence: {lack}");
-    }
-
-    // A runtime that is named but not there.
-    let output = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-        .args(["doctor", "--json"])
-        .env("XR_RUNTIME_JSON", "/nowhere/runtime.json")
-        .output()
-        .unwrap();
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(found["openxr"]["runtime"], serde_json::Value::Null);
-    assert_eq!(found["can_enter_vr"], false);
-    let missing = found["missing"].to_string();
-    assert!(missing.contains("XR_RUNTIME_JSON") || missing.contains("libopenxr-loader1"));
-}
-
-#[test]
-fn scenes_state_their_scale() {
-    let folder = tempfile::tempdir().unwrap();
-    let list = object(folder.path(), &["scenes"]);
-    let scenes = list["scenes"].as_array().unwrap();
-    let two_flasks = scenes.iter().find(|s| s["name"] == "two-flasks").unwrap();
-    assert_eq!(two_flasks["length_scale"], 1.0, "real size");
-    assert!((two_flasks["gravity_m_s2"].as_f64().unwrap() - 9.81).abs() < 0.01);
-    for scene in scenes {
-        for key in [
-            "d_m",
-            "h_over_d",
-            "frame_time_s",
-            "gravity_m_s2",
-            "length_scale",
-        ] {
-            assert!(scene[key].as_f64().unwrap() > 0.0, "{key} of {scene}");
-        }
-        for preset in scene["presets"].as_array().unwrap() {
-            for key in ["substeps", "iterations", "omega", "fluid_particles"] {
-                assert!(preset[key].as_f64().unwrap() > 0.0, "{key} of {scene}");
-            }
-        }
-    }
-
-    let typo = "name = \"x\"\ngravitty = 1\n";
-    fs::write(folder.path().join("typo.toml"), typo).unwrap();
-    let arguments = [
-        "replay",
-        "two-flasks",
-        "--scene",
-        "typo.toml",
-        "--out",
-        "new",
-    ];
-    refuses(folder.path(), &arguments, 2, &["typo.toml", "gravitty"]);
-    let arguments = ["replay", "two-flasks", "--device", "Voodoo", "--out", "new"];
-    // Without any driver it is the driver that is missing.
-    let code = if object(folder.path(), &["doctor"])["can_replay"] == true {
-        2
-    } else {
-        3
-    };
-    refuses(folder.path(), &arguments, code, &[]);
-    assert!(!folder.path().join("new").exists());
 }
 
 #[test]
@@ -583,32 +461,4 @@ fn bad_input_is_refused_before_anything_is_written() {
     assert_eq!(info["recovered"], false);
     assert_eq!(info["frames"], saved["frames"]);
     assert_eq!(info["outcome"]["broken_off"], "its file had no end");
-}
-
-/// The packages' manual and completions are the command line's own.
-#[test]
-fn pages_tell_of_each_command() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let pages = object(here, &["pages", "--out", "pages"]);
-    let files = pages["files"].as_array().unwrap();
-    assert!(files.len() > 15, "{pages}");
-    let read = |name: &str| fs::read_to_string(here.join("pages").join(name)).unwrap();
-    let replay = read("vitriol-replay.1");
-    for part in ["vitriol\\-replay", "accept\\-truncated", "camera"] {
-        assert!(replay.contains(part), "{part}: {replay}");
-    }
-    for completion in ["vitriol", "vitriol.fish", "_vitriol"] {
-        assert!(
-            read(completion).contains("accept-truncated"),
-            "{completion}"
-        );
-    }
-    // Nothing is overwritten.
-    refuses(
-        here,
-        &["pages", "--out", "pages"],
-        2,
-        &["vitriol.1", "exists"],
-    );
 }

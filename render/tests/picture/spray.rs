@@ -37,6 +37,18 @@ fn drawn_before(
     radius: f32,
     number: f32,
 ) -> Picture {
+    drawn_in(rig, &[view()], hand, kind, places, (radius, number))
+}
+
+/// The same in those views.
+fn drawn_in(
+    rig: &Rig,
+    views: &[View],
+    hand: &[Bone],
+    kind: usize,
+    places: &[[f32; 2]],
+    (radius, number): (f32, f32),
+) -> Picture {
     let volume = 4.0 / 3.0 * std::f32::consts::PI * radius.powi(3);
     let mut drops = vec![Drops::default(); 2 * places.len().max(1)];
     for (n, place) in places.iter().enumerate() {
@@ -60,10 +72,9 @@ fn drawn_before(
         .unwrap();
     liquid.bubbles = Some((bubbles, count as u32));
     liquid.drops = Some(of_drops);
-    let views = [view()];
     let frame = FrameDesc {
         hands: [hand, &[]],
-        ..frame(&views, &[], &liquid)
+        ..frame(views, &[], &liquid)
     };
     draw(rig, &frame).0
 }
@@ -103,6 +114,36 @@ fn drops_hide_their_own_area() {
         eprintln!("radius {pixels} pixels: {share} of its area");
         // Shares have 31 steps, levels 255; FXAA moves light between pixels, and does not add any.
         assert!((0.75..1.25).contains(&share), "{pixels}: {share}");
+    }
+}
+
+/// More flights than a workgroup takes, with empty places between them: each is where either eye sees it.
+#[test]
+fn every_drop_is_in_both_eyes() {
+    let rig = rig(EXTENT, 2, SurfaceFilter::NarrowRange);
+    let places: Vec<[f32; 2]> = (0..100)
+        .map(|n| [(n % 10) as f32 - 4.5, (n / 10) as f32 - 4.5].map(|step| 0.006 * step))
+        .collect();
+    let field = Fov::symmetric(2.0 * (0.1_f32).atan(), 4.0 / 3.0);
+    let eyes = [-0.004, 0.006].map(|x| {
+        let eye = Vec3::new(x, 1.0, 0.0);
+        View::look_at(eye, eye - Vec3::Z, field)
+    });
+    let radius = (3.0 / FOCAL) as f32 * DISTANCE;
+    let plain = drawn_in(&rig, &eyes, &[], JET, &[], (0.0, 0.0));
+    let picture = drawn_in(&rig, &eyes, &[], JET, &places, (radius, 1.0));
+    for (n, eye) in eyes.iter().enumerate() {
+        for [x, y] in &places {
+            let at = Vec3::new(*x, 1.0 + y, -DISTANCE);
+            let clip = eye.clip_from_scaled(1.0).project_point3(at);
+            let [column, row] = [(0, clip.x), (1, clip.y)]
+                .map(|(axis, place)| ((0.5 + 0.5 * place) * EXTENT[axis] as f32) as usize);
+            let pixel = row * EXTENT[0] as usize + column;
+            assert!(
+                picture.depth[n][pixel] > plain.depth[n][pixel],
+                "eye {n}: {x} {y}"
+            );
+        }
     }
 }
 
