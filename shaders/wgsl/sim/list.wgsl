@@ -60,72 +60,119 @@ fn place(k: u32, i: u32) -> u32 {
 
 var<private> found: u32;
 var<private> coincident: bool;
-/// Whether any candidate has another membership.
+/// Whether any neighbour has another membership; where a lane is alone.
 var<private> mixed: bool;
 
-/// Candidate n of a row: one of `count` from `first` on, then of those from `second` on.
-fn candidate(n: u32, first: u32, count: u32, second: u32) -> u32 {
-    return select(second + n - count, first + n, n < count);
+/// A row of three cells along x: particles from `first` on, and then from `second` on where it goes round the table's end.
+struct Row {
+    first: u32,
+    count: u32,
+    second: u32,
+    wrapped: u32,
 }
 
-/// Tests `count` particles from `first` on, and then `wrapped` from `second`
-/// on, in one loop: two would both be walked on a software driver, the second
-/// one for nothing. With `keep` it lists those that are neighbours: 32 are
+/// Particle n of a row.
+fn candidate(n: u32, row: Row) -> u32 {
+    return select(row.second + n - row.count, row.first + n, n < row.count);
+}
+
+/// One of the nine rows around a cell.
+fn row_at(cell: vec3<i32>, row: u32) -> Row {
+    let last = (1 << CELL_BITS_X) - 1;
+    let low = u32((cell.x - 1) & last);
+    let high = u32((cell.x + 1) & last);
+    let wraps = low > high;
+    let y = cell.y + i32(row % 3u) - 1;
+    let z = cell.z + i32(row / 3u) - 1;
+    let start = cell_index(vec3<i32>(0, y, z));
+    let first = start_of(start + low);
+    let end = start_of(start + select(high, u32(last), wraps) + 1u);
+    let second = start_of(start);
+    let second_end = select(second, start_of(start + high + 1u), wraps);
+    return Row(first, end - first, second, second_end - second);
+}
+
+/// Tests a row's particles in one loop: one for what goes round the table's end
+/// would be walked on a software driver too, and mostly for nothing. 32 are
 /// tested and then the hits written, since what is written under a condition
-/// costs such a driver the same whether it holds or not.
-fn search(i: u32, x: vec3<f32>, membership: u32, first: u32, count: u32, second: u32, wrapped: u32, keep: bool) {
-    for (var start = 0u; start < count + wrapped; start += 32u) {
-        let tested = min(count + wrapped - start, 32u);
+/// costs such a driver the same whether it holds or not. The few pairs of mixed
+/// membership are looked at afterwards.
+fn search_alone(i: u32, x: vec3<f32>, membership: u32, row: Row) {
+    for (var start = 0u; start < row.count + row.wrapped; start += 32u) {
+        let tested = min(row.count + row.wrapped - start, 32u);
         var near = 0u;
         for (var n = 0u; n < tested; n++) {
-            let j = candidate(start + n, first, count, second);
+            let j = candidate(start + n, row);
             let other = sorted_trial[j];
             let offset = x - other.xyz;
             let distance = dot(offset, offset);
             let hit = distance < CELL * CELL && j != i;
             near |= select(0u, 1u << n, hit);
-            // A call within the condition would be a branch round a function, and this pass a seventh dearer (H200).
-            let theirs = membership_in(other);
-            mixed = mixed || (hit && theirs != membership);
+            mixed = mixed || (hit && membership_in(other) != membership);
             coincident = coincident || (hit && distance < 1e-8 * SUPPORT * SUPPORT);
         }
         while (near != 0u) {
-            let j = candidate(start + firstTrailingBit(near), first, count, second);
+            let j = candidate(start + firstTrailingBit(near), row);
             near &= near - 1u;
-            // On a software driver the few pairs of mixed membership are
-            // looked at afterwards.
-            var seen = true;
-            if (LANES > 1u) {
-                if (mixed) {
-                    let other = sorted_trial[j];
-                    let theirs = membership_in(other);
-                    if (theirs != membership) { seen = visible(membership, x, theirs, other.xyz); }
-                }
-            }
-            if (seen) {
-                if (keep && found < LIST_CAPACITY) { list[place(found, i)] = j; }
-                found++;
-            }
+            if (found < LIST_CAPACITY) { list[place(found, i)] = j; }
+            found++;
         }
     }
 }
 
-/// The rows of three cells along x that are this lane's, of the nine around a particle.
-fn search_rows(i: u32, lane: u32, x: vec3<f32>, membership: u32, keep: bool) {
+/// Whether particle j is a neighbour that glass does not hide.
+fn is_neighbour(i: u32, x: vec3<f32>, membership: u32, j: u32, other: vec4<f32>) -> bool {
+    let offset = x - other.xyz;
+    let distance = dot(offset, offset);
+    var near = distance < CELL * CELL && j != i;
+    coincident = coincident || (near && distance < 1e-8 * SUPPORT * SUPPORT);
+    let theirs = membership_in(other);
+    if (near && theirs != membership) { near = visible(membership, x, theirs, other.xyz); }
+    return near;
+}
+
+/// Lists j of each lane that has a neighbour there, by ascending lane: the ballot says how many come before.
+fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
+    let of_subgroup = subgroupBallot(near);
+    let hits = (of_subgroup[lane.first >> 5u] >> (lane.first & 31u)) & (0xffffffffu >> (32u - LANES));
+    let k = found + countOneBits(hits & ((1u << lane.own) - 1u));
+    if (near && k < LIST_CAPACITY) { list[place(k, i)] = j; }
+    found += countOneBits(hits);
+}
+
+/// An invocation among those of its particle.
+struct Lane {
+    own: u32,
+    /// Where in the subgroup the particle's first one is.
+    first: u32,
+}
+
+/// All lanes of a particle walk a row together. Each fetches two candidates before it asks about either: the pass waits for its
+/// fetches, not for its arithmetic.
+fn search_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32, row: Row) {
+    let end = row.count + row.wrapped;
+    for (var start = lane.own; start < end + lane.own; start += 2u * LANES) {
+        let j = candidate(min(start, end - 1u), row);
+        let after = candidate(min(start + LANES, end - 1u), row);
+        let other = sorted_trial[j];
+        let next = sorted_trial[after];
+        let near = start < end && is_neighbour(i, x, membership, j, other);
+        let next_near = start + LANES < end && is_neighbour(i, x, membership, after, next);
+        list_together(i, lane, near, j);
+        list_together(i, lane, next_near, after);
+    }
+}
+
+/// The nine rows around a particle, each looked up by one lane for all.
+fn search_rows_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
     let cell = cell_of(x);
-    let last = (1 << CELL_BITS_X) - 1;
-    let low = u32((cell.x - 1) & last);
-    let high = u32((cell.x + 1) & last);
-    let wraps = low > high;
-    for (var row = lane; row < 9u; row += LANES) {
-        let y = cell.y + i32(row % 3u) - 1;
-        let z = cell.z + i32(row / 3u) - 1;
-        let start = cell_index(vec3<i32>(0, y, z));
-        let first = start_of(start + low);
-        let end = start_of(start + select(high, u32(last), wraps) + 1u);
-        let second = start_of(start);
-        let second_end = select(second, start_of(start + high + 1u), wraps);
-        search(i, x, membership, first, end - first, second, second_end - second, keep);
+    for (var known = 0u; known < 9u; known += LANES) {
+        let mine = row_at(cell, min(known + lane.own, 8u));
+        let words = vec4<u32>(mine.first, mine.count, mine.second, mine.wrapped);
+        for (var n = 0u; n < min(LANES, 9u - known); n++) {
+            let row = subgroupShuffle(words, lane.first + n);
+            search_together(i, lane, x, membership, Row(row.x, row.y, row.z, row.w));
+        }
     }
 }
 
@@ -153,9 +200,9 @@ fn apart(identity: u32) -> vec3<f32> {
 }
 
 @compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
     let i = id.x / LANES;
-    let lane = id.x % LANES;
+    let own = id.x % LANES;
     if (i >= COUNT) { return; }
     let tag = sorted_tags[i];
     var x = sorted_trial[i].xyz;
@@ -163,22 +210,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     coincident = false;
     mixed = false;
     if (LANES > 1u) {
-        // Counts first, so that each lane knows where its own part of the list begins.
-        if (tag.x != REMOVED) { search_rows(i, lane, x, tag.x, false); }
-        var total = found;
-        var before = 0u;
-        for (var step = 1u; step < LANES; step <<= 1u) {
-            let other = subgroupShuffleXor(total, step);
-            if ((lane & step) != 0u) { before += other; }
-            total += other;
-        }
-        found = before;
-        if (tag.x != REMOVED) { search_rows(i, lane, x, tag.x, true); }
-        found = total;
+        if (tag.x != REMOVED) { search_rows_together(i, Lane(own, in_subgroup - own), x, tag.x); }
         coincident = lane_sum(select(0.0, 1.0, coincident)) > 0.0;
-        if (lane != 0u) { return; }
+        if (own != 0u) { return; }
     } else {
-        if (tag.x != REMOVED) { search_rows(i, 0u, x, tag.x, true); }
+        if (tag.x != REMOVED) {
+            let cell = cell_of(x);
+            for (var row = 0u; row < 9u; row++) { search_alone(i, x, tag.x, row_at(cell, row)); }
+        }
         let listed = min(found, LIST_CAPACITY);
         let overflowed = found > LIST_CAPACITY;
         if (overflowed) { atomicAdd(&counters.list_overflows, 1u); }

@@ -207,12 +207,21 @@ pub fn particles(state: &SolverState) -> Vec<Found> {
     found.into_iter().map(|(_, found)| found).collect()
 }
 
+/// 1, and as many lanes as a GPU takes for a small scene, if the device can.
+pub fn lanes(gpu: &Gpu) -> Vec<u32> {
+    if gpu.info().features.subgroups {
+        vec![1, 8]
+    } else {
+        vec![1]
+    }
+}
+
 /// The neighbour list out of a state, by slot. The state keeps it to itself,
 /// but not from a serialiser.
 pub struct List {
     /// Predicted positions when the list was built.
     pub origins: Vec<DVec3>,
-    /// Slots of each particle's neighbours, ascending.
+    /// Slots of each particle's neighbours, in the list's order.
     pub neighbours: Vec<Vec<usize>>,
 }
 
@@ -234,11 +243,10 @@ impl List {
         let n = fields.positions.len();
         let row = |slot: usize| {
             let count = fields.list_counts[slot] as usize;
-            let mut row: Vec<_> = (0..count)
-                .map(|k| fields.list[(k / 4 * n + slot) * 4 + k % 4] as usize)
-                .collect();
-            row.sort_unstable();
-            row
+            let place = |k| (k / 4 * n + slot) * 4 + k % 4;
+            (0..count)
+                .map(|k| fields.list[place(k)] as usize)
+                .collect()
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         Self {

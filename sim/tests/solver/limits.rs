@@ -114,11 +114,15 @@ fn a_list_that_overflows_is_counted() {
     // All see each other: 72 neighbours fit, 73 do not.
     let mut all = ball(73, DVec3::ZERO);
     all.extend(ball(74, DVec3::X));
-    let solver = Setup::new(weightless(), Vec::new(), all).solver(&device);
-    frames(&device, &solver, &[], 1);
-    let list = List::of(&solver.snapshot().unwrap());
-    assert!(list.neighbours.iter().all(|row| row.len() == 72));
-    assert_eq!(solver.counters().unwrap().list_overflows, 74);
+    let mut setup = Setup::new(weightless(), Vec::new(), all);
+    for lanes in lanes(&device) {
+        setup.lanes = Some(lanes);
+        let solver = setup.solver(&device);
+        frames(&device, &solver, &[], 1);
+        let list = List::of(&solver.snapshot().unwrap());
+        assert!(list.neighbours.iter().all(|row| row.len() == 72));
+        assert_eq!(solver.counters().unwrap().list_overflows, 74);
+    }
 }
 
 /// In a crowd that no list holds, some pairs are known to one side alone. What such

@@ -3,6 +3,7 @@
 use crate::common::*;
 use glam::DVec3;
 use std::collections::BTreeSet;
+use vitriol_gpu::Gpu;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -24,9 +25,7 @@ fn weightless() -> Parameters {
     }
 }
 
-/// Runs a substep and compares the list with all pairs of the places that it
-/// was built for. Pairs within `slack` (a fraction) of the reach may be in it
-/// or not. Returns the number of pairs.
+/// As [`compare_on`] one lane, and on several the same list, in the same order: sums over it repeat.
 fn compare(
     particles: Vec<Particle>,
     flasks: Vec<Profile>,
@@ -34,11 +33,28 @@ fn compare(
     slack: f64,
 ) -> (usize, List) {
     let device = gpu::device();
-    let setup = Setup::new(weightless(), flasks, particles);
-    let solver = setup.solver(&device);
+    let mut setup = Setup::new(weightless(), flasks, particles);
+    let (pairs, alone) = compare_on(&device, &setup, poses, slack);
+    if device.info().features.subgroups {
+        for lanes in [2, 4, 8] {
+            setup.lanes = Some(lanes);
+            let (_, together) = compare_on(&device, &setup, poses, slack);
+            let others = together.neighbours.iter().zip(&alone.neighbours);
+            let differ = others.filter(|(a, b)| a != b).count();
+            assert_eq!(differ, 0, "rows on {lanes} lanes");
+        }
+    }
+    (pairs, alone)
+}
+
+/// Runs a substep and compares the list with all pairs of the places that it
+/// was built for. Pairs within `slack` (a fraction) of the reach may be in it
+/// or not. Returns the number of pairs.
+fn compare_on(device: &Gpu, setup: &Setup, poses: &[Pose], slack: f64) -> (usize, List) {
+    let solver = setup.solver(device);
     // Which flask a particle is in when the list is built: later it may leave.
     let member_of: Vec<_> = setup.particles.iter().map(|p| p.flask).collect();
-    frame(&device, &solver, poses, poses);
+    frame(device, &solver, poses, poses);
     let state = solver.snapshot().unwrap();
     let list = List::of(&state);
     let member_of: Vec<_> = state

@@ -168,15 +168,6 @@ pub fn leaning_reference(setup: &Setup, poses: &[Pose]) -> Reference {
     truth
 }
 
-/// 1, and as many lanes as a GPU takes for a small scene, if the device can.
-pub fn lanes(gpu: &Gpu) -> Vec<u32> {
-    if gpu.info().features.subgroups {
-        vec![1, 8]
-    } else {
-        vec![1]
-    }
-}
-
 /// `rows` by slot in the order of the particles' identities.
 pub fn by_identity(state: &SolverState, rows: &[[f32; 4]]) -> Vec<[f64; 4]> {
     let mut sorted = vec![[f64::NAN; 4]; rows.len()];
