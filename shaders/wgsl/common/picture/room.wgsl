@@ -65,6 +65,8 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>, to_window: vec3<f32>, under: u
     return share;
 }
 
+/// Downward part of a ray from which on edges on the bench are no softer: seen so flat they are soft over 8 pixels to the side (`SOFT` of `tile_room.wgsl`).
+const LEAST_SLOPE = 0.0625;
 const WORKTOP = vec3<f32>(0.30, 0.33, 0.35);
 /// Light that the table sends back from `at` (metres) where `position` is that place in the scene's unit.
 fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal: vec3<f32>, through: Through) -> vec3<f32> {
@@ -74,7 +76,7 @@ fn table_light(ray: Sight, position: vec3<f32>, at: vec3<f32>, way: f32, normal:
     let far = at.z - frame.table_min.z * frame.metres_per_unit;
     // Further from the far edge nothing of sink, tray or tap is seen, from where a user may be.
     if (!sees(SEES_FITTINGS) || far > 0.45 || normal.y < 0.5 || !has_fittings()) { return light; }
-    let fitted_ = fitted(ray, at, max(-ray.direction.y, 1.0 / (1.0 + MOST_SLANT)) / (way * ray.fine), light, share);
+    let fitted_ = fitted(ray, at, max(-ray.direction.y, LEAST_SLOPE) / (way * ray.fine), light, share);
     let metal = tap(ray, way);
     return mix(fitted_, metal.light, metal.share);
 }

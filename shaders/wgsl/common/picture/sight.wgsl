@@ -4,10 +4,6 @@
 //!include common/picture/daylight.wgsl
 //!include common/picture/frame.wgsl
 
-/// Most that an edge is softer where its plane is seen along: tiles are listed by what they see with a margin that holds so much (`SOFT` of
-/// `tile_room.wgsl`).
-const MOST_SLANT = 15.0;
-
 /// A ray in metres.
 struct Sight {
     origin: vec3<f32>,
@@ -29,34 +25,34 @@ struct Layer {
     sharp: f32,
 }
 
-fn rectangle(way: f32, at: vec3<f32>, place: vec2<f32>, low: vec2<f32>, high: vec2<f32>, sharp: f32) -> Layer {
+/// `slant` says how much wider than across the ray a pixel is along the rectangle's sides. Each side's ends are as soft as that side is seen: where a plane is
+/// seen along one side, the other one's ends stay sharp.
+fn rectangle(way: f32, at: vec3<f32>, place: vec2<f32>, low: vec2<f32>, high: vec2<f32>, fine: f32, slant: vec2<f32>) -> Layer {
+    let sharp = 1.0 / max(way * fine * (1.0 + abs(slant)), vec2<f32>(1e-6));
     // Less than a pixel wide it fills no more of it: seen along its plane it would be half of one wherever the plane is.
     let edge = saturate(min(place - low, high - place) * sharp + 0.5) * saturate((high - low) * sharp);
-    return Layer(select(0.0, edge.x * edge.y, way > 0.0), way, at, sharp);
+    return Layer(select(0.0, edge.x * edge.y, way > 0.0), way, at, min(sharp.x, sharp.y));
 }
 
 /// A rectangle in the plane of that z; corners (x, y).
 fn on_z(ray: Sight, z: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (z - ray.origin.z) * ray.inverse.z;
     let at = ray.origin + way * ray.direction;
-    let slant = abs(ray.direction.xy * ray.inverse.z);
-    return rectangle(way, at, at.xy, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
+    return rectangle(way, at, at.xy, low, high, ray.fine, ray.direction.xy * ray.inverse.z);
 }
 
 /// A rectangle in the plane of that x; corners (y, z).
 fn on_x(ray: Sight, x: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (x - ray.origin.x) * ray.inverse.x;
     let at = ray.origin + way * ray.direction;
-    let slant = abs(ray.direction.yz * ray.inverse.x);
-    return rectangle(way, at, at.yz, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
+    return rectangle(way, at, at.yz, low, high, ray.fine, ray.direction.yz * ray.inverse.x);
 }
 
 /// A rectangle in the plane of that y; corners (x, z).
 fn on_y(ray: Sight, y: f32, low: vec2<f32>, high: vec2<f32>) -> Layer {
     let way = (y - ray.origin.y) * ray.inverse.y;
     let at = ray.origin + way * ray.direction;
-    let slant = abs(ray.direction.xz * ray.inverse.y);
-    return rectangle(way, at, at.xz, low, high, 1.0 / max(way * ray.fine * (1.0 + min(max(slant.x, slant.y), MOST_SLANT)), 1e-6));
+    return rectangle(way, at, at.xz, low, high, ray.fine, ray.direction.xz * ray.inverse.y);
 }
 
 /// How much of a pixel is in the rectangle; `sharp` is one over its width.

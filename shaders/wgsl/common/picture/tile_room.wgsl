@@ -4,7 +4,7 @@
 //!include common/picture/frame.wgsl
 //!include common/picture/laboratory.wgsl
 
-/// Pixels around a tile that count as its own: half of 1 + `MOST_SLANT`, as far as an edge is soft.
+/// Pixels around a tile that count as its own: as far as an edge on the bench is soft (`LEAST_SLOPE` of `room.wgsl`).
 const SOFT = 8.0;
 
 /// The lists of tiles that have neither glass nor liquid: the table's top and nothing else; walls and what is along them, but not the table and what hangs
