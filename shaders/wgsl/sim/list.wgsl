@@ -11,6 +11,9 @@
 //!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
 
+/// Invocations that search one particle's neighbours: more than share its sums, as more candidates are tested than neighbours found.
+override LIST_LANES: u32 = 1u;
+
 @group(0) @binding(0) var<storage, read> sorted_trial: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> sorted_position: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> sorted_velocity: array<vec4<f32>>;
@@ -131,15 +134,6 @@ fn is_neighbour(i: u32, x: vec3<f32>, membership: u32, j: u32, other: vec4<f32>)
     return near;
 }
 
-/// Lists j of each lane that has a neighbour there, by ascending lane: the ballot says how many come before.
-fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
-    let of_subgroup = subgroupBallot(near);
-    let hits = (of_subgroup[lane.first >> 5u] >> (lane.first & 31u)) & (0xffffffffu >> (32u - LANES));
-    let k = found + countOneBits(hits & ((1u << lane.own) - 1u));
-    if (near && k < LIST_CAPACITY) { list[place(k, i)] = j; }
-    found += countOneBits(hits);
-}
-
 /// An invocation among those of its particle.
 struct Lane {
     own: u32,
@@ -147,17 +141,31 @@ struct Lane {
     first: u32,
 }
 
+/// Which of a particle's lanes say `yes`, a bit each.
+fn lanes_with(lane: Lane, yes: bool) -> u32 {
+    let of_subgroup = subgroupBallot(yes);
+    return (of_subgroup[lane.first >> 5u] >> (lane.first & 31u)) & (0xffffffffu >> (32u - LIST_LANES));
+}
+
+/// Lists j of each lane that has a neighbour there, by ascending lane.
+fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
+    let hits = lanes_with(lane, near);
+    let k = found + countOneBits(hits & ((1u << lane.own) - 1u));
+    if (near && k < LIST_CAPACITY) { list[place(k, i)] = j; }
+    found += countOneBits(hits);
+}
+
 /// All lanes of a particle walk a row together. Each fetches two candidates before it asks about either: the pass waits for its
 /// fetches, not for its arithmetic.
 fn search_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32, row: Row) {
     let end = row.count + row.wrapped;
-    for (var start = lane.own; start < end + lane.own; start += 2u * LANES) {
+    for (var start = lane.own; start < end + lane.own; start += 2u * LIST_LANES) {
         let j = candidate(min(start, end - 1u), row);
-        let after = candidate(min(start + LANES, end - 1u), row);
+        let after = candidate(min(start + LIST_LANES, end - 1u), row);
         let other = sorted_trial[j];
         let next = sorted_trial[after];
         let near = start < end && is_neighbour(i, x, membership, j, other);
-        let next_near = start + LANES < end && is_neighbour(i, x, membership, after, next);
+        let next_near = start + LIST_LANES < end && is_neighbour(i, x, membership, after, next);
         list_together(i, lane, near, j);
         list_together(i, lane, next_near, after);
     }
@@ -166,10 +174,10 @@ fn search_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32, row: Row) 
 /// The nine rows around a particle, each looked up by one lane for all.
 fn search_rows_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
     let cell = cell_of(x);
-    for (var known = 0u; known < 9u; known += LANES) {
+    for (var known = 0u; known < 9u; known += LIST_LANES) {
         let mine = row_at(cell, min(known + lane.own, 8u));
         let words = vec4<u32>(mine.first, mine.count, mine.second, mine.wrapped);
-        for (var n = 0u; n < min(LANES, 9u - known); n++) {
+        for (var n = 0u; n < min(LIST_LANES, 9u - known); n++) {
             let row = subgroupShuffle(words, lane.first + n);
             search_together(i, lane, x, membership, Row(row.x, row.y, row.z, row.w));
         }
@@ -201,17 +209,18 @@ fn apart(identity: u32) -> vec3<f32> {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
-    let i = id.x / LANES;
-    let own = id.x % LANES;
+    let i = id.x / LIST_LANES;
+    let own = id.x % LIST_LANES;
     if (i >= COUNT) { return; }
     let tag = sorted_tags[i];
     var x = sorted_trial[i].xyz;
     found = 0u;
     coincident = false;
     mixed = false;
-    if (LANES > 1u) {
-        if (tag.x != REMOVED) { search_rows_together(i, Lane(own, in_subgroup - own), x, tag.x); }
-        coincident = lane_sum(select(0.0, 1.0, coincident)) > 0.0;
+    if (LIST_LANES > 1u) {
+        let lane = Lane(own, in_subgroup - own);
+        if (tag.x != REMOVED) { search_rows_together(i, lane, x, tag.x); }
+        coincident = lanes_with(lane, coincident) != 0u;
         if (own != 0u) { return; }
     } else {
         if (tag.x != REMOVED) {

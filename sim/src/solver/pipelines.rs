@@ -330,7 +330,13 @@ fn flag(on: bool) -> f64 {
 pub(super) struct Constants(Vec<(&'static str, f64)>);
 
 impl Constants {
-    pub(super) fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid, lanes: u32) -> Self {
+    /// `lanes` of a particle, and those that search its neighbours.
+    pub(super) fn new(
+        spec: &SolverSpec<'_>,
+        count: u32,
+        grid: &Grid,
+        [lanes, list_lanes]: [u32; 2],
+    ) -> Self {
         let p = &spec.parameters;
         let margin = grid.cell - p.support_radius;
         let mut all = vec![
@@ -338,6 +344,7 @@ impl Constants {
             ("FRAME_TIME", p.frame_time),
             ("LIST_CAPACITY", f64::from(grid.list_capacity)),
             ("LANES", f64::from(lanes)),
+            ("LIST_LANES", f64::from(list_lanes)),
             ("SUPPORT", p.support_radius),
             ("VOLUME", p.particle_volume()),
             ("MASS", p.particle_mass()),
@@ -355,7 +362,7 @@ impl Constants {
             ("BLOCKS", f64::from(grid.blocks())),
             ("CELL_GROUPS", f64::from(grid.blocks())),
             ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
-            ("LIST_GROUPS", f64::from((count * lanes).div_ceil(64))),
+            ("LIST_GROUPS", f64::from((count * list_lanes).div_ceil(64))),
             ("LIST_SLACK", margin * MARGIN_FOR_PREDICTION),
             ("LIST_REACH", margin * 0.5),
             ("FLASKS", spec.flasks.len() as f64),

@@ -244,9 +244,7 @@ impl List {
         let row = |slot: usize| {
             let count = fields.list_counts[slot] as usize;
             let place = |k| (k / 4 * n + slot) * 4 + k % 4;
-            (0..count)
-                .map(|k| fields.list[place(k)] as usize)
-                .collect()
+            (0..count).map(|k| fields.list[place(k)] as usize).collect()
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         Self {
