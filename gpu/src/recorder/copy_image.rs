@@ -16,7 +16,22 @@ impl Recorder {
     /// [`GpuError::ImageUnsupported`] where the two do not fit each other.
     pub fn copy_image(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
         let layers = from.desc().layers;
-        self.copy_layers(from, [0, layers], to)
+        self.copy_layers(
+            from,
+            [0, layers],
+            to,
+            from.desc().extent == to.desc().extent,
+        )
+    }
+
+    /// Copies the upper left corner of `from`, which may be larger, to all of `to`; else as [`Recorder::copy_image`] does.
+    ///
+    /// # Errors
+    /// As for [`Recorder::copy_image`].
+    pub fn copy_corner(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
+        let (held, wanted) = (from.desc().extent, to.desc().extent);
+        let fits = wanted[0] <= held[0] && wanted[1] <= held[1];
+        self.copy_layers(from, [0, from.desc().layers], to, fits)
     }
 
     /// Copies one layer of `from` to all of `to`, which has no other, as [`Recorder::copy_image`] does.
@@ -24,18 +39,19 @@ impl Recorder {
     /// # Errors
     /// As for [`Recorder::copy_image`].
     pub fn copy_layer(&mut self, from: &Image, layer: u32, to: &Image) -> Result<(), GpuError> {
-        self.copy_layers(from, [layer, 1], to)
+        self.copy_layers(from, [layer, 1], to, from.desc().extent == to.desc().extent)
     }
 
-    /// `count` layers of `from` beginning with `first`.
+    /// `count` layers of `from` beginning with `first`, whose extents fit or do not.
     fn copy_layers(
         &mut self,
         from: &Image,
         [first, count]: [u32; 2],
         to: &Image,
+        extents_fit: bool,
     ) -> Result<(), GpuError> {
         let (source, target) = (*from.desc(), *to.desc());
-        let fits = source.extent == target.extent
+        let fits = extents_fit
             && count == target.layers
             && first.saturating_add(count) <= source.layers
             && source.aspect() == target.aspect()
@@ -48,7 +64,7 @@ impl Recorder {
                 label: to.label().to_owned(),
                 cause: format!(
                     "it takes no copy of {count} layers of \"{}\" from layer {first} on ({source:?} to \
-                     {target:?}); as many layers of the same extent and size of texel are needed",
+                     {target:?}); as many layers of a fitting extent and the same size of texel are needed",
                     from.label()
                 ),
             });
@@ -69,11 +85,11 @@ impl Recorder {
             .src_subresource(layers.base_array_layer(first))
             .dst_subresource(layers)
             .extent(vk::Extent3D {
-                width: source.extent[0],
-                height: source.extent[1],
+                width: target.extent[0],
+                height: target.extent[1],
                 depth: 1,
             });
-        // SAFETY: both are held, of the same size and of formats that may be copied, and
+        // SAFETY: both are held, `from` no smaller than `to`, and of formats that may be copied, and
         // in the named layouts.
         unsafe {
             storage.core.device.cmd_copy_image(

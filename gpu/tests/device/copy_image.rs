@@ -91,6 +91,27 @@ fn each_layer_arrives_alone() {
     assert_silent(&gpu);
 }
 
+/// The corner of a larger image goes to a smaller one, each layer's own; what is beside it does not.
+#[test]
+fn a_corner_arrives() {
+    let gpu = open();
+    let linear = vk::Format::R8G8B8A8_UNORM;
+    let picture = image(&gpu, "picture", linear, 2, 8);
+    let [smaller, larger] = [5, 9].map(|width| image(&gpu, "other", linear, 2, width));
+    let texels = Buffer::storage(&gpu, "texels", 2 * 8 * 4 * 4).unwrap();
+    let words: Vec<u32> = (0..2 * 8 * 4).collect();
+    gpu.write(&texels, &words).unwrap();
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.copy_to_image(&texels, &picture).unwrap();
+    rec.copy_corner(&picture, &smaller).unwrap();
+    let read = rec.read_back_image(&smaller).unwrap();
+    assert!(rec.copy_corner(&picture, &larger).is_err());
+    gpu.submit(rec).unwrap().wait().unwrap();
+    let wanted: Vec<u32> = words.into_iter().filter(|texel| texel % 8 < 5).collect();
+    assert_eq!(read.get::<u32>().unwrap(), wanted);
+    assert_silent(&gpu);
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let gpu = open();
