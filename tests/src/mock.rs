@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub use vitriol_mock_runtime::calls::{Call, Depth, Ended, Layer, Part, ProjectionView};
 pub use vitriol_mock_runtime::script::{
-    Change, Cue, Fov, Goal, HandState, Joint, Known, Lost, Pose, SpaceKind, TOUCH,
+    Change, Cue, Fov, Goal, HandState, Inset, Joint, Known, Lost, Pose, SpaceKind, TOUCH,
 };
 use vitriol_mock_runtime::{CALLS, FOLDER, SCRIPT};
 

@@ -49,7 +49,7 @@ pub enum Layer {
         space: Option<SpaceKind>,
         /// XrCompositionLayerFlags
         flags: u64,
-        /// Left and right.
+        /// Left and right, and the insets of both where the session has them.
         views: Vec<ProjectionView>,
     },
     /// XrCompositionLayerQuad

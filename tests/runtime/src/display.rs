@@ -5,7 +5,6 @@ use serde_json::json;
 use sys::Result as R;
 
 use crate::abi::{Buffer, fill, fill_with, given, place};
-use crate::instance::stereo;
 use crate::number::Number;
 use crate::state::{call, told};
 
@@ -61,7 +60,7 @@ pub(crate) extern "system" fn get_visibility_mask(
 ) -> R {
     call("xrGetVisibilityMaskKHR", |state| {
         state.session_has(session, "XR_KHR_visibility_mask")?;
-        stereo(views)?;
+        state.session_offers(session, views)?;
         let answer = given!(answer, sys::VisibilityMaskKHR);
         let masks = &state.world.masks;
         let mask = masks.get(eye as usize).ok_or(R::ERROR_VALIDATION_FAILURE)?;

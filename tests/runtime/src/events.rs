@@ -23,6 +23,7 @@ pub(crate) enum Event {
     },
     Mask {
         session: u64,
+        views: sys::ViewConfigurationType,
         eye: u32,
     },
     Presence {
@@ -80,13 +81,17 @@ impl Event {
                     pose_in_previous_space: pose.unwrap_or(Pose::at(1e9, 1e9, 1e9)).raw(),
                 },
             ),
-            Self::Mask { session, eye } => write(
+            Self::Mask {
+                session,
+                views,
+                eye,
+            } => write(
                 to,
                 sys::EventDataVisibilityMaskChangedKHR {
                     ty: sys::EventDataVisibilityMaskChangedKHR::TYPE,
                     next,
                     session: sys::Session::from_raw(session),
-                    view_configuration_type: sys::ViewConfigurationType::PRIMARY_STEREO,
+                    view_configuration_type: views,
                     view_index: eye,
                 },
             ),

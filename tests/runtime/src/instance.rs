@@ -33,24 +33,6 @@ impl State {
             false => Err(R::ERROR_SYSTEM_INVALID),
         }
     }
-
-    fn stereo(
-        &mut self,
-        instance: sys::Instance,
-        system: sys::SystemId,
-        views: sys::ViewConfigurationType,
-    ) -> Result<(), R> {
-        self.system(instance, system)?;
-        stereo(views)
-    }
-}
-
-/// Whether it is the one view configuration.
-pub(crate) fn stereo(views: sys::ViewConfigurationType) -> Result<(), R> {
-    match views == sys::ViewConfigurationType::PRIMARY_STEREO {
-        true => Ok(()),
-        false => Err(R::ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED),
-    }
 }
 
 pub(crate) extern "system" fn enumerate_api_layer_properties(
@@ -252,6 +234,11 @@ pub(crate) extern "system" fn get_system_properties(
                 // SAFETY: by its type it is this structure.
                 let presence = unsafe { &mut *next.cast::<sys::SystemUserPresencePropertiesEXT>() };
                 presence.supports_user_presence = sys::TRUE;
+            } else if ty == sys::SystemFoveatedRenderingPropertiesVARJO::TYPE {
+                type Foveated = sys::SystemFoveatedRenderingPropertiesVARJO;
+                // SAFETY: by its type it is this structure.
+                let foveated = unsafe { &mut *next.cast::<Foveated>() };
+                foveated.supports_foveated_rendering = state.world.inset.follows.into();
             }
             next = after;
         }
@@ -268,63 +255,13 @@ pub(crate) extern "system" fn enumerate_environment_blend_modes(
     modes: Buffer<sys::EnvironmentBlendMode>,
 ) -> R {
     call("xrEnumerateEnvironmentBlendModes", |state| {
-        state.stereo(instance, system, views)?;
+        state.system(instance, system)?;
+        state.instance_offers(instance, views)?;
         let offered = state.world.blends.iter();
         let offered: Vec<_> = offered
             .map(|&raw| sys::EnvironmentBlendMode::from_raw(raw))
             .collect();
         fill_with(capacity, count, &modes, &offered)
-    })
-}
-
-pub(crate) extern "system" fn enumerate_view_configurations(
-    instance: sys::Instance,
-    system: sys::SystemId,
-    capacity: u32,
-    count: Option<&mut u32>,
-    kinds: Buffer<sys::ViewConfigurationType>,
-) -> R {
-    call("xrEnumerateViewConfigurations", |state| {
-        state.system(instance, system)?;
-        let offered = [sys::ViewConfigurationType::PRIMARY_STEREO];
-        fill_with(capacity, count, &kinds, &offered)
-    })
-}
-
-pub(crate) extern "system" fn get_view_configuration_properties(
-    instance: sys::Instance,
-    system: sys::SystemId,
-    views: sys::ViewConfigurationType,
-    properties: Option<&mut sys::ViewConfigurationProperties>,
-) -> R {
-    call("xrGetViewConfigurationProperties", |state| {
-        state.stereo(instance, system, views)?;
-        let properties = given!(properties, sys::ViewConfigurationProperties);
-        properties.view_configuration_type = views;
-        properties.fov_mutable = sys::TRUE;
-        Ok(R::SUCCESS)
-    })
-}
-
-pub(crate) extern "system" fn enumerate_view_configuration_views(
-    instance: sys::Instance,
-    system: sys::SystemId,
-    views: sys::ViewConfigurationType,
-    capacity: u32,
-    count: Option<&mut u32>,
-    eyes: Buffer<sys::ViewConfigurationView>,
-) -> R {
-    call("xrEnumerateViewConfigurationViews", |state| {
-        state.stereo(instance, system, views)?;
-        let [width, height] = state.world.extent;
-        fill(capacity, count, &eyes, 2, |_, eye| {
-            eye.recommended_image_rect_width = width;
-            eye.max_image_rect_width = LARGEST;
-            eye.recommended_image_rect_height = height;
-            eye.max_image_rect_height = LARGEST;
-            eye.recommended_swapchain_sample_count = 1;
-            eye.max_swapchain_sample_count = 1;
-        })
     })
 }
 

@@ -99,6 +99,7 @@ pub(crate) fn facts(ended: &Ended) -> Vec<String> {
         let views = match layer {
             Layer::Projection { views, .. } => {
                 facts.push("projection".to_owned());
+                facts.push(format!("{} views", views.len()));
                 views
             }
             Layer::Quad { .. } => {
@@ -128,11 +129,12 @@ pub(crate) fn check(state: &mut State, session: sys::Session, ended: &Ended) -> 
     let depth_on = state
         .session_has(session, "XR_KHR_composition_layer_depth")
         .is_ok();
+    let wanted = state.views_of(session)?;
     for layer in &ended.layers {
         match layer {
             Layer::Projection { space, views, .. } => {
                 space.ok_or(R::ERROR_HANDLE_INVALID)?;
-                if views.len() != 2 {
+                if views.len() != wanted {
                     return Err(R::ERROR_VALIDATION_FAILURE);
                 }
                 for view in views {

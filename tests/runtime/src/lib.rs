@@ -36,6 +36,7 @@ mod swapchain;
 mod table;
 #[cfg(test)]
 mod tests;
+mod views;
 mod vulkan;
 mod world;
 

@@ -42,6 +42,8 @@ pub enum Change {
     /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction), in the runtime's own world; `None` where that is not
     /// known.
     Gaze(Option<Pose>),
+    /// The inset in each eye's picture, where XR_VARJO_quad_views is offered.
+    Inset(Inset),
     /// A reference space gets another origin.
     Move {
         /// Which: all but VIEW and actions'.
@@ -113,8 +115,9 @@ pub enum Change {
         answer: i32,
         /// How often; always for `None`.
         times: Option<u32>,
-        /// Only where this holds. xrCreateSwapchain: its format's number, or `layers>1`. xrEndFrame:
-        /// `projection`, `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
+        /// Only where this holds. xrCreateSwapchain: its format's number, its `width x height`, or `layers>1`. xrBeginSession: the
+        /// view configuration's number. xrEndFrame:
+        /// `projection`, `4 views`, `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
         when: Option<String>,
     },
     /// Nothing is refused any more.
@@ -147,8 +150,14 @@ impl Change {
     /// The runtime offers what it offers by itself, and this extension.
     #[must_use]
     pub fn offer_too(extension: &str) -> Self {
+        Self::offer_all_too(&[extension])
+    }
+
+    /// The same of several.
+    #[must_use]
+    pub fn offer_all_too(extensions: &[&str]) -> Self {
         let mut all = crate::world::World::default().extensions;
-        all.push(extension.to_owned());
+        all.extend(extensions.iter().map(|&name| name.to_owned()));
         Self::Extensions(all)
     }
 
@@ -172,6 +181,34 @@ impl Change {
             answer,
             times: Some(1),
             when: None,
+        }
+    }
+}
+
+/// A second view of each eye, which is over a part of the first.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Inset {
+    /// Recommended size of its pictures, pixels.
+    pub extent: [u32; 2],
+    /// Whether the headset lets it follow the gaze (XR_VARJO_foveated_rendering).
+    pub follows: bool,
+    /// Recommended sizes of the eyes' pictures and of its own where it does.
+    pub following: [[u32; 2]; 2],
+    /// What it sees to the left and to the right of its middle, rad; up and down it is three quarters of that.
+    #[serde(with = "one")]
+    pub half: f32,
+    /// How many views there are together: 4, where all is in order.
+    pub views: u32,
+}
+
+impl Default for Inset {
+    fn default() -> Self {
+        Self {
+            extent: [40, 36],
+            follows: true,
+            following: [[32, 28], [56, 20]],
+            half: 0.2,
+            views: 4,
         }
     }
 }

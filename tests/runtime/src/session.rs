@@ -6,8 +6,7 @@ use sys::{Handle as _, Result as R, SessionState};
 
 use crate::abi::{chained, given, place};
 use crate::events::Event;
-use crate::instance::stereo;
-use crate::state::{Session, State, told};
+use crate::state::{Session, State, locked, told};
 use crate::vulkan::Device;
 
 impl State {
@@ -36,6 +35,7 @@ impl Session {
             state: SessionState::UNKNOWN,
             running: false,
             framed: 0,
+            views: sys::ViewConfigurationType::PRIMARY_STEREO,
             leaving: false,
             waited: None,
             begun: None,
@@ -103,8 +103,13 @@ pub(crate) extern "system" fn begin_session(
     session: sys::Session,
     info: Option<&sys::SessionBeginInfo>,
 ) -> R {
-    told("xrBeginSession", json!({}), |state, _| {
+    let views = info.map(|info| info.primary_view_configuration_type.into_raw());
+    let facts: Vec<String> = views.iter().map(i32::to_string).collect();
+    let with = json!({ "views": views });
+    let begin = |state: &mut State, _: &mut serde_json::Value| {
         let info = given!(info, sys::SessionBeginInfo);
+        let views = info.primary_view_configuration_type;
+        state.session_offers(session, views)?;
         let held = state.session(session)?;
         if held.running {
             return Err(R::ERROR_SESSION_RUNNING);
@@ -112,14 +117,15 @@ pub(crate) extern "system" fn begin_session(
         if held.state != SessionState::READY {
             return Err(R::ERROR_SESSION_NOT_READY);
         }
-        stereo(info.primary_view_configuration_type)?;
+        held.views = views;
         held.running = true;
         held.framed = 0;
         (held.waited, held.begun) = (None, None);
         let present = state.world.present;
         state.raise(|session| Event::Presence { session, present });
         Ok(R::SUCCESS)
-    })
+    };
+    locked(|state| state.told("xrBeginSession", with, &facts, begin))
 }
 
 pub(crate) extern "system" fn end_session(session: sys::Session) -> R {

@@ -4,9 +4,8 @@
 use openxr::sys;
 use sys::{Handle as _, Result as R};
 
-use crate::abi::{Buffer, fill, fill_with, given, place};
+use crate::abi::{Buffer, fill_with, given, place};
 use crate::actions::hand_of;
-use crate::instance::stereo;
 use crate::script::{Known, Pose, SpaceKind};
 use crate::state::{State, call};
 use crate::world::raw_space;
@@ -195,40 +194,6 @@ pub(crate) extern "system" fn locate_space(
             next = after;
         }
         Ok(R::SUCCESS)
-    })
-}
-
-pub(crate) extern "system" fn locate_views(
-    session: sys::Session,
-    info: Option<&sys::ViewLocateInfo>,
-    flags: Option<&mut sys::ViewState>,
-    capacity: u32,
-    count: Option<&mut u32>,
-    views: Buffer<sys::View>,
-) -> R {
-    call("xrLocateViews", |state| {
-        let info = given!(info, sys::ViewLocateInfo);
-        let flags = given!(flags, sys::ViewState);
-        state.session(session)?;
-        stereo(info.view_configuration_type)?;
-        let there = state.world.head;
-        let raw = session.into_raw();
-        let (head, known) = state.seen_from(info.space, raw, info.display_time, there)?;
-        let (ipd, fov) = (state.world.ipd, state.world.fov);
-        // The bits are the same.
-        let shown = known.show(&head).0.into_raw();
-        flags.view_state_flags = sys::ViewStateFlags::from_raw(shown);
-        fill(capacity, count, &views, 2, |index, view| {
-            let side = [-0.5, 0.5][index] * ipd;
-            let eye = head.compose(&Pose::at(side, 0.0, 0.0));
-            view.pose = known.show(&eye).1;
-            view.fov = sys::Fovf {
-                angle_left: fov[index].left,
-                angle_right: fov[index].right,
-                angle_up: fov[index].up,
-                angle_down: fov[index].down,
-            };
-        })
     })
 }
 

@@ -73,6 +73,8 @@ pub(crate) struct Session {
     pub running: bool,
     /// Frames ended since xrBeginSession.
     pub framed: u64,
+    /// What xrBeginSession was called with.
+    pub views: sys::ViewConfigurationType,
     /// xrRequestExitSession was called.
     pub leaving: bool,
     /// Display time of a frame that was waited for and has not begun.
@@ -273,6 +275,7 @@ impl State {
             Change::Hand { side, state } => world.hands[side] = state,
             Change::Joints { side, joints } => world.joints[side] = joints,
             Change::Gaze(pose) => world.gaze = pose,
+            Change::Inset(inset) => world.inset = inset,
             Change::Move {
                 space,
                 origin,
@@ -317,7 +320,13 @@ impl State {
             } => {
                 world.masks[eye] = Mask { vertices, indices };
                 let eye = eye as u32;
-                self.raise(|session| Event::Mask { session, eye });
+                let views = self.sessions.iter().map(|(raw, held)| (*raw, held.views));
+                let views: BTreeMap<_, _> = views.collect();
+                self.raise(|session| Event::Mask {
+                    session,
+                    views: views[&session],
+                    eye,
+                });
             }
             Change::Formats(formats) => world.formats = formats,
             Change::ArrayLayers(most) => world.array_layers = most,

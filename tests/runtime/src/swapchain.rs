@@ -86,6 +86,7 @@ pub(crate) extern "system" fn create_swapchain(
     let mut facts = Vec::new();
     if let Some(info) = info {
         facts.push(info.format.to_string());
+        facts.push(format!("{} x {}", info.width, info.height));
         if info.array_size > 1 {
             facts.push("layers>1".to_owned());
         }

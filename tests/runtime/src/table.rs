@@ -10,7 +10,7 @@ use crate::abi::Text;
 use crate::state::locked;
 use crate::{
     actions, display, events, frame, hands, haptics, inputs, instance, session, space, swapchain,
-    vulkan,
+    views, vulkan,
 };
 
 /// The function of that name and the extension that it is of, if it is of one.
@@ -48,9 +48,9 @@ fn find(name: &str) -> Option<(&'static str, VoidFunction)> {
         "xrCreateActionSpace" "" space::create_action_space;
         "xrLocateSpace" "" space::locate_space;
         "xrDestroySpace" "" space::destroy_space;
-        "xrEnumerateViewConfigurations" "" instance::enumerate_view_configurations;
-        "xrGetViewConfigurationProperties" "" instance::get_view_configuration_properties;
-        "xrEnumerateViewConfigurationViews" "" instance::enumerate_view_configuration_views;
+        "xrEnumerateViewConfigurations" "" views::enumerate_view_configurations;
+        "xrGetViewConfigurationProperties" "" views::get_view_configuration_properties;
+        "xrEnumerateViewConfigurationViews" "" views::enumerate_view_configuration_views;
         "xrEnumerateSwapchainFormats" "" swapchain::enumerate_swapchain_formats;
         "xrCreateSwapchain" "" swapchain::create_swapchain;
         "xrDestroySwapchain" "" swapchain::destroy_swapchain;
@@ -64,7 +64,7 @@ fn find(name: &str) -> Option<(&'static str, VoidFunction)> {
         "xrWaitFrame" "" frame::wait_frame;
         "xrBeginFrame" "" frame::begin_frame;
         "xrEndFrame" "" frame::end_frame;
-        "xrLocateViews" "" space::locate_views;
+        "xrLocateViews" "" views::locate_views;
         "xrStringToPath" "" instance::string_to_path;
         "xrPathToString" "" instance::path_to_string;
         "xrCreateActionSet" "" actions::create_action_set;

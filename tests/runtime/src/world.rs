@@ -2,10 +2,10 @@
 
 use openxr::sys;
 
-use crate::script::{Fov, Goal, HandState, Joint, Known, Pose, SpaceKind};
+use crate::script::{Fov, Goal, HandState, Inset, Joint, Known, Pose, SpaceKind};
 
 /// The extensions that Vitriol's client uses.
-pub(crate) const ALL: [&str; 10] = [
+pub(crate) const ALL: [&str; 12] = [
     "XR_KHR_vulkan_enable2",
     "XR_KHR_composition_layer_depth",
     "XR_KHR_visibility_mask",
@@ -17,6 +17,8 @@ pub(crate) const ALL: [&str; 10] = [
     "XR_EXT_hand_interaction",
     "XR_BD_controller_interaction",
     "XR_EXT_eye_gaze_interaction",
+    "XR_VARJO_quad_views",
+    "XR_VARJO_foveated_rendering",
 ];
 
 /// VK_FORMAT_R8G8B8A8_SRGB and VK_FORMAT_D32_SFLOAT.
@@ -62,6 +64,7 @@ pub(crate) struct World {
     pub joints: [Option<Vec<Joint>>; 2],
     /// Where the wearer looks, along -Z; `None` where nobody tracks it.
     pub gaze: Option<Pose>,
+    pub inset: Inset,
     pub local: Origins,
     pub floor: Origins,
     pub stage: Origins,
@@ -96,6 +99,7 @@ impl Default for World {
             hands: [0, 1].map(|side| Some(HandState::touch(side))),
             joints: [None, None],
             gaze: None,
+            inset: Inset::default(),
             local: Origins::new(Pose::at(0.0, 1.6, 0.0)),
             floor: Origins::new(Pose::IDENTITY),
             stage: Origins::new(Pose::IDENTITY),
