@@ -96,6 +96,9 @@ pub struct FrameDesc<'a> {
     pub shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
     pub goggles: f32,
+    /// Whether what the lenses hide stays black ([`Renderer::set_visibility_mask`](crate::Renderer::set_visibility_mask)). Other views
+    /// of the same eyes have not that mask.
+    pub masked: bool,
     /// Where the picture is to be sharp; `None` for everywhere.
     pub foveation: Option<Foveation>,
     /// What the particles' colours stand for.

@@ -35,8 +35,9 @@ impl HalfDepth {
         })
     }
 
-    /// Records it after a picture of `extent` by a renderer whose views are these; it is in the upper left corner as the picture is, with
-    /// the nearest depth of each two by two pixels that the lenses do not hide.
+    /// Records it after a picture by a renderer whose views are these, of `drawn` pixels, for an image of a picture of `whole` pixels; it
+    /// is in the upper left corner as the picture is, with the nearest depth of each two by two pixels that the lenses do not
+    /// hide.
     ///
     /// # Errors
     /// [`GpuError`] where the device refuses.
@@ -44,12 +45,14 @@ impl HalfDepth {
         &self,
         rec: &mut Recorder,
         renderer: &Renderer,
-        extent: [u32; 2],
+        drawn: [u32; 2],
+        whole: [u32; 2],
     ) -> Result<(), GpuError> {
-        let [width, height] = half(extent);
+        let [width, height] = half(drawn);
         let sizes = layout::DepthSizes {
-            drawn: extent,
+            drawn,
             held: self.held,
+            kept: half(whole),
         };
         rec.pass(&self.pass)
             .label("half depth")
@@ -59,8 +62,8 @@ impl HalfDepth {
             .workgroups([width.div_ceil(8), height.div_ceil(8), self.views])
     }
 
-    /// Reversed depths as `array<f32>`, each view's pixels row by row, of views half as wide and high as the renderer's, rounded
-    /// up. A copy to an image of 32-bit depth is right.
+    /// Reversed depths as `array<f32>`, each view's pixels row by row, of views half as wide and high as the `whole` that was recorded
+    /// last, rounded up. A copy to an image of 32-bit depth is right.
     pub fn depth(&self) -> &Buffer {
         &self.halved
     }

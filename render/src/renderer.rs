@@ -236,7 +236,8 @@ impl Renderer {
         slot: usize,
     ) -> Result<(), RenderError> {
         frame.check(&self.scene, &self.desc)?;
-        let uniforms = frame.uniforms(&self.scene, &self.desc, self.hidden.is_some());
+        let hides = self.mask(frame).is_some();
+        let uniforms = frame.uniforms(&self.scene, &self.desc, hides);
         rec.upload(&self.frame, &[uniforms])?;
         let liquid = self.liquid(frame)?;
         let shapes = match &liquid {
@@ -261,7 +262,7 @@ impl Renderer {
         self.tiles.list(
             rec,
             &self.frame,
-            self.hidden(),
+            self.hidden(frame),
             frame.extent(self.desc.extent),
             &foveae(frame.foveation, frame.views),
         )?;
@@ -270,8 +271,13 @@ impl Renderer {
         })
     }
 
-    fn hidden(&self) -> &Buffer {
-        self.hidden.as_ref().unwrap_or(&self.nothing)
+    /// What the lenses hide of a frame; `None` where that is nothing.
+    fn mask(&self, frame: &FrameDesc<'_>) -> Option<&Buffer> {
+        self.hidden.as_ref().filter(|_| frame.masked)
+    }
+
+    fn hidden(&self, frame: &FrameDesc<'_>) -> &Buffer {
+        self.mask(frame).unwrap_or(&self.nothing)
     }
 
     /// Records the picture of one frame.
@@ -369,7 +375,7 @@ impl Renderer {
                     .read("sums", of_liquid(Fluid::sums))
                     .read("bubble_heads", of_cells(|cells| &cells.heads))
                     .read("bubble_entries", of_cells(|cells| &cells.entries))
-                    .read("hidden_area", self.hidden())
+                    .read("hidden_area", self.hidden(frame))
                     .read("outlines", &self.scene.outlines)
                     .read("dew", dew.unwrap_or(&self.nothing))
                     .read("tiles", self.tiles.marks())
@@ -411,7 +417,7 @@ impl Renderer {
                     .label("finish")
                     .uniform("frame", &self.frame)
                     .sampled("drawn", &self.drawn)
-                    .read("hidden_area", self.hidden())
+                    .read("hidden_area", self.hidden(frame))
                     .read("puffs", puffs)
                     .read("puffs_in_tiles", self.tiles.puffs())
                     .read("depths", &self.depths)

@@ -18,6 +18,9 @@ pub trait Headset {
     /// Width and height of each eye's picture, pixels.
     fn extent(&self) -> [u32; 2];
 
+    /// The second pair of pictures, where the headset has one.
+    fn inset(&self) -> Option<Inset>;
+
     /// Corners of triangles that no eye sees, three each, for the left and the right eye: 0 to 1
     /// from the picture's upper left. Empty where the runtime gives none.
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2];
@@ -38,7 +41,7 @@ pub trait Headset {
     /// As for [`Headset::next`].
     fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError>;
 
-    /// The eyes at the frame's display time, located anew.
+    /// The eyes at the frame's display time, located anew, and with them those of [`Headset::inset`].
     ///
     /// # Errors
     /// As for [`Headset::next`].
@@ -152,6 +155,16 @@ pub struct View {
     pub fov: Fov,
 }
 
+/// A second pair of pictures of the same eyes, finer and of less: the runtime shows it over the first pair where the user looks, or
+/// ahead where it does not know (quad views).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inset {
+    /// Width and height of each, pixels.
+    pub extent: [u32; 2],
+    /// The left and the right eye; their fields of view may change with each frame.
+    pub views: [View; 2],
+}
+
 /// Width and height of the depth that goes with a picture of `extent` pixels: half of each, rounded up, over the same field of view.
 /// A runtime moves pixels by it, for which that is fine enough, and its copy takes a quarter of the time.
 pub fn depth_extent(extent: [u32; 2]) -> [u32; 2] {
@@ -165,8 +178,19 @@ pub struct Targets {
     pub colour: Image,
     /// Two layers of reversed depth, where the runtime takes it, of [`depth_extent`].
     pub depth: Option<Image>,
+    /// Those of the second pair, where there is one.
+    pub inset: Option<InsetTargets>,
     /// The panel, one layer, 8 bits a channel, sRGB; `None` where it stays as it was shown last.
     pub panel: Option<Image>,
+}
+
+/// The runtime's images for [`Inset`], as [`Targets`] has them for the first pair.
+#[derive(Clone)]
+pub struct InsetTargets {
+    /// Two layers.
+    pub colour: Image,
+    /// Two layers, where the runtime takes depth.
+    pub depth: Option<Image>,
 }
 
 /// What a frame shows.
@@ -177,6 +201,8 @@ pub struct Shown {
     /// Width and height of each eye's picture, pixels: all of its image, or less, in the upper left
     /// corner. The runtime scales it to the same field of view.
     pub extent: [u32; 2],
+    /// The second pair, with views and extent as they were drawn; wanted where the headset has one.
+    pub inset: Option<Inset>,
     /// Distance of the near plane, m, where depth is 1; it is 0 at infinity.
     pub near: f32,
     /// Where the panel stands (its middle; +Z is its face's normal), and its width, m; its height follows from

@@ -21,7 +21,8 @@ pub mod track;
 
 pub use frame::{Fov, FrameInfo, Hand, PoseFrame, SessionState, Side, Switch};
 pub use headset::{
-    Headset, HeadsetError, HeadsetFrame, Joints, Pause, Shown, Targets, Turn, View, depth_extent,
+    Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Joints, Pause, Shown, Targets, Turn,
+    View, depth_extent,
 };
 pub use pose::Pose;
 pub use session::{OpenXr, OpenXrOptions};

@@ -130,6 +130,11 @@ fn wanted(offered: &ExtensionSet) -> Vec<(&'static str, bool)> {
             "XR_EXT_eye_gaze_interaction",
             offered.ext_eye_gaze_interaction,
         ),
+        ("XR_VARJO_quad_views", offered.varjo_quad_views),
+        (
+            "XR_VARJO_foveated_rendering",
+            offered.varjo_foveated_rendering,
+        ),
         ("XR_EXT_hand_interaction", offered.ext_hand_interaction),
         ("XR_EXT_hand_tracking", offered.ext_hand_tracking),
         ("XR_EXT_user_presence", offered.ext_user_presence),

@@ -118,6 +118,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
                 instance_extensions: Vec::new(),
                 device_extensions: Vec::new(),
                 gaze: args.foveation == Some(Foveating::Eye),
+                inset: args.foveation == Some(Foveating::Eye),
                 panel: PANEL,
             };
             let mut told = false;

@@ -15,7 +15,7 @@ pub enum Foveating {
     /// Every pixel within 10° of a lens's axis and of panel and signs; beyond, one of 4, and of
     /// bare room one of 16 beyond 30°
     Fixed,
-    /// The same within 15° of where you look, in a headset that tells; else as fixed
+    /// The runtime's own, where it has quad views; else as fixed, but within 15° of where you look, in a headset that tells
     Eye,
 }
 

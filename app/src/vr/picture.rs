@@ -15,7 +15,7 @@ use vitriol_sim::solver::PUFFS;
 use vitriol_sim::world::World;
 use vitriol_xr::{Headset, Pose, PoseFrame, Targets};
 
-use super::foveating::{Foveating, may_foveate};
+use super::foveating::{self, Foveating, may_foveate};
 use super::panel::{SIZE, scene_from_panel};
 
 /// Most pictures under way: one is shown and one is drawn. With more the processor would be farther ahead, and the
@@ -27,6 +27,8 @@ const UNDER_WAY: usize = 2;
 pub struct Eyes {
     /// Width and height of each, pixels.
     pub extent: [u32; 2],
+    /// The same of a second pair, where there is one.
+    pub inset: Option<[u32; 2]>,
     /// By eye, corners of the triangles that the lens hides.
     pub hidden: [Vec<[f32; 2]>; 2],
     /// Where they are sharp; without it everywhere, for as long as frames fit.
@@ -38,8 +40,24 @@ impl Eyes {
     pub fn of(headset: &dyn Headset, foveating: Option<Foveating>) -> Self {
         Self {
             extent: headset.extent(),
+            inset: headset.inset().map(|inset| inset.extent),
             hidden: headset.hidden_area(),
             foveating,
+        }
+    }
+
+    /// Width and height of images that take any of the pictures, pixels: one pair after the other is drawn in them.
+    fn largest(&self) -> [u32; 2] {
+        let inset = self.inset.unwrap_or(self.extent);
+        [0, 1].map(|side| self.extent[side].max(inset[side]))
+    }
+
+    /// What is done in a frame of them, of what the governor `gave_way`. The runtime's foveation leaves nothing to ours: the
+    /// eyes' own pictures are coarse, and the inset is what is looked at.
+    pub fn foveating(&self, gave_way: bool) -> Foveating {
+        match self.inset {
+            Some(_) => Foveating::Off,
+            None => foveating::now(self.foveating, gave_way),
         }
     }
 }
@@ -80,12 +98,21 @@ impl Subject {
     }
 }
 
-/// What one picture shows.
-pub struct Sight<'a> {
+/// From where a pair of pictures is seen.
+#[derive(Clone, Copy)]
+pub struct Outlook {
     /// Width and height as drawn, pixels: at most those that pictures are made for.
     pub extent: [u32; 2],
     /// Both eyes in the scene's stage, real metres.
     pub views: [View; 2],
+}
+
+/// What one picture shows.
+pub struct Sight<'a> {
+    /// From the eyes.
+    pub eyes: Outlook,
+    /// The same for the inset.
+    pub inset: Option<Outlook>,
     /// The bones of the hands.
     pub hands: [&'a [Bone]; 2],
     /// Those of the tools.
@@ -126,8 +153,8 @@ impl Picture {
         let desc = RenderDesc {
             views: 2,
             liquid: Some(subject.liquid),
-            foveated: may_foveate(eyes.foveating, scene),
-            ..RenderDesc::film(eyes.extent)
+            foveated: eyes.inset.is_none() && may_foveate(eyes.foveating, scene),
+            ..RenderDesc::film(eyes.largest())
         };
         let mut renderer = Renderer::new(gpu, library, &desc).other()?;
         renderer.set_scene(&laboratory(scene)).other()?;
@@ -137,7 +164,7 @@ impl Picture {
             bytes.map(both).transpose()
         };
         let mut picture = Self {
-            half_depth: HalfDepth::new(gpu, library, eyes.extent, desc.views).other()?,
+            half_depth: HalfDepth::new(gpu, library, desc.extent, desc.views).other()?,
             renderer,
             puffs: copies("puffs, drawn", subject.puffs)?,
             dew: copies("dew, drawn", subject.dew)?,
@@ -199,23 +226,51 @@ impl Picture {
         targets: &Targets,
         before: impl FnOnce(&mut Recorder) -> Result<(), Failure>,
     ) -> Result<Ticket, Failure> {
-        let (gpu, slot) = (world.gpu(), self.drawn % 2);
+        let gpu = world.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
         before(&mut rec)?;
-        let record = |frame: &FrameDesc<'_>| self.renderer.record_picture(&mut rec, frame, slot);
-        self.with_frame(world, Some(sight), record)?;
-        rec.copy_image(self.renderer.image(), &targets.colour)
-            .other()?;
-        if let Some(depth) = &targets.depth {
-            let half = &self.half_depth;
-            half.record(&mut rec, &self.renderer, sight.extent)
-                .other()?;
-            rec.copy_to_image(half.depth(), depth).other()?;
+        // The inset first: what stays in the renderer's image is the eyes' picture, which others look at.
+        if let (Some(outlook), Some(inset)) = (&sight.inset, &targets.inset) {
+            let images = (&inset.colour, inset.depth.as_ref());
+            self.pair(&mut rec, world, sight, (outlook, false), images)?;
         }
+        let images = (&targets.colour, targets.depth.as_ref());
+        self.pair(&mut rec, world, sight, (&sight.eyes, true), images)?;
         let picture = gpu.submit_after(rec, &[shapes]).other()?;
         self.drawn += 1;
         self.under_way.push(picture.clone());
         Ok(picture)
+    }
+
+    /// Records one pair of pictures, in which what the lenses hide stays black where `masked`, and its copy to a headset's images of
+    /// colour and depth.
+    fn pair(
+        &self,
+        rec: &mut Recorder,
+        world: &World,
+        sight: &Sight<'_>,
+        (outlook, masked): (&Outlook, bool),
+        (colour, depth): (&Image, Option<&Image>),
+    ) -> Result<(), Failure> {
+        let (renderer, half) = (&self.renderer, &self.half_depth);
+        let slot = self.drawn % 2;
+        let record = |frame: &FrameDesc<'_>| {
+            let frame = FrameDesc {
+                extent: Some(outlook.extent),
+                views: &outlook.views,
+                masked,
+                ..*frame
+            };
+            renderer.record_picture(rec, &frame, slot)
+        };
+        self.with_frame(world, Some(sight), record)?;
+        rec.copy_corner(renderer.image(), colour).other()?;
+        if let Some(depth) = depth {
+            let whole = colour.desc().extent;
+            half.record(rec, renderer, outlook.extent, whole).other()?;
+            rec.copy_to_image(half.depth(), depth).other()?;
+        }
+        Ok(())
     }
 
     /// Waits until at most two pictures are under way. Only while no frame is open.
@@ -259,8 +314,8 @@ impl Picture {
             fov: Fov::symmetric(1.0, 1.0),
         };
         let frame = FrameDesc {
-            extent: sight.map(|sight| sight.extent),
-            views: &sight.map_or([nowhere; 2], |sight| sight.views),
+            extent: None,
+            views: &[nowhere; 2],
             vessels: &vessels,
             shards: &shards(world),
             particles: None,
@@ -277,6 +332,7 @@ impl Picture {
             pane: vitriol_experiment::pane(world),
             shown: sight.map_or(1.0, |sight| sight.shown),
             goggles: sight.map_or(0.0, |sight| sight.goggles),
+            masked: true,
             foveation: sight.and_then(|sight| sight.foveation),
             colour_by: ColourBy::Acid,
             length_scale: scale,

@@ -121,6 +121,8 @@ pub struct SessionOutcome {
     pub skipped: u64,
     /// Where the pictures were to be sharp; `None` where that was the governor's to say.
     pub foveating: Option<Foveating>,
+    /// Width and height of the pictures of the runtime's own inset, pixels, where there was one.
+    pub inset: Option<[u32; 2]>,
     /// Times that a session was found again.
     pub renewals: u64,
     /// Times that a device was lost, and the bench was brought back on another.
@@ -430,6 +432,7 @@ impl Session {
             frames: self.counts.frames,
             skipped: self.counts.skipped,
             foveating: self.benches.eyes.foveating,
+            inset: self.benches.eyes.inset,
             renewals: self.renewals,
             devices_lost: self.losses.count,
             tally: self.counts.tally,

@@ -12,8 +12,8 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, QueueKind, Ticket, vk};
 use vitriol_xr::track::{Track, TrackSource};
 use vitriol_xr::{
-    Fov, Headset, HeadsetError, HeadsetFrame, Pose, PoseFrame, PoseSource, SessionState, Shown,
-    Side, Targets, Turn, View, depth_extent,
+    Fov, Headset, HeadsetError, HeadsetFrame, Inset, Pose, PoseFrame, PoseSource, SessionState,
+    Shown, Side, Targets, Turn, View, depth_extent,
 };
 
 /// Distance between a grown person's eyes, metres: the mean of some thousand adults
@@ -226,6 +226,7 @@ fn targets(gpu: &Gpu, eyes: [u32; 2]) -> Result<Targets, GpuError> {
             2,
             vk::Format::D32_SFLOAT,
         )?),
+        inset: None,
         panel: Some(image("stand-in's panel", PANEL, 1, rgba)?),
     })
 }
@@ -246,6 +247,10 @@ impl Headset for StandIn {
 
     fn extent(&self) -> [u32; 2] {
         self.spec.extent
+    }
+
+    fn inset(&self) -> Option<Inset> {
+        None
     }
 
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {

@@ -5,6 +5,7 @@
 
 mod drive;
 mod hold;
+mod inset;
 mod loss;
 mod moved;
 mod pour;

@@ -43,6 +43,16 @@ fn vr(scene: &Path, recording: &Path) -> Command {
     command
 }
 
+/// With Vulkan's validation layer by the loader's own means: the program has no flag for it. The layer would open a file
+/// anew, and empty, with each instance; what goes to the log stays.
+fn watch(command: &mut Command) -> &mut Command {
+    command
+        .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
+        .env("VK_LAYER_DEBUG_ACTION", "VK_DBG_LAYER_ACTION_LOG_MSG")
+        .env("VK_LAYER_REPORT_FLAGS", "error,warn,info")
+        .env("VK_LAYER_LOG_FILENAME", "/dev/stderr")
+}
+
 /// What the runtime gave the program with a frame, by the program's log.
 #[derive(Debug)]
 pub struct Seen {
@@ -97,18 +107,16 @@ pub struct Program {
 impl Program {
     /// In that scene, keeping a recording, with Vulkan's validation layer.
     pub fn start(scene: &Path, recording: &Path) -> Self {
-        let mut command = vr(scene, recording);
-        // By the loader's own means: the program has no flag for it. The layer would open a file
-        // anew, and empty, with each instance; what goes to the log stays.
-        command
-            .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
-            .env("VK_LAYER_DEBUG_ACTION", "VK_DBG_LAYER_ACTION_LOG_MSG")
-            .env("VK_LAYER_REPORT_FLAGS", "error,warn,info")
-            .env("VK_LAYER_LOG_FILENAME", "/dev/stderr");
-        Self::spawn(&mut command, true)
+        Self::start_with(scene, recording, &[])
     }
 
-    /// The same without the layer, whose own memory grows by some 7 kB a second.
+    /// The same with further arguments.
+    pub fn start_with(scene: &Path, recording: &Path, arguments: &[&str]) -> Self {
+        let mut command = vr(scene, recording);
+        Self::spawn(watch(command.args(arguments)), true)
+    }
+
+    /// [`Program::start`] without the layer, whose own memory grows by some 7 kB a second.
     pub fn start_unwatched(scene: &Path, recording: &Path) -> Self {
         Self::spawn(&mut vr(scene, recording), false)
     }

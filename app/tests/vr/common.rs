@@ -22,7 +22,10 @@ use vitriol_sim::scene::Preset;
 use vitriol_sound::Device;
 use vitriol_tests::wait::PATIENCE;
 use vitriol_xr::track::{Keyframes, Track};
-use vitriol_xr::{Headset, HeadsetError, HeadsetFrame, Pose, Shown, Side, Targets, Turn, View};
+use vitriol_xr::{
+    Fov, Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Pose, Shown, Side, Targets,
+    Turn, View,
+};
 
 /// Keyframes that pour from one flask into the other, see the track's own text.
 pub fn pour() -> Keyframes {
@@ -105,6 +108,12 @@ pub struct Worn<T> {
     /// Frames so far, without those in which something was awaited.
     after: u64,
     awaiting: Option<Instant>,
+    /// What the eyes see, in place of the stand-in's.
+    pub sees: Option<[Fov; 2]>,
+    /// What no eye sees, in its picture.
+    pub hidden: Vec<[f32; 2]>,
+    /// A second pair of pictures, which see that of what the eyes do, and its images.
+    pub inset: Option<(Inset, InsetTargets)>,
     /// What was shown with each frame.
     pub shown: Vec<Shown>,
     /// What the left and the right hand felt in each.
@@ -134,6 +143,10 @@ impl<T: Trouble> Worn<T> {
             frames,
             after: 0,
             awaiting: None,
+            sees: None,
+            // A corner of each eye's.
+            hidden: vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]],
+            inset: None,
             shown: Vec::new(),
             felt: Vec::new(),
         }
@@ -147,10 +160,11 @@ impl<T: Trouble> Headset for Worn<T> {
     fn extent(&self) -> [u32; 2] {
         self.inner.extent()
     }
+    fn inset(&self) -> Option<Inset> {
+        self.inset.as_ref().map(|(inset, _)| *inset)
+    }
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
-        // A corner of each eye's.
-        let corner = vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]];
-        [corner.clone(), corner]
+        [self.hidden.clone(), self.hidden.clone()]
     }
     fn name(&self) -> &str {
         self.inner.name()
@@ -180,10 +194,24 @@ impl<T: Trouble> Headset for Worn<T> {
     }
     fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
         self.trouble.acquires(self.after - 1);
-        self.inner.acquire(panel)
+        let mut targets = self.inner.acquire(panel)?;
+        if let (Some(targets), Some((_, inset))) = (&mut targets, &self.inset) {
+            targets.inset = Some(inset.clone());
+        }
+        Ok(targets)
     }
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
-        self.inner.locate_views()
+        let mut views = self.inner.locate_views()?;
+        for (view, fov) in views.iter_mut().zip(self.sees.iter().flatten()) {
+            view.fov = *fov;
+        }
+        for (view, inset) in views
+            .iter()
+            .zip(self.inset.iter_mut().flat_map(|it| &mut it.0.views))
+        {
+            inset.stage_from_eye = view.stage_from_eye;
+        }
+        Ok(views)
     }
     fn gaze(&self) -> Option<Pose> {
         self.inner.gaze()

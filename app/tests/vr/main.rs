@@ -11,6 +11,7 @@ mod first_minute;
 mod foveation;
 mod handle;
 mod hands;
+mod inset;
 mod leap;
 mod lesson;
 mod loss;

@@ -3,6 +3,7 @@
 use std::sync::mpsc::channel;
 
 use crate::common::{Trouble, Worn, hash, heard, nobody, options, pour, scene, session_with};
+use crate::inset::inset_of;
 use crate::loss::replayed;
 use crate::seen::Seen;
 use vitriol::vr::decision::Decision;
@@ -74,6 +75,7 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
         awaits: None,
     };
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 180, trouble);
+    headset.inset = Some(inset_of(&gpu, [70, 50]));
     let mut options = options(folder.path());
     options.governed = true;
     options.plan.solver = Some([7, 6]);
@@ -96,6 +98,12 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     let sides: Vec<u32> = headset.shown.iter().map(|shown| shown.extent[0]).collect();
     assert_eq!((sides[0], sides.iter().min()), (96, Some(&58)));
     assert_eq!(sides.last(), Some(&96));
+    // And so is a second pair of pictures.
+    for shown in &headset.shown {
+        let wide = f64::from(shown.inset.unwrap().extent[0]) / 70.0;
+        let eyes = f64::from(shown.extent[0]) / 96.0;
+        assert!((wide - eyes).abs() <= 0.5 / 70.0 + 0.5 / 96.0, "{shown:?}");
+    }
     let counted: u64 = outcome
         .governor
         .settings

@@ -15,7 +15,7 @@ use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::SceneDesc;
 use vitriol_sim::scene::Scene;
 use vitriol_tests::gpu;
-use vitriol_xr::{Headset, HeadsetError, Pose, Shown, Side, Targets, Turn, View};
+use vitriol_xr::{Headset, HeadsetError, Inset, Pose, Shown, Side, Targets, Turn, View};
 
 /// Waits for the device so far.
 fn waits() -> u64 {
@@ -78,6 +78,9 @@ impl<T: Trouble> Headset for Strict<T> {
     }
     fn extent(&self) -> [u32; 2] {
         self.inner.extent()
+    }
+    fn inset(&self) -> Option<Inset> {
+        self.inner.inset()
     }
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         [Vec::new(), Vec::new()]

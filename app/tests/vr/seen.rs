@@ -45,7 +45,8 @@ pub struct Seen {
     view: View,
 }
 
-fn read(gpu: &Gpu, image: &Image) -> Vec<[u8; 4]> {
+/// All layers of an image of colour.
+pub fn read(gpu: &Gpu, image: &Image) -> Vec<[u8; 4]> {
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     let bytes = rec.read_back_image(image).unwrap();
     gpu.submit(rec).unwrap().wait().unwrap();

@@ -344,6 +344,12 @@ fn hidden_pixels_are_black_and_darken_no_other() {
     bench.rig.renderer.set_visibility_mask(&masks).unwrap();
     let full = bench.rig.draw(&bench.frame(&views, None));
     let masked = bench.rig.draw(&bench.frame(&views, foveation));
+    // A frame that the mask is not of knows nothing of it.
+    let other = bench.rig.draw(&FrameDesc {
+        masked: false,
+        ..bench.frame(&views, foveation)
+    });
+    assert!(other.colour == open.colour && other.depth == open.depth);
     for eye in 0..2 {
         let mut hidden = 0;
         for (x, y) in pixels() {

@@ -8,6 +8,8 @@ struct DepthSizes {
     drawn: vec2<u32>,
     /// The same of the array that holds it.
     held: vec2<u32>,
+    /// The same of what is written.
+    kept: vec2<u32>,
 }
 
 var<immediate> sizes: DepthSizes;
@@ -35,6 +37,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
     }
-    let half = (sizes.held + 1u) / 2u;
-    halved[(id.z * half.y + id.y) * half.x + id.x] = select(nearest, 1.0, hidden);
+    halved[(id.z * sizes.kept.y + id.y) * sizes.kept.x + id.x] = select(nearest, 1.0, hidden);
 }

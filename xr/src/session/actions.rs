@@ -344,7 +344,7 @@ mod tests {
             return;
         };
         let entry = system::entry().unwrap();
-        let instance = system::instance(&entry, false).unwrap();
+        let instance = system::instance(&entry, false, false).unwrap();
         let set = Set::new(&instance).unwrap();
         for profile in &PROFILES {
             let path = profile.path;

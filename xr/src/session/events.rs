@@ -6,7 +6,7 @@ use super::convert::{CallFailure, failed, state};
 use super::live::Live;
 use super::mask::Mask;
 use super::stage::tells_of_recentring;
-use super::system::STEREO;
+use crate::HeadsetError;
 
 impl Live {
     /// Takes all events that wait.
@@ -47,7 +47,7 @@ impl Live {
                 self.moves_at = known.or(Some(change.change_time()));
             }
             xr::Event::VisibilityMaskChangedKHR(change)
-                if change.view_configuration_type() == STEREO =>
+                if change.view_configuration_type() == self.views.kind() =>
             {
                 self.refresh_masks();
             }
@@ -62,9 +62,16 @@ impl Live {
         tracing::info!(state = ?self.state, "OpenXR session");
         match to {
             xr::SessionState::READY => {
-                self.session
-                    .begin(STEREO)
-                    .map_err(failed("xrBeginSession"))?;
+                let begun = self.session.begin(self.views.kind());
+                match begun.map_err(failed("xrBeginSession")) {
+                    // READY is told once: another session is tried with the eyes' own views.
+                    Err(CallFailure::Fatal(HeadsetError::Refused { call, cause }))
+                        if self.inset.is_some() =>
+                    {
+                        return Err(self.refusals.give_up(call, &cause));
+                    }
+                    begun => begun?,
+                };
                 self.running = true;
             }
             xr::SessionState::STOPPING => {
@@ -86,6 +93,6 @@ impl Live {
     }
 
     fn refresh_masks(&mut self) {
-        self.masks = [Mask::of(&self.session, 0), Mask::of(&self.session, 1)];
+        self.masks = Mask::of_eyes(&self.session, self.views);
     }
 }

@@ -3,17 +3,17 @@
 use glam::{Quat, Vec3};
 use openxr as xr;
 
-use super::convert::{CallFailure, failed, fov, sound};
+use super::convert::{CallFailure, fov, sound};
 use super::live::{Begun, Live};
-use super::system::STEREO;
 use crate::{Fov, Pose, View};
 
 /// The eyes as they were located last.
 pub(super) struct Eyes {
-    pub views: [View; 2],
+    /// The left and the right eye's, and those of the inset in each where the session has one.
+    all: [View; 4],
     /// Where each is in the head, seen from the eye itself, m: by it an eye follows a head of which only the orientation is
     /// known.
-    offsets: [Vec3; 2],
+    offsets: [Vec3; 4],
 }
 
 impl Default for Eyes {
@@ -23,13 +23,29 @@ impl Default for Eyes {
             fov: Fov::default(),
         };
         Self {
-            views: [eye; 2],
-            offsets: [Vec3::ZERO; 2],
+            all: [eye; 4],
+            offsets: [Vec3::ZERO; 4],
         }
     }
 }
 
 impl Eyes {
+    /// The left and the right one.
+    pub(super) fn views(&self) -> [View; 2] {
+        [self.all[0], self.all[1]]
+    }
+
+    /// The inset's. One of which nothing is known yet is all of its eye's picture: that is right, if coarse.
+    pub(super) fn inset(&self) -> [View; 2] {
+        [0, 1].map(|eye| {
+            let inset = self.all[2 + eye];
+            match inset.fov == Fov::default() {
+                true => self.all[eye],
+                false => inset,
+            }
+        })
+    }
+
     /// Locates them. Fields of view are known at all times; of a pose each part stays that is not.
     pub(super) fn locate(
         &mut self,
@@ -37,11 +53,9 @@ impl Eyes {
         begun: Begun,
         head: &Pose,
     ) -> Result<(), CallFailure> {
-        let (flags, found) = live
-            .session
-            .locate_views(STEREO, begun.time, &live.stage.space)
-            .map_err(failed("xrLocateViews"))?;
-        for (eye, found) in found.into_iter().take(2).enumerate() {
+        let space = &live.stage.space;
+        let (flags, found) = live.views.locate(&live.session, begun.time, space)?;
+        for (eye, found) in found.into_iter().take(self.all.len()).enumerate() {
             let (position, orientation) = sound(found.pose);
             let position = position.filter(|_| flags.contains(xr::ViewStateFlags::POSITION_VALID));
             let orientation =
@@ -49,14 +63,14 @@ impl Eyes {
             self.take(eye, position, orientation, head);
             let fov = fov(found.fov);
             if fov.left < fov.right && fov.down < fov.up {
-                self.views[eye].fov = fov;
+                self.all[eye].fov = fov;
             }
         }
         Ok(())
     }
 
     fn take(&mut self, eye: usize, position: Option<Vec3>, orientation: Option<Quat>, head: &Pose) {
-        let at = &mut self.views[eye].stage_from_eye;
+        let at = &mut self.all[eye].stage_from_eye;
         at.orientation = orientation.unwrap_or(at.orientation);
         match (position, orientation) {
             (Some(position), Some(orientation)) => {

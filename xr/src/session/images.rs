@@ -1,4 +1,4 @@
-//! A session's swapchains: both eyes' colour and depth, and the panel.
+//! A session's swapchains: both eyes' colour and depth, the same of an inset, and the panel.
 
 use openxr as xr;
 use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
@@ -6,14 +6,21 @@ use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
 use super::chain::Chain;
 use super::convert::{CallFailure, failed};
 use super::options::OpenXrOptions;
-use crate::{HeadsetError, Targets, depth_extent};
+use super::system::ConnectedHeadset;
+use crate::{HeadsetError, InsetTargets, Targets, depth_extent};
 
 /// See the module.
 pub(super) struct Images {
+    pub eyes: Pair,
+    pub inset: Option<Pair>,
+    pub panel: Chain,
+}
+
+/// A picture for each eye.
+pub(super) struct Pair {
     pub colour: Eyes,
     /// `None` where the runtime takes no depth.
     pub depth: Option<Eyes>,
-    pub panel: Chain,
 }
 
 /// Images of both eyes.
@@ -30,7 +37,7 @@ impl Images {
     pub(super) fn new(
         gpu: &Gpu,
         session: &xr::Session<xr::Vulkan>,
-        extent: [u32; 2],
+        headset: &ConnectedHeadset,
         options: &OpenXrOptions,
     ) -> Result<Self, CallFailure> {
         let formats = session
@@ -44,29 +51,36 @@ impl Images {
                 cause: "it has no images in 8-bit RGBA, sRGB".to_owned(),
             }));
         }
-        let colour = Eyes::new(gpu, session, "headset", extent, srgb)?;
         let exts = session.instance().exts();
-        let depth = match exts.khr_composition_layer_depth.is_some() && offered(d32) {
-            true => Eyes::new(gpu, session, "headset's depth", depth_extent(extent), d32)
-                .map(Some)
-                .or_else(|failure| failure.do_without("depth in the headset's images", None))?,
-            false => None,
+        let takes_depth = exts.khr_composition_layer_depth.is_some() && offered(d32);
+        let pair = |[label, of_depth]: [&'static str; 2], extent| {
+            let colour = Eyes::new(gpu, session, label, extent, srgb)?;
+            let depth = match takes_depth {
+                true => Eyes::new(gpu, session, of_depth, depth_extent(extent), d32)
+                    .map(Some)
+                    .or_else(|failure| failure.do_without("depth in the headset's images", None))?,
+                false => None,
+            };
+            Ok::<_, CallFailure>(Pair { colour, depth })
         };
+        let inset = |extent| pair(["inset", "inset's depth"], extent);
         Ok(Self {
-            colour,
-            depth,
+            eyes: pair(["headset", "headset's depth"], headset.extent)?,
+            inset: headset.inset.map(inset).transpose()?,
             panel: Chain::new(gpu, session, "panel", options.panel, 1, srgb)?,
         })
     }
 
     /// The frame's images, when the compositor has let go of them; the panel's only if it is to change.
     pub(super) fn acquire(&mut self, gpu: &Gpu, panel: bool) -> Result<Targets, CallFailure> {
+        let (colour, depth) = self.eyes.acquire(gpu)?;
+        let inset = self.inset.as_mut().map(|inset| inset.acquire(gpu));
         Ok(Targets {
-            colour: self.colour.acquire(gpu)?,
-            depth: match &mut self.depth {
-                Some(depth) => Some(depth.acquire(gpu)?),
-                None => None,
-            },
+            colour,
+            depth,
+            inset: inset
+                .transpose()?
+                .map(|(colour, depth)| InsetTargets { colour, depth }),
             panel: match panel {
                 true => Some(self.panel.acquire(gpu)?),
                 false => None,
@@ -76,11 +90,27 @@ impl Images {
 
     /// Gives all images back, with what was `drawn` if anything was.
     pub(super) fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
-        self.colour.release(gpu, drawn)?;
-        if let Some(depth) = &mut self.depth {
-            depth.release(gpu, drawn)?;
+        self.eyes.release(gpu, drawn)?;
+        if let Some(inset) = &mut self.inset {
+            inset.release(gpu, drawn)?;
         }
         self.panel.release(gpu)
+    }
+}
+
+impl Pair {
+    fn acquire(&mut self, gpu: &Gpu) -> Result<(Image, Option<Image>), CallFailure> {
+        let colour = self.colour.acquire(gpu)?;
+        let depth = self.depth.as_mut().map(|depth| depth.acquire(gpu));
+        Ok((colour, depth.transpose()?))
+    }
+
+    fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
+        self.colour.release(gpu, drawn)?;
+        match &mut self.depth {
+            Some(depth) => depth.release(gpu, drawn),
+            None => Ok(()),
+        }
     }
 }
 

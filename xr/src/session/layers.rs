@@ -10,7 +10,7 @@ use vitriol_gpu::QueueKind;
 
 use super::chain::Chain;
 use super::convert::{CallFailure, failed, fovf, posef};
-use super::images::Eyes;
+use super::images::{Eyes, Pair};
 use super::live::{Begun, Live};
 use super::stage::Stage;
 use crate::{HeadsetError, Pose, Shown, View, depth_extent};
@@ -78,24 +78,48 @@ impl Live {
 
     fn end_with(&mut self, begun: Begun, shown: &Shown, extras: Extras) -> Result<(), CallFailure> {
         let images = &self.images;
+        let eyes = (&images.eyes, shown.views, shown.extent);
+        let inset = match (&images.inset, shown.inset) {
+            (Some(pair), Some(inset)) => Some((pair, inset.views, inset.extent)),
+            (None, _) => None,
+            // The runtime takes no frame without.
+            (Some(_), None) => {
+                return Err(CallFailure::Fatal(HeadsetError::Refused {
+                    call: "xrEndFrame",
+                    cause: "the frame has no picture for the inset".to_owned(),
+                }));
+            }
+        };
         let ends = match extras.depth {
             DepthRange::Infinite => Some(f32::INFINITY),
             DepthRange::Finite => Some(FAR),
             DepthRange::None => None,
         };
-        let depths =
-            (images.depth.as_ref().zip(ends)).map(|(depth, far)| depths(depth, shown, far));
-        let views = [0, 1].map(|eye| {
-            let view = view(&images.colour, eye, shown);
-            let Some(depths) = &depths else {
-                return view;
-            };
-            let mut raw = view.into_raw();
-            raw.next = std::ptr::from_ref(&depths[eye as usize]).cast();
-            // SAFETY: what the builder had set stays as it is, and `depths` lives until the frame
-            // has ended.
-            unsafe { xr::CompositionLayerProjectionView::from_raw(raw) }
-        });
+        // The inset's after the eyes', as they were located.
+        let all: Vec<Part<'_>> = [Some(eyes), inset].into_iter().flatten().collect();
+        let depths: Vec<_> = all
+            .iter()
+            .map(|(pair, _, extent)| {
+                let depth = pair.depth.as_ref().zip(ends);
+                depth.map(|(depth, far)| depths(depth, *extent, shown.near, far))
+            })
+            .collect();
+        let views: Vec<_> = all
+            .iter()
+            .zip(&depths)
+            .flat_map(|(part, depths)| [0, 1].map(|eye| (eye, part, depths)))
+            .map(|(eye, part, depths)| {
+                let view = view(part, eye);
+                let Some(depths) = depths else {
+                    return view;
+                };
+                let mut raw = view.into_raw();
+                raw.next = std::ptr::from_ref(&depths[eye]).cast();
+                // SAFETY: what the builder had set stays as it is, and `depths` lives, and stays where it is, until the
+                // frame has ended.
+                unsafe { xr::CompositionLayerProjectionView::from_raw(raw) }
+            })
+            .collect();
         // A swapchain whose image was never released has nothing to show.
         let panel = shown
             .panel
@@ -141,31 +165,38 @@ fn quad<'a>(
         })
 }
 
+/// Pictures of both eyes, with what they were drawn: views, and width and height.
+type Part<'a> = (&'a Pair, [View; 2], [u32; 2]);
+
 fn view<'a>(
-    colour: &'a Eyes,
-    eye: u32,
-    shown: &Shown,
+    (pair, views, extent): &Part<'a>,
+    eye: usize,
 ) -> xr::CompositionLayerProjectionView<'a, xr::Vulkan> {
     let View {
         stage_from_eye,
         fov,
-    } = &shown.views[eye as usize];
+    } = &views[eye];
     xr::CompositionLayerProjectionView::new()
         .pose(posef(stage_from_eye))
         .fov(fovf(fov))
-        .sub_image(colour.corner(eye, shown.extent))
+        .sub_image(pair.colour.corner(eye as u32, *extent))
 }
 
 /// Depth 1 at the near plane and 0 at `far`: the extension has the plane of the smaller depth
 /// in `near_z` and lets it be the far one, and infinite (XR_KHR_composition_layer_depth).
-fn depths(depth: &Eyes, shown: &Shown, far: f32) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
+fn depths(
+    depth: &Eyes,
+    extent: [u32; 2],
+    near: f32,
+    far: f32,
+) -> [xr::sys::CompositionLayerDepthInfoKHR; 2] {
     [0, 1].map(|eye| xr::sys::CompositionLayerDepthInfoKHR {
         ty: xr::sys::CompositionLayerDepthInfoKHR::TYPE,
         next: std::ptr::null(),
-        sub_image: *depth.corner(eye, depth_extent(shown.extent)).as_raw(),
+        sub_image: *depth.corner(eye, depth_extent(extent)).as_raw(),
         min_depth: 0.0,
         max_depth: 1.0,
         near_z: far,
-        far_z: shown.near,
+        far_z: near,
     })
 }

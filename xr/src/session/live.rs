@@ -13,6 +13,7 @@ use super::provider::Runtime;
 use super::refusals::Refusals;
 use super::stage::Stage;
 use super::system::{self, ConnectedHeadset};
+use super::views::Views;
 use crate::SessionState;
 
 /// The display rate that is asked for at least where the runtime offers a choice, Hz: the time of a step
@@ -39,7 +40,9 @@ pub(super) struct Live {
     pub session: xr::Session<xr::Vulkan>,
     pub instance: xr::Instance,
     pub gpu: Gpu,
+    pub views: Views,
     pub extent: [u32; 2],
+    pub inset: Option<[u32; 2]>,
     pub name: String,
     pub blend: xr::EnvironmentBlendMode,
     pub masks: [Mask; 2],
@@ -74,12 +77,9 @@ pub(super) struct Live {
 impl Live {
     /// Everything from the instance on, or nothing.
     pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, CallFailure> {
-        let instance = system::instance(entry, options.gaze)?;
-        let ConnectedHeadset {
-            system,
-            extent,
-            blend,
-        } = system::headset(&instance)?;
+        let instance = system::instance(entry, options.gaze, options.inset)?;
+        let mut headset = system::headset(&instance, options.inset)?;
+        let system = headset.system;
         let gpu = Gpu::open(&mut Runtime::new(&instance, system, options), &options.gpu)?;
         let handles = gpu.handles();
         let binding = xr::vulkan::SessionCreateInfo {
@@ -104,7 +104,21 @@ impl Live {
             .create_reference_space(xr::ReferenceSpaceType::VIEW, xr::Posef::IDENTITY)
             .map_err(failed("xrCreateReferenceSpace"))?;
         let actions = Actions::new(&instance, &session)?;
-        let images = Images::new(&gpu, &session, extent, options)?;
+        let images = match Images::new(&gpu, &session, &headset, options) {
+            Err(refusal) if headset.inset.is_some() => {
+                refusal.do_without(system::INSET, ())?;
+                headset = system::headset(&instance, false)?;
+                Images::new(&gpu, &session, &headset, options)?
+            }
+            images => images?,
+        };
+        let ConnectedHeadset {
+            views,
+            extent,
+            inset,
+            blend,
+            ..
+        } = headset;
         let rates = choose_rate(&session);
         let runtime = instance
             .properties()
@@ -115,9 +129,9 @@ impl Live {
             runtime.runtime_version,
             gpu.info().name
         );
-        tracing::info!(name, ?extent, stage = ?stage.kind, "headset");
+        tracing::info!(name, ?extent, ?inset, ?views, stage = ?stage.kind, "headset");
         Ok(Self {
-            masks: [Mask::of(&session, 0), Mask::of(&session, 1)],
+            masks: Mask::of_eyes(&session, views),
             rates,
             stream,
             waiter,
@@ -128,7 +142,9 @@ impl Live {
             session,
             instance,
             gpu,
+            views,
             extent,
+            inset,
             name,
             blend,
             state: SessionState::Unknown,

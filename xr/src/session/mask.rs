@@ -2,6 +2,7 @@
 
 use openxr as xr;
 
+use super::views::Views;
 use crate::Fov;
 
 /// Corners of the hidden triangles of one eye, three each, in the plane one metre ahead of it.
@@ -9,13 +10,18 @@ use crate::Fov;
 pub(super) struct Mask(Vec<[f32; 2]>);
 
 impl Mask {
+    /// Of the left and the right eye. An inset has none: lenses hide little of the middle, and it may lie elsewhere in each frame.
+    pub(super) fn of_eyes(session: &xr::Session<xr::Vulkan>, views: Views) -> [Self; 2] {
+        [0, 1].map(|eye| Self::of(session, views, eye))
+    }
+
     /// Empty where the runtime has none.
-    pub(super) fn of(session: &xr::Session<xr::Vulkan>, eye: u32) -> Self {
+    fn of(session: &xr::Session<xr::Vulkan>, views: Views, eye: u32) -> Self {
         if session.instance().exts().khr_visibility_mask.is_none() {
             return Self::default();
         }
         let mask = session.get_visibility_mask_khr(
-            xr::ViewConfigurationType::PRIMARY_STEREO,
+            views.kind(),
             eye,
             xr::VisibilityMaskTypeKHR::HIDDEN_TRIANGLE_MESH,
         );

@@ -20,6 +20,7 @@ mod seek;
 mod seen;
 mod stage;
 mod system;
+mod views;
 
 use openxr as xr;
 use vitriol_gpu::Gpu;
@@ -30,7 +31,7 @@ use live::{Begun, Live};
 pub use options::OpenXrOptions;
 use seek::Seek;
 
-use crate::headset::{HeadsetFrame, Pause, Shown, Targets, Turn, View};
+use crate::headset::{HeadsetFrame, Inset, Pause, Shown, Targets, Turn, View};
 use crate::{FrameInfo, Hand, Headset, HeadsetError, Pose, PoseFrame, SessionState, Side};
 
 /// Longest that a turn without a frame waits.
@@ -41,7 +42,7 @@ const TRIES: u32 = 10;
 
 /// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and what else the runtime
 /// offers of local_floor, composition_layer_depth, visibility_mask, display_refresh_rate,
-/// hand_interaction, hand_tracking, user_presence and Pico's controllers.
+/// hand_interaction, hand_tracking, user_presence, quad_views, foveated_rendering and Pico's controllers.
 pub struct OpenXr {
     options: OpenXrOptions,
     entry: xr::Entry,
@@ -58,6 +59,7 @@ pub struct OpenXr {
     // Readable without a session too.
     gpu: Gpu,
     extent: [u32; 2],
+    inset: Option<[u32; 2]>,
     name: String,
     // Continued by a new session.
     index: u64,
@@ -101,6 +103,7 @@ impl OpenXr {
         Ok(Self {
             gpu: live.gpu.clone(),
             extent: live.extent,
+            inset: live.inset,
             name: live.name.clone(),
             live: Some(live),
             options,
@@ -131,6 +134,7 @@ impl OpenXr {
             Ok(live) => {
                 self.gpu = live.gpu.clone();
                 self.extent = live.extent;
+                self.inset = live.inset;
                 self.name = live.name.clone();
                 self.live = Some(live);
                 self.patience = 0;
@@ -215,7 +219,7 @@ impl OpenXr {
                 info: FrameInfo {
                     xr_time: begun.time.as_nanos(),
                     period_ns: begun.period.as_nanos(),
-                    fov: self.eyes.views.map(|view| view.fov),
+                    fov: self.eyes.views().map(|view| view.fov),
                     session_state: live.state,
                 },
             },
@@ -265,7 +269,13 @@ impl OpenXr {
     /// Drops the session and begins to look for the runtime.
     fn lose(&mut self, cause: String) -> Turn {
         tracing::warn!(cause, "OpenXR session lost");
-        self.live = None;
+        if let Some(live) = self.live.take()
+            && live.inset.is_some()
+            && live.refusals.gave_up
+        {
+            tracing::warn!("the runtime refuses {}; it goes on without", system::INSET);
+            self.options.inset = false;
+        }
         asleep(&mut self.hands);
         self.seek = Seek::begin();
         Turn::Lost { cause }
@@ -281,10 +291,15 @@ impl Headset for OpenXr {
         self.extent
     }
 
+    fn inset(&self) -> Option<Inset> {
+        let views = self.eyes.inset();
+        self.inset.map(|extent| Inset { extent, views })
+    }
+
     fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
         let of = |eye: usize| {
             let masks = self.live.as_ref().map(|live| &live.masks[eye]);
-            masks.map(|mask| mask.in_picture(&self.eyes.views[eye].fov))
+            masks.map(|mask| mask.in_picture(&self.eyes.views()[eye].fov))
         };
         [0, 1].map(|eye| of(eye).unwrap_or_default())
     }
@@ -327,7 +342,7 @@ impl Headset for OpenXr {
             self.settle(located)?;
             self.gaze = self.settle(gaze)?.flatten();
         }
-        Ok(self.eyes.views)
+        Ok(self.eyes.views())
     }
 
     fn gaze(&self) -> Option<Pose> {

@@ -13,6 +13,8 @@ pub struct OpenXrOptions {
     pub device_extensions: Vec<CString>,
     /// Whether the runtime is asked where the user looks, if it can tell: some ask the user for leave.
     pub gaze: bool,
+    /// Whether a second pair of pictures is asked for, which follows the gaze where the runtime lets it.
+    pub inset: bool,
     /// Width and height of the panel, pixels.
     pub panel: [u32; 2],
 }

@@ -15,6 +15,8 @@ pub(super) struct Refusals {
     /// Frames in a row that had one.
     row: u32,
     in_frame: bool,
+    /// Too much was refused for this session to go on.
+    pub gave_up: bool,
 }
 
 impl Refusals {
@@ -32,14 +34,18 @@ impl Refusals {
                 }
                 self.row += u32::from(!std::mem::replace(&mut self.in_frame, true));
                 if self.row > MOST {
-                    return Err(CallFailure::Lost(format!(
-                        "{call} is always refused: {cause}"
-                    )));
+                    return Err(self.give_up(call, &cause));
                 }
                 Ok(None)
             }
             Err(failure) => Err(failure),
         }
+    }
+
+    /// The session is to be made anew since that call is refused.
+    pub(super) fn give_up(&mut self, call: &str, cause: &str) -> CallFailure {
+        self.gave_up = true;
+        CallFailure::Lost(format!("{call} is always refused: {cause}"))
     }
 
     /// A frame begins.

@@ -3,15 +3,20 @@
 use openxr as xr;
 
 use super::convert::{CallFailure, failed};
+use super::views::Views;
 use crate::{HeadsetError, probe};
 
-pub(super) const STEREO: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
+/// What is done without where a runtime refuses quad views.
+pub(super) const INSET: &str = "an inset in each eye's picture (quad views)";
 
 /// What the runtime says of the headset that is connected.
 pub(super) struct ConnectedHeadset {
     pub system: xr::SystemId,
+    pub views: Views,
     /// Recommended size of each eye's picture, pixels.
     pub extent: [u32; 2],
+    /// The same of the inset's.
+    pub inset: Option<[u32; 2]>,
     pub blend: xr::EnvironmentBlendMode,
 }
 
@@ -20,8 +25,12 @@ pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
     crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 
-/// An instance with the extensions of ours that the runtime offers, that of the `gaze` only where it is asked for.
-pub(super) fn instance(entry: &xr::Entry, gaze: bool) -> Result<xr::Instance, CallFailure> {
+/// An instance with the extensions of ours that the runtime offers, those of gaze and inset only where they are asked for.
+pub(super) fn instance(
+    entry: &xr::Entry,
+    gaze: bool,
+    inset: bool,
+) -> Result<xr::Instance, CallFailure> {
     let absent = |error| none(probe::no_runtime(error));
     let offered = entry.enumerate_extensions().map_err(absent)?;
     if !offered.khr_vulkan_enable2 {
@@ -33,6 +42,9 @@ pub(super) fn instance(entry: &xr::Entry, gaze: bool) -> Result<xr::Instance, Ca
     wanted.khr_visibility_mask = offered.khr_visibility_mask;
     wanted.ext_local_floor = offered.ext_local_floor;
     wanted.ext_eye_gaze_interaction = gaze && offered.ext_eye_gaze_interaction;
+    wanted.varjo_quad_views = inset && offered.varjo_quad_views;
+    // It is of no use without the other.
+    wanted.varjo_foveated_rendering = wanted.varjo_quad_views && offered.varjo_foveated_rendering;
     wanted.ext_hand_interaction = offered.ext_hand_interaction;
     wanted.ext_hand_tracking = offered.ext_hand_tracking;
     wanted.ext_user_presence = offered.ext_user_presence;
@@ -43,8 +55,11 @@ pub(super) fn instance(entry: &xr::Entry, gaze: bool) -> Result<xr::Instance, Ca
         .map_err(absent)
 }
 
-/// The headset of the instance's runtime.
-pub(super) fn headset(instance: &xr::Instance) -> Result<ConnectedHeadset, CallFailure> {
+/// The headset of the instance's runtime, with an `inset` if that is wanted and there is one.
+pub(super) fn headset(
+    instance: &xr::Instance,
+    inset: bool,
+) -> Result<ConnectedHeadset, CallFailure> {
     let system = instance
         .system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)
         .map_err(|answer| match answer {
@@ -76,33 +91,30 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<ConnectedHeadset, CallF
             ),
         }));
     }
-    let views = instance
-        .enumerate_view_configuration_views(system, STEREO)
-        .map_err(failed("xrEnumerateViewConfigurationViews"))?;
-    let [left, right] = views[..] else {
-        return Err(CallFailure::Fatal(HeadsetError::Refused {
-            call: "xrEnumerateViewConfigurationViews",
-            cause: format!("stereo has {} views", views.len()),
-        }));
+    let views = match inset {
+        true => {
+            Views::offered(instance, system).or_else(|it| it.do_without(INSET, Views::Stereo))?
+        }
+        false => Views::Stereo,
     };
-    // One image with a layer for each eye: as large as the larger one, within both limits.
-    let size = |a: u32, b: u32, limit_a: u32, limit_b: u32| a.max(b).min(limit_a).min(limit_b);
-    let extent = [
-        size(
-            left.recommended_image_rect_width,
-            right.recommended_image_rect_width,
-            left.max_image_rect_width,
-            right.max_image_rect_width,
-        ),
-        size(
-            left.recommended_image_rect_height,
-            right.recommended_image_rect_height,
-            left.max_image_rect_height,
-            right.max_image_rect_height,
-        ),
-    ];
+    match shape(instance, system, views) {
+        Err(refusal) if views != Views::Stereo => {
+            refusal.do_without(INSET, ())?;
+            shape(instance, system, Views::Stereo)
+        }
+        shape => shape,
+    }
+}
+
+/// The headset with those views.
+fn shape(
+    instance: &xr::Instance,
+    system: xr::SystemId,
+    views: Views,
+) -> Result<ConnectedHeadset, CallFailure> {
+    let (extent, inset) = views.extents(instance, system)?;
     let modes = instance
-        .enumerate_environment_blend_modes(system, STEREO)
+        .enumerate_environment_blend_modes(system, views.kind())
         .map_err(failed("xrEnumerateEnvironmentBlendModes"))?;
     // The first is the runtime's preference; a see-through headset has no opaque mode.
     let opaque = xr::EnvironmentBlendMode::OPAQUE;
@@ -112,7 +124,9 @@ pub(super) fn headset(instance: &xr::Instance) -> Result<ConnectedHeadset, CallF
     };
     Ok(ConnectedHeadset {
         system,
+        views,
         extent,
+        inset,
         blend,
     })
 }

@@ -12,6 +12,7 @@ fn options() -> OpenXrOptions {
         instance_extensions: Vec::new(),
         device_extensions: Vec::new(),
         gaze: false,
+        inset: false,
         panel: [64, 32],
     }
 }

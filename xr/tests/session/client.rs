@@ -6,7 +6,8 @@ use glam::{Quat, Vec3};
 use vitriol_gpu::{Buffer, Image, ImageDesc, Options, QueueKind, vk};
 use vitriol_tests::wait::{PATIENCE, until};
 use vitriol_xr::{
-    Headset, HeadsetFrame, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn, View,
+    Headset, HeadsetFrame, Inset, OpenXr, OpenXrOptions, Pose, SessionState, Shown, Targets, Turn,
+    View,
 };
 
 const PANEL: [u32; 2] = [64, 32];
@@ -16,17 +17,25 @@ pub fn focused(frame: &HeadsetFrame) -> bool {
     frame.poses.info.session_state == SessionState::Focused
 }
 
+/// Width and height of what a program draws that must hurry.
+pub fn hurried(extent: [u32; 2]) -> [u32; 2] {
+    extent.map(|side| side * 7 / 10)
+}
+
 /// A headset and pictures of its size.
 pub struct Client {
     pub xr: OpenXr,
     pictures: Option<Pictures>,
 }
 
+/// Each with what it is copied from, and with the word that fills it.
 struct Pictures {
-    colour: (Buffer, Image),
-    depth: (Buffer, Image),
-    panel: (Buffer, Image),
+    all: Vec<(Buffer, Image, u32)>,
 }
+
+/// What the eyes' pictures show, and the inset's.
+pub const EYES: [u8; 4] = [64, 128, 191, 255];
+pub const INSET: [u8; 4] = [32, 191, 64, 255];
 
 impl Client {
     pub fn open() -> Self {
@@ -43,6 +52,7 @@ impl Client {
             instance_extensions: Vec::new(),
             device_extensions: Vec::new(),
             gaze,
+            inset: gaze,
             panel: PANEL,
         };
         let xr = OpenXr::open(options, |_| false).unwrap();
@@ -100,7 +110,11 @@ impl Client {
         let shown = Shown {
             views,
             // A corner of the image, as a program that must hurry draws.
-            extent: self.xr.extent().map(|side| side * 7 / 10),
+            extent: hurried(self.xr.extent()),
+            inset: self.xr.inset().map(|inset| Inset {
+                extent: hurried(inset.extent),
+                ..inset
+            }),
             near: 0.05,
             panel: Some((panel, 0.3)),
         };
@@ -111,45 +125,53 @@ impl Client {
     /// Fills pictures of our own and copies them to `targets`.
     pub fn submit(&mut self, targets: &Targets) {
         let gpu = self.xr.gpu().clone();
+        let linear = vk::Format::R8G8B8A8_UNORM;
+        let usage = |format| match format {
+            vk::Format::D32_SFLOAT => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            _ => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+        };
+        let far = 0.0_f32.to_bits();
+        let [eyes, inset, red] = [EYES, INSET, [255, 0, 0, 255]].map(u32::from_le_bytes);
+        let d32 = vk::Format::D32_SFLOAT;
+        let of_inset = targets.inset.as_ref();
+        let wanted = [
+            (Some(&targets.colour), linear, eyes),
+            (targets.depth.as_ref(), d32, far),
+            (of_inset.map(|inset| &inset.colour), linear, inset),
+            (of_inset.and_then(|inset| inset.depth.as_ref()), d32, far),
+            (targets.panel.as_ref(), linear, red),
+        ];
+        let given = |all: &[_]| wanted.iter().filter(|it| it.0.is_some()).count() == all.len();
+        self.pictures.take_if(|pictures| !given(&pictures.all));
+        let wanted = wanted.into_iter();
+        let wanted = wanted.filter_map(|(target, format, word)| Some((target?, format, word)));
+        let wanted: Vec<_> = wanted.collect();
         let pictures = self.pictures.get_or_insert_with(|| {
-            let image = |label: &str, extent, layers, format, usage| {
+            let made = wanted.iter().map(|&(target, format, word)| {
+                let usage = usage(format);
                 let desc = ImageDesc {
-                    extent,
-                    layers,
                     format,
                     usage,
+                    ..*target.desc()
                 };
                 let [width, height] = desc.extent;
                 let bytes = u64::from(4 * width * height * desc.layers);
-                let texels = Buffer::storage(&gpu, label, bytes).unwrap();
-                (texels, Image::new(&gpu, label, desc).unwrap())
-            };
-            let eyes = targets.colour.desc().extent;
-            let depths = targets.depth.as_ref().map_or(eyes, |it| it.desc().extent);
-            let linear = vk::Format::R8G8B8A8_UNORM;
-            let colour = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-            let depth = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+                let texels = Buffer::storage(&gpu, target.label(), bytes).unwrap();
+                (
+                    texels,
+                    Image::new(&gpu, target.label(), desc).unwrap(),
+                    word,
+                )
+            });
             Pictures {
-                colour: image("eyes", eyes, 2, linear, colour),
-                depth: image("depth", depths, 2, vk::Format::D32_SFLOAT, depth),
-                panel: image("panel", PANEL, 1, linear, colour),
+                all: made.collect(),
             }
         });
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
-        for ((texels, image), word) in [
-            (&pictures.colour, u32::from_le_bytes([64, 128, 191, 255])),
-            (&pictures.depth, 0.0_f32.to_bits()),
-            (&pictures.panel, u32::from_le_bytes([255, 0, 0, 255])),
-        ] {
-            rec.fill(texels, word).unwrap();
+        for ((texels, image, word), (target, ..)) in pictures.all.iter().zip(&wanted) {
+            rec.fill(texels, *word).unwrap();
             rec.copy_to_image(texels, image).unwrap();
-        }
-        rec.copy_image(&pictures.colour.1, &targets.colour).unwrap();
-        if let Some(panel) = &targets.panel {
-            rec.copy_image(&pictures.panel.1, panel).unwrap();
-        }
-        if let Some(depth) = &targets.depth {
-            rec.copy_image(&pictures.depth.1, depth).unwrap();
+            rec.copy_image(image, target).unwrap();
         }
         gpu.submit(rec).unwrap();
     }

@@ -38,6 +38,7 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
     let shown = Shown {
         views,
         extent: client.xr.extent(),
+        inset: client.xr.inset(),
         near: 0.05,
         panel: None,
     };

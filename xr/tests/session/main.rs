@@ -5,6 +5,7 @@
 mod awake;
 mod client;
 mod hands;
+mod inset;
 mod life;
 mod loss;
 mod lost_device;

@@ -261,6 +261,7 @@ fn what_is_to_be_refused_is_refused() {
         instance_extensions: Vec::new(),
         device_extensions: Vec::new(),
         gaze: false,
+        inset: false,
         panel: [64, 32],
     };
     let Err(refused) = OpenXr::open(options(), |_| false) else {
@@ -302,6 +303,7 @@ fn what_is_wrong_is_refused() {
     let shown = Shown {
         views,
         extent: client.xr.extent(),
+        inset: client.xr.inset(),
         near: 0.05,
         panel: None,
     };

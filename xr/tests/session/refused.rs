@@ -145,6 +145,7 @@ fn try_to_draw(client: &mut Client, shakes: f32, panel: bool) {
     let shown = Shown {
         views: client.xr.locate_views().unwrap(),
         extent: client.xr.extent(),
+        inset: client.xr.inset(),
         near: 0.05,
         panel: Some((Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY), 0.3)),
     };

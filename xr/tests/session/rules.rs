@@ -58,6 +58,7 @@ fn draw(dump: &Path) {
         let shown = Shown {
             views,
             extent: DRAWN,
+            inset: client.xr.inset(),
             near: 0.05,
             panel: None,
         };

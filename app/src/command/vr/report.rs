@@ -46,6 +46,9 @@ pub(super) struct SessionReport {
     /// Where the pictures were to be sharp; absent where that was the governor's to say.
     #[serde(skip_serializing_if = "Option::is_none")]
     foveation: Option<Foveating>,
+    /// Width and height of the pictures of the runtime's own inset (quad views), pixels; absent where it had none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inset: Option<[u32; 2]>,
     /// Processor time of a frame from begin to end, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     cpu_ms: Option<Spread>,
@@ -139,6 +142,7 @@ pub(super) fn report(
         devices_lost: outcome.devices_lost,
         governor: outcome.governor.clone(),
         foveation: outcome.foveating,
+        inset: outcome.inset,
         cpu_ms: Spread::of(&tally.cpu_ms),
         frames_alone: tally.alone.report(),
         frames_while_building: tally.building.report(),
@@ -225,14 +229,19 @@ pub(super) fn describe(session: &SessionReport) -> String {
         session.missed_frames,
     );
     text += &governed(&session.governor);
-    text += match session.foveation {
-        Some(Foveating::Off) => "every pixel shaded\n",
-        Some(Foveating::Eye) => {
-            "every pixel shaded about where the user looks, if known, fewer beyond\n"
+    text += &match (session.inset, session.foveation) {
+        (Some([width, height]), _) => {
+            format!("the runtime's quad views, with insets of {width} × {height} pixels\n")
         }
-        Some(Foveating::Fixed) => "every pixel shaded about the lenses' axes, fewer beyond\n",
+        (None, Some(Foveating::Off)) => "every pixel shaded\n".into(),
+        (None, Some(Foveating::Eye)) => {
+            "every pixel shaded about where the user looks, if known, fewer beyond\n".into()
+        }
+        (None, Some(Foveating::Fixed)) => {
+            "every pixel shaded about the lenses' axes, fewer beyond\n".into()
+        }
         // The settings say it.
-        None => "",
+        (None, None) => String::new(),
     };
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),

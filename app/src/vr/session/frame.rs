@@ -10,19 +10,18 @@ use vitriol_render::camera::NEAR;
 use vitriol_sim::scene::PictureTint;
 use vitriol_sim::solver::Skin;
 use vitriol_sim::world::World;
-use vitriol_xr::{Hand, Headset, HeadsetFrame, PoseFrame, Shown, Side, Targets};
+use vitriol_xr::{Hand, Headset, HeadsetFrame, Inset, PoseFrame, Shown, Side, Targets, View};
 
 use super::Session;
 use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
 use crate::vr::closing;
-use crate::vr::foveating;
 use crate::vr::haptics;
 use crate::vr::info::{Info, Lying};
 use crate::vr::inputs::sound;
 use crate::vr::ladder::Setting;
 use crate::vr::panel;
-use crate::vr::picture::{self, Sight, eye};
+use crate::vr::picture::{self, Outlook, Sight, eye};
 use crate::vr::sign::{Drawn, Sign};
 use crate::vr::tally::Submitted;
 use crate::vr::workbench::Workbench;
@@ -288,6 +287,7 @@ impl Session {
         let seen = self.placement.seen();
         let setting = self.pacing.setting(&self.benches.current);
         let extent = scaled(self.benches.eyes.extent, &setting);
+        let foveating = self.benches.eyes.foveating(setting.foveated);
         let Workbench { world, picture, .. } = &mut self.benches.current;
         self.gloves = picture.gloves(world, seen.as_ref(), &self.joints);
         self.spills.wears(world.worn());
@@ -307,12 +307,19 @@ impl Session {
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
-        let foveating = foveating::now(self.benches.eyes.foveating, setting.foveated);
         let views = headset.locate_views().map_err(blame)?;
+        let inset = headset.inset().map(|inset| Inset {
+            extent: scaled(inset.extent, &setting),
+            ..inset
+        });
         let located = Instant::now();
-        let sight = Sight {
+        let outlook = |extent, views: &[View; 2]| Outlook {
             extent,
             views: views.each_ref().map(|view| eye(view, &placed)),
+        };
+        let sight = Sight {
+            eyes: outlook(extent, &views),
+            inset: inset.map(|inset| outlook(inset.extent, &inset.views)),
             hands: drawn.each_ref().map(Vec::as_slice),
             tools: &tools,
             panel: Some(picture::panel(&image)),
@@ -349,6 +356,7 @@ impl Session {
         Ok(Shown {
             views,
             extent,
+            inset,
             near: NEAR,
             // What fades is the picture.
             panel: (shown == 1.0)
