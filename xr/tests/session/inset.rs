@@ -7,39 +7,26 @@ use vitriol_xr::{Fov, Headset, Shown};
 
 use crate::client::{Client, EYES, INSET, hurried};
 
-const QUAD: &str = "XR_VARJO_quad_views";
-const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
+pub const QUAD: &str = "XR_VARJO_quad_views";
+pub const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
 
 /// XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO and XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO
-const OF_STEREO: i32 = 2;
-const OF_QUAD: i32 = 1_000_037_000;
-
-/// XR_ERROR_VALIDATION_FAILURE and XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED
-const VALIDATION_FAILURE: i32 = -1;
-const UNSUPPORTED: i32 = -41;
+pub const OF_STEREO: i32 = 2;
+pub const OF_QUAD: i32 = 1_000_037_000;
 
 /// Of the eyes' pictures where nothing is foveated.
 const STEREO: [u32; 2] = [64, 48];
 
 /// A client that asks for the inset and has the focus, on a runtime that begins with `changes`.
-fn opened(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
+pub fn opened(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
     let mock = mock::enter(name, changes)?;
     let mut client = Client::open_with(true);
     client.focus();
     Some((mock, client))
 }
 
-fn refuse(call: &str, answer: i32, when: &str) -> Change {
-    Change::Refuse {
-        call: call.to_owned(),
-        answer,
-        times: None,
-        when: Some(when.to_owned()),
-    }
-}
-
 /// View configurations of the sessions that were begun, and the answers.
-fn begun(mock: &Mock) -> Vec<(i32, i32)> {
+pub fn begun(mock: &Mock) -> Vec<(i32, i32)> {
     let calls = mock.calls_of("xrBeginSession").into_iter();
     calls
         .map(|call| (call.with["views"].as_i64().unwrap() as i32, call.answer))
@@ -47,7 +34,7 @@ fn begun(mock: &Mock) -> Vec<(i32, i32)> {
 }
 
 /// The views of the last frame.
-fn shown(mock: &Mock) -> Vec<ProjectionView> {
+pub fn shown(mock: &Mock) -> Vec<ProjectionView> {
     let (_, ended) = mock.frames().pop().unwrap();
     let found = ended.layers.into_iter().find_map(|layer| match layer {
         Layer::Projection { views, .. } => Some(views),
@@ -57,7 +44,7 @@ fn shown(mock: &Mock) -> Vec<ProjectionView> {
 }
 
 /// Draws a frame, which has the two views of a session without an inset.
-fn is_stereo(mock: &Mock, client: &mut Client) {
+pub fn is_stereo(mock: &Mock, client: &mut Client) {
     assert_eq!(client.xr.extent(), STEREO);
     assert_eq!(client.xr.inset(), None);
     let (frame, _) = client.frame();
@@ -286,67 +273,6 @@ fn none_is_had_where_none_is_asked_for() {
     );
 }
 
-/// The session is sought again, once, with the eyes' views alone.
-#[test]
-fn refused_at_the_sessions_begin() {
-    let name = "inset::refused_at_the_sessions_begin";
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrBeginSession", UNSUPPORTED, &OF_QUAD.to_string()),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
-        return;
-    };
-    is_stereo(&mock, &mut client);
-    assert_eq!(begun(&mock), [(OF_QUAD, UNSUPPORTED), (OF_STEREO, 0)]);
-}
-
-#[test]
-fn refused_images() {
-    let name = "inset::refused_images";
-    let [width, height] = Inset::default().following[1];
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse(
-            "xrCreateSwapchain",
-            VALIDATION_FAILURE,
-            &format!("{width} x {height}"),
-        ),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
-        return;
-    };
-    is_stereo(&mock, &mut client);
-    // Nothing of it was begun.
-    assert_eq!(begun(&mock), [(OF_STEREO, 0)]);
-}
-
-/// The inset's depth alone is left out where it alone is refused.
-#[test]
-fn refused_images_of_depth() {
-    let name = "inset::refused_images_of_depth";
-    let [width, height] = Inset::default().following[1].map(|side| side.div_ceil(2));
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse(
-            "xrCreateSwapchain",
-            VALIDATION_FAILURE,
-            &format!("{width} x {height}"),
-        ),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
-        return;
-    };
-    client.frame();
-    client.draw();
-    client.assert_silent();
-    let has_depth: Vec<_> = shown(&mock)
-        .iter()
-        .map(|view| view.depth.is_some())
-        .collect();
-    assert_eq!(has_depth, [true, true, false, false]);
-}
-
 /// Images without layers: eight swapchains beside the panel's.
 #[test]
 fn images_with_one_layer() {
@@ -370,35 +296,6 @@ fn images_with_one_layer() {
     chains.sort_unstable();
     chains.dedup();
     assert_eq!(chains.len(), 8);
-}
-
-/// A runtime that offers four views and takes no frame with them is given two.
-#[test]
-fn refused_at_every_frames_end() {
-    let name = "inset::refused_at_every_frames_end";
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse("xrEndFrame", VALIDATION_FAILURE, "4 views"),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
-        return;
-    };
-    let mut others = Vec::new();
-    for _ in 0..200 {
-        let (_, more) = client.frame();
-        client.draw();
-        others.extend(more);
-        if others.iter().any(|it| it == "renewed") {
-            break;
-        }
-    }
-    assert!(
-        others.iter().any(|it| it.contains("xrEndFrame")),
-        "{others:?}"
-    );
-    client.focus();
-    is_stereo(&mock, &mut client);
-    assert_eq!(begun(&mock), [(OF_QUAD, 0), (OF_STEREO, 0)]);
 }
 
 /// Neither three views nor pictures without pixels are an inset.
