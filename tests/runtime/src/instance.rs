@@ -68,35 +68,33 @@ pub(crate) extern "system" fn create_instance(
 ) -> R {
     locked(State::listen);
     let names = info.map(extensions).unwrap_or_default();
-    told(
-        "xrCreateInstance",
-        json!({ "extensions": names }),
-        |state, with| {
-            let info = given!(info, sys::InstanceCreateInfo);
-            let version = info.application_info.api_version;
-            if (version.major(), version.minor()) != (1, 0) {
-                return Err(R::ERROR_API_VERSION_UNSUPPORTED);
-            }
-            let name = text_of(&info.application_info.application_name);
-            if name.is_empty() {
-                return Err(R::ERROR_NAME_INVALID);
-            }
-            with["application"] = json!(name);
-            let offered = |name: &String| state.world.extensions.contains(name);
-            if !names.iter().all(offered) {
-                return Err(R::ERROR_EXTENSION_NOT_PRESENT);
-            }
-            let raw = state.handle();
-            let made = Instance {
-                extensions: names.clone(),
-                ..Instance::default()
-            };
-            state.instances.insert(raw, made);
-            with["instance"] = json!(raw);
-            *place!(instance) = sys::Instance::from_raw(raw);
-            Ok(R::SUCCESS)
-        },
-    )
+    let create = |state: &mut State, with: &mut serde_json::Value| {
+        let info = given!(info, sys::InstanceCreateInfo);
+        let version = info.application_info.api_version;
+        if (version.major(), version.minor()) != (1, 0) {
+            return Err(R::ERROR_API_VERSION_UNSUPPORTED);
+        }
+        let name = text_of(&info.application_info.application_name);
+        if name.is_empty() {
+            return Err(R::ERROR_NAME_INVALID);
+        }
+        with["application"] = json!(name);
+        let offered = |name: &String| state.world.extensions.contains(name);
+        if !names.iter().all(offered) {
+            return Err(R::ERROR_EXTENSION_NOT_PRESENT);
+        }
+        let raw = state.handle();
+        let made = Instance {
+            extensions: names.clone(),
+            ..Instance::default()
+        };
+        state.instances.insert(raw, made);
+        with["instance"] = json!(raw);
+        *place!(instance) = sys::Instance::from_raw(raw);
+        Ok(R::SUCCESS)
+    };
+    let with = json!({ "extensions": names });
+    locked(|state| state.told("xrCreateInstance", with, &names, create))
 }
 
 fn extensions(info: &sys::InstanceCreateInfo) -> Vec<String> {

@@ -116,7 +116,7 @@ pub enum Change {
         /// How often; always for `None`.
         times: Option<u32>,
         /// Only where this holds. xrCreateSwapchain: its format's number, its `width x height`, or `layers>1`. xrBeginSession: the
-        /// view configuration's number. xrEndFrame:
+        /// view configuration's number. xrCreateInstance: the name of an extension that is asked for. xrEndFrame:
         /// `projection`, `4 views`, `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
         when: Option<String>,
     },

@@ -88,13 +88,13 @@ impl Images {
         })
     }
 
-    /// Gives all images back, with what was `drawn` if anything was.
+    /// Gives all images back, with what was `drawn` if anything was. Where one is refused the others are given back all the
+    /// same: the frame shows none of them, and the next one is to have new ones.
     pub(super) fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
-        self.eyes.release(gpu, drawn)?;
-        if let Some(inset) = &mut self.inset {
-            inset.release(gpu, drawn)?;
-        }
-        self.panel.release(gpu)
+        let eyes = self.eyes.release(gpu, drawn);
+        let inset = self.inset.as_mut();
+        let inset = inset.map_or(Ok(()), |inset| inset.release(gpu, drawn));
+        eyes.and(inset).and(self.panel.release(gpu))
     }
 }
 
@@ -106,11 +106,9 @@ impl Pair {
     }
 
     fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
-        self.colour.release(gpu, drawn)?;
-        match &mut self.depth {
-            Some(depth) => depth.release(gpu, drawn),
-            None => Ok(()),
-        }
+        let colour = self.colour.release(gpu, drawn);
+        let depth = self.depth.as_mut();
+        colour.and(depth.map_or(Ok(()), |depth| depth.release(gpu, drawn)))
     }
 }
 

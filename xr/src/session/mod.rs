@@ -271,7 +271,7 @@ impl OpenXr {
         tracing::warn!(cause, "OpenXR session lost");
         if let Some(live) = self.live.take()
             && live.inset.is_some()
-            && live.refusals.gave_up
+            && live.refusals.gave_up_on_views()
         {
             tracing::warn!("the runtime refuses {}; it goes on without", system::INSET);
             self.options.inset = false;

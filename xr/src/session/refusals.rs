@@ -8,6 +8,16 @@ use crate::HeadsetError;
 /// Frames in a row with a refused call after which the session is made anew: two thirds of a second at 90 Hz.
 const MOST: u32 = 60;
 
+/// Calls of a session with an inset that may be refused for its sake.
+const OF_VIEWS: [&str; 6] = [
+    "xrBeginSession",
+    "xrLocateViews",
+    "xrAcquireSwapchainImage",
+    "xrWaitSwapchainImage",
+    "xrReleaseSwapchainImage",
+    "xrEndFrame",
+];
+
 /// See the module.
 #[derive(Debug, Default)]
 pub(super) struct Refusals {
@@ -15,8 +25,8 @@ pub(super) struct Refusals {
     /// Frames in a row that had one.
     row: u32,
     in_frame: bool,
-    /// Too much was refused for this session to go on.
-    pub gave_up: bool,
+    /// The call that was refused too often for this session to go on.
+    gave_up: Option<&'static str>,
 }
 
 impl Refusals {
@@ -43,9 +53,15 @@ impl Refusals {
     }
 
     /// The session is to be made anew since that call is refused.
-    pub(super) fn give_up(&mut self, call: &str, cause: &str) -> CallFailure {
-        self.gave_up = true;
+    pub(super) fn give_up(&mut self, call: &'static str, cause: &str) -> CallFailure {
+        self.gave_up = Some(call);
         CallFailure::Lost(format!("{call} is always refused: {cause}"))
+    }
+
+    /// Whether this session ended over a call that depends on how many views there are. Others would be refused without an
+    /// inset as well.
+    pub(super) fn gave_up_on_views(&self) -> bool {
+        self.gave_up.is_some_and(|call| OF_VIEWS.contains(&call))
     }
 
     /// A frame begins.

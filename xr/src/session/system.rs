@@ -25,7 +25,8 @@ pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
     crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 
-/// An instance with the extensions of ours that the runtime offers, those of gaze and inset only where they are asked for.
+/// An instance with the extensions of ours that the runtime offers, those of gaze and inset only where they are asked for, and
+/// without the latter where the runtime then makes one.
 pub(super) fn instance(
     entry: &xr::Entry,
     gaze: bool,
@@ -50,9 +51,26 @@ pub(super) fn instance(
     wanted.ext_user_presence = offered.ext_user_presence;
     wanted.fb_display_refresh_rate = offered.fb_display_refresh_rate;
     wanted.bd_controller_interaction = offered.bd_controller_interaction;
-    entry
-        .create_instance(&probe::application(), &wanted, &[], &())
-        .map_err(absent)
+    let create =
+        |wanted: &xr::ExtensionSet| entry.create_instance(&probe::application(), wanted, &[], &());
+    let refusal = match create(&wanted) {
+        // A runtime that cannot be reached just then says nothing of extensions.
+        Err(answer)
+            if wanted.varjo_quad_views && answer != xr::sys::Result::ERROR_RUNTIME_UNAVAILABLE =>
+        {
+            answer
+        }
+        made => return made.map_err(absent),
+    };
+    wanted.varjo_quad_views = false;
+    wanted.varjo_foveated_rendering = false;
+    let made = create(&wanted).map_err(absent)?;
+    // Not `failed`: that takes some answers for a loss, and here the runtime is there.
+    CallFailure::Fatal(HeadsetError::Refused {
+        call: "xrCreateInstance",
+        cause: refusal.to_string(),
+    })
+    .do_without(INSET, made)
 }
 
 /// The headset of the instance's runtime, with an `inset` if that is wanted and there is one.

@@ -54,6 +54,20 @@ pub fn is_stereo(mock: &Mock, client: &mut Client) {
     assert_eq!(shown(mock).len(), 2);
 }
 
+/// Draws frames until the session was made anew; what was no frame, in words.
+pub fn until_renewed(client: &mut Client) -> Vec<String> {
+    let mut others = Vec::new();
+    for _ in 0..200 {
+        let (_, more) = client.frame();
+        client.draw();
+        others.extend(more);
+        if others.iter().any(|it| it == "renewed") {
+            break;
+        }
+    }
+    others
+}
+
 fn angles(fov: &Fov) -> [f32; 4] {
     [fov.left, fov.right, fov.up, fov.down]
 }
@@ -349,15 +363,7 @@ fn three_views_in_the_middle() {
         views: 3,
         ..Inset::default()
     }));
-    let mut others = Vec::new();
-    for _ in 0..200 {
-        let (_, more) = client.frame();
-        client.draw();
-        others.extend(more);
-        if others.iter().any(|it| it == "renewed") {
-            break;
-        }
-    }
+    until_renewed(&mut client);
     client.focus();
     is_stereo(&mock, &mut client);
 }
