@@ -324,7 +324,7 @@ impl Camera {
             pane: pane(world),
             shown: 1.0,
             goggles: 0.0,
-            masked: true,
+            part_of: None,
             foveation: self.foveation,
             colour_by,
             length_scale: scale.length_scale as f32,

@@ -4,7 +4,7 @@ use glam::{Affine3A, Mat4, Vec3};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
-use crate::camera::{NEAR, View};
+use crate::camera::{Fov, NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
 use crate::fluid::bubble_cell;
@@ -96,9 +96,9 @@ pub struct FrameDesc<'a> {
     pub shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
     pub goggles: f32,
-    /// Whether what the lenses hide stays black ([`Renderer::set_visibility_mask`](crate::Renderer::set_visibility_mask)). Other views
-    /// of the same eyes have not that mask.
-    pub masked: bool,
+    /// The eyes' own views, where `views` are parts of what they see, such as an inset: splashes on the goggles are where the eyes see
+    /// them, and no lens hides anything ([`Renderer::set_visibility_mask`](crate::Renderer::set_visibility_mask)). `None` where `views` are the eyes' own.
+    pub part_of: Option<&'a [View]>,
     /// Where the picture is to be sharp; `None` for everywhere.
     pub foveation: Option<Foveation>,
     /// What the particles' colours stand for.
@@ -130,8 +130,10 @@ impl FrameDesc<'_> {
         if self.foveation.is_some() && !desc.foveated {
             return Err(RenderError::NotFoveated);
         }
+        let whole = self.part_of.unwrap_or(self.views);
         let counts = [
             ("views", self.views.len(), desc.views as usize),
+            ("whole views", whole.len(), desc.views as usize),
             ("vessel poses", self.vessels.len(), scene.vessels.len()),
         ];
         for (what, given, wanted) in counts {
@@ -212,8 +214,10 @@ impl FrameDesc<'_> {
             pane_from_stage: pane_from_stage(self.pane, self.length_scale),
             ..layout::Frame::default()
         };
-        for (slot, view) in frame.views.iter_mut().zip(self.views) {
+        let whole = self.part_of.unwrap_or(self.views);
+        for ((slot, view), whole) in frame.views.iter_mut().zip(self.views).zip(whole) {
             *slot = eye(view, self.length_scale, extent);
+            slot.in_picture = in_picture(&view.fov, &whole.fov);
         }
         let vessels = self.vessels.iter().zip(&scene.vessels);
         let slots = frame.blockers.iter_mut().zip(&mut frame.vessels);
@@ -255,6 +259,19 @@ impl FrameDesc<'_> {
     pub(crate) fn nears(&self) -> Vec<f32> {
         vec![NEAR / self.length_scale; self.views.len()]
     }
+}
+
+/// Upper left corner, width and height of a part of a picture, over the whole's: (0, 0, 1, 1) of a whole itself, to the bit.
+fn in_picture(part: &Fov, whole: &Fov) -> [f32; 4] {
+    let [part, whole] =
+        [part, whole].map(|fov| [fov.left, fov.right, fov.up, fov.down].map(f32::tan));
+    let (width, height) = (whole[1] - whole[0], whole[3] - whole[2]);
+    [
+        (part[0] - whole[0]) / width,
+        (part[2] - whole[2]) / height,
+        (part[1] - part[0]) / width,
+        (part[3] - part[2]) / height,
+    ]
 }
 
 /// A view for the shaders.

@@ -273,7 +273,7 @@ impl Renderer {
 
     /// What the lenses hide of a frame; `None` where that is nothing.
     fn mask(&self, frame: &FrameDesc<'_>) -> Option<&Buffer> {
-        self.hidden.as_ref().filter(|_| frame.masked)
+        self.hidden.as_ref().filter(|_| frame.part_of.is_none())
     }
 
     fn hidden(&self, frame: &FrameDesc<'_>) -> &Buffer {

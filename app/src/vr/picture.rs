@@ -232,24 +232,24 @@ impl Picture {
         // The inset first: what stays in the renderer's image is the eyes' picture, which others look at.
         if let (Some(outlook), Some(inset)) = (&sight.inset, &targets.inset) {
             let images = (&inset.colour, inset.depth.as_ref());
-            self.pair(&mut rec, world, sight, (outlook, false), images)?;
+            let whole = Some(&sight.eyes.views[..]);
+            self.pair(&mut rec, world, sight, (outlook, whole), images)?;
         }
         let images = (&targets.colour, targets.depth.as_ref());
-        self.pair(&mut rec, world, sight, (&sight.eyes, true), images)?;
+        self.pair(&mut rec, world, sight, (&sight.eyes, None), images)?;
         let picture = gpu.submit_after(rec, &[shapes]).other()?;
         self.drawn += 1;
         self.under_way.push(picture.clone());
         Ok(picture)
     }
 
-    /// Records one pair of pictures, in which what the lenses hide stays black where `masked`, and its copy to a headset's images of
-    /// colour and depth.
+    /// Records one pair of pictures, which may be a part of those views, and its copy to a headset's images of colour and depth.
     fn pair(
         &self,
         rec: &mut Recorder,
         world: &World,
         sight: &Sight<'_>,
-        (outlook, masked): (&Outlook, bool),
+        (outlook, part_of): (&Outlook, Option<&[View]>),
         (colour, depth): (&Image, Option<&Image>),
     ) -> Result<(), Failure> {
         let (renderer, half) = (&self.renderer, &self.half_depth);
@@ -258,7 +258,7 @@ impl Picture {
             let frame = FrameDesc {
                 extent: Some(outlook.extent),
                 views: &outlook.views,
-                masked,
+                part_of,
                 ..*frame
             };
             renderer.record_picture(rec, &frame, slot)
@@ -332,7 +332,7 @@ impl Picture {
             pane: vitriol_experiment::pane(world),
             shown: sight.map_or(1.0, |sight| sight.shown),
             goggles: sight.map_or(0.0, |sight| sight.goggles),
-            masked: true,
+            part_of: None,
             foveation: sight.and_then(|sight| sight.foveation),
             colour_by: ColourBy::Acid,
             length_scale: scale,

@@ -7,6 +7,24 @@ use super::transfer::{texel_bytes, whole_image};
 use crate::barrier::Scope;
 use crate::{Buffer, GpuError, Image};
 
+/// What is copied of an image.
+#[derive(Clone, Copy)]
+enum Part {
+    Whole,
+    /// The upper left corner.
+    Corner,
+}
+
+impl Part {
+    /// Whether an image of `held` texels has one of `wanted`.
+    fn fits(self, held: [u32; 2], wanted: [u32; 2]) -> bool {
+        match self {
+            Self::Whole => held == wanted,
+            Self::Corner => wanted[0] <= held[0] && wanted[1] <= held[1],
+        }
+    }
+}
+
 impl Recorder {
     /// Copies all of `from` to `to`, texel by texel and bit by bit: both have the
     /// same extent, layers and aspect, and texels of the same size, so that sRGB and
@@ -16,12 +34,7 @@ impl Recorder {
     /// [`GpuError::ImageUnsupported`] where the two do not fit each other.
     pub fn copy_image(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
         let layers = from.desc().layers;
-        self.copy_layers(
-            from,
-            [0, layers],
-            to,
-            from.desc().extent == to.desc().extent,
-        )
+        self.copy_layers(from, [0, layers], to, Part::Whole)
     }
 
     /// Copies the upper left corner of `from`, which may be larger, to all of `to`; else as [`Recorder::copy_image`] does.
@@ -29,9 +42,7 @@ impl Recorder {
     /// # Errors
     /// As for [`Recorder::copy_image`].
     pub fn copy_corner(&mut self, from: &Image, to: &Image) -> Result<(), GpuError> {
-        let (held, wanted) = (from.desc().extent, to.desc().extent);
-        let fits = wanted[0] <= held[0] && wanted[1] <= held[1];
-        self.copy_layers(from, [0, from.desc().layers], to, fits)
+        self.copy_layers(from, [0, from.desc().layers], to, Part::Corner)
     }
 
     /// Copies one layer of `from` to all of `to`, which has no other, as [`Recorder::copy_image`] does.
@@ -39,19 +50,19 @@ impl Recorder {
     /// # Errors
     /// As for [`Recorder::copy_image`].
     pub fn copy_layer(&mut self, from: &Image, layer: u32, to: &Image) -> Result<(), GpuError> {
-        self.copy_layers(from, [layer, 1], to, from.desc().extent == to.desc().extent)
+        self.copy_layers(from, [layer, 1], to, Part::Whole)
     }
 
-    /// `count` layers of `from` beginning with `first`, whose extents fit or do not.
+    /// A part of `count` layers of `from` beginning with `first`, to all of `to`.
     fn copy_layers(
         &mut self,
         from: &Image,
         [first, count]: [u32; 2],
         to: &Image,
-        extents_fit: bool,
+        part: Part,
     ) -> Result<(), GpuError> {
         let (source, target) = (*from.desc(), *to.desc());
-        let fits = extents_fit
+        let fits = part.fits(source.extent, target.extent)
             && count == target.layers
             && first.saturating_add(count) <= source.layers
             && source.aspect() == target.aspect()

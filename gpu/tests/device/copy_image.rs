@@ -106,6 +106,12 @@ fn a_corner_arrives() {
     rec.copy_corner(&picture, &smaller).unwrap();
     let read = rec.read_back_image(&smaller).unwrap();
     assert!(rec.copy_corner(&picture, &larger).is_err());
+    let desc = ImageDesc {
+        extent: [5, 5],
+        ..*picture.desc()
+    };
+    let higher = Image::new(&gpu, "higher", desc).unwrap();
+    assert!(rec.copy_corner(&picture, &higher).is_err());
     gpu.submit(rec).unwrap().wait().unwrap();
     let wanted: Vec<u32> = words.into_iter().filter(|texel| texel % 8 < 5).collect();
     assert_eq!(read.get::<u32>().unwrap(), wanted);

@@ -346,7 +346,7 @@ fn hidden_pixels_are_black_and_darken_no_other() {
     let masked = bench.rig.draw(&bench.frame(&views, foveation));
     // A frame that the mask is not of knows nothing of it.
     let other = bench.rig.draw(&FrameDesc {
-        masked: false,
+        part_of: Some(&views),
         ..bench.frame(&views, foveation)
     });
     assert!(other.colour == open.colour && other.depth == open.depth);

@@ -58,3 +58,56 @@ fn splashes_cover_what_is_aside() {
     let share = before as f32 / (width * height) as f32;
     assert!((0.12..0.30).contains(&share), "{share}");
 }
+
+/// In a part of the eyes' pictures splashes are where the eyes see them.
+#[test]
+fn a_part_has_the_splashes_of_the_whole() {
+    let rig = Rig::new(EXTENT, 2);
+    let views = eyes();
+    // So many pixels from the left and the top, and so large.
+    let [corner, size] = [[10, 8], [48, 40]];
+    let parts = views.map(|view| {
+        let Fov {
+            left,
+            right,
+            up,
+            down,
+        } = view.fov;
+        let along = |from: f32, to: f32, pixel: u32, pixels: u32| {
+            let share = pixel as f32 / pixels as f32;
+            (from.tan() + share * (to.tan() - from.tan())).atan()
+        };
+        View {
+            fov: Fov {
+                left: along(left, right, corner[0], EXTENT[0]),
+                right: along(left, right, corner[0] + size[0], EXTENT[0]),
+                up: along(up, down, corner[1], EXTENT[1]),
+                down: along(up, down, corner[1] + size[1], EXTENT[1]),
+            },
+            ..view
+        }
+    });
+    let whole = rig.draw(&FrameDesc {
+        goggles: 1.0,
+        ..without_particles(&views)
+    });
+    let part = rig.draw(&FrameDesc {
+        goggles: 1.0,
+        extent: Some(size),
+        part_of: Some(&views),
+        ..without_particles(&parts)
+    });
+    let mut covered = 0;
+    for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+        for eye in 0..2 {
+            let at = |x: u32, y: u32| 4 * (y * EXTENT[0] + x) as usize;
+            let inner = &part.colour[eye][at(x, y)..][..3];
+            let outer = &whole.colour[eye][at(x + corner[0], y + corner[1])..][..3];
+            // Rounding of tangents.
+            let apart = inner.iter().zip(outer).map(|(a, b)| a.abs_diff(*b)).max();
+            assert!(apart <= Some(1), "{x} {y}: {inner:?} {outer:?}");
+            covered += u32::from(inner[2] < whole.colour[0][at(48, 40)..][2] - 4);
+        }
+    }
+    assert!(covered > 200, "{covered}");
+}

@@ -293,7 +293,7 @@ fn the_picture_fades() {
             panel: Some(panel),
             shown,
             goggles: 0.0,
-            masked: true,
+            part_of: None,
             ..without_particles(&[view])
         })
     };

@@ -182,7 +182,7 @@ pub fn without_particles(views: &[View]) -> FrameDesc<'_> {
         pane: None,
         shown: 1.0,
         goggles: 0.0,
-        masked: true,
+        part_of: None,
         foveation: None,
         colour_by: ColourBy::Speed(1.0),
         length_scale: 1.0,

@@ -218,7 +218,7 @@ fn another_length_scale_gives_the_same_picture() {
             pane: None,
             shown: 1.0,
             goggles: 0.0,
-            masked: true,
+            part_of: None,
             particles: Some(ParticleSource {
                 positions: &positions,
                 attributes: &velocities,

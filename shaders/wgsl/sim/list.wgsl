@@ -1,5 +1,5 @@
-// Line 10: the neighbours within support radius plus margin, by ascending
-// index, in fours strided so that neighbouring invocations read side by side.
+// Line 10: the neighbours within support radius plus margin, row by row of cells,
+// in fours strided so that neighbouring invocations read side by side.
 // Pairs that glass separates are left out here, once, and not in each pass.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
@@ -134,7 +134,8 @@ fn is_neighbour(i: u32, x: vec3<f32>, membership: u32, j: u32, other: vec4<f32>)
     return near;
 }
 
-/// An invocation among those of its particle.
+/// An invocation among those of its particle. Those of a workgroup are in its subgroups in their order, as everywhere that lanes
+/// shuffle.
 struct Lane {
     own: u32,
     /// Where in the subgroup the particle's first one is.
@@ -156,27 +157,31 @@ fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
 }
 
 /// All lanes of a particle walk a row together. Each fetches two candidates before it asks about either: the pass waits for its
-/// fetches, not for its arithmetic.
+/// fetches, not for its arithmetic. The loop is the subgroup's, as long as its longest row: Vulkan promises a ballot of all lanes only where
+/// all come by.
 fn search_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32, row: Row) {
     let end = row.count + row.wrapped;
-    for (var start = lane.own; start < end + lane.own; start += 2u * LIST_LANES) {
-        let j = candidate(min(start, end - 1u), row);
-        let after = candidate(min(start + LIST_LANES, end - 1u), row);
+    let longest = subgroupMax(end);
+    for (var first = 0u; first < longest; first += 2u * LIST_LANES) {
+        let n = first + lane.own;
+        let after = n + LIST_LANES;
+        // Beyond the row's end the particle itself, which is no neighbour.
+        let j = select(i, candidate(n, row), n < end);
+        let k = select(i, candidate(after, row), after < end);
         let other = sorted_trial[j];
-        let next = sorted_trial[after];
-        let near = start < end && is_neighbour(i, x, membership, j, other);
-        let next_near = start + LIST_LANES < end && is_neighbour(i, x, membership, after, next);
-        list_together(i, lane, near, j);
-        list_together(i, lane, next_near, after);
+        let next = sorted_trial[k];
+        list_together(i, lane, is_neighbour(i, x, membership, j, other), j);
+        list_together(i, lane, is_neighbour(i, x, membership, k, next), k);
     }
 }
 
-/// The nine rows around a particle, each looked up by one lane for all.
+/// The nine rows around a particle, each looked up by one lane for all. One that is removed has empty rows: its lanes go along.
 fn search_rows_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
     let cell = cell_of(x);
     for (var known = 0u; known < 9u; known += LIST_LANES) {
         let mine = row_at(cell, min(known + lane.own, 8u));
-        let words = vec4<u32>(mine.first, mine.count, mine.second, mine.wrapped);
+        let there = vec4<u32>(mine.first, mine.count, mine.second, mine.wrapped);
+        let words = select(there, vec4<u32>(0u), membership == REMOVED);
         for (var n = 0u; n < min(LIST_LANES, 9u - known); n++) {
             let row = subgroupShuffle(words, lane.first + n);
             search_together(i, lane, x, membership, Row(row.x, row.y, row.z, row.w));
@@ -219,7 +224,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     mixed = false;
     if (LIST_LANES > 1u) {
         let lane = Lane(own, in_subgroup - own);
-        if (tag.x != REMOVED) { search_rows_together(i, lane, x, tag.x); }
+        search_rows_together(i, lane, x, tag.x);
         coincident = lanes_with(lane, coincident) != 0u;
         if (own != 0u) { return; }
     } else {
@@ -233,7 +238,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
         found = listed;
         if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
         if (overflowed) {
-            // It still counts as full: see `common/liquid/full_list.wgsl`.
+            // It still counts as full: see `common/liquid/full_list.wgsl`. Several lanes count what they see alone, so that a crowd beside glass may be
+            // full for one lane and not for them.
             for (var k = found; k < LIST_CAPACITY; k++) { list[place(k, i)] = i; }
             found = LIST_CAPACITY;
         }

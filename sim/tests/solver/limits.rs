@@ -2,6 +2,7 @@
 
 use crate::common::{particles as particles_of, *};
 use glam::DVec3;
+use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
 use vitriol_sim::flask::particles::sample;
 use vitriol_sim::parameters::Parameters;
@@ -226,8 +227,7 @@ fn flask_constraints_are_counted() {
 
 /// A liquid around a particle whose velocity has become `bad`, by what a
 /// state on the host lets one do; with `solids` with all forces, too.
-fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
-    let device = gpu::device();
+fn with_bad_velocity(device: &Gpu, bad: [f32; 3], (flasks, solids): (bool, bool), lanes: u32) {
     let strength = if solids { 0.05 } else { 0.0 };
     let p = Parameters {
         carry_rate: 5.4,
@@ -246,11 +246,12 @@ fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
     };
     let setup = Setup {
         loads: flasks,
+        lanes: Some(lanes),
         solids: solids.then(|| vec![sample(&narrow_glass(), 0.5 * D, H)]),
         ..Setup::new(p, shapes, particles_at_start)
     };
-    let solver = setup.solver(&device);
-    frames(&device, &solver, &poses, 2);
+    let solver = setup.solver(device);
+    frames(device, &solver, &poses, 2);
     let mut state = solver.snapshot().unwrap();
     let victim = 123;
     let [x, y, z] = bad;
@@ -260,7 +261,7 @@ fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
     solver.restore(&state).unwrap();
     let mut loads = Vec::new();
     for _ in 0..3 {
-        loads.extend(frame(&device, &solver, &poses, &poses));
+        loads.extend(frame(device, &solver, &poses, &poses));
     }
     let counters = solver.counters().unwrap();
     assert_eq!(counters.nan_particles, 1, "{bad:?}: {counters:?}");
@@ -289,12 +290,13 @@ fn with_bad_velocity(bad: [f32; 3], flasks: bool, solids: bool) {
     for load in loads {
         assert_eq!(load.impulse[3], 299.0);
     }
-    let density = densities(&device, &solver);
+    let density = densities(device, &solver);
     assert!(density.iter().all(|d| d.is_finite()));
 }
 
 #[test]
 fn a_particle_that_is_no_number_is_taken_out_and_counted() {
+    let device = gpu::device();
     let nan = f32::NAN;
     for bad in [
         [nan; 3],
@@ -302,8 +304,11 @@ fn a_particle_that_is_no_number_is_taken_out_and_counted() {
         [nan, 0.0, 0.0],
         [0.0, 0.0, f32::INFINITY],
     ] {
-        for (flasks, solids) in [(false, false), (true, false), (true, true)] {
-            with_bad_velocity(bad, flasks, solids);
+        for walls in [(false, false), (true, false), (true, true)] {
+            with_bad_velocity(&device, bad, walls, 1);
         }
+    }
+    for lanes in lanes(&device) {
+        with_bad_velocity(&device, [nan; 3], (true, false), lanes);
     }
 }

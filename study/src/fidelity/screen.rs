@@ -114,7 +114,7 @@ impl Draw for Screen {
             pane: None,
             shown: 1.0,
             goggles: 0.0,
-            masked: true,
+            part_of: None,
             foveation: None,
             colour_by: ColourBy::Acid,
             length_scale: state.world.scene().scale.length_scale as f32,

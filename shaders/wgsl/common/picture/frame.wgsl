@@ -20,6 +20,9 @@ struct View {
     across: vec3<f32>,
     /// To the next row, at a view depth of one.
     down: vec3<f32>,
+    /// Where the view lies in the eye's own picture, of which it may be a part: its upper left corner, and its width and height, over
+    /// the picture's.
+    in_picture: vec4<f32>,
 }
 
 /// A capsule that keeps daylight from the bench: a vessel, roughly.

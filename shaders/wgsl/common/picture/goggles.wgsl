@@ -19,10 +19,11 @@ const LETS_THROUGH = vec3<f32>(0.34, 0.22, 0.11);
 /// The share of red, green and blue light that comes through the goggles at a place of the picture (pixels).
 fn through_goggles(eye: u32, at: vec2<f32>) -> vec3<f32> {
     if (frame.goggles <= 0.0) { return vec3<f32>(1.0); }
-    var place = at / frame.extent;
+    let part = frame.views[eye].in_picture;
+    var place = part.xy + part.zw * (at / frame.extent);
     // The right eye's goggles are the left one's mirror image.
     if (eye == 1u) { place.x = 1.0 - place.x; }
-    let aspect = frame.extent.x / frame.extent.y;
+    let aspect = (frame.extent.x / frame.extent.y) * (part.w / part.z);
     var open = vec3<f32>(1.0);
     for (var n = 0u; n < SPLASHES; n++) {
         let splash = SPLASHED[n];

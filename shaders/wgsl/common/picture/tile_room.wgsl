@@ -4,7 +4,8 @@
 //!include common/picture/frame.wgsl
 //!include common/picture/laboratory.wgsl
 
-/// Pixels around a tile that count as its own: as far as an edge on the bench is soft (`LEAST_SLOPE` of `room.wgsl`).
+/// Pixels around a tile that count as its own: as far as an edge on the bench is soft (`LEAST_SLOPE` of `room.wgsl`). A board that
+/// is seen flatter than 4° is softer aside, in the few rows of pixels that it has: what of that is in another tile may be missing.
 const SOFT = 8.0;
 
 /// The lists of tiles that have neither glass nor liquid: the table's top and nothing else; walls and what is along them, but not the table and what hangs
