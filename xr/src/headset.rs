@@ -54,7 +54,8 @@ pub trait Headset {
     /// Ends the frame; without `shown` nothing is shown.
     ///
     /// # Errors
-    /// As for [`Headset::next`].
+    /// As for [`Headset::next`]. [`HeadsetError::NoInset`] where `shown` lacks the inset that there is: the frame is then ended with
+    /// nothing.
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError>;
 
     /// What the hand feels until the next call: 0 nothing, 1 the strongest. It is to be said in
@@ -234,6 +235,9 @@ pub enum HeadsetError {
         /// What it answered.
         cause: String,
     },
+    /// The program ended a frame without a picture for the inset that its session has.
+    #[error("the frame has no picture for the inset of its session; nothing was shown")]
+    NoInset,
     /// The device failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),

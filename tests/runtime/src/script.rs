@@ -39,14 +39,14 @@ pub enum Change {
         /// The 26 joints in the extension's order; `None` for a hand that is not seen.
         joints: Option<Vec<Joint>>,
     },
-    /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction), in the runtime's own world; `None` where that is not
-    /// known.
+    /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction, XR_VARJO_foveated_rendering), in the runtime's own
+    /// world; `None` where that is not known.
     Gaze(Option<Pose>),
     /// The inset in each eye's picture, where XR_VARJO_quad_views is offered.
     Inset(Inset),
     /// A reference space gets another origin.
     Move {
-        /// Which: all but VIEW and actions'.
+        /// Which: all but VIEW, the gaze's and actions'.
         space: SpaceKind,
         /// Its new origin in the runtime's own world.
         origin: Pose,
@@ -301,6 +301,8 @@ pub enum SpaceKind {
     LocalFloor,
     /// The middle of the floor that is free.
     Stage,
+    /// Where the wearer looks (XR_VARJO_foveated_rendering).
+    Gaze,
     /// A hand; never offered as a reference space.
     Action,
 }

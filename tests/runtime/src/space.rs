@@ -8,6 +8,7 @@ use crate::abi::{Buffer, fill_with, given, place};
 use crate::actions::hand_of;
 use crate::script::{Known, Pose, SpaceKind};
 use crate::state::{State, call};
+use crate::views::FOLLOWS;
 use crate::world::raw_space;
 
 /// What XrSpace names.
@@ -38,6 +39,10 @@ impl State {
         let world = &self.world;
         let (pose, known) = match space.of {
             Of::Reference(SpaceKind::View) => world.head,
+            Of::Reference(SpaceKind::Gaze) => match world.gaze {
+                Some(gaze) => (gaze, Known::TRACKED),
+                None => (Pose::IDENTITY, Known::NOTHING),
+            },
             Of::Reference(SpaceKind::Local) => (world.local.at(time), Known::TRACKED),
             Of::Reference(SpaceKind::LocalFloor) => (world.floor.at(time), Known::TRACKED),
             Of::Reference(_) => (world.stage.at(time), Known::TRACKED),
@@ -97,11 +102,14 @@ pub(crate) extern "system" fn enumerate_reference_spaces(
     })
 }
 
-/// LOCAL_FLOOR is its extension's.
+/// LOCAL_FLOOR and the gaze's are those of their extensions.
 fn offered(state: &mut State, session: sys::Session) -> Vec<SpaceKind> {
-    let floor = state.session_has(session, "XR_EXT_local_floor").is_ok();
     let mut offered = state.world.spaces.clone();
-    offered.retain(|kind| floor || *kind != SpaceKind::LocalFloor);
+    offered.retain(|kind| match kind {
+        SpaceKind::LocalFloor => state.session_has(session, "XR_EXT_local_floor").is_ok(),
+        SpaceKind::Gaze => state.session_has(session, FOLLOWS).is_ok(),
+        _ => true,
+    });
     offered
 }
 

@@ -1,18 +1,19 @@
 //! View configurations: both eyes, or both and an inset in each (XR_VARJO_quad_views, XR_VARJO_foveated_rendering).
 
 use openxr::sys;
+use serde_json::json;
 use sys::{Handle as _, Result as R, ViewConfigurationType};
 
 use crate::abi::{Buffer, chained, fill, fill_with, given};
 use crate::instance::LARGEST;
 use crate::script::{Fov, Known, Pose};
-use crate::state::{State, call};
+use crate::state::{State, call, told};
 
 const STEREO: ViewConfigurationType = ViewConfigurationType::PRIMARY_STEREO;
 const QUAD: ViewConfigurationType = ViewConfigurationType::PRIMARY_QUAD_VARJO;
 /// The extension of the one, and the one by which the inset follows the gaze.
 const INSET: &str = "XR_VARJO_quad_views";
-const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
+pub(crate) const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
 
 impl State {
     /// How many views that configuration has, where the instance offers it.
@@ -139,18 +140,19 @@ pub(crate) extern "system" fn locate_views(
     count: Option<&mut u32>,
     views: Buffer<sys::View>,
 ) -> R {
-    call("xrLocateViews", |state| {
+    // SAFETY: OpenXR's callers chain structures that live through the call.
+    let foveated: Option<&sys::ViewLocateFoveatedRenderingVARJO> = info.and_then(|info| unsafe {
+        chained(info.next, sys::ViewLocateFoveatedRenderingVARJO::TYPE)
+    });
+    let active = foveated.map(|it| bool::from(it.foveated_rendering_active));
+    let locate = |state: &mut State| {
         let info = given!(info, sys::ViewLocateInfo);
         let flags = given!(flags, sys::ViewState);
         if state.session(session)?.views != info.view_configuration_type {
             return Err(R::ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
         }
         let wanted = state.views_of(session)?;
-        // SAFETY: OpenXR's callers chain structures that live through the call.
-        let foveated: Option<&sys::ViewLocateFoveatedRenderingVARJO> =
-            unsafe { chained(info.next, sys::ViewLocateFoveatedRenderingVARJO::TYPE) };
-        let active = foveated.is_some_and(|it| it.foveated_rendering_active.into());
-        let follows = active && state.session_has(session, FOLLOWS).is_ok();
+        let follows = active == Some(true) && state.session_has(session, FOLLOWS).is_ok();
         let inset = state.inset(follows);
         let there = state.world.head;
         let raw = session.into_raw();
@@ -163,7 +165,14 @@ pub(crate) extern "system" fn locate_views(
             let fov = eyes.get(index).copied().unwrap_or(inset);
             put(view, &head, known, [-0.5, 0.5][index % 2] * ipd, fov);
         })
-    })
+    };
+    // Written down only where it says something, as there are several of them in a frame.
+    match active {
+        Some(active) => told("xrLocateViews", json!({ "follows": active }), |state, _| {
+            locate(state)
+        }),
+        None => call("xrLocateViews", locate),
+    }
 }
 
 /// A view so far to the right of the middle of the head, m.

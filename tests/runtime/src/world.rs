@@ -118,6 +118,7 @@ impl Default for World {
                 SpaceKind::Local,
                 SpaceKind::LocalFloor,
                 SpaceKind::Stage,
+                SpaceKind::Gaze,
             ],
             formats: FORMATS.to_vec(),
             array_layers: 64,
@@ -142,7 +143,7 @@ impl World {
             SpaceKind::Local => Some(&mut self.local),
             SpaceKind::LocalFloor => Some(&mut self.floor),
             SpaceKind::Stage => Some(&mut self.stage),
-            SpaceKind::View | SpaceKind::Action => None,
+            SpaceKind::View | SpaceKind::Gaze | SpaceKind::Action => None,
         }
     }
 
@@ -165,6 +166,7 @@ pub(crate) fn raw_space(kind: SpaceKind) -> Option<sys::ReferenceSpaceType> {
         SpaceKind::Local => Some(sys::ReferenceSpaceType::LOCAL),
         SpaceKind::LocalFloor => Some(sys::ReferenceSpaceType::LOCAL_FLOOR),
         SpaceKind::Stage => Some(sys::ReferenceSpaceType::STAGE),
+        SpaceKind::Gaze => Some(sys::ReferenceSpaceType::COMBINED_EYE_VARJO),
         SpaceKind::Action => None,
     }
 }

@@ -53,8 +53,7 @@ impl Eyes {
         begun: Begun,
         head: &Pose,
     ) -> Result<(), CallFailure> {
-        let space = &live.stage.space;
-        let (flags, found) = live.views.locate(&live.session, begun.time, space)?;
+        let (flags, found) = live.views.locate(live, begun.time)?;
         for (eye, found) in found.into_iter().take(self.all.len()).enumerate() {
             let (position, orientation) = sound(found.pose);
             let position = position.filter(|_| flags.contains(xr::ViewStateFlags::POSITION_VALID));

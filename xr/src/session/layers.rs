@@ -52,6 +52,12 @@ impl Live {
     /// Gives the images back and shows them. What the runtime refuses a frame with, and takes it without, is left out from
     /// then on; where it takes none of it, the frame ends empty.
     pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), CallFailure> {
+        if self.images.inset.is_some() && shown.inset.is_none() {
+            // The runtime takes no picture without. It is not asked, as it would be refused for the program's fault.
+            self.begun = Some(begun);
+            self.end_empty()?;
+            return Err(CallFailure::Fatal(HeadsetError::NoInset));
+        }
         let released = self.images.release(&self.gpu, true);
         if let Err(failure) = released {
             self.end_with_nothing(begun)?;
@@ -79,17 +85,8 @@ impl Live {
     fn end_with(&mut self, begun: Begun, shown: &Shown, extras: Extras) -> Result<(), CallFailure> {
         let images = &self.images;
         let eyes = (&images.eyes, shown.views, shown.extent);
-        let inset = match (&images.inset, shown.inset) {
-            (Some(pair), Some(inset)) => Some((pair, inset.views, inset.extent)),
-            (None, _) => None,
-            // The runtime takes no frame without.
-            (Some(_), None) => {
-                return Err(CallFailure::Fatal(HeadsetError::Refused {
-                    call: "xrEndFrame",
-                    cause: "the frame has no picture for the inset".to_owned(),
-                }));
-            }
-        };
+        let inset = images.inset.as_ref().zip(shown.inset);
+        let inset = inset.map(|(pair, inset)| (pair, inset.views, inset.extent));
         let ends = match extras.depth {
             DepthRange::Infinite => Some(f32::INFINITY),
             DepthRange::Finite => Some(FAR),

@@ -35,6 +35,8 @@ pub(super) struct Live {
     pub waiter: xr::FrameWaiter,
     pub images: Images,
     pub head: xr::Space,
+    /// The gaze that an inset goes with.
+    pub gaze: Option<xr::Space>,
     pub stage: Stage,
     pub actions: Actions,
     pub session: xr::Session<xr::Vulkan>,
@@ -137,6 +139,7 @@ impl Live {
             waiter,
             images,
             head,
+            gaze: views.gaze(&session),
             stage,
             actions,
             session,

@@ -1,13 +1,14 @@
 //! Which views a session has: two, or two and an inset in each.
 //!
 //! The inset is the runtime's own foveation (XR_VARJO_quad_views, which later became OpenXR's own "stereo with foveated inset"). Where
-//! XR_VARJO_foveated_rendering is offered too it goes with the gaze, which the runtime has at first hand; else it is where the runtime
-//! puts it.
+//! XR_VARJO_foveated_rendering is offered too it goes with the gaze, which the runtime has at first hand; else, and while the gaze is
+//! lost, it is where the runtime puts it.
 
 use openxr as xr;
 use xr::sys;
 
 use super::convert::{CallFailure, failed};
+use super::live::Live;
 use crate::HeadsetError;
 
 /// Views of a session with an inset: the left and the right eye's, then the left and the right inset.
@@ -78,15 +79,33 @@ impl Views {
         Ok(extents)
     }
 
+    /// The space by which it is known whether the runtime has the gaze that the inset goes with; `None` where the inset goes with
+    /// none, and where the runtime refuses the space.
+    pub(super) fn gaze(self, session: &xr::Session<xr::Vulkan>) -> Option<xr::Space> {
+        if self != (Self::Quad { follows: true }) {
+            return None;
+        }
+        let kind = xr::ReferenceSpaceType::COMBINED_EYE_VARJO;
+        let made = session.create_reference_space(kind, xr::Posef::IDENTITY);
+        made.inspect_err(|answer| {
+            tracing::warn!(%answer, "the runtime refuses the gaze's space; the inset does not follow the gaze");
+        })
+        .ok()
+    }
+
     /// All of them at that time.
     pub(super) fn locate(
         self,
-        session: &xr::Session<xr::Vulkan>,
+        live: &Live,
         time: xr::Time,
-        space: &xr::Space,
     ) -> Result<(xr::ViewStateFlags, Vec<xr::View>), CallFailure> {
+        let (session, space) = (&live.session, &live.stage.space);
         let located = match self {
-            Self::Quad { follows: true } => locate_foveated(session, self.kind(), time, space),
+            Self::Quad { follows: true } => {
+                let gaze = live.gaze.as_ref();
+                let active = gaze.is_some_and(|gaze| is_tracked(gaze, &live.head, time));
+                locate_foveated(session, self.kind(), time, space, active)
+            }
             _ => session.locate_views(self.kind(), time, space),
         };
         let (flags, found) = located.map_err(failed("xrLocateViews"))?;
@@ -200,17 +219,31 @@ fn foveated_sizes(
         .collect())
 }
 
-/// [`xr::Session::locate_views`] with an inset that goes with the gaze.
+/// Whether the runtime has the gaze at that time, as XR_VARJO_foveated_rendering lets a program find out. A runtime that cannot
+/// say has not.
+fn is_tracked(gaze: &xr::Space, head: &xr::Space, time: xr::Time) -> bool {
+    gaze.locate(head, time).is_ok_and(|found| {
+        found
+            .location_flags
+            .contains(xr::SpaceLocationFlags::ORIENTATION_TRACKED)
+    })
+}
+
+/// [`xr::Session::locate_views`] with an inset that goes with the gaze while that is `active`.
+///
+/// Pictures have the sizes of the active state at all times, since swapchains keep theirs: while the gaze is lost the inset, which
+/// is wider then, has fewer pixels for each degree.
 fn locate_foveated(
     session: &xr::Session<xr::Vulkan>,
     kind: xr::ViewConfigurationType,
     time: xr::Time,
     space: &xr::Space,
+    active: bool,
 ) -> xr::Result<(xr::ViewStateFlags, Vec<xr::View>)> {
     let active = sys::ViewLocateFoveatedRenderingVARJO {
         ty: sys::ViewLocateFoveatedRenderingVARJO::TYPE,
         next: std::ptr::null(),
-        foveated_rendering_active: sys::TRUE,
+        foveated_rendering_active: active.into(),
     };
     let info = sys::ViewLocateInfo {
         ty: sys::ViewLocateInfo::TYPE,

@@ -6,6 +6,7 @@ mod awake;
 mod client;
 mod hands;
 mod inset;
+mod inset_gaze;
 mod inset_refused;
 mod life;
 mod loss;
