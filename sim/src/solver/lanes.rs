@@ -24,7 +24,7 @@ fn wanted(count: u32) -> u32 {
 }
 
 /// Invocations that search one particle's neighbours: 8 on a GPU, fewer where a dispatch would be too large. More candidates are
-/// tested than neighbours found, so that it gains by more than its sums do: of 39,888 particles on an H100, 4 take 0.226 ms a frame,
+/// tested than neighbours found, so that it gains by more than its sums do: of 39,888 particles on an H100, 4 took 0.226 ms a frame,
 /// 8 0.210 and 16 0.219.
 pub(super) fn of_list(gpu: &Gpu, count: u32) -> u32 {
     let info = gpu.info();
