@@ -111,7 +111,9 @@ fn search_alone(i: u32, x: vec3<f32>, membership: u32, row: Row) {
             let distance = dot(offset, offset);
             let hit = distance < CELL * CELL && j != i;
             near |= select(0u, 1u << n, hit);
-            mixed = mixed || (hit && membership_in(other) != membership);
+            // A call within the condition would be a branch round a function, and this pass a seventh dearer (H200).
+            let theirs = membership_in(other);
+            mixed = mixed || (hit && theirs != membership);
             coincident = coincident || (hit && distance < 1e-8 * SUPPORT * SUPPORT);
         }
         while (near != 0u) {

@@ -1,7 +1,9 @@
 //! Quad views that a runtime offers and then refuses.
 
-use vitriol_tests::mock::{Change, Inset};
+use vitriol_tests::mock::{Change, Inset, Mock};
+use vitriol_xr::depth_extent;
 
+use crate::client::Client;
 use crate::inset::{
     FOLLOWS, OF_QUAD, OF_STEREO, QUAD, begun, is_stereo, opened, shown, until_renewed,
 };
@@ -35,19 +37,21 @@ fn refused_at_the_sessions_begin() {
     assert_eq!(begun(&mock), [(OF_QUAD, UNSUPPORTED), (OF_STEREO, 0)]);
 }
 
+/// A client on a runtime that has no images of so many pixels.
+fn without_images(name: &str, [width, height]: [u32; 2]) -> Option<(Mock, Client)> {
+    let images = format!("{width} x {height}");
+    let changes = [
+        Change::offer_all_too(&[QUAD, FOLLOWS]),
+        refuse("xrCreateSwapchain", VALIDATION_FAILURE, &images),
+    ];
+    opened(name, &changes)
+}
+
 #[test]
 fn refused_images() {
     let name = "inset_refused::refused_images";
-    let [width, height] = Inset::default().following[1];
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse(
-            "xrCreateSwapchain",
-            VALIDATION_FAILURE,
-            &format!("{width} x {height}"),
-        ),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let extent = Inset::default().following[1];
+    let Some((mock, mut client)) = without_images(name, extent) else {
         return;
     };
     is_stereo(&mock, &mut client);
@@ -59,16 +63,8 @@ fn refused_images() {
 #[test]
 fn refused_images_of_depth() {
     let name = "inset_refused::refused_images_of_depth";
-    let [width, height] = Inset::default().following[1].map(|side| side.div_ceil(2));
-    let changes = [
-        Change::offer_all_too(&[QUAD, FOLLOWS]),
-        refuse(
-            "xrCreateSwapchain",
-            VALIDATION_FAILURE,
-            &format!("{width} x {height}"),
-        ),
-    ];
-    let Some((mock, mut client)) = opened(name, &changes) else {
+    let extent = depth_extent(Inset::default().following[1]);
+    let Some((mock, mut client)) = without_images(name, extent) else {
         return;
     };
     client.frame();

@@ -229,19 +229,17 @@ pub(super) fn describe(session: &SessionReport) -> String {
         session.missed_frames,
     );
     text += &governed(&session.governor);
-    text += &match (session.inset, session.foveation) {
-        (Some([width, height]), _) => {
-            format!("the runtime's quad views, with insets of {width} × {height} pixels\n")
+    if let Some([width, height]) = session.inset {
+        text += &format!("the runtime's quad views, with insets of {width} × {height} pixels\n");
+    }
+    text += match session.foveation.filter(|_| session.inset.is_none()) {
+        Some(Foveating::Off) => "every pixel shaded\n",
+        Some(Foveating::Eye) => {
+            "every pixel shaded about where the user looks, if known, fewer beyond\n"
         }
-        (None, Some(Foveating::Off)) => "every pixel shaded\n".into(),
-        (None, Some(Foveating::Eye)) => {
-            "every pixel shaded about where the user looks, if known, fewer beyond\n".into()
-        }
-        (None, Some(Foveating::Fixed)) => {
-            "every pixel shaded about the lenses' axes, fewer beyond\n".into()
-        }
+        Some(Foveating::Fixed) => "every pixel shaded about the lenses' axes, fewer beyond\n",
         // The settings say it.
-        (None, None) => String::new(),
+        None => "",
     };
     let rows = [
         ("processor, a frame, ms", session.cpu_ms),
