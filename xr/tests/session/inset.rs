@@ -328,7 +328,9 @@ fn three_views_in_the_middle() {
         views: 3,
         ..Inset::default()
     }));
-    until_renewed(&mut client);
+    let others = until_renewed(&mut client);
+    let said = others.iter().any(|it| it.contains("xrLocateViews"));
+    assert!(said, "{others:?}");
     client.focus();
     is_stereo(&mock, &mut client);
 }
