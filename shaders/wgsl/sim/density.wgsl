@@ -13,7 +13,7 @@
 @group(0) @binding(4) var<storage, read_write> density: array<f32>;
 @group(0) @binding(5) var<storage, read> bulk: array<vec4<f32>>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

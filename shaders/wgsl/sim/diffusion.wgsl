@@ -65,7 +65,7 @@ fn diffuse(i: u32, lane: u32, own: PaperHeat) -> Diffusion {
     return Diffusion(lane_sum(sum.temperature), lane_sum(sum.acid), lane_sum(sum.limited));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

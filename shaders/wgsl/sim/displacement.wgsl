@@ -179,7 +179,7 @@ fn commit(i: u32, tag: vec2<u32>, x_star: vec3<f32>, multiplied: f32) {
     new_velocity[i] = pack_velocity(v, carried);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

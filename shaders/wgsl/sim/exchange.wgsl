@@ -361,7 +361,7 @@ fn coefficient_of(own: Potential, eddies: Eddies) -> f32 {
     return (step.viscosity * CALM + real - step.viscosity * CALM * real) / step.viscosity;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

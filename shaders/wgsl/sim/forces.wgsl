@@ -245,7 +245,7 @@ fn plunge(i: u32, tag: vec2<u32>, v: vec3<f32>, filled: f32) {
     falls[identity] = next;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

@@ -66,12 +66,12 @@ var<private> coincident: bool;
 /// Whether any neighbour has another membership; where a lane is alone.
 var<private> mixed: bool;
 
-/// A row of three cells along x: particles from `first` on, and then from `second` on where it goes round the table's end.
+/// A row of three cells along x: particles from `first` on, and then from `second` on where it goes on in another block.
 struct Row {
     first: u32,
     count: u32,
     second: u32,
-    wrapped: u32,
+    second_count: u32,
 }
 
 /// Particle n of a row.
@@ -79,30 +79,31 @@ fn candidate(n: u32, row: Row) -> u32 {
     return select(row.second + n - row.count, row.first + n, n < row.count);
 }
 
-/// One of the nine rows around a cell.
+/// One of the nine rows around a cell. At a block's first or last cell it lies in two blocks.
 fn row_at(cell: vec3<i32>, row: u32) -> Row {
-    let last = (1 << CELL_BITS_X) - 1;
-    let low = u32((cell.x - 1) & last);
-    let high = u32((cell.x + 1) & last);
-    let wraps = low > high;
     let y = cell.y + i32(row % 3u) - 1;
     let z = cell.z + i32(row / 3u) - 1;
-    let start = cell_index(vec3<i32>(0, y, z));
-    let first = start_of(start + low);
-    let end = start_of(start + select(high, u32(last), wraps) + 1u);
-    let second = start_of(start);
-    let second_end = select(second, start_of(start + high + 1u), wraps);
+    let last = (1 << BLOCK_BITS) - 1;
+    let at = cell.x & last;
+    let low = cell_index(vec3<i32>(cell.x - 1, y, z));
+    let middle = cell_index(vec3<i32>(cell.x, y, z));
+    let high = cell_index(vec3<i32>(cell.x + 1, y, z));
+    let parted = at == 0 || at == last;
+    let first = start_of(low);
+    let end = start_of(low + select(3u, select(2u, 1u, at == 0), parted));
+    let second = start_of(select(high, middle, at == 0));
+    let second_end = select(second, start_of(high + 1u), parted);
     return Row(first, end - first, second, second_end - second);
 }
 
-/// Tests a row's particles in one loop: one for what goes round the table's end
-/// would be walked on a software driver too, and mostly for nothing. 32 are
+/// Tests a row's particles in one loop: one for what lies in another block
+/// would be walked on a software driver too, and half of the time for nothing. 32 are
 /// tested and then the hits written, since what is written under a condition
 /// costs such a driver the same whether it holds or not. The few pairs of mixed
 /// membership are looked at afterwards.
 fn search_alone(i: u32, x: vec3<f32>, membership: u32, row: Row) {
-    for (var start = 0u; start < row.count + row.wrapped; start += 32u) {
-        let tested = min(row.count + row.wrapped - start, 32u);
+    for (var start = 0u; start < row.count + row.second_count; start += 32u) {
+        let tested = min(row.count + row.second_count - start, 32u);
         var near = 0u;
         for (var n = 0u; n < tested; n++) {
             let j = candidate(start + n, row);
@@ -162,7 +163,7 @@ fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
 /// fetches, not for its arithmetic. The loop is the subgroup's, as long as its longest row: Vulkan promises a ballot of all lanes only where
 /// all come by.
 fn search_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32, row: Row) {
-    let end = row.count + row.wrapped;
+    let end = row.count + row.second_count;
     let longest = subgroupMax(end);
     for (var first = 0u; first < longest; first += 2u * LIST_LANES) {
         let n = first + lane.own;
@@ -182,7 +183,7 @@ fn search_rows_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
     let cell = cell_of(x);
     for (var known = 0u; known < 9u; known += LIST_LANES) {
         let mine = row_at(cell, min(known + lane.own, 8u));
-        let there = vec4<u32>(mine.first, mine.count, mine.second, mine.wrapped);
+        let there = vec4<u32>(mine.first, mine.count, mine.second, mine.second_count);
         let words = select(there, vec4<u32>(0u), membership == REMOVED);
         for (var n = 0u; n < min(LIST_LANES, 9u - known); n++) {
             let row = subgroupShuffle(words, lane.first + n);

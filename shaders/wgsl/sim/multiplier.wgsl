@@ -116,7 +116,7 @@ fn apply_carried(i: u32, x: vec3<f32>) {
     solved[i] = pack_solved(x, carried);
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

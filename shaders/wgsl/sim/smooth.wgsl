@@ -12,7 +12,7 @@ override SHARE: f32 = 1.0;
 @group(0) @binding(2) var<storage, read> list: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read_write> smoothed: array<vec4<f32>>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

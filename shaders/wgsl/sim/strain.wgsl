@@ -32,7 +32,7 @@ fn stirred_by_bubbles(i: u32) -> f32 {
     return BUBBLE_EDDIES / SCHMIDT * swept / unpack_bulk(bulk[i]).volume;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;

@@ -9,6 +9,17 @@ pub(super) fn of_particles(gpu: &Gpu, count: u32) -> u32 {
     wanted(count).min(most(gpu))
 }
 
+/// Invocations of a workgroup of a pass over neighbours, where `lanes` share a particle. Particles of a workgroup are close together
+/// and read the same neighbours from the first cache. Of a million particles on an H200, groups of 64 took 2.61 ms a frame, of 256 2.43;
+/// of 37,225 with four lanes, 128 took 1 % less than 64, and 256 4 % more.
+pub(super) fn group(gpu: &Gpu, lanes: u32) -> u32 {
+    match (gpu.info().kind, lanes) {
+        (vk::PhysicalDeviceType::CPU, _) => 64,
+        (_, 1) => 256,
+        _ => 128,
+    }
+}
+
 /// A software driver has no idle units.
 fn most(gpu: &Gpu) -> u32 {
     let info = gpu.info();

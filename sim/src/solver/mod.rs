@@ -94,9 +94,10 @@ impl Solver {
             .lanes
             .unwrap_or_else(|| lanes::of_particles(gpu, count));
         let list_lanes = spec.lanes.unwrap_or_else(|| lanes::of_list(gpu, count));
+        let group = lanes::group(gpu, lanes);
         let vessels = Vessels::new(gpu, spec)?;
         let buffers = Buffers::new(gpu, spec, count, &grid)?;
-        let constants = Constants::new(spec, count, &grid, [lanes, list_lanes]);
+        let constants = Constants::new(spec, count, &grid, [lanes, list_lanes, group]);
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
         let steam = Steam::new(gpu, library, spec, count, &constants, (&buffers, &vessels))?;

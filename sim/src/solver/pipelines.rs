@@ -330,12 +330,12 @@ fn flag(on: bool) -> f64 {
 pub(super) struct Constants(Vec<(&'static str, f64)>);
 
 impl Constants {
-    /// `lanes` of a particle, and those that search its neighbours.
+    /// `lanes` of a particle, those that search its neighbours, and invocations of a workgroup.
     pub(super) fn new(
         spec: &SolverSpec<'_>,
         count: u32,
         grid: &Grid,
-        [lanes, list_lanes]: [u32; 2],
+        [lanes, list_lanes, group]: [u32; 3],
     ) -> Self {
         let p = &spec.parameters;
         let margin = grid.cell - p.support_radius;
@@ -345,6 +345,7 @@ impl Constants {
             ("LIST_CAPACITY", f64::from(grid.list_capacity)),
             ("LANES", f64::from(lanes)),
             ("LIST_LANES", f64::from(list_lanes)),
+            ("GROUP", f64::from(group)),
             ("SUPPORT", p.support_radius),
             ("VOLUME", p.particle_volume()),
             ("MASS", p.particle_mass()),

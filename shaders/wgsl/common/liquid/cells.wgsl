@@ -17,9 +17,17 @@ fn cell_of(x: vec3<f32>) -> vec3<i32> {
     return vec3<i32>(floor(x / CELL));
 }
 
-/// Place of a cell in the table; x runs fastest.
+/// Logarithm of the cells along each edge of a block.
+const BLOCK_BITS: u32 = 2u;
+
+/// Place of a cell in the table: cells of a block lie side by side, and in either x runs fastest. So a workgroup's particles fill a
+/// compact piece of the liquid and share their neighbours. In a row of single cells they would share half as many.
 fn cell_index(cell: vec3<i32>) -> u32 {
     let c = bitcast<vec3<u32>>(cell)
         & vec3<u32>((1u << CELL_BITS_X) - 1u, (1u << CELL_BITS_Y) - 1u, (1u << CELL_BITS_Z) - 1u);
-    return c.x | (c.y << CELL_BITS_X) | (c.z << (CELL_BITS_X + CELL_BITS_Y));
+    let within = c & vec3<u32>((1u << BLOCK_BITS) - 1u);
+    let block = c >> vec3<u32>(BLOCK_BITS);
+    let place = within.x | (within.y << BLOCK_BITS) | (within.z << (2u * BLOCK_BITS));
+    let blocks = block.x | (block.y << (CELL_BITS_X - BLOCK_BITS)) | (block.z << (CELL_BITS_X + CELL_BITS_Y - 2u * BLOCK_BITS));
+    return place | (blocks << (3u * BLOCK_BITS));
 }

@@ -5,6 +5,8 @@
 override COUNT: u32 = 1u;
 /// Rows of the neighbour list.
 override LIST_CAPACITY: u32 = 64u;
+/// Invocations of a workgroup of a pass over neighbours.
+override GROUP: u32 = 64u;
 /// Whether what pushes on walls is summed up for the rigid bodies.
 override LOADS: bool = false;
 
