@@ -3,6 +3,7 @@
 
 use std::any::Any;
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::Arc;
 
 use ash::vk;
@@ -16,6 +17,30 @@ use crate::device::{Core, Options, Timestamps};
 use crate::memory::ImageInner;
 use crate::pipeline::{DescriptorData, LayoutPush};
 use crate::{Buffer, Image};
+
+/// Hashes the number of a buffer or image. They are given in turn, and no one else chooses them; a pass looks up to 30 of them up, and
+/// the standard hash took longer than the barriers' planning.
+#[derive(Default)]
+pub(crate) struct IdHash(u64);
+
+type ById = BuildHasherDefault<IdHash>;
+
+impl Hasher for IdHash {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.write_u64(u64::from(*byte));
+        }
+    }
+
+    /// Fibonacci hashing: the table takes its place from the high bits too.
+    fn write_u64(&mut self, id: u64) {
+        self.0 = (self.0 ^ id).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
 
 /// An image and the layout that it has at this point of the recording.
 pub(crate) struct ImageState {
@@ -54,9 +79,9 @@ pub(crate) struct Storage {
     /// Keeps what the commands use.
     retained: Vec<Arc<dyn Any + Send + Sync>>,
     pub(crate) planner: Planner,
-    slots: HashMap<u64, u32>,
+    slots: HashMap<u64, u32, ById>,
     pub(crate) images: Vec<ImageState>,
-    image_indices: HashMap<u64, usize>,
+    image_indices: HashMap<u64, usize, ById>,
     /// Of the pass being recorded.
     pub(crate) uses: Vec<Use>,
     pub(crate) image_uses: Vec<ImageUse>,
@@ -96,9 +121,9 @@ impl Storage {
             submission: Submission::new(0),
             retained: Vec::new(),
             planner: Planner::default(),
-            slots: HashMap::new(),
+            slots: HashMap::default(),
             images: Vec::new(),
-            image_indices: HashMap::new(),
+            image_indices: HashMap::default(),
             uses: Vec::new(),
             image_uses: Vec::new(),
             descriptors: Vec::new(),

@@ -6,6 +6,7 @@
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
+//!include common/glass/boundary.wgsl
 //!include common/glass/constraint.wgsl
 //!include common/glass/mirror.wgsl
 //!include common/glass/wall.wgsl
@@ -22,6 +23,9 @@
 override COMMIT: bool = false;
 /// Whether multipliers are carried from one substep to the next.
 override CARRY: bool = false;
+/// Whether this pass, the first of its substep, displaces by what was carried. Then `solved` is `trial` as it was predicted, and `trial`
+/// is other memory, as the neighbours read the prediction. A pass of multipliers before it would sum over no neighbours.
+override APPLY_CARRIED: bool = false;
 /// What of σ·sin θ holds a surface's line (`sim/interface.wgsl`); 0 without surface tension.
 override HYSTERESIS: f32 = 0.0;
 /// Half of the list's margin, metres: a particle that went further might miss neighbours.
@@ -47,8 +51,21 @@ override LIST_REACH: f32 = 0.000375;
 /// By identity: what walls hold the line of a surface with (`sim/tension.wgsl`).
 @group(0) @binding(50) var<storage, read> held: array<vec4<f32>>;
 
+/// dλ of particle j, m², of which `record` is what `solved` has.
+fn change_of(j: u32, record: vec4<f32>) -> f32 {
+    if (APPLY_CARRIED) { return carried_multiplier(velocity[j], step.time); }
+    return change_in(record);
+}
+
+/// The record `boundary` of a particle at x*; for lane 0, but all lanes must ask.
+fn walls_of(i: u32, lane: u32, x_star: vec3<f32>) -> vec4<f32> {
+    if (APPLY_CARRIED) { return boundary_volume(tags[i].x, x_star, step.after, lane); }
+    return boundary[i];
+}
+
 /// Line 19: Σ (dλ_i + dλ_j) ∇W over the neighbours, but for the kernel's scale.
 fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
+    let change = change_of(i, own);
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
     for (var g = lane; g * 4u < count; g += LANES) {
@@ -61,7 +78,7 @@ fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
             let per_distance = inverseSqrt(square);
             var slope = per_distance * spline_slope(square * per_distance * INVERSE_SUPPORT);
             if (DENSITY) { slope *= unpack_bulk(bulk[j]).volume; }
-            sum += offset * ((change_in(own) + change_in(other)) * slope);
+            sum += offset * ((change + change_of(j, other)) * slope);
         }
     }
     return lane_sum3(sum);
@@ -73,10 +90,10 @@ struct Displacement {
     wall: vec3<f32>,
 }
 
-/// Line 19: Δx by the constraints' gradients at a particle; `sum` is that of its neighbours.
-fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>) -> Displacement {
+/// Line 19: Δx by the constraints' gradients at a particle; `sum` is that of its neighbours, `walls` its record `boundary`.
+fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>, walls: vec4<f32>) -> Displacement {
     let by_liquid = sum * (weight_scale() / SUPPORT);
-    var delta = Displacement(by_liquid, by_walls(by_liquid, change_in(own), boundary[i]));
+    var delta = Displacement(by_liquid, by_walls(by_liquid, change_of(i, own), walls));
     if (DENSITY) {
         // The same pressure moves what is light further: water rises in acid.
         let lightness = unpack_bulk(bulk[i]).lightness;
@@ -186,8 +203,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     let own = solved[i];
     let sum = sum_gradients(i, lane, own); // 19
+    let walls = walls_of(i, lane, own.xyz);
     if (lane != 0u) { return; }
-    let x_star = displace(i, own.xyz, displacement(i, own, sum)); // 19 and 20
+    let x_star = displace(i, own.xyz, displacement(i, own, sum, walls)); // 19 and 20
     if (!COMMIT) {
         var volume = 1.0;
         if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }

@@ -20,15 +20,11 @@
 //!include common/liquid/trial.wgsl
 //!include common/liquid/velocity.wgsl
 
-/// Whether this is a substep's first iteration.
+/// Whether this is a substep's first iteration: the rebuild's dispatch sizes return to zero, and what the walls were before
+/// is found.
 override FIRST: bool = false;
 /// Whether multipliers are carried from one substep to the next.
 override CARRY: bool = false;
-/// Whether this pass only applies what was carried.
-override APPLY_CARRIED: bool = false;
-/// Whether this is a substep's first pass: the rebuild's dispatch sizes return to zero, and what the walls were before
-/// is found.
-override STARTS: bool = false;
 
 /// Most that what is mirrored adds: a lone particle at a wall lacks 0.18 of a full density.
 const MOST_MIRRORED: f32 = 0.1;
@@ -80,7 +76,7 @@ fn density_constraint(sum: f32, volume: f32, wall: f32, before: f32) -> f32 {
 /// Line 19: V of the walls at the substep's start; of boundary particles, which do not mirror, that at x*.
 fn walls_before(i: u32, lane: u32, membership: u32, wall: f32) -> f32 {
     if (SOLIDS) { return wall; }
-    if (!STARTS) { return wall_before[i]; }
+    if (!FIRST) { return wall_before[i]; }
     let before = wall_volume(boundary_volume(membership, position[i].xyz, step.before, lane));
     if (lane == 0u) { wall_before[i] = before; }
     return before;
@@ -99,7 +95,7 @@ fn update_multiplier(i: u32, x: vec3<f32>, constraint: f32) {
     var before = 0.0;
     var momentum = 0.0;
     if (FIRST) {
-        if (CARRY) { before = multiplier[i]; }
+        if (CARRY) { before = carried_multiplier(velocity[i], step.time); }
     } else {
         before = multiplier[i];
         momentum = step.momentum * change_in(solved[i]);
@@ -109,18 +105,11 @@ fn update_multiplier(i: u32, x: vec3<f32>, constraint: f32) {
     solved[i] = pack_solved(x, after - before);
 }
 
-/// Before the first line 19: λ is what the substep before left.
-fn apply_carried(i: u32, x: vec3<f32>) {
-    let carried = carried_by(velocity[i]) * step.time * step.time;
-    multiplier[i] = carried;
-    solved[i] = pack_solved(x, carried);
-}
-
 @compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
-    if (STARTS) {
+    if (FIRST) {
         if (id.x == 0u) {
             list_args[PARTICLE_ARGS] = 0u;
             list_args[CELL_ARGS] = 0u;
@@ -131,8 +120,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     let own = trial[i];
     let x = own.xyz;
-    var sum = 0.0;
-    if (!APPLY_CARRIED) { sum = sum_weights(i, lane, x); }
+    let sum = sum_weights(i, lane, x);
     let membership = tags[i].x;
     let wall = boundary_volume(membership, x, step.after, lane);
     let before = walls_before(i, lane, membership, wall_volume(wall));
@@ -144,9 +132,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     boundary[i] = wall;
-    if (APPLY_CARRIED) {
-        apply_carried(i, x);
-        return;
-    }
     update_multiplier(i, x, density_constraint(sum, volume_in(own), wall_volume(wall), before));
 }

@@ -146,8 +146,7 @@ impl Solver {
     fn solve_density(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
         let p = &self.pipelines;
         if self.parameters.carry_rate > 0.0 {
-            self.over_particles(rec, &p.carried_multiplier, step)?;
-            self.over_particles(rec, &p.displacement, step)?;
+            self.over_particles(rec, &p.carried_displacement, step)?;
         }
         let gradient_sum = self.parameters.gradient_sum();
         let last = self.coefficients.len() - 1;

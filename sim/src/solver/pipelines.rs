@@ -74,8 +74,8 @@ pub(super) struct Pipelines {
     pub(super) cell_scatter: SolverPass,
     pub(super) reorder: SolverPass,
     pub(super) list: SolverPass,
-    /// Applies what was carried.
-    pub(super) carried_multiplier: SolverPass,
+    /// Displaces by what was carried.
+    pub(super) carried_displacement: SolverPass,
     pub(super) first_multiplier: SolverPass,
     pub(super) multiplier: SolverPass,
     pub(super) displacement: SolverPass,
@@ -123,17 +123,15 @@ impl Pipelines {
         buffers: &[&Buffer],
     ) -> Result<Self, SolverError> {
         let carry = flag(spec.parameters.carry_rate > 0.0);
-        let starts = ("STARTS", 1.0);
-        let first = [
-            ("FIRST", 1.0),
-            if carry > 0.0 {
-                ("CARRY", carry)
-            } else {
-                starts
-            },
-        ];
+        // Where multipliers were carried, the prediction is displaced already when the first iteration reads it. That lies in memory
+        // which no one needs before the last displacement.
+        let displaced = [("trial", "new_velocity")];
+        let displaced = &displaced[..usize::from(carry > 0.0)];
         let spacing = spec.parameters.particle_volume().cbrt();
         let make = |shader, extra: &[_]| constants.pass(gpu, library, buffers, shader, extra);
+        let make_with = |shader, extra: &[_], names: &[_]| {
+            constants.pass_with(gpu, library, buffers, shader, extra, names)
+        };
         let vorticity = match spec.parameters.vorticity {
             0.0 => None,
             _ => Some(make(sim::VORTICITY, &[])?),
@@ -181,8 +179,16 @@ impl Pipelines {
             cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
-            carried_multiplier: make(sim::MULTIPLIER, &[("APPLY_CARRIED", 1.0), starts])?,
-            first_multiplier: make(sim::MULTIPLIER, &first)?,
+            carried_displacement: make_with(
+                sim::DISPLACEMENT,
+                &[("APPLY_CARRIED", 1.0)],
+                &[("solved", "trial"), ("trial", "new_velocity")],
+            )?,
+            first_multiplier: make_with(
+                sim::MULTIPLIER,
+                &[("FIRST", 1.0), ("CARRY", carry)],
+                displaced,
+            )?,
             multiplier: make(sim::MULTIPLIER, &[])?,
             displacement: make(sim::DISPLACEMENT, &[])?,
             last_displacement: make(sim::DISPLACEMENT, &[("COMMIT", 1.0), ("CARRY", carry)])?,

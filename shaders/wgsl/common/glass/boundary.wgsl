@@ -5,9 +5,6 @@
 //!include common/glass/wall.wgsl
 //!include common/liquid/particle.wgsl
 
-/// Whether glass is made of boundary particles; else of volume maps.
-override SOLIDS: bool = false;
-
 /// What one flask's glass is to a particle.
 struct Wall {
     /// ∇V, 1/m.

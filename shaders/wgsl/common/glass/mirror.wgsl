@@ -12,9 +12,6 @@
 // of the constraint bears what is above it.
 //!include common/glass/wall.wgsl
 
-/// Whether glass is made of boundary particles; else of volume maps.
-override SOLIDS: bool = false;
-
 /// Least share of a neighbourhood that is liquid, as far as it is divided by: in a gap narrower than a particle.
 const LEAST_OPEN: f32 = 0.3;
 

@@ -1,5 +1,8 @@
 // What the walls in a particle's reach are to it, together: the record `boundary`, (∇V, V).
 
+/// Whether glass is made of boundary particles; else of volume maps.
+override SOLIDS: bool = false;
+
 fn pack_walls(gradient: vec3<f32>, volume: f32) -> vec4<f32> {
     return vec4<f32>(gradient, volume);
 }

@@ -8,3 +8,8 @@ fn pack_velocity(v: vec3<f32>, carried: f32) -> vec4<f32> {
 fn carried_by(velocity: vec4<f32>) -> f32 {
     return velocity.w;
 }
+
+/// λ, m², with which a substep of that time begins: what the one before left.
+fn carried_multiplier(velocity: vec4<f32>, time: f32) -> f32 {
+    return carried_by(velocity) * time * time;
+}
