@@ -180,7 +180,7 @@ fn a_peer_that_fails_is_named() {
     );
     program(here, "silent.sh", "exit 0");
     program(here, "chatty.sh", "echo all went well");
-    let fewer = ANSWER.replace("300", "299");
+    let fewer = ANSWER.replace("\"particles\": 300", "\"particles\": 299");
     program(here, "fewer.sh", &format!("echo '{fewer}'"));
     let none = ANSWER.replace("[2000.0, 4000.0, 3000.0]", "[]");
     program(here, "none.sh", &format!("echo '{none}'"));
@@ -239,7 +239,7 @@ fn time_over_particles_is_measured_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     // Answers with as many particles as it is asked for.
-    let answer = ANSWER.replace("300", "'$2'");
+    let answer = ANSWER.replace("\"particles\": 300", "\"particles\": '$2'");
     program(here, "peer.sh", &format!("echo '{answer}'"));
     let line = "bench --scaling figure.svg --most 4000 --frames 8";
     let json = VITRIOL.json(here, &words(&format!("{line} --against ./peer.sh")));
