@@ -50,6 +50,52 @@ def lattice(args):
     return ((sites + jitter) * d).astype(np.float32), (across * d, along * d)
 
 
+def spline(q):
+    """The cubic spline over its value at 0, q = r/h."""
+    import numpy as np
+
+    return 2.0 * np.maximum(1.0 - q, 0.0) ** 3 - 8.0 * np.maximum(0.5 - q, 0.0) ** 3
+
+
+def beyond(q):
+    """Share of the kernel beyond a plane at the distance q = s/h."""
+    import numpy as np
+
+    q = np.maximum(q, 0.0)
+    a = np.maximum(1.0 - q, 0.0)
+    near = 0.5 - 1.4 * q + 8.0 / 3.0 * q**3 - 4.8 * q**5 + 3.2 * q**6
+    return np.where(q < 0.5, near, 1.6 * a**5 - 16.0 / 15.0 * a**6)
+
+
+def densities(positions, size, d):
+    """Each particle's density over the rest density: the sum over neighbours, and what floor and walls hold of the kernel."""
+    import numpy as np
+
+    h = 2.0 * d
+    cells = np.floor((positions - positions.min(0)) / h).astype(np.int64) + 1
+    shape = cells.max(0) + 2
+    key = np.ravel_multi_index(cells.T, shape)
+    order = np.argsort(key, kind="stable")
+    x, key = positions[order], key[order]
+    sums = np.ones(len(x))
+    # In sorted order the n-th neighbour of all particles that have one in a cell is looked at at once.
+    for step in np.ndindex(3, 3, 3):
+        other = key + np.ravel_multi_index(step, shape) - np.ravel_multi_index((1, 1, 1), shape)
+        first, last = np.searchsorted(key, other, "left"), np.searchsorted(key, other, "right")
+        for n in range(int((last - first).max())):
+            i = np.flatnonzero(first + n < last)
+            j = first[i] + n
+            i, j = i[i != j], j[i != j]
+            np.add.at(sums, i, spline(np.linalg.norm(x[i] - x[j], axis=-1) / h))
+    free = np.ones(len(x))
+    for axis, length in ((0, size[0]), (2, size[1])):
+        free *= 1.0 - beyond(x[:, axis] / h) - beyond((length - x[:, axis]) / h)
+    free *= 1.0 - beyond(x[:, 1] / h)
+    ratios = np.empty(len(x))
+    ratios[order] = sums / math.pi + 1.0 - free
+    return ratios
+
+
 def rank(values, share):
     """The nearest rank, so always a value that was measured."""
     values = sorted(values)
