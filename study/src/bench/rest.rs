@@ -52,7 +52,7 @@ pub struct PeerRow {
     pub ratios: Vec<f64>,
 }
 
-/// Measures `frames` frames of a scene at rest, with peers in each of [`ROUNDS`].
+/// Measures `frames` frames of a scene at rest, in turn with the peers.
 ///
 /// # Errors
 /// What device or peers say.
