@@ -56,6 +56,15 @@ pub struct BenchArgs {
     /// With --render: one picture of that width and height alone, as on a screen
     #[arg(long, value_name = "WxH", value_parser = pair, requires = "render")]
     pub size: Option<[u32; 2]>,
+    /// Another program, in turn with ours: as many particles, substeps and iterations. One in Python ends in .py; study/peers has some
+    #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["render", "features"])]
+    pub against: Vec<PathBuf>,
+    /// Time over the number of particles, of blocks at rest, and a figure of it
+    #[arg(long, value_name = "FILE.svg", conflicts_with_all = ["scene", "paper", "features", "render"])]
+    pub scaling: Option<PathBuf>,
+    /// With --scaling: most particles of a block
+    #[arg(long, value_name = "N", default_value_t = 4_000_000, requires = "scaling", value_parser = clap::value_parser!(u64).range(1000..))]
+    pub most: u64,
     /// Trade of speed for accuracy
     #[arg(long, value_parser = preset(), default_value = "balanced")]
     pub preset: Preset,

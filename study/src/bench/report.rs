@@ -7,6 +7,9 @@ use serde::Serialize;
 use vitriol_experiment::units::{grouped, percent};
 use vitriol_experiment::{DeviceStatement, Ranks};
 
+use super::rest::PeerRow;
+use super::scaling::Scaling;
+
 /// What `vitriol bench` measured.
 #[derive(Debug, Clone, Serialize)]
 pub struct Benchmark {
@@ -16,6 +19,9 @@ pub struct Benchmark {
     pub frames: u32,
     /// One row for each scene.
     pub rows: Vec<Row>,
+    /// Time over the number of particles, where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scaling: Option<Scaling>,
     /// What each feature of the scene costs, where it was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<FeatureRow>,
@@ -99,6 +105,9 @@ pub struct Row {
     pub passes: Vec<PassRow>,
     /// The paper's row, where Table 2 has one.
     pub paper: Option<PaperRow>,
+    /// Other programs that ran in turn with it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub peers: Vec<PeerRow>,
 }
 
 /// One pass in a frame.
@@ -229,6 +238,12 @@ pub fn describe(bench: &Benchmark) -> String {
                 grouped(paper.solid_particles)
             );
         }
+        for peer in &row.peers {
+            text.push_str(&peer.describe());
+        }
+    }
+    if let Some(scaling) = &bench.scaling {
+        text.push_str(&scaling.describe());
     }
     for row in &bench.pictures {
         describe_picture(row, &mut text);

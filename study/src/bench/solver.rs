@@ -1,41 +1,45 @@
 //! What a frame's solution takes, of a scene at rest in its flasks.
 
-use vitriol_experiment::{Blame, Failure, scenes};
+use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
 use vitriol_sim::scene::{Boundary, Scene};
 
-use super::frame::{QUEUED, passes, queued, settled};
-use super::report::{Row, TABLE_2, Timing};
+use super::frame::passes;
+use super::peer::Peer;
+use super::report::{Row, TABLE_2};
+use super::rest::at_rest;
 use crate::cli::BenchArgs;
 
 /// One scene: totals without timestamps around passes, which cost time
-/// themselves on a software driver, then each pass with them.
+/// themselves on a software driver, in turn with peers; then each pass with timestamps.
 ///
 /// # Errors
-/// [`Failure::Input`] for a scene that is not there; what the device says.
-pub fn row(timed: &Gpu, plain: &Gpu, name: &str, args: &BenchArgs) -> Result<Row, Failure> {
+/// [`Failure::Input`] for a scene that is not there; what device or peers say.
+pub fn row(
+    timed: &Gpu,
+    plain: &Gpu,
+    name: &str,
+    args: &BenchArgs,
+    peers: &[Peer],
+) -> Result<Row, Failure> {
     let scene = scenes::load(name)?.with_preset(args.preset);
-    let world = settled(plain, &scene)?;
-    let (mut total, mut cpu) = (Vec::new(), Vec::new());
-    for _ in 0..args.frames.div_ceil(QUEUED) {
-        total.push(queued(plain, &world, &mut cpu)?);
-    }
-    let measured = world.measure().other()?;
+    let rest = at_rest(plain, &scene, args.frames, peers)?;
     let (passes, device_total) = passes(timed, &scene, args.frames)?;
     let paper = TABLE_2.iter().find(|(known, _)| *known == name);
     Ok(Row {
         scene: name.to_owned(),
-        fluid_particles: world.solver().count().into(),
+        fluid_particles: rest.particles,
         solid_particles: solid_particles(&scene),
         substeps: scene.solver.substeps,
         iterations: scene.solver.iterations,
-        density_error_mean: measured.density_error_mean,
-        density_error_p99: measured.density_error_p99,
-        total: Timing::of(&total),
+        density_error_mean: rest.density_error_mean,
+        density_error_p99: rest.density_error_p99,
+        total: rest.total,
         device_total,
-        cpu: Timing::of(&cpu),
+        cpu: rest.cpu,
         passes,
         paper: paper.map(|(_, row)| *row),
+        peers: rest.peers,
     })
 }
 

@@ -7,7 +7,7 @@ mod exact;
 mod front;
 mod order;
 mod page;
-mod plot;
+pub(crate) mod plot;
 pub mod report;
 mod setting;
 mod sweep;

@@ -103,7 +103,7 @@ fn draw(
 }
 
 /// An axis' ends around what can be drawn on it.
-fn span(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+pub(crate) fn span(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let (low, high) = values
         .filter(|value| value.is_finite() && *value > 0.0)
         .fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)));
@@ -111,13 +111,13 @@ fn span(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 /// 1, 2 and 5 of each decade; decades alone where there are many.
-fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
+pub(crate) fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
     let steps: &[f64] = if (high / low).log10() > 3.0 {
         &[1.0]
     } else {
         &[1.0, 2.0, 5.0]
     };
-    (-9..6)
+    (-9..9)
         .flat_map(|power| steps.iter().map(move |step| step * 10f64.powi(power)))
         .filter(|tick| (low..=high).contains(tick))
         .collect()
