@@ -78,7 +78,8 @@ impl<'a> Binder<'a> {
         // Most give the names in the shader's order, so the search begins behind the last.
         let next = (32 - self.bound.leading_zeros()) as usize;
         let found = (next..slots.len()).chain(0..next);
-        let mut found = found.filter(|&index| slots.get(index).is_some_and(|slot| slot.name == name));
+        let mut found =
+            found.filter(|&index| slots.get(index).is_some_and(|slot| slot.name == name));
         let Some(index) = found.next() else {
             // One expression serves every specialisation of its shader.
             if self.layout.is_unused(name) {

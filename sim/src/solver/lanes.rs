@@ -11,7 +11,7 @@ pub(super) fn of_particles(gpu: &Gpu, count: u32) -> u32 {
 
 /// Invocations of a workgroup of a pass over neighbours, where `lanes` share a particle. Particles of a workgroup are close together
 /// and read the same neighbours from the first cache. Of a million particles on an H200, groups of 64 took 2.61 ms a frame, of 256 2.43;
-/// of 37,225 with four lanes, 128 took 1 % less than 64, and 256 4 % more.
+/// of 37,225 with several lanes, 128 took 1 % less than 64, and 256 4 to 5 % more.
 pub(super) fn group(gpu: &Gpu, lanes: u32) -> u32 {
     match (gpu.info().kind, lanes) {
         (vk::PhysicalDeviceType::CPU, _) => 64,
@@ -29,14 +29,13 @@ fn most(gpu: &Gpu) -> u32 {
     }
 }
 
+/// Most invocations of a pass over neighbours while a particle has more than one: with fewer a large GPU waits for fetches, with more
+/// for what each invocation does beside its neighbours. Of 1,000 to 250,000 particles on an H100 the fastest number of lanes is found so,
+/// to within 3 % of a frame (`docs/measurements/performance.md`).
+const MOST_SHARING: u32 = 118_000;
+
 fn wanted(count: u32) -> u32 {
-    if count <= 32_768 {
-        8
-    } else if count <= 131_072 {
-        4
-    } else {
-        1
-    }
+    within((MOST_SHARING / count.max(1)).clamp(1, 8))
 }
 
 /// Invocations that search one particle's neighbours: 8 on a GPU, fewer where a dispatch would be too large. More candidates are
@@ -88,8 +87,8 @@ mod tests {
     fn lanes_do_not_reach_beyond_a_subgroup() {
         let lanes = |count: u32, least: u32| wanted(count).min(within(least));
         assert_eq!(
-            [lanes(10_000, 32), lanes(100_000, 32), lanes(1 << 20, 32)],
-            [8, 4, 1]
+            [0, 10_000, 24_000, 40_000, 97_336, 1 << 20].map(|count| lanes(count, 32)),
+            [8, 8, 4, 2, 1, 1]
         );
         // Some drivers have subgroups of 4, and of none that they tell of.
         assert_eq!(
