@@ -144,23 +144,9 @@ struct State {
     after: [Scope; Scope::COUNT as usize],
     /// Pass that did the last write.
     pass: u32,
-    /// The last barrier that `after` tells of.
-    covered: u32,
 }
 
 impl State {
-    /// What `barrier` puts after this resource's accesses.
-    fn cover(&mut self, barrier: Barrier) {
-        for bit in self.write.union(self.reads).bits() {
-            let after = &mut self.after[bit as usize];
-            // Either the barrier waits for the access itself, or for
-            // something that an earlier barrier put after it (a chain).
-            if !after.union(Scope(1 << bit)).and(barrier.src).is_empty() {
-                *after = after.union(barrier.dst);
-            }
-        }
-    }
-
     /// Of `earlier`, the kinds that do not all of `later` come after.
     fn unordered(&self, earlier: Scope, later: Scope) -> Scope {
         earlier
@@ -174,11 +160,6 @@ impl State {
 #[derive(Default)]
 pub(crate) struct Planner {
     states: Vec<State>,
-    /// All so far, each with the number of its last repetition: another of the same kind puts nothing more after an access. A resource
-    /// looks at those since its last use when it is used again, as a pass uses few of all resources.
-    barriers: Vec<(Barrier, u32)>,
-    /// Number of the last one.
-    barrier: u32,
     pass: u32,
 }
 
@@ -186,17 +167,12 @@ impl Planner {
     /// Forgets everything, keeps its memory.
     pub(crate) fn clear(&mut self) {
         self.states.clear();
-        self.barriers.clear();
-        self.barrier = 0;
         self.pass = 0;
     }
 
     /// A new resource that nothing has accessed.
     pub(crate) fn add(&mut self) -> u32 {
-        self.states.push(State {
-            covered: self.barrier,
-            ..State::default()
-        });
+        self.states.push(State::default());
         self.states.len() as u32 - 1
     }
 
@@ -206,7 +182,7 @@ impl Planner {
         let mut src = Scope::NONE;
         let mut dst = Scope::NONE;
         for used in uses {
-            let state = self.caught_up(used.slot);
+            let state = &self.states[used.slot as usize];
             let mut need = |earlier: Scope, later: Scope| {
                 if !earlier.is_empty() {
                     src = src.union(earlier);
@@ -223,32 +199,16 @@ impl Planner {
             dst: dst.widened(),
         });
         if let Some(barrier) = barrier {
-            self.barrier += 1;
-            match self.barriers.last_mut() {
-                Some((same, last)) if *same == barrier => *last = self.barrier,
-                _ => self.barriers.push((barrier, self.barrier)),
-            }
+            self.cover(barrier);
         }
         self.record(uses);
         barrier
     }
 
-    /// A resource's state, which all barriers so far have been told to.
-    fn caught_up(&mut self, slot: u32) -> &mut State {
-        let state = &mut self.states[slot as usize];
-        let known = |(_, last): &(Barrier, u32)| *last <= state.covered;
-        let first = self.barriers.partition_point(known);
-        for (barrier, _) in self.barriers.iter().skip(first) {
-            state.cover(*barrier);
-        }
-        state.covered = self.barrier;
-        state
-    }
-
     /// A layout transition of one image before a pass that uses it as `dst`:
     /// the source scope that its image barrier must wait for.
     pub(crate) fn transition(&mut self, slot: u32, dst: Scope) -> Scope {
-        let state = self.caught_up(slot);
+        let state = &mut self.states[slot as usize];
         let earlier = state.write.union(state.reads);
         // The transition itself writes; it is ordered before `dst`, so a
         // barrier whose source holds `dst` chains to it.
@@ -263,15 +223,27 @@ impl Planner {
         if earlier.is_empty() { dst } else { earlier }
     }
 
+    fn cover(&mut self, barrier: Barrier) {
+        for state in &mut self.states {
+            for bit in state.write.union(state.reads).bits() {
+                let after = &mut state.after[bit as usize];
+                // Either the barrier waits for the access itself, or for
+                // something that an earlier barrier put after it (a chain).
+                if !after.union(Scope(1 << bit)).and(barrier.src).is_empty() {
+                    *after = after.union(barrier.dst);
+                }
+            }
+        }
+    }
+
     fn record(&mut self, uses: &[Use]) {
         self.pass += 1;
         for used in uses.iter().filter(|used| !used.scope.writes().is_empty()) {
-            let pass = self.pass;
-            let state = self.caught_up(used.slot);
-            if state.pass != pass {
+            let state = &mut self.states[used.slot as usize];
+            if state.pass != self.pass {
                 state.write = Scope::NONE;
                 state.reads = Scope::NONE;
-                state.pass = pass;
+                state.pass = self.pass;
             }
             state.write = state.write.union(used.scope.writes());
             for bit in used.scope.writes().bits() {
@@ -279,7 +251,7 @@ impl Planner {
             }
         }
         for used in uses {
-            let state = self.caught_up(used.slot);
+            let state = &mut self.states[used.slot as usize];
             state.reads = state.reads.union(used.scope.reads());
             for bit in used.scope.reads().bits() {
                 state.after[bit as usize] = Scope::NONE;

@@ -75,12 +75,7 @@ impl<'a> Binder<'a> {
     /// Index of the slot called `name`, which is now given.
     fn take(&mut self, name: &str) -> Option<(usize, &'a Slot)> {
         let slots: &'a [Slot] = &self.layout.slots;
-        // Most give the names in the shader's order, so the search begins behind the last.
-        let next = (32 - self.bound.leading_zeros()) as usize;
-        let found = (next..slots.len()).chain(0..next);
-        let mut found =
-            found.filter(|&index| slots.get(index).is_some_and(|slot| slot.name == name));
-        let Some(index) = found.next() else {
+        let Some(index) = slots.iter().position(|slot| slot.name == name) else {
             // One expression serves every specialisation of its shader.
             if self.layout.is_unused(name) {
                 return None;

@@ -3,7 +3,6 @@
 
 use std::any::Any;
 use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::Arc;
 
 use ash::vk;
@@ -17,30 +16,6 @@ use crate::device::{Core, Options, Timestamps};
 use crate::memory::ImageInner;
 use crate::pipeline::{DescriptorData, LayoutPush};
 use crate::{Buffer, Image};
-
-/// Hashes the number of a buffer or image. They are given in turn, and no one else chooses them; a pass looks up to 30 of them up, and
-/// the standard hash took longer than the barriers' planning.
-#[derive(Default)]
-pub(crate) struct IdHash(u64);
-
-type ById = BuildHasherDefault<IdHash>;
-
-impl Hasher for IdHash {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.write_u64(u64::from(*byte));
-        }
-    }
-
-    /// Fibonacci hashing: the table takes its place from the high bits too.
-    fn write_u64(&mut self, id: u64) {
-        self.0 = (self.0 ^ id).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-}
 
 /// An image and the layout that it has at this point of the recording.
 pub(crate) struct ImageState {
@@ -79,9 +54,9 @@ pub(crate) struct Storage {
     /// Keeps what the commands use.
     retained: Vec<Arc<dyn Any + Send + Sync>>,
     pub(crate) planner: Planner,
-    slots: HashMap<u64, u32, ById>,
+    slots: HashMap<u64, u32>,
     pub(crate) images: Vec<ImageState>,
-    image_indices: HashMap<u64, usize, ById>,
+    image_indices: HashMap<u64, usize>,
     /// Of the pass being recorded.
     pub(crate) uses: Vec<Use>,
     pub(crate) image_uses: Vec<ImageUse>,
@@ -121,9 +96,9 @@ impl Storage {
             submission: Submission::new(0),
             retained: Vec::new(),
             planner: Planner::default(),
-            slots: HashMap::default(),
+            slots: HashMap::new(),
             images: Vec::new(),
-            image_indices: HashMap::default(),
+            image_indices: HashMap::new(),
             uses: Vec::new(),
             image_uses: Vec::new(),
             descriptors: Vec::new(),

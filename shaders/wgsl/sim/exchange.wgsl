@@ -278,6 +278,14 @@ const STRONGEST: f32 = 0.99;
 /// Most gas of a particle over its liquid: with more, the neighbours are too far.
 const MOST_GAS: f32 = 1.5;
 
+/// What a particle keeps at least, V0·ρ0, whatever is asked of it: what it holds is known by its mass, and of no mass it is no number.
+const LEAST_MASS: f32 = 0.01;
+
+/// Most that a particle gives away in a substep, V0·ρ0.
+fn most_given(wanted: f32, mass: f32) -> f32 {
+    return max(min(wanted, mass - LEAST_MASS), 0.0);
+}
+
 /// What of a mass that is `asked` for a particle can give if it has `most` to give; what it is given it takes whole. The rest waits.
 fn share_of(asked: f32, most: f32) -> f32 {
     return select(1.0, most / max(-asked, 1e-12), -asked > most);
@@ -294,7 +302,7 @@ fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
     // No water but what there is, whatever bubbles took.
     let water = state.content.mass * (1.0 - clamp(state.acid.value, 0.0, 1.0) / STRONGEST);
     let asked = f32(did.x) * MASS_QUANTUM;
-    let share = share_of(asked, max(water, 0.0));
+    let share = share_of(asked, most_given(water, state.content.mass));
     let mass = rounded(state.content.mass + share * asked);
     let change = mass - state.content.mass;
     let enthalpy_quanta = part_of(did.y, share);
@@ -324,7 +332,7 @@ fn take_from_drops(before: State, identity: u32) -> State {
     let did = sprayed[identity];
     var state = before;
     let asked = f32(did.x) * SPRAYED_QUANTUM;
-    let share = share_of(asked, 0.5 * state.content.mass);
+    let share = share_of(asked, most_given(0.5 * state.content.mass, state.content.mass));
     let mass = rounded(state.content.mass + share * asked);
     let change = mass - state.content.mass;
     let acid = part_of(did.y, share);

@@ -155,8 +155,8 @@ fn frames_dispatch_what_the_scene_has() {
     assert_eq!(sum(&own), 15, "{own:?}");
     let theirs = passes(&full, &[Pose::IDENTITY]);
     assert_eq!(count(&theirs, "sim/load"), 1, "{theirs:?}");
-    // What is carried costs two more a substep.
-    assert_eq!(sum(&theirs), 21, "{theirs:?}");
+    // What is carried costs one more a substep.
+    assert_eq!(sum(&theirs), 18, "{theirs:?}");
     let with_forces = |vorticity: f64, tension: f64| {
         let setup = Setup {
             parameters: Parameters {

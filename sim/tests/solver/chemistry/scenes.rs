@@ -46,9 +46,9 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
     for n in 0..p.substeps {
         all.extend(["cell_count", "cell_scan", "block_scan"]);
         all.extend(["cell_scatter", "reorder", "list"]);
-        // What is carried is applied first.
-        let solves = p.iterations as usize + usize::from(p.carry_rate > 0.0);
-        all.extend(["multiplier", "displacement"].repeat(solves));
+        // What is carried displaces first.
+        all.extend((p.carry_rate > 0.0).then_some("displacement"));
+        all.extend(["multiplier", "displacement"].repeat(p.iterations as usize));
         if impulses.iter().any(|&(first, _)| first == n) {
             // Its table is cleared.
             all.extend(["fill", "upload", "colour", "colour_rim", "colour_walls"]);
