@@ -6,7 +6,9 @@ use vitriol_study::trade::boil;
 use vitriol_tests::gpu;
 
 /// Water poured into acid boils far more than acid into water does, and goes on boiling at the surface. Ten seeds on an H200 differ by
-/// a factor of twelve at the end of the track. By then five times as much has been thrown out too; at 6 s it is still on its way.
+/// a factor of twelve at the end of the track. By then five times as much has been thrown out too; at 7 s it is still on its way. Acid
+/// in water makes all of its steam while it falls in, by 5.6 s: 25 mg with the order that particles have now. Water on acid makes 73 mg
+/// by 6 s, at which too much of the ratio was chance, and twice that by 7.
 #[test]
 fn water_into_acid_boils_and_acid_into_water_hardly_does() {
     let device = gpu::device();
@@ -14,10 +16,10 @@ fn water_into_acid_boils_and_acid_into_water_hardly_does() {
     let [wrong, right] = ["water-into-acid", "acid-into-water"].map(|name| {
         let scene = Scene::builtin(name).unwrap().with_preset(Preset::Fast);
         // The pour begins at 4.2 s.
-        boil(&device, &scene, &track, 6.0, 1).unwrap().0
+        boil(&device, &scene, &track, 7.0, 1).unwrap().0
     });
     eprintln!("{wrong:?} {right:?}");
-    assert!(wrong.steam > 4.0 * right.steam, "{wrong:?} {right:?}");
+    assert!(wrong.steam > 5.0 * right.steam, "{wrong:?} {right:?}");
     // What bursts throws milligrams: no liquid leaves in bulk.
     for boiled in [wrong, right] {
         assert!(
