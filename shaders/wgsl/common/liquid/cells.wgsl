@@ -17,11 +17,11 @@ fn cell_of(x: vec3<f32>) -> vec3<i32> {
     return vec3<i32>(floor(x / CELL));
 }
 
-/// Logarithm of the cells along each edge of a block.
+/// Logarithm of the cells along each edge of a block. The smallest table has 16 × 8 × 8 cells, so blocks fill it.
 const BLOCK_BITS: u32 = 2u;
 
 /// Place of a cell in the table: cells of a block lie side by side, and in either x runs fastest. So a workgroup's particles fill a
-/// compact piece of the liquid and share their neighbours. In a row of single cells they would share half as many.
+/// compact piece of the liquid and share their neighbours.
 fn cell_index(cell: vec3<i32>) -> u32 {
     let c = bitcast<vec3<u32>>(cell)
         & vec3<u32>((1u << CELL_BITS_X) - 1u, (1u << CELL_BITS_Y) - 1u, (1u << CELL_BITS_Z) - 1u);
