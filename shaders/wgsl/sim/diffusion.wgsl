@@ -12,6 +12,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 
@@ -48,7 +49,7 @@ fn diffuse(i: u32, lane: u32, own: PaperHeat) -> Diffusion {
     let listed = list_counts[i];
     let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -13,6 +13,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/max_speed.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/position.wgsl
 //!include common/liquid/step.wgsl
@@ -69,7 +70,7 @@ fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let other = solved[j];

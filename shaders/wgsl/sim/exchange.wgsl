@@ -23,6 +23,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/viscosity.wgsl
@@ -112,7 +113,7 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
     var open = vec3<f32>(0.0);
     let count = select(listed, 0u, listed >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -17,6 +17,7 @@
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/internal_forces.wgsl
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
@@ -119,7 +120,7 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
     var full = 0xffffffffu;
     if (BOILING || DILUTION) { full = full_from(atomicLoad(&counters.list_overflows)); }
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -1,5 +1,4 @@
-// Line 10: the neighbours within support radius plus margin, row by row of cells,
-// in fours strided so that neighbouring invocations read side by side.
+// Line 10: the neighbours within support radius plus margin, row by row of cells.
 // Pairs that glass separates are left out here, once, and not in each pass.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
@@ -7,6 +6,7 @@
 //!include common/liquid/cell_starts.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
@@ -55,10 +55,9 @@ fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
     return seen;
 }
 
-/// Word of the list that holds particle i's neighbour k: neighbours lie in
-/// fours, and the fours of neighbouring particles side by side.
+/// Word of the list that holds particle i's neighbour k.
 fn place(k: u32, i: u32) -> u32 {
-    return ((k >> 2u) * COUNT + i) * 4u + (k & 3u);
+    return place_of_four(k >> 2u, i) * 4u + (k & 3u);
 }
 
 var<private> found: u32;

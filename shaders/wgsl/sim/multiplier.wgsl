@@ -15,6 +15,7 @@
 //!include common/glass/boundary.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/list_args.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
@@ -51,7 +52,7 @@ fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
     var sum = 0.0;
     let count = list_counts[i];
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let other = trial[j];

@@ -6,6 +6,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 
@@ -31,7 +32,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let count = select(listed, 0u, listed >= full);
     var swapped = vec2<f32>(0.0);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

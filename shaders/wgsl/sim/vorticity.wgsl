@@ -2,6 +2,7 @@
 // Eq. 15), of the velocities before viscosity. A pass of its own: confinement
 // needs the neighbours' ω.
 //!include common/liquid/kernel.wgsl
+//!include common/liquid/list_place.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/vorticity.wgsl
 
@@ -21,7 +22,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec3<f32>(0.0);
     let count = list_counts[i];
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[g * COUNT + i];
+        let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -174,7 +174,7 @@ impl Buffers {
             tags: words("tags", 2 * n)?,
             list_origin: words("list_origin", 4 * n)?,
             list_counts: words("list_counts", n)?,
-            list: words("list", n * u64::from(grid.list_capacity))?,
+            list: words("list", grid.listed(count))?,
             counters: words("counters", size_of::<Counters>() as u64 / 4)?,
             trial: words("trial", 4 * n)?,
             solved: words("solved", 4 * n)?,

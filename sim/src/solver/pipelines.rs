@@ -18,6 +18,9 @@ use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 /// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
 
+/// Particles whose neighbours lie side by side, as in `common/liquid/list_place.wgsl`.
+const LIST_BLOCK: u32 = 8;
+
 /// Part of the list's margin that a prediction may use up; the rest is left
 /// for the substep's corrections.
 const MARGIN_FOR_PREDICTION: f64 = 0.4;
@@ -44,6 +47,11 @@ impl Grid {
             bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
             list_capacity: parameters.list_capacity(),
         }
+    }
+
+    /// Words of the list of `count` particles, which fill blocks of it.
+    pub fn listed(&self, count: u32) -> u64 {
+        u64::from(count.next_multiple_of(LIST_BLOCK)) * u64::from(self.list_capacity)
     }
 
     /// Cells in the table.

@@ -110,7 +110,7 @@ impl Solver {
         to.copy(rec, (&b.held, self.sticking()), |it| &mut it.held)?;
         to.copy(rec, (&b.list_origin, n), |it| &mut it.list_origin)?;
         to.copy(rec, (&b.list_counts, n), |it| &mut it.list_counts)?;
-        let listed = n * self.grid.list_capacity as usize;
+        let listed = self.grid.listed(self.count) as usize;
         to.copy(rec, (&b.list, listed), |it| &mut it.list)?;
         let words = size_of::<Counters>() / 4;
         to.copy(rec, (&b.counters, words), |it| &mut it.counters)?;
@@ -124,7 +124,7 @@ impl Solver {
     /// [`SolverError::OtherState`], or [`SolverError::Gpu`].
     pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
         let n = self.count as usize;
-        let listed = n * self.grid.list_capacity as usize;
+        let listed = self.grid.listed(self.count) as usize;
         let [heat, matter] = self.lengths();
         let (steam, start) = (&state.steam, Steam::start(&self.parameters, n, self.flasks));
         let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());

@@ -241,9 +241,11 @@ impl List {
         // Postcard stores fields in their order and no names.
         let fields: Fields = postcard::from_bytes(&bytes).unwrap();
         let n = fields.positions.len();
+        // As `common/liquid/list_place.wgsl` has them: blocks of eight particles.
+        let fours = fields.list.len() / n.next_multiple_of(8) / 4;
         let row = |slot: usize| {
             let count = fields.list_counts[slot] as usize;
-            let place = |k| (k / 4 * n + slot) * 4 + k % 4;
+            let place = |k| ((slot / 8 * fours + k / 4) * 8 + slot % 8) * 4 + k % 4;
             (0..count).map(|k| fields.list[place(k)] as usize).collect()
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
