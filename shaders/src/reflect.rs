@@ -1,9 +1,7 @@
 //! What an entry point really uses, read from the validated module.
 
 use naga::valid::ModuleInfo;
-use naga::{
-    AddressSpace, ArraySize, ImageClass, Module, Scalar, StorageAccess, TypeInner, VectorSize,
-};
+use naga::{AddressSpace, ArraySize, ImageClass, Module, Scalar, StorageAccess, TypeInner};
 
 pub use naga::{ImageDimension, StorageFormat};
 
@@ -182,19 +180,46 @@ fn kind(module: &Module, space: AddressSpace, inner: &TypeInner) -> Option<Bindi
     }
 }
 
-/// The format of the elements of an array without a fixed length, where one fits.
+/// The format of the texels that the elements of an array without a fixed length are made of, where one fits: of a scalar or a vector
+/// itself, of a structure the widest that none of its members crosses.
 fn texel(module: &Module, inner: &TypeInner) -> Option<TexelFormat> {
     let &TypeInner::Array {
         base,
         size: ArraySize::Dynamic,
-        ..
+        stride,
     } = inner
     else {
         return None;
     };
-    let (scalar, components) = match module.types[base].inner {
+    let TypeInner::Struct { members, .. } = &module.types[base].inner else {
+        let (kind, components) = scalars(&module.types[base].inner)?;
+        return (components != 3).then_some(TexelFormat { kind, components });
+    };
+    let members: Option<Vec<_>> = members
+        .iter()
+        .map(|member| scalars(&module.types[member.ty].inner))
+        .collect();
+    let members = members?;
+    let &(first, _) = members.first()?;
+    let kind = match members.iter().all(|&(kind, _)| kind == first) {
+        true => first,
+        false => TexelKind::Uint,
+    };
+    let components = match members.iter().map(|&(_, components)| components).max()? {
+        1 => 1,
+        2 => 2,
+        _ => 4,
+    };
+    stride
+        .is_multiple_of(4 * components)
+        .then_some(TexelFormat { kind, components })
+}
+
+/// The scalars of a scalar or vector of 32 bits, and how many they are.
+fn scalars(inner: &TypeInner) -> Option<(TexelKind, u32)> {
+    let (scalar, components) = match *inner {
         TypeInner::Scalar(scalar) => (scalar, 1),
-        TypeInner::Vector { size, scalar } if size != VectorSize::Tri => (scalar, size as u32),
+        TypeInner::Vector { size, scalar } => (scalar, size as u32),
         _ => return None,
     };
     let kind = match scalar {
@@ -203,5 +228,5 @@ fn texel(module: &Module, inner: &TypeInner) -> Option<TexelFormat> {
         Scalar::I32 => TexelKind::Sint,
         _ => return None,
     };
-    Some(TexelFormat { kind, components })
+    Some((kind, components))
 }

@@ -58,7 +58,7 @@ impl Buffer {
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
         if core.info.fetches_texels {
-            usage |= vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+            usage |= vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
         }
         let limit = core.info.limits.storage_bytes;
         Self::checked(core, label, bytes, usage, limit)

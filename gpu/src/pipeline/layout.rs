@@ -265,7 +265,7 @@ fn stage_flag(stage: Stage) -> vk::ShaderStageFlags {
 fn descriptor_type(kind: &BindingKind) -> vk::DescriptorType {
     match kind {
         BindingKind::Storage { .. } => vk::DescriptorType::STORAGE_BUFFER,
-        BindingKind::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
+        BindingKind::Texels(_) => vk::DescriptorType::STORAGE_TEXEL_BUFFER,
         BindingKind::Uniform { .. } => vk::DescriptorType::UNIFORM_BUFFER,
         BindingKind::SampledImage { .. } => vk::DescriptorType::SAMPLED_IMAGE,
         BindingKind::StorageImage { .. } => vk::DescriptorType::STORAGE_IMAGE,
@@ -291,7 +291,8 @@ fn scope(stage: Stage, kind: &BindingKind) -> Option<Scope> {
         (Stage::Vertex | Stage::Fragment, _) => return None,
         (_, BindingKind::Storage { writable }) => pick(true, writable),
         (_, BindingKind::Uniform { .. }) => Scope::COMPUTE_UNIFORM,
-        (_, BindingKind::Texels(_) | BindingKind::SampledImage { .. }) => Scope::COMPUTE_SAMPLED,
+        (_, BindingKind::Texels(_)) => Scope::COMPUTE_READ,
+        (_, BindingKind::SampledImage { .. }) => Scope::COMPUTE_SAMPLED,
         (
             _,
             BindingKind::StorageImage {

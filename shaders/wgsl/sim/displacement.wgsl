@@ -49,6 +49,8 @@ override LIST_REACH: f32 = 0.000375;
 @group(0) @binding(13) var<storage, read_write> heat: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
+/// Over V0, as the first iteration's multipliers had them.
+@group(0) @binding(16) var<storage, read> volumes: array<f32>;
 /// By identity: what walls hold the line of a surface with (`sim/tension.wgsl`).
 @group(0) @binding(50) var<storage, read> held: array<vec4<f32>>;
 
@@ -56,6 +58,12 @@ override LIST_REACH: f32 = 0.000375;
 fn change_of(j: u32, record: vec4<f32>) -> f32 {
     if (APPLY_CARRIED) { return carried_multiplier(velocity[j], step.time); }
     return change_in(record);
+}
+
+/// Volume of particle j over V0, of which `record` is what `solved` has.
+fn volume_of(j: u32, record: vec4<f32>) -> f32 {
+    if (APPLY_CARRIED) { return volume_in(record); }
+    return volumes[j];
 }
 
 /// The record `boundary` of a particle at x*; for lane 0, but all lanes must ask.
@@ -78,7 +86,7 @@ fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
             let square = max(dot(offset, offset), 1e-12 * SUPPORT * SUPPORT);
             let per_distance = inverseSqrt(square);
             var slope = per_distance * spline_slope(square * per_distance * INVERSE_SUPPORT);
-            if (DENSITY) { slope *= unpack_bulk(bulk[j]).volume; }
+            if (DENSITY) { slope *= volume_of(j, other); }
             sum += offset * ((change + change_of(j, other)) * slope);
         }
     }
@@ -209,7 +217,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let x_star = displace(i, own.xyz, displacement(i, own, sum, walls)); // 19 and 20
     if (!COMMIT) {
         var volume = 1.0;
-        if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
+        if (DENSITY) { volume = volume_of(i, own); }
         trial[i] = pack_trial(x_star, volume);
         return;
     }

@@ -46,6 +46,8 @@ const MOST_MIRRORED: f32 = 0.1;
 /// V there.
 @group(0) @binding(10) var<storage, read_write> wall_before: array<f32>;
 @group(0) @binding(11) var<storage, read> bulk: array<vec4<f32>>;
+/// Volumes over V0, where they differ, for the displacements: theirs are records of x* and dλ.
+@group(0) @binding(12) var<storage, read_write> volumes: array<f32>;
 
 /// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
 fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
@@ -126,6 +128,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let wall = boundary_volume(membership, x, step.after, lane);
     let before = walls_before(i, lane, membership, wall_volume(wall));
     if (lane != 0u) { return; }
+    if (FIRST && DENSITY) { volumes[i] = volume_in(own); }
     if (membership == REMOVED) {
         solved[i] = pack_solved(x, 0.0);
         boundary[i] = vec4<f32>(0.0);

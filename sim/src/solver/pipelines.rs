@@ -456,6 +456,8 @@ impl Constants {
                 "sorted_velocity" => "new_velocity",
                 // What is dead once x* is committed.
                 "kept" => "solved",
+                // What is dead while x* is sought.
+                "volumes" => "mixing",
                 // What is of reports alone.
                 "wall_before" => "density",
                 name => {
