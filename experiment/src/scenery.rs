@@ -20,9 +20,10 @@ pub fn liquid_of(world: &World) -> LiquidSource<'_> {
         volumes: solver.volumes(),
         count: solver.count(),
         spacing: scene.scale.spacing as f32,
-        neighbours: solver.neighbours().map(|(counts, list)| Neighbours {
+        neighbours: solver.neighbours().map(|(counts, list, fours)| Neighbours {
             counts,
             list,
+            fours,
             support: solver.parameters().support_radius as f32,
         }),
         vessels: Some(VesselTables { flasks, distances }),

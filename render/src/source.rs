@@ -43,8 +43,10 @@ pub struct SteamSource<'a> {
 pub struct Neighbours<'a> {
     /// `array<u32>`: neighbours of each particle.
     pub counts: &'a Buffer,
-    /// `array<u32>`: the k-th neighbour of particle i of n is at k·n + i.
+    /// `array<vec4<u32>>`: fours of neighbours, as `common/liquid/list_block.wgsl` has them.
     pub list: &'a Buffer,
+    /// Fours that the list has room for, of each particle.
+    pub fours: u32,
     /// Support radius h, within which the list is complete, in the scene's unit.
     pub support: f32,
 }

@@ -27,7 +27,7 @@ pub struct Binding {
     pub name: String,
     /// What is to be bound.
     pub kind: BindingKind,
-    /// The format in which its elements can be fetched, where it is an array that is only read;
+    /// The format in which its elements can be read, where it is an array that is only read;
     /// see [`crate::Compiled::with_texels`].
     pub texel: Option<TexelFormat>,
 }
@@ -41,7 +41,7 @@ pub enum BindingKind {
         /// whether a write is reached).
         writable: bool,
     },
-    /// A uniform texel buffer: what [`crate::Compiled::with_texels`] makes of a
+    /// A storage texel buffer: what [`crate::Compiled::with_texels`] makes of a
     /// read-only storage buffer.
     Texels(TexelFormat),
     /// A uniform buffer.

@@ -8,6 +8,7 @@ pub mod devtools;
 pub mod gpu;
 mod installed;
 #[cfg(target_os = "linux")]
+pub mod list;
 pub mod mock;
 #[cfg(target_os = "linux")]
 pub mod monado;

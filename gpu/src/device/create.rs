@@ -155,9 +155,12 @@ pub(crate) fn create_device(
         .synchronization2(true);
     let mut reconvergence = vk::PhysicalDeviceShaderMaximalReconvergenceFeaturesKHR::default()
         .shader_maximal_reconvergence(true);
+    let core = vk::PhysicalDeviceFeatures::default()
+        .shader_storage_image_extended_formats(on.storage_formats);
     let mut create = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_extension_names(&extensions)
+        .enabled_features(&core)
         .push_next(&mut v11)
         .push_next(&mut v12)
         .push_next(&mut v13);

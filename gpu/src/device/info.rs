@@ -27,9 +27,9 @@ pub struct DeviceInfo {
     pub timestamp_period: f32,
     /// Optional features that are on.
     pub features: EnabledFeatures,
-    /// Whether compute passes get read-only arrays as texel buffers: on a
+    /// Whether compute passes read arrays as texel buffers: on a
     /// software driver, see `Compiled::with_texels`.
-    pub fetches_texels: bool,
+    pub reads_texels: bool,
 }
 
 /// Limits that buffers and dispatches must keep.
@@ -47,6 +47,8 @@ pub struct BindingLimits {
     pub bindings: u32,
     /// Elements of a texel buffer.
     pub texels: u64,
+    /// Storage images and texel buffers of one shader.
+    pub storage_images: u32,
 }
 
 /// Optional features, each on where the device has it.
@@ -58,6 +60,8 @@ pub struct EnabledFeatures {
     pub memory_model: bool,
     /// Subgroup operations in compute (arithmetic, ballot and shuffle).
     pub subgroups: bool,
+    /// Storage texels of all formats that arrays have, see `Compiled::with_texels`.
+    pub storage_formats: bool,
     /// Lanes that part in a loop meet again behind it for certain, see `Compiled::reconverging`.
     pub maximal_reconvergence: bool,
 }
@@ -134,6 +138,7 @@ pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> P
             workgroups: core.limits.max_compute_work_group_count,
             bindings: push.max_push_descriptors,
             texels: core.limits.max_texel_buffer_elements.into(),
+            storage_images: core.limits.max_per_stage_descriptor_storage_images,
         },
         subgroup_size: v11.subgroup_size,
         least_subgroup_size: v13.min_subgroup_size,
@@ -179,6 +184,7 @@ fn query_features(
     }
     // SAFETY: as for the properties in `query`.
     unsafe { instance.get_physical_device_features2(physical, &mut features) };
+    let storage_formats = features.features.shader_storage_image_extended_formats == vk::TRUE;
 
     let mut missing = Vec::new();
     for (there, name) in [
@@ -206,6 +212,7 @@ fn query_features(
             && v11_properties
                 .subgroup_supported_stages
                 .contains(vk::ShaderStageFlags::COMPUTE),
+        storage_formats,
         maximal_reconvergence: may_reconverge
             && reconvergence.shader_maximal_reconvergence == vk::TRUE,
     };

@@ -57,7 +57,7 @@ impl Buffer {
         let mut usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
-        if core.info.fetches_texels {
+        if core.info.reads_texels {
             usage |= vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
         }
         let limit = core.info.limits.storage_bytes;
@@ -279,7 +279,7 @@ impl BufferInner {
             .format(texel_format(format))
             .range(vk::WHOLE_SIZE);
         // SAFETY: the buffer is alive and made for this use, and as long as the
-        // limit allows; every device offers these formats for it.
+        // limit allows; where texels are read, these formats are there for it.
         let view = unsafe { self.core.device.create_buffer_view(&create, None) }
             .map_err(GpuError::vulkan("vkCreateBufferView"))?;
         views.push((format, view));

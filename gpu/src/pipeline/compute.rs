@@ -88,7 +88,7 @@ impl ComputePipeline {
 /// The shader with what this device has better ways for.
 fn for_device<'a>(core: &Core, compiled: &'a Compiled) -> Result<Cow<'a, Compiled>, ShaderError> {
     let mut compiled = Cow::Borrowed(compiled);
-    if core.info.fetches_texels {
+    if core.info.reads_texels {
         compiled = Cow::Owned(compiled.with_texels()?);
     }
     if core.info.features.maximal_reconvergence {

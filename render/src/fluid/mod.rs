@@ -169,6 +169,7 @@ impl Fluid {
                 swelling: source.volumes.is_some().into(),
                 spacing: source.spacing,
                 support: neighbours.map_or(source.spacing, |n| n.support),
+                fours: neighbours.map_or(0, |n| n.fours),
                 floor: source.floor,
                 table_top: table.map_or(f32::MIN, |table| table.max.y),
                 table_min: corner(table.map(|table| table.min)),

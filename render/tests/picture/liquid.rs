@@ -8,7 +8,7 @@ use vitriol_render::{
     Renderer, SpraySource, Surface, SurfaceFilter, Tint, View,
 };
 use vitriol_shaders::{Library, layout};
-use vitriol_tests::gpu;
+use vitriol_tests::{gpu, list};
 
 /// Particle spacing d, metres.
 pub const SPACING: f32 = 0.0025;
@@ -46,16 +46,16 @@ impl Liquid {
     pub fn in_units(rig: &Rig, positions: &[Vec3], acid: impl Fn(Vec3) -> f32, unit: f32) -> Self {
         let n = positions.len();
         let mut counts = vec![0_u32; n.max(1)];
-        let mut list = vec![0_u32; CAPACITY * n.max(1)];
-        // In fours, filled up with the particle itself.
-        for (place, word) in list.iter_mut().enumerate() {
-            *word = (place / 4 % n.max(1)) as u32;
-        }
+        let mut list = vec![0_u32; list::words(n.max(1), CAPACITY)];
         for (i, a) in positions.iter().enumerate() {
+            // In fours, filled up with the particle itself.
+            for k in 0..CAPACITY {
+                list[list::place(i, k, CAPACITY)] = i as u32;
+            }
             for (j, b) in positions.iter().enumerate() {
                 if i != j && a.distance_squared(*b) < SUPPORT * SUPPORT {
                     let k = counts[i] as usize;
-                    list[(k / 4 * n + i) * 4 + k % 4] = j as u32;
+                    list[list::place(i, k, CAPACITY)] = j as u32;
                     counts[i] += 1;
                 }
             }
@@ -103,6 +103,7 @@ impl Liquid {
             neighbours: Some(Neighbours {
                 counts: &self.counts,
                 list: &self.list,
+                fours: CAPACITY as u32 / 4,
                 support: SUPPORT / self.unit,
             }),
             vessels: None,

@@ -359,6 +359,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             ]
         );
         // One each, and of a place one for each of its three members.
-        assert_eq!(instructions(&changed.spirv, &[Op::ImageRead]).len(), 5 + 2 + 3);
+        assert_eq!(
+            instructions(&changed.spirv, &[Op::ImageRead]).len(),
+            5 + 2 + 3
+        );
     }
 }

@@ -209,13 +209,14 @@ impl Solver {
             .map(|_| &self.buffers.heat)
     }
 
-    /// Neighbours of each particle as `array<u32>`, and the list itself as
-    /// `array<vec4<u32>>`: neighbours 4g to 4g + 3 of particle i of n are at
-    /// g·n + i, the last four filled up with i. It is complete within the
+    /// Neighbours of each particle as `array<u32>`, the list itself as
+    /// `array<vec4<u32>>`, and how many of its fours a particle has: the list is as `common/liquid/list_block.wgsl` says,
+    /// the last four filled up with the particle itself. It is complete within the
     /// support radius at the positions after a frame; `None` before the first.
-    pub fn neighbours(&self) -> Option<(&Buffer, &Buffer)> {
+    pub fn neighbours(&self) -> Option<(&Buffer, &Buffer, u32)> {
         let listed = self.listed.load(Ordering::Relaxed);
-        listed.then_some((&self.buffers.list_counts, &self.buffers.list))
+        let fours = self.grid.list_capacity / 4;
+        listed.then_some((&self.buffers.list_counts, &self.buffers.list, fours))
     }
 
     /// The flasks' shapes and their distances to the glass over (r, y), as

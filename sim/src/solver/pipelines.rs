@@ -18,8 +18,8 @@ use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 /// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
 const SCAN_BLOCK: u32 = 1024;
 
-/// Particles whose neighbours lie side by side, as in `common/liquid/list_place.wgsl`.
-const LIST_BLOCK: u32 = 8;
+/// Particles whose neighbours lie side by side, as in `common/liquid/list_block.wgsl`.
+const LIST_BLOCK: u32 = 32;
 
 /// Part of the list's margin that a prediction may use up; the rest is left
 /// for the substep's corrections.

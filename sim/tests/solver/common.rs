@@ -11,6 +11,7 @@ use vitriol_sim::flask::particles::BoundaryParticle;
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Particle, Solver, SolverError, SolverSpec, SolverState};
+use vitriol_tests::list;
 pub use vitriol_tests::random::Random;
 
 /// Spacing of real glass, metres.
@@ -241,11 +242,10 @@ impl List {
         // Postcard stores fields in their order and no names.
         let fields: Fields = postcard::from_bytes(&bytes).unwrap();
         let n = fields.positions.len();
-        // As `common/liquid/list_place.wgsl` has them: blocks of eight particles.
-        let fours = fields.list.len() / n.next_multiple_of(8) / 4;
+        let capacity = fields.list.len() / list::words(n, 1);
         let row = |slot: usize| {
             let count = fields.list_counts[slot] as usize;
-            let place = |k| ((slot / 8 * fours + k / 4) * 8 + slot % 8) * 4 + k % 4;
+            let place = |k| list::place(slot, k, capacity);
             (0..count).map(|k| fields.list[place(k)] as usize).collect()
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());

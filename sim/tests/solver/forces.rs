@@ -15,21 +15,22 @@ use vitriol_sim::scene::{Feature, Scene};
 use vitriol_sim::solver::{Ground, Particle};
 use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_sim::world::{StepInput, World};
-use vitriol_tests::gpu;
+use vitriol_tests::{gpu, list};
 
 /// ω by the pass alone, of `positions` with `velocities`.
 fn vorticity_by_gpu(gpu: &Gpu, positions: &[DVec3], velocities: &[DVec3]) -> Vec<DVec3> {
     let n = positions.len();
     let neighbours = find(positions, H, |_, _| true);
     let capacity = 64;
-    let (mut counts, mut list) = (vec![0u32; n], vec![0u32; n * capacity]);
+    let (mut counts, mut list) = (vec![0u32; n], vec![0u32; list::words(n, capacity)]);
     for i in 0..n {
         // In fours, filled up with the particle itself.
-        list.chunks_exact_mut(4 * n)
-            .for_each(|fours| fours[4 * i..4 * i + 4].fill(i as u32));
+        for k in 0..capacity {
+            list[list::place(i, k, capacity)] = i as u32;
+        }
         for j in neighbours.of(i) {
             let k = counts[i] as usize;
-            list[(k / 4 * n + i) * 4 + k % 4] = j as u32;
+            list[list::place(i, k, capacity)] = j as u32;
             counts[i] += 1;
         }
     }
@@ -47,6 +48,7 @@ fn vorticity_by_gpu(gpu: &Gpu, positions: &[DVec3], velocities: &[DVec3]) -> Vec
         ("COUNT", n as f64),
         ("SUPPORT", H),
         ("VOLUME", D.powi(3)),
+        ("LIST_CAPACITY", capacity as f64),
         ("LANES", 1.0),
     ];
     let compiled = Library::watching()

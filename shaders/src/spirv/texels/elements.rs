@@ -125,7 +125,12 @@ fn decoration(module: &Module, of: Word, member: Option<u32>, wanted: Decoration
             }
             (
                 Some(member),
-                [IdRef(id), LiteralBit32(of_member), Operand::Decoration(it), LiteralBit32(number)],
+                [
+                    IdRef(id),
+                    LiteralBit32(of_member),
+                    Operand::Decoration(it),
+                    LiteralBit32(number),
+                ],
             ) if (*id, *of_member, *it) == (of, member, wanted) => Some(*number),
             _ => None,
         }

@@ -22,6 +22,7 @@
 //!include common/chemistry/heat.wgsl
 //!include common/glass/glass_distance.wgsl
 //!include common/liquid/lane_sums.wgsl
+//!include common/liquid/list_block.wgsl
 //!include common/liquid/position.wgsl
 //!include common/maths/eigen.wgsl
 //!include common/picture/ellipsoid.wgsl
@@ -41,6 +42,8 @@ struct Neighbourhood {
     spacing: f32,
     /// Support radius h, within which the list is complete.
     support: f32,
+    /// Fours of neighbours that the list has room for, of each particle.
+    fours: u32,
     /// Height of the floor.
     floor: f32,
     /// Height of the table's top.
@@ -98,7 +101,7 @@ fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
     var sum = Moments(0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0));
     let number = list_counts[i];
     for (var g = lane; g * 4u < number; g += LANES) {
-        let four = list[g * around.count + i];
+        let four = list[four_in_blocks(g, i, around.fours)];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let r = (positions[j].xyz - x) / around.support;
