@@ -164,3 +164,74 @@ fn a_uniform_written_between_passes_is_seen_in_order() {
     );
     assert_silent(&gpu);
 }
+
+/// A software driver has texels in their place.
+#[test]
+fn structures_are_read_whole_and_by_their_members() {
+    let gpu = open();
+    let text = "
+        struct Place { at: vec3<f32>, number: u32, turned: vec4<f32>, pair: vec2<f32>, sign: i32, last: f32 }
+        struct Size { width: f32, height: f32, depth: f32 }
+        @group(0) @binding(0) var<storage, read> places: array<Place>;
+        @group(0) @binding(1) var<storage, read> sizes: array<Size>;
+        @group(0) @binding(2) var<storage, read_write> found: array<f32>;
+        @compute @workgroup_size(64)
+        fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+            let i = id.x;
+            if (i >= 5u) { return; }
+            let place = places[i];
+            let first = 16u * i;
+            found[first] = place.at.x;
+            found[first + 1u] = place.at.y;
+            found[first + 2u] = places[i].at.z;
+            found[first + 3u] = f32(places[i].number);
+            for (var k = 0u; k < 4u; k++) { found[first + 4u + k] = places[i].turned[k]; }
+            found[first + 8u] = place.pair.x;
+            found[first + 9u] = places[i].pair.y;
+            found[first + 10u] = f32(place.sign);
+            found[first + 11u] = places[i].last;
+            let size = sizes[i];
+            found[first + 12u] = size.width;
+            found[first + 13u] = sizes[i].height;
+            found[first + 14u] = sizes[i].depth;
+            found[first + 15u] = size.depth;
+        }";
+    let read = ComputePipeline::new(&gpu, &compile(text)).unwrap();
+    let number = |i: u32, k: u32| (100 * i + k) as f32;
+    let place = |i: u32| {
+        (0..12).map(move |k| match k {
+            3 => 100 * i + 3,
+            10 => (-(number(i, 10) as i32)) as u32,
+            k => number(i, k).to_bits(),
+        })
+    };
+    let places: Vec<u32> = (0..5).flat_map(place).collect();
+    let size = |i: u32| (12..15).map(move |k| number(i, k));
+    let sizes: Vec<f32> = (0..5).flat_map(size).collect();
+    let buffer = |label, bytes| Buffer::storage(&gpu, label, bytes).unwrap();
+    let [places_there, sizes_there] =
+        [("places", 5 * 48), ("sizes", 5 * 12)].map(|(l, b)| buffer(l, b));
+    gpu.write(&places_there, &places).unwrap();
+    gpu.write(&sizes_there, &sizes).unwrap();
+    let found = buffer("found", 5 * 64);
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    rec.pass(&read)
+        .read("places", &places_there)
+        .read("sizes", &sizes_there)
+        .write("found", &found)
+        .invocations(5)
+        .unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    let expected = (0..5).flat_map(|i| {
+        (0..16).map(move |k| match k {
+            10 => -number(i, 10),
+            15 => number(i, 14),
+            k => number(i, k),
+        })
+    });
+    assert_eq!(
+        gpu.read::<f32>(&found).unwrap(),
+        expected.collect::<Vec<_>>()
+    );
+    assert_silent(&gpu);
+}

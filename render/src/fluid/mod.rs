@@ -174,7 +174,6 @@ impl Fluid {
                 table_top: table.map_or(f32::MIN, |table| table.max.y),
                 table_min: corner(table.map(|table| table.min)),
                 table_max: corner(table.map(|table| table.max)),
-                ..layout::Neighbourhood::default()
             })
             .invocations(source.count * self.passes.lanes)?;
         self.bubbles

@@ -272,22 +272,17 @@ impl<'a> Reads<'a> {
         }
         let image = self.emit(Op::Load, types.image, vec![IdRef(variable)]);
         let operands = vec![IdRef(image), IdRef(at)];
-        let texel = IdRef(self.emit(Op::ImageRead, types.texel, operands));
+        let texel = self.emit(Op::ImageRead, types.texel, operands);
         let skipped = member.word % width;
         let scalars = match member.components {
             1 => {
-                let operands = vec![texel, LiteralBit32(skipped)];
+                let operands = vec![IdRef(texel), LiteralBit32(skipped)];
                 self.emit(Op::CompositeExtract, types.scalar, operands)
             }
-            4 if skipped == 0 => {
-                let Some(whole) = texel.id_ref_any() else {
-                    return image;
-                };
-                whole
-            }
+            4 => texel,
             components => {
                 let numbers = (skipped..skipped + components).map(LiteralBit32);
-                let both = [texel.clone(), texel].into_iter();
+                let both = [IdRef(texel), IdRef(texel)].into_iter();
                 let vector = self.builder.type_vector(types.scalar, components);
                 self.emit(Op::VectorShuffle, vector, both.chain(numbers).collect())
             }
