@@ -173,7 +173,8 @@ fn passes_bind_the_chemistry_of_their_scene() {
 #[test]
 fn chemistry_costs_memory_where_it_is_asked_for() {
     let device = gpu::device();
-    let particles = glass_of(400, |_| (20.0, 0.0));
+    // Whole blocks of the list, of 32 particles.
+    let particles = glass_of(416, |_| (20.0, 0.0));
     let bytes = |chemistry: Option<Chemistry>| {
         let p = with(chemistry, parameters());
         let setup = Setup::new(p, vec![narrow_glass()], particles.clone());
