@@ -7,8 +7,8 @@ pub mod browser;
 pub mod devtools;
 pub mod gpu;
 mod installed;
-#[cfg(target_os = "linux")]
 pub mod list;
+#[cfg(target_os = "linux")]
 pub mod mock;
 #[cfg(target_os = "linux")]
 pub mod monado;

@@ -173,8 +173,8 @@ fn device_info(properties: Properties, features: EnabledFeatures, plan: &QueuePl
             0.0
         },
         features,
-        // Vulkan promises 65,536 texels, of which a list soon has more, and four storage images. No shader reads more than
-        // 32 arrays: names are kept by 32 bits.
+        // Vulkan promises 65,536 texels, of which a list soon has more, and four storage images, where a pass reads up to 32
+        // arrays: a binder has a bit for each name that is given.
         reads_texels: properties.kind == vk::PhysicalDeviceType::CPU
             && properties.features.storage_formats
             && properties.limits.storage_images >= 32

@@ -12,8 +12,8 @@
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/max_speed.wgsl
 //!include common/liquid/list_place.wgsl
+//!include common/liquid/max_speed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/position.wgsl
 //!include common/liquid/step.wgsl

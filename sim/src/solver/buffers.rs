@@ -5,7 +5,7 @@ use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::dew;
 use super::glass;
-use super::pipelines::Grid;
+use super::grid::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
 use super::vessels::Vessels;

@@ -3,6 +3,7 @@
 use super::colour::Colour;
 use super::dew;
 use super::glass;
+use super::grid::Grid;
 use super::lanes;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
@@ -15,55 +16,9 @@ use crate::parameters::Parameters;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 
-/// Cells that one workgroup scans, as in `common/liquid/cells.wgsl`.
-const SCAN_BLOCK: u32 = 1024;
-
-/// Particles whose neighbours lie side by side, as in `common/liquid/list_block.wgsl`.
-const LIST_BLOCK: u32 = 32;
-
 /// Part of the list's margin that a prediction may use up; the rest is left
 /// for the substep's corrections.
 const MARGIN_FOR_PREDICTION: f64 = 0.4;
-
-/// The neighbour search: cell size, table and list.
-#[derive(Clone, Copy, Debug)]
-pub struct Grid {
-    /// Edge of a cell, metres.
-    pub cell: f64,
-    /// Logarithms of the cells in x, y and z.
-    pub bits: [u32; 3],
-    /// Rows of the neighbour list.
-    pub list_capacity: u32,
-}
-
-impl Grid {
-    /// As many cells as particles: a cell of one support radius holds eight
-    /// at h/d = 2, so most of the table is empty and distant cells rarely meet.
-    pub fn new(parameters: &Parameters, count: u32) -> Self {
-        let cell = parameters.support_radius * (1.0 + parameters.list_margin);
-        let total = count.max(SCAN_BLOCK).next_power_of_two().ilog2();
-        Self {
-            cell,
-            bits: [total.div_ceil(3), total / 3, (total + 1) / 3],
-            list_capacity: parameters.list_capacity(),
-        }
-    }
-
-    /// Words of the list of `count` particles, which fill blocks of it.
-    pub fn listed(&self, count: u32) -> u64 {
-        u64::from(count.next_multiple_of(LIST_BLOCK)) * u64::from(self.list_capacity)
-    }
-
-    /// Cells in the table.
-    pub fn cells(&self) -> u32 {
-        1 << self.bits.iter().sum::<u32>()
-    }
-
-    /// Workgroups that scan them.
-    pub fn blocks(&self) -> u32 {
-        self.cells() / SCAN_BLOCK
-    }
-}
 
 /// Compiled passes, named as their shaders.
 pub(super) struct Pipelines {

@@ -3,8 +3,8 @@
 use super::bubbles::{self, BubbleState, VapourAccount};
 use super::counters::Counters;
 use super::glass;
+use super::grid::Grid;
 use super::matter::Start;
-use super::pipelines::Grid;
 use super::spec::Particle;
 use super::spray::{SprayAccount, SprayState};
 use super::steam::{Steam, SteamState};
