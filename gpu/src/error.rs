@@ -116,6 +116,15 @@ pub enum GpuError {
         /// Label of the last pass that the device reached, when markers are on.
         last_pass: Option<String>,
     },
+    /// A bundle holds what is known within one submission only, or is executed where it cannot be.
+    #[error(
+        "no bundle can be recorded or executed: {0}; images and readbacks go to the submission's own recorder, and \
+         a bundle to the queue that it was recorded for"
+    )]
+    Bundle(
+        /// What does not fit.
+        String,
+    ),
     /// A shader declares something that this crate does not bind.
     #[error("shader \"{shader}\": {cause}")]
     Shader {

@@ -61,6 +61,6 @@ pub use gpu::{DeviceHandles, Gpu};
 pub use memory::{Buffer, Image, ImageDesc, Sampler, bytes_of_elements};
 pub use pipeline::{ComputePipeline, RasterPipeline};
 pub use queue::QueueKind;
-pub use recorder::{CopyRegion, Draw, Pass, Raster, Readback, Recorder};
+pub use recorder::{Bundle, CopyRegion, Draw, Pass, Raster, Readback, Recorder};
 pub use submission::PassTiming;
 pub use ticket::Ticket;

@@ -31,3 +31,10 @@ pub struct Options {
     /// Folder in which compiled pipelines are kept for the next run; none are without one.
     pub pipelines: Option<PathBuf>,
 }
+
+impl Options {
+    /// Whether something is told of each pass: then a [`Bundle`](crate::Bundle) hides what is asked for.
+    pub fn tells_passes(&self) -> bool {
+        self.markers || self.timestamps == Timestamps::Passes
+    }
+}

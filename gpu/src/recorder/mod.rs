@@ -1,12 +1,14 @@
 //! Recording of one submission, pass by pass.
 
 mod binder;
+mod bundle;
 mod copy_image;
 mod pass;
 mod raster;
 mod submit;
 mod transfer;
 
+pub use bundle::Bundle;
 pub use pass::Pass;
 pub use raster::{Draw, Raster};
 pub use transfer::{CopyRegion, Readback};

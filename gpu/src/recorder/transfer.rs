@@ -133,8 +133,12 @@ impl Recorder {
     /// Copies all of `buffer` to the host.
     ///
     /// # Errors
-    /// [`GpuError::OutOfMemory`].
+    /// [`GpuError::OutOfMemory`]; [`GpuError::Bundle`] in a bundle.
     pub fn read_back(&mut self, buffer: &Buffer) -> Result<Readback, GpuError> {
+        if self.storage.is_bundle {
+            let cause = format!("\"{}\" is read back", buffer.label());
+            return Err(GpuError::Bundle(cause));
+        }
         let readback = Buffer::readback(&self.gpu, "readback", buffer.bytes())?;
         let region = CopyRegion {
             from: 0,

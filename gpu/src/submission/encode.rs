@@ -16,12 +16,24 @@ impl Storage {
         self.submission = submission;
         self.bound = vk::Pipeline::null();
         self.host_reads = false;
+        let inheritance = vk::CommandBufferInheritanceInfo::default();
+        let flags = if self.is_bundle {
+            // The next submission executes it while the device is still at the one before.
+            vk::CommandBufferUsageFlags::SIMULTANEOUS_USE
+        } else {
+            vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT
+        };
         let begin = vk::CommandBufferBeginInfo::default()
-            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            .flags(flags)
+            .inheritance_info(&inheritance);
         // SAFETY: the pool was made or reset, so the buffer is in its initial
         // state.
         unsafe { self.core.device.begin_command_buffer(self.cmd, &begin) }
             .map_err(GpuError::vulkan("vkBeginCommandBuffer"))?;
+        if self.is_bundle {
+            // Whoever executes it orders it as one pass.
+            return Ok(());
+        }
         // After everything that was submitted to this queue before; that is why
         // tracking can start afresh in every recorder.
         self.global_barrier(
@@ -43,6 +55,9 @@ impl Storage {
 
     pub(crate) fn end(&mut self) -> Result<(), GpuError> {
         self.images_home();
+        if self.is_bundle {
+            return self.end_commands();
+        }
         if self.host_reads || self.markers.is_some() {
             self.global_barrier(
                 (
@@ -55,6 +70,10 @@ impl Storage {
         if let Some(queries) = &mut self.queries {
             queries.write(&self.core, self.cmd)?;
         }
+        self.end_commands()
+    }
+
+    fn end_commands(&self) -> Result<(), GpuError> {
         // SAFETY: the buffer is recording; labels are closed.
         unsafe { self.core.device.end_command_buffer(self.cmd) }
             .map_err(GpuError::vulkan("vkEndCommandBuffer"))

@@ -35,6 +35,15 @@ pub(crate) struct ImageUse {
     pub(crate) discard: bool,
 }
 
+/// A buffer that the commands use.
+pub(crate) struct BufferUse {
+    pub(crate) buffer: Buffer,
+    /// Its number in the planner.
+    slot: u32,
+    /// Every way in which they access it.
+    pub(crate) scope: Scope,
+}
+
 /// A draw, kept until the scope's barrier is known.
 pub(crate) struct DrawCommand {
     pub(crate) pipeline: vk::Pipeline,
@@ -51,10 +60,13 @@ pub(crate) struct Storage {
     pool: vk::CommandPool,
     pub(crate) cmd: vk::CommandBuffer,
     pub(crate) submission: Arc<Submission>,
-    /// Keeps what the commands use.
+    /// Whether it holds a bundle, which submissions execute and none is.
+    pub(crate) is_bundle: bool,
+    /// Keeps what the commands use beside buffers and images.
     retained: Vec<Arc<dyn Any + Send + Sync>>,
     pub(crate) planner: Planner,
-    slots: HashMap<u64, u32>,
+    pub(crate) buffers: Vec<BufferUse>,
+    buffer_indices: HashMap<u64, usize>,
     pub(crate) images: Vec<ImageState>,
     image_indices: HashMap<u64, usize>,
     /// Of the pass being recorded.
@@ -82,9 +94,34 @@ pub(crate) struct Storage {
 unsafe impl Send for Storage {}
 
 impl Storage {
+    /// Of a submission.
     pub(crate) fn new(core: &Arc<Core>, family: u32, options: &Options) -> Result<Self, GpuError> {
+        let flags = vk::CommandPoolCreateFlags::TRANSIENT;
+        let mut storage = Self::of(core, family, flags, vk::CommandBufferLevel::PRIMARY)?;
+        if options.timestamps != Timestamps::None && core.info.timestamp_period > 0.0 {
+            let of_passes = options.timestamps == Timestamps::Passes;
+            storage.queries = Some(Queries::new(of_passes));
+        }
+        if options.markers {
+            storage.markers = Some(Markers::new(core)?);
+        }
+        Ok(storage)
+    }
+
+    /// Of a bundle. It has neither times nor markers: those are a submission's.
+    pub(crate) fn of_bundle(core: &Arc<Core>, family: u32) -> Result<Self, GpuError> {
+        let flags = vk::CommandPoolCreateFlags::empty();
+        Self::of(core, family, flags, vk::CommandBufferLevel::SECONDARY)
+    }
+
+    fn of(
+        core: &Arc<Core>,
+        family: u32,
+        flags: vk::CommandPoolCreateFlags,
+        level: vk::CommandBufferLevel,
+    ) -> Result<Self, GpuError> {
         let create = vk::CommandPoolCreateInfo::default()
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .flags(flags)
             .queue_family_index(family);
         // SAFETY: the device is alive and was made with this family.
         let pool = unsafe { core.device.create_command_pool(&create, None) }
@@ -94,9 +131,11 @@ impl Storage {
             pool,
             cmd: vk::CommandBuffer::null(),
             submission: Submission::new(0),
+            is_bundle: level == vk::CommandBufferLevel::SECONDARY,
             retained: Vec::new(),
             planner: Planner::default(),
-            slots: HashMap::new(),
+            buffers: Vec::new(),
+            buffer_indices: HashMap::new(),
             images: Vec::new(),
             image_indices: HashMap::new(),
             uses: Vec::new(),
@@ -116,19 +155,12 @@ impl Storage {
         };
         let allocate = vk::CommandBufferAllocateInfo::default()
             .command_pool(pool)
-            .level(vk::CommandBufferLevel::PRIMARY)
+            .level(level)
             .command_buffer_count(1);
         // SAFETY: the pool was just made.
         let buffers = unsafe { core.device.allocate_command_buffers(&allocate) }
             .map_err(GpuError::vulkan("vkAllocateCommandBuffers"))?;
         storage.cmd = buffers.first().copied().unwrap_or_default();
-        if options.timestamps != Timestamps::None && core.info.timestamp_period > 0.0 {
-            let of_passes = options.timestamps == Timestamps::Passes;
-            storage.queries = Some(Queries::new(of_passes));
-        }
-        if options.markers {
-            storage.markers = Some(Markers::new(core)?);
-        }
         Ok(storage)
     }
 
@@ -151,11 +183,20 @@ impl Storage {
     /// Adds a buffer to the pass being recorded; holds the buffer from its first
     /// use on.
     pub(crate) fn use_buffer(&mut self, buffer: &Buffer, scope: Scope) {
-        let inner = &buffer.inner;
-        let slot = *self.slots.entry(inner.id).or_insert_with(|| {
-            self.retained.push(inner.clone());
-            self.planner.add()
-        });
+        let index = *self
+            .buffer_indices
+            .entry(buffer.inner.id)
+            .or_insert_with(|| {
+                self.buffers.push(BufferUse {
+                    buffer: buffer.clone(),
+                    slot: self.planner.add(),
+                    scope: Scope::NONE,
+                });
+                self.buffers.len() - 1
+            });
+        let used = &mut self.buffers[index];
+        used.scope = used.scope.union(scope);
+        let slot = used.slot;
         self.uses.push(Use { slot, scope });
     }
 
@@ -167,6 +208,13 @@ impl Storage {
         scope: Scope,
         discard: bool,
     ) -> Result<(), GpuError> {
+        // A layout is known within one submission only.
+        if self.is_bundle {
+            return Err(GpuError::Bundle(format!(
+                "\"{}\" is an image",
+                image.inner.label
+            )));
+        }
         let index = self.image_index(image);
         if let Some(used) = self.image_uses.iter_mut().find(|used| used.index == index) {
             if used.layout != layout {
@@ -222,7 +270,8 @@ impl Storage {
         self.clear_pass();
         self.retained.clear();
         self.planner.clear();
-        self.slots.clear();
+        self.buffers.clear();
+        self.buffer_indices.clear();
         self.images.clear();
         self.image_indices.clear();
         self.arena.clear();

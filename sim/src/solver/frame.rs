@@ -55,7 +55,6 @@ impl Solver {
         before: &[Pose],
         after: &[Pose],
     ) -> Result<FrameRecord, SolverError> {
-        let (p, substeps) = (&self.pipelines, self.parameters.substeps);
         if self.count == 0 {
             return Ok(FrameRecord {
                 loads: None,
@@ -64,6 +63,18 @@ impl Solver {
         }
         self.listed.store(true, Ordering::Relaxed);
         self.move_flasks(rec, before, after)?; // lines 1 to 5, and 13
+        self.solve(rec)?; // the others
+        let loads = self.has_loads().then(|| rec.read_back(&self.buffers.loads));
+        Ok(FrameRecord {
+            loads: loads.transpose()?,
+            flasks: self.flasks,
+        })
+    }
+
+    /// Records lines 6 to 28 of all substeps, and the load. Nothing here may depend on the frame: a bundle of these passes
+    /// is executed again.
+    pub(super) fn record_passes(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        let (p, substeps) = (&self.pipelines, self.parameters.substeps);
         // Lines 6 to 8, and 16 of the first substep; the forces of each end with that of the next.
         self.pass(rec, &p.predict)
             .constants(&self.step(0))
@@ -103,10 +114,7 @@ impl Solver {
             let step = self.step(substeps - 1);
             steam.record(rec, (&self.buffers, &self.vessels), &step)?;
         }
-        Ok(FrameRecord {
-            loads: self.load(rec)?,
-            flasks: self.flasks,
-        })
+        self.load(rec)
     }
 
     /// Records a pass that writes each particle's density over the rest
@@ -188,14 +196,18 @@ impl Solver {
         Ok(self.pass(rec, pass).constants(step).invocations(count)?)
     }
 
-    fn load(&self, rec: &mut Recorder) -> Result<Option<Readback>, SolverError> {
-        if !self.loads || self.flasks == 0 {
-            return Ok(None);
+    fn has_loads(&self) -> bool {
+        self.loads && self.flasks > 0
+    }
+
+    fn load(&self, rec: &mut Recorder) -> Result<(), SolverError> {
+        if !self.has_loads() {
+            return Ok(());
         }
         self.pass(rec, &self.pipelines.load)
             .constants(&self.step(self.parameters.substeps - 1))
             .workgroups([self.count.div_ceil(LOAD_GROUP), 1, 1])?;
-        Ok(Some(rec.read_back(&self.buffers.loads)?))
+        Ok(())
     }
 
     /// Constants of substep `n`.

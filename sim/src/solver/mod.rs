@@ -12,6 +12,7 @@
 
 mod bubbles;
 mod buffers;
+mod bundles;
 mod carry;
 mod census;
 mod colour;
@@ -54,6 +55,7 @@ pub use steam::PUFFS;
 use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;
 use buffers::Buffers;
+use bundles::Bundles;
 use census::Looks;
 use grid::Grid;
 use pipelines::{Constants, Pipelines};
@@ -80,6 +82,7 @@ pub struct Solver {
     pipelines: Pipelines,
     steam: Option<Steam>,
     looks: Looks,
+    bundles: Bundles,
 }
 
 impl Solver {
@@ -130,6 +133,7 @@ impl Solver {
             pipelines,
             steam,
             looks,
+            bundles: Bundles::default(),
         };
         solver.restore(&SolverState::start(
             spec.particles,
@@ -146,6 +150,7 @@ impl Solver {
         let bytes = buffers::bytes_of_poses(substeps, self.flasks as u64);
         if self.buffers.poses.bytes() < bytes {
             self.buffers.poses = Buffer::storage(&self.gpu, "poses", bytes)?;
+            self.bundles.clear();
         }
         let parameters = &mut self.parameters;
         (parameters.substeps, parameters.iterations) = (substeps, iterations);
