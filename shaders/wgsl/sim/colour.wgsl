@@ -3,6 +3,7 @@
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/glass/vessel.wgsl
+//!include common/liquid/blocks_about.wgsl
 //!include common/liquid/claim_block.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
@@ -27,48 +28,35 @@ fn is_near_mouth(k: u32, x: vec3<f32>) -> bool {
     return dot(away, away) < MOUTH_REACH * MOUTH_REACH;
 }
 
-/// Whether a particle's volume is part of a grid: of its own, and through a mouth of the next.
+/// Whether a particle's volume is part of a grid beside its own: through a mouth of the next.
 fn is_part_of(grid: u32, membership: u32, x: vec3<f32>) -> bool {
-    if (grid == membership) { return true; }
     if (grid == NOBODYS) { return is_near_mouth(membership - 1u, x); }
     return membership == NOBODYS && is_near_mouth(grid - 1u, x);
 }
 
-/// Slots of the blocks, at most two along each axis, that a particle's 4 × 4 × 4 nodes from `first` on lie in; bits x, y, z
-/// say which.
-fn claim_blocks(grid: u32, first: vec3<i32>) -> array<u32, 8> {
-    let low = first >> vec3<u32>(2u);
-    let two = vec3<u32>((first + vec3<i32>(3)) >> vec3<u32>(2u)) != vec3<u32>(low);
-    let within = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), two);
-    let spans = within.x | within.y | within.z;
-    var slots: array<u32, 8>;
-    for (var k = 0u; k < 8u; k++) {
-        let block = k & spans;
-        if (block != k) {
-            slots[k] = slots[block];
-            continue;
-        }
-        slots[k] = claim(low + vec3<i32>(vec3<u32>(k & 1u, (k >> 1u) & 1u, k >> 2u)), grid);
-    }
-    return slots;
+fn block_slot(block: vec3<i32>, grid: u32) -> u32 {
+    return claim(block, grid);
 }
 
-/// Adds this lane's rows of a particle's volume.
-fn add_volume(grid: u32, x: vec3<f32>, volume: f32, lane: u32) {
+/// First of the nodes that a particle's volume is spread over.
+fn first_of(x: vec3<f32>) -> vec3<i32> {
+    return first_of_row(vec3<i32>(floor(x / NODE)), 0u);
+}
+
+/// Adds this lane's rows of a particle's volume to the blocks with these slots.
+fn add_volume(x: vec3<f32>, volume: f32, lane: u32, blocks: array<u32, 8>) {
+    var slots = blocks;
     let below = floor(x / NODE);
     let within = x / NODE - below;
     let node = vec3<i32>(below);
-    let corner = first_of_row(node, 0u);
-    var slots = claim_blocks(grid, corner);
     for (var row = lane; row < ROWS; row += LANES) {
         let first = first_of_row(node, row);
         let away = vec3<f32>(first - node) - within;
         let across = spread(away.y) * spread(away.z) * volume * (COLOUR_SHARE * COLOUR_FULL);
-        let beyond = vec3<u32>((first >> vec3<u32>(2u)) - (corner >> vec3<u32>(2u)));
+        let row_place = place_of_row(first_of_row(node, 0u), first);
         for (var i = 0; i < 4; i++) {
             let at = first + vec3<i32>(i, 0, 0);
-            let next = u32((at.x >> 2u) - (corner.x >> 2u));
-            let slot = slots[next + 2u * beyond.y + 4u * beyond.z];
+            let slot = slots[place_in_row(row_place, first, i)];
             if (slot == NO_BLOCK) { continue; }
             let share = u32(round(spread(away.x + f32(i)) * across));
             atomicAdd(&colour[slot * BLOCK_NODES + node_in_block(at)], share);
@@ -77,7 +65,7 @@ fn add_volume(grid: u32, x: vec3<f32>, volume: f32, lane: u32) {
 }
 
 @compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
     if (i >= COUNT) { return; }
@@ -86,7 +74,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let x = position[i].xyz;
     var volume = 1.0;
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
+    add_volume(x, volume, lane, slots_together(blocks_about(membership, first_of(x)), lane, in_subgroup));
     for (var grid = 0u; grid <= FLASKS; grid++) {
-        if (is_part_of(grid, membership, x)) { add_volume(grid, x, volume, lane); }
+        if (grid != membership && is_part_of(grid, membership, x)) {
+            // Not together: where particles differ, Vulkan does not promise that a particle's lanes meet.
+            add_volume(x, volume, lane, slots_alone(blocks_about(grid, first_of(x))));
+        }
     }
 }

@@ -6,6 +6,7 @@
 //!include common/chemistry/surface_tension.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/glass/wall.wgsl
+//!include common/liquid/blocks_about.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/find_block.wgsl
 //!include common/liquid/particle.wgsl
@@ -39,8 +40,13 @@ override HYSTERESIS: f32 = 0.0;
 @group(0) @binding(50) var<storage, read_write> held: array<vec4<f32>>;
 @group(0) @binding(51) var<storage, read> boundary: array<vec4<f32>>;
 
-/// ∇ of the curvature at `x`, per node: this lane's rows of it.
-fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
+fn block_slot(block: vec3<i32>, grid: u32) -> u32 {
+    return find_block(block, grid);
+}
+
+/// ∇ of the curvature at `x`, per node, from the blocks with these slots: this lane's rows of it.
+fn curvature_slope(x: vec3<f32>, lane: u32, blocks: array<u32, 8>) -> vec3<f32> {
+    var slots = blocks;
     let below = floor(x / NODE);
     let within = x / NODE - below;
     let node = vec3<i32>(below);
@@ -48,12 +54,12 @@ fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
     for (var row = lane; row < ROWS; row += LANES) {
         let first = first_of_row(node, row);
         let away = vec3<f32>(first - node) - within;
-        var slot = NO_BLOCK;
         // Σ of the row's values by the weights along x, and by their slopes.
         var along = vec2<f32>(0.0);
+        let row_place = place_of_row(first_of_row(node, 0u), first);
         for (var i = 0; i < 4; i++) {
             let at = first + vec3<i32>(i, 0, 0);
-            if (i == 0 || (at.x & 3) == 0) { slot = find_block(at >> vec3<u32>(2u), grid); }
+            let slot = slots[place_in_row(row_place, first, i)];
             if (slot == NO_BLOCK) { continue; }
             let value = curvature[slot * BLOCK_NODES + node_in_block(at)];
             let distance = away.x + f32(i);
@@ -66,10 +72,15 @@ fn curvature_slope(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
     return sum;
 }
 
-/// What the cells around `x` hold there: this lane's rows of it.
-fn hold_at(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
-    // Cells lie half a node beyond their first node.
-    let at_cells = x / NODE - 0.5;
+/// `x` in nodes, from a node's cell: cells lie half a node beyond it.
+fn in_cells(x: vec3<f32>) -> vec3<f32> {
+    return x / NODE - 0.5;
+}
+
+/// What the cells around `x` hold there, from the blocks with these slots: this lane's rows of it.
+fn hold_at(x: vec3<f32>, lane: u32, blocks: array<u32, 8>) -> vec3<f32> {
+    var slots = blocks;
+    let at_cells = in_cells(x);
     let below = floor(at_cells);
     let within = at_cells - below;
     let cell = vec3<i32>(below);
@@ -77,11 +88,11 @@ fn hold_at(grid: u32, x: vec3<f32>, lane: u32) -> vec3<f32> {
     for (var row = lane; row < ROWS; row += LANES) {
         let first = first_of_row(cell, row);
         let away = vec3<f32>(first - cell) - within;
-        var slot = NO_BLOCK;
         var along = vec3<f32>(0.0);
+        let row_place = place_of_row(first_of_row(cell, 0u), first);
         for (var i = 0; i < 4; i++) {
             let at = first + vec3<i32>(i, 0, 0);
-            if (i == 0 || (at.x & 3) == 0) { slot = find_block(at >> vec3<u32>(2u), grid); }
+            let slot = slots[place_in_row(row_place, first, i)];
             if (slot == NO_BLOCK) { continue; }
             along += line_hold[slot * BLOCK_NODES + node_in_block(at)].xyz * spread(away.x + f32(i));
         }
@@ -110,7 +121,7 @@ fn holder_of(membership: u32, x: vec3<f32>) -> u32 {
 }
 
 @compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocation_id) in_subgroup: u32) {
     let i = id.x / LANES;
     let lane = id.x % LANES;
     if (colour_args[0] >= MOST_BLOCKS) {
@@ -121,13 +132,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     let membership = tags[i].x;
     let takes_part = membership != REMOVED && list_counts[i] >= FEWEST;
+    let x = position[i].xyz;
     var slope = vec3<f32>(0.0);
-    if (takes_part) { slope = curvature_slope(membership, position[i].xyz, lane); }
+    let first = first_of_row(vec3<i32>(floor(x / NODE)), 0u);
+    let around_nodes = slots_together(blocks_about(membership, first), lane, in_subgroup);
+    if (takes_part) { slope = curvature_slope(x, lane, around_nodes); }
     slope = lane_sum3(slope);
     var hold = vec3<f32>(0.0);
     if (HYSTERESIS > 0.0) {
+        let first_cell = first_of_row(vec3<i32>(floor(in_cells(x))), 0u);
+        let around_cells = slots_together(blocks_about(membership, first_cell), lane, in_subgroup);
         // Further off there is a twentieth of it, not worth the fetches.
-        if (takes_part && wall_volume(boundary[i]) > 0.0) { hold = hold_at(membership, position[i].xyz, lane); }
+        if (takes_part && wall_volume(boundary[i]) > 0.0) { hold = hold_at(x, lane, around_cells); }
         hold = lane_sum3(hold);
     }
     if (lane != 0u) { return; }
@@ -140,7 +156,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (HEAT) { strength *= relative_tension(acid_in(heat[i]), temperature_in(heat[i])); }
     if (HYSTERESIS > 0.0) {
         var holder = 0u;
-        if (any(hold != vec3<f32>(0.0))) { holder = holder_of(membership, position[i].xyz); }
+        if (any(hold != vec3<f32>(0.0))) { holder = holder_of(membership, x); }
         held[tags[i].y] = vec4<f32>(strength * hold, f32(holder));
     }
     let change = -strength * step.tension * slope;

@@ -103,7 +103,8 @@ fn it_is_as_if_it_had_been_made_so() {
     for step in 0..12 {
         changed.step(&hand(step)).unwrap();
     }
-    for effort in [[8, 6], [4, 2]] {
+    // One that changes the iterations alone, and one that was before.
+    for effort in [[8, 6], [8, 3], [8, 6], [4, 2]] {
         let state = changed.snapshot().unwrap();
         let mut made = world(&gpu, effort);
         made.restore(&state).unwrap();

@@ -6,6 +6,7 @@
 mod against_reference;
 mod breaks;
 mod brink;
+mod bundles;
 mod carry;
 mod census;
 mod chaos;
