@@ -34,7 +34,9 @@ fn is_part_of(grid: u32, membership: u32, x: vec3<f32>) -> bool {
     return membership == NOBODYS && is_near_mouth(grid - 1u, x);
 }
 
+/// None for a particle that takes no part: its lanes go along.
 fn block_slot(block: vec3<i32>, grid: u32) -> u32 {
+    if (grid == REMOVED) { return NO_BLOCK; }
     return claim(block, grid);
 }
 
@@ -70,11 +72,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     let lane = id.x % LANES;
     if (i >= COUNT) { return; }
     let membership = tags[i].x;
-    if (membership == REMOVED || list_counts[i] < FEWEST) { return; }
+    let own_grid = select(REMOVED, membership, list_counts[i] >= FEWEST);
     let x = position[i].xyz;
+    let slots = slots_together(blocks_about(own_grid, first_of(x)), lane, in_subgroup);
+    if (own_grid == REMOVED) { return; }
     var volume = 1.0;
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }
-    add_volume(x, volume, lane, slots_together(blocks_about(membership, first_of(x)), lane, in_subgroup));
+    add_volume(x, volume, lane, slots);
     for (var grid = 0u; grid <= FLASKS; grid++) {
         if (grid != membership && is_part_of(grid, membership, x)) {
             // Not together: where particles differ, Vulkan does not promise that a particle's lanes meet.
