@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use vitriol_gpu::{Bundle, Recorder};
 
 /// Bundles that are kept: walls that move fast ask for more substeps ([`crate::scene::SolverSettings::wall_step`]), and a
-/// governor for fewer. Whatever comes after these is recorded anew.
+/// governor for fewer. The one that was not used for longest makes room.
 const KEPT: usize = 12;
 
 /// Of the parameters, those that change while a solver lives: substeps, iterations, and k_v of Eq. 17.
