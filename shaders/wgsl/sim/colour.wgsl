@@ -1,4 +1,4 @@
-// Line 28, surface tension, 1 of 7: each particle's volume on the nodes about it, as sums of integers, which do not depend on
+// Line 28, surface tension, 1 of 8: each particle's volume on the nodes about it, as sums of integers, which do not depend on
 // order. Claims the blocks that these nodes are in.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl

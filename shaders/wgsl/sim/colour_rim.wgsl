@@ -1,4 +1,4 @@
-// Line 28, surface tension, 2 of 7: claims the blocks around those that hold liquid, since colour reaches further than where it
+// Line 28, surface tension, 2 of 8: claims the blocks around those that hold liquid, since colour reaches further than where it
 // is found. By block and not by particle, which would look each of them up a hundred times.
 //!include common/liquid/claim_block.wgsl
 

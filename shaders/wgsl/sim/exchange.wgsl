@@ -80,10 +80,10 @@ struct Rates {
     conducted: f32,
 }
 
-/// Those of a pair with eddies of the diffusivity `eddies` (m²/s), of which the other counts where
-/// `whole` is 1; `keeps` is cut from all alike, else a cut mixture would leave its line.
-fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, whole: f32, keeps: f32) -> Rates {
-    let swapped = keeps * swapped_by(q, own, other, whole);
+/// Those of a pair with eddies of the diffusivity `eddies` (m²/s); `keeps` is cut from all alike, else a cut mixture would leave its
+/// line.
+fn rates_of(eddies: f32, q: f32, own: Potential, other: Potential, keeps: f32) -> Rates {
+    let swapped = keeps * swapped_by(q, own, other, 1.0);
     let brought = ACID_DIFFUSIVITY * swapped.x * (0.5 * (own.capacity + other.capacity));
     return Rates(
         (eddies + ACID_DIFFUSIVITY) * swapped.x, eddies * swapped.x, THERMAL_DIFFUSIVITY * swapped.y - brought);
@@ -103,7 +103,7 @@ struct Received {
 
 /// Line 26: what comes from the neighbours. For lane 0, but all lanes must ask. A particle whose list
 /// is full exchanges nothing.
-fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Received {
+fn receive(i: u32, lane: u32, own: Potential, is_full: bool) -> Received {
     let x = position[i].xyz;
     let stirred = unpack_eddies(eddies[i]);
     var variance = 0.0;
@@ -111,7 +111,7 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
     // Acid, enthalpy.
     var flux = vec2<f32>(0.0);
     var open = vec3<f32>(0.0);
-    let count = select(listed, 0u, listed >= full);
+    let count = select(list_counts[i], 0u, is_full);
     for (var g = lane; g * 4u < count; g += LANES) {
         let four = list[place_of_four(g, i)];
         for (var n = 0u; n < 4u; n++) {
@@ -121,10 +121,9 @@ fn receive(i: u32, lane: u32, own: Potential, listed: u32, full: u32) -> Receive
             let per_distance = inverseSqrt(square);
             let q = square * per_distance * INVERSE_SUPPORT;
             let other = unpack_potential(heat[j]);
-            let whole = has_whole_list(j, i, full);
             let others = unpack_eddies(eddies[j]);
             let mean = 0.5 * (stirred.diffusivity + others.diffusivity);
-            let rates = rates_of(mean, q, own, other, whole, min(keeps, kept[j]));
+            let rates = rates_of(mean, q, own, other, min(keeps, kept[j]));
             let enthalpy = rates.carried * (other.enthalpy - own.enthalpy)
                 + rates.conducted * (other.temperature - own.temperature);
             flux += vec2<f32>(rates.carried * (other.acid - own.acid), enthalpy);
@@ -377,12 +376,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (i >= COUNT) { return; }
     let own = unpack_potential(heat[i]);
     let full = full_from(atomicLoad(&counters.list_overflows));
-    let listed = list_counts[i];
-    let received = receive(i, lane, own, listed, full);
+    let is_full = list_counts[i] >= full;
+    let received = receive(i, lane, own, is_full);
     if (lane != 0u) { return; }
     let tag = tags[i];
     if (tag.x == REMOVED) { return; }
-    if (kept[i] < 1.0) { atomicAdd(&counters.diffusion_limited, 1u); }
+    if (kept[i] < 1.0 && !is_full) { atomicAdd(&counters.diffusion_limited, 1u); }
 
     let extent = unpack_bulk(bulk[i]);
     let lacking = unpack_rests(extent.rests);

@@ -1,6 +1,7 @@
-// Line 28, surface tension, 5 of 7: the derivative of the surface's energy by the colour's gradient and by the colour, on
+// Line 28, surface tension, 5 of 8: the derivative of the surface's energy by the colour's gradient and by the colour, on
 // cells between nodes. And how strongly walls hold the line at which the surface ends on them.
-//!include common/liquid/block_halo.wgsl
+//!include common/liquid/blocks_around.wgsl
+//!include common/liquid/find_block.wgsl
 //!include common/liquid/surface_energy.wgsl
 
 /// The energy of a flat surface on this grid: 1, less what is too faint to count.
@@ -16,25 +17,16 @@ override HYSTERESIS: f32 = 0.0;
 /// By cell: what a wall can hold liquid back with, across the line, over σ/(ρ0·node²).
 @group(0) @binding(49) var<storage, read_write> line_hold: array<vec4<f32>>;
 
-const NODES: u32 = 5u;
-
-/// Colour, S and S·cos θ of nodes 0 to 4.
-var<workgroup> nodes: array<vec3<f32>, 125>;
-
-fn load_nodes(local: u32) {
-    for (var n = local; n < NODES * NODES * NODES; n += BLOCK_NODES) {
-        let place = place_around(node_at(n, NODES, 0));
-        var value = vec3<f32>(0.0);
-        if (place != NO_BLOCK) { value = smooth_colour[place].xyz; }
-        nodes[n] = value;
-    }
-    workgroupBarrier();
+/// Colour, S and S·cos θ of a node of the block, or around it.
+fn value_at(slot: u32, node: vec3<i32>) -> vec3<f32> {
+    let place = place_around(slot, node);
+    if (place == NO_BLOCK) { return vec3<f32>(0.0); }
+    return smooth_colour[place].xyz;
 }
 
 /// The corner `corner` (bits x, y, z) of the cell whose first node is `node`.
-fn corner_of(node: vec3<u32>, corner: u32) -> vec3<f32> {
-    let at = node + vec3<u32>(corner & 1u, (corner >> 1u) & 1u, corner >> 2u);
-    return nodes[at.x + NODES * at.y + NODES * NODES * at.z];
+fn corner_of(slot: u32, node: vec3<i32>, corner: u32) -> vec3<f32> {
+    return value_at(slot, node + vec3<i32>(vec3<u32>(corner & 1u, (corner >> 1u) & 1u, corner >> 2u)));
 }
 
 /// ±¼ for the far and the near corners along each axis.
@@ -44,14 +36,13 @@ fn corner_sign(corner: u32) -> vec3<f32> {
 
 /// The core's colour: of the nodes nearest to the cell's middle and to places up the gradient, as far as the blocks around
 /// have them.
-fn core_of(node: vec3<u32>, colour: f32, gradient: vec3<f32>) -> f32 {
+fn core_of(slot: u32, node: vec3<i32>, colour: f32, gradient: vec3<f32>) -> f32 {
     let inward = gradient / max(length(gradient), 1e-6);
     let nearest = vec3<f32>(node) + 1.0;
     var fullest = colour;
     for (var k = 1; k <= CORE_STEPS; k++) {
         let to = clamp(nearest + CORE_STRIDE * f32(k) * inward, vec3<f32>(-4.0), vec3<f32>(7.5));
-        let place = place_around(vec3<i32>(floor(to)));
-        if (place != NO_BLOCK) { fullest = max(fullest, smooth_colour[place].x); }
+        fullest = max(fullest, value_at(slot, vec3<i32>(floor(to))).x);
     }
     return core_for(fullest);
 }
@@ -71,20 +62,20 @@ struct Interface {
     hold: vec3<f32>,
 }
 
-fn interface_of(node: vec3<u32>) -> Interface {
+fn interface_of(slot: u32, node: vec3<i32>) -> Interface {
     var gradient = vec3<f32>(0.0);
     var solid_gradient = vec3<f32>(0.0);
     var mean = vec3<f32>(0.0);
     var most_solid = 0.0;
     for (var corner = 0u; corner < 8u; corner++) {
-        let value = corner_of(node, corner);
+        let value = corner_of(slot, node, corner);
         gradient += value.x * corner_sign(corner);
         solid_gradient += value.y * corner_sign(corner);
         mean += 0.125 * value;
         most_solid = max(most_solid, value.y);
     }
     if (1.0 - most_solid <= LEAST_SPACE) { return Interface(vec4<f32>(0.0), vec3<f32>(0.0)); }
-    let core = core_of(node, mean.x, gradient);
+    let core = core_of(slot, node, mean.x, gradient);
     let thickness = thickness_for(core);
     let colour = mean.x / core;
     gradient /= core;
@@ -111,9 +102,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         if (HYSTERESIS > 0.0) { line_hold[cell] = vec4<f32>(0.0); }
         return;
     }
-    find_around(slot, local);
-    load_nodes(local);
-    let found = interface_of(vec3<u32>(node_of(local)));
+    let found = interface_of(slot, node_of(local));
     interface_stress[cell] = found.stress;
     if (HYSTERESIS > 0.0) { line_hold[cell] = vec4<f32>(found.hold, 0.0); }
 }

@@ -1,31 +1,56 @@
-// Line 28, surface tension, 4 of 7: the colour of what is not solid, filtered.
-//!include common/liquid/block_halo.wgsl
+// Line 28, surface tension, 4 of 8: the colour of what is not solid, filtered.
+//!include common/liquid/find_block.wgsl
+//!include common/liquid/node_rows.wgsl
 //!include common/liquid/surface_energy.wgsl
 
-@group(0) @binding(44) var<storage, read_write> colour: array<u32>;
-@group(0) @binding(45) var<storage, read> colour_solid: array<vec2<f32>>;
+/// By row.
+@group(0) @binding(44) var<storage, read> colour: array<vec4<u32>>;
+/// S and S·cos θ by node, two to each.
+@group(0) @binding(45) var<storage, read> colour_solid: array<vec4<f32>>;
 /// By node: colour, S, S·cos θ, and 1 over the share that is not solid.
 @group(0) @binding(47) var<storage, read_write> smooth_colour: array<vec4<f32>>;
 
-const RAW: u32 = 6u;
+/// Of a row's nodes.
+struct Rows {
+    colour: Row,
+    solid: Row,
+    wetted: Row,
+}
 
-/// Nodes of a block along an axis.
-const OWN: u32 = 4u;
-
-/// Colour, S and S·cos θ: of nodes −1 to 4, then, where it begins, filtered along z. Filtered along y too, it lies before.
-var<workgroup> values: array<vec3<f32>, 360>;
-const BY_Z: u32 = 216u;
-
-/// Filters six values, `stride` apart from `first` on, into four from `to` on, as far apart.
-fn filter_line(first: u32, to: u32, stride: u32) {
-    var before = values[first];
-    var here = values[first + stride];
-    for (var n = 0u; n < OWN; n++) {
-        let after = values[first + (n + 2u) * stride];
-        values[to + n * stride] = 0.25 * (before + after) + 0.5 * here;
-        before = here;
-        here = after;
+fn rows_at(slot: u32, at: vec2<i32>) -> Rows {
+    let rows = rows_around(slot, at);
+    var found: Rows;
+    if (rows.y != NO_BLOCK) {
+        let near = colour_solid[2u * rows.y];
+        let far = colour_solid[2u * rows.y + 1u];
+        found.colour.nodes = vec4<f32>(colour[rows.y]) / COLOUR_FULL;
+        found.solid.nodes = vec4<f32>(near.xz, far.xz);
+        found.wetted.nodes = vec4<f32>(near.yw, far.yw);
     }
+    if (rows.x != NO_BLOCK) {
+        let last = colour_solid[2u * rows.x + 1u];
+        found.colour.before = f32(colour[rows.x].w) / COLOUR_FULL;
+        found.solid.before = last.z;
+        found.wetted.before = last.w;
+    }
+    if (rows.z != NO_BLOCK) {
+        let first = colour_solid[2u * rows.z];
+        found.colour.after = f32(colour[rows.z].x) / COLOUR_FULL;
+        found.solid.after = first.x;
+        found.wetted.after = first.y;
+    }
+    return found;
+}
+
+fn filtered_rows(before: Rows, here: Rows, after: Rows) -> Rows {
+    return Rows(
+        filtered(before.colour, here.colour, after.colour),
+        filtered(before.solid, here.solid, after.solid),
+        filtered(before.wetted, here.wetted, after.wetted));
+}
+
+fn filtered_along_z(slot: u32, at: vec2<i32>) -> Rows {
+    return filtered_rows(rows_at(slot, at - vec2<i32>(0, 1)), rows_at(slot, at), rows_at(slot, at + vec2<i32>(0, 1)));
 }
 
 /// 1 over the share of a node that is not solid; 0 where that is too little.
@@ -34,32 +59,23 @@ fn space_of(solid: f32) -> f32 {
     return select(0.0, 1.0 / space, space > LEAST_SPACE);
 }
 
-@compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+@compute @workgroup_size(16)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) row: u32) {
     let slot = colour_used[group.x];
+    let first = slot * BLOCK_NODES + 4u * row;
     if (!is_near_colour(slot)) {
-        smooth_colour[slot * BLOCK_NODES + local] = vec4<f32>(0.0, 0.0, 0.0, 1.0);
+        for (var n = 0u; n < 4u; n++) { smooth_colour[first + n] = vec4<f32>(0.0, 0.0, 0.0, 1.0); }
         return;
     }
-    find_around(slot, local);
-    for (var n = local; n < RAW * RAW * RAW; n += BLOCK_NODES) {
-        let place = place_around(node_at(n, RAW, -1));
-        var value = vec3<f32>(0.0);
-        if (place != NO_BLOCK) { value = vec3<f32>(f32(colour[place]) / COLOUR_FULL, colour_solid[place]); }
-        values[n] = value;
+    let at = vec2<i32>(vec2<u32>(row & 3u, row >> 2u));
+    let along_z = filtered_along_z(slot, at);
+    let rows = filtered_rows(
+        filtered_along_z(slot, at - vec2<i32>(1, 0)), along_z, filtered_along_z(slot, at + vec2<i32>(1, 0)));
+    let liquid = filtered_along(rows.colour);
+    let solid = filtered_along(rows.solid);
+    let wetted = filtered_along(rows.wetted);
+    for (var n = 0u; n < 4u; n++) {
+        let space = space_of(solid[n]);
+        smooth_colour[first + n] = vec4<f32>(liquid[n] * space, solid[n], wetted[n], space);
     }
-    workgroupBarrier();
-    if (local < RAW * RAW) { filter_line(local, BY_Z + local, RAW * RAW); }
-    workgroupBarrier();
-    if (local < RAW * OWN) {
-        let x = local % RAW;
-        let z = local / RAW;
-        filter_line(BY_Z + x + RAW * RAW * z, x + RAW * OWN * z, RAW);
-    }
-    workgroupBarrier();
-    let at = vec3<u32>(node_of(local));
-    let first = at.x + RAW * at.y + RAW * OWN * at.z;
-    let sum = 0.25 * (values[first] + values[first + 2u]) + 0.5 * values[first + 1u];
-    let space = space_of(sum.y);
-    smooth_colour[slot * BLOCK_NODES + local] = vec4<f32>(sum.x * space, sum.yz, space);
 }

@@ -1,4 +1,4 @@
-// Line 28, surface tension, 7 of 7: the force of the surface's energy on each particle, −V_i ∇ of what a volume there costs,
+// Line 28, surface tension, 8 of 8: the force of the surface's energy on each particle, −V_i ∇ of what a volume there costs,
 // as the change of velocity over the time until it is found again. And what walls hold it back with until then.
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl

@@ -19,7 +19,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 44;
+pub(super) const OF_PARTICLES: usize = 45;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
@@ -77,6 +77,8 @@ pub(super) struct Buffers {
     pub(super) sorted_bulk: Buffer,
     /// What the flow leaves unresolved.
     pub(super) eddies: Buffer,
+    /// A word: whether in this frame a particle swaps much of what it has.
+    pub(super) mixes_fast: Buffer,
     pub(super) sorted_eddies: Buffer,
     pub(super) solution: Buffer,
     pub(super) lamellae: Buffer,
@@ -107,6 +109,7 @@ pub(super) struct Buffers {
     pub(super) colour_used: Buffer,
     pub(super) colour_blocks: Buffer,
     pub(super) colour_args: Buffer,
+    pub(super) colour_around: Buffer,
     pub(super) colour: Buffer,
     pub(super) colour_solid: Buffer,
     pub(super) interface_stress: Buffer,
@@ -200,6 +203,7 @@ impl Buffers {
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
             eddies: words("eddies", 2 * held)?,
+            mixes_fast: words("mixes_fast", u64::from(physical))?,
             sorted_eddies: words("sorted_eddies", 2 * held)?,
             solution: upload(gpu, "solution", &table)?,
             lamellae: upload(gpu, "lamellae", &lamellae)?,
@@ -221,6 +225,7 @@ impl Buffers {
             colour_keys: words("colour_keys", 2 * slots)?,
             colour_used: words("colour_used", slots)?,
             colour_blocks: words("colour_blocks", 4 * slots)?,
+            colour_around: words("colour_around", colour::AROUND * slots)?,
             colour_args: words("colour_args", 8)?,
             colour: words("colour", nodes)?,
             colour_solid: words("colour_solid", 2 * nodes)?,
@@ -242,7 +247,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 29] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 30] {
         [
             &self.position,
             &self.velocity,
@@ -276,6 +281,7 @@ impl Buffers {
             &self.colour_keys,
             &self.colour_used,
             &self.colour_blocks,
+            &self.colour_around,
             &self.colour,
             &self.colour_solid,
             &self.interface_stress,
@@ -294,6 +300,7 @@ impl Buffers {
             &self.cell_starts,
             &self.block_sums,
             &self.list_args,
+            &self.mixes_fast,
             &self.solution,
             &self.lamellae,
             &self.bubbles,

@@ -1,4 +1,4 @@
-//! Line 28: surface tension, by seven passes over particles and over nodes between them.
+//! Line 28: surface tension, by eight passes over particles and over nodes between them.
 
 use super::{Solver, SolverError};
 use crate::parameters::Parameters;
@@ -8,6 +8,8 @@ use vitriol_shaders::layout::Step;
 
 /// Nodes of a block, as in `common/liquid/colour.wgsl`.
 pub(super) const BLOCK_NODES: u64 = 64;
+/// Blocks about a block and itself.
+pub(super) const AROUND: u64 = 27;
 
 /// The table of blocks of nodes.
 pub(super) struct Colour {
@@ -90,6 +92,7 @@ impl Solver {
             .indirect(blocks, 0)?;
         self.pass(rec, &tension.smooth).indirect(blocks, 0)?;
         self.pass(rec, &tension.interface).indirect(blocks, 0)?;
+        self.pass(rec, &tension.unfiltered).indirect(blocks, 0)?;
         // Particles have their own nodes' only.
         self.pass(rec, &tension.curvature).indirect(blocks, 16)?;
         let step = Step {

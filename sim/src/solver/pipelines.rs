@@ -73,6 +73,7 @@ pub(super) struct Tension {
     pub(super) walls: SolverPass,
     pub(super) smooth: SolverPass,
     pub(super) interface: SolverPass,
+    pub(super) unfiltered: SolverPass,
     pub(super) curvature: SolverPass,
     pub(super) push: SolverPass,
 }
@@ -107,6 +108,7 @@ impl Pipelines {
                 walls: make(sim::COLOUR_WALLS, &[])?,
                 smooth: make(sim::SMOOTH_COLOUR, &[])?,
                 interface: make(sim::INTERFACE, &[])?,
+                unfiltered: make(sim::UNFILTERED_CURVATURE, &[])?,
                 curvature: make(sim::CURVATURE, &[])?,
                 push: make(sim::TENSION, &[])?,
             }),
@@ -413,6 +415,8 @@ impl Constants {
                 "kept" => "solved",
                 // What is dead while x* is sought.
                 "volumes" => "mixing",
+                // What is dead once the colour is filtered.
+                "unfiltered" => "colour_solid",
                 // What is of reports alone.
                 "wall_before" => "density",
                 name => {

@@ -18,6 +18,9 @@ const NO_BLOCK: u32 = 0xffffffffu;
 /// Nodes of a block.
 const BLOCK_NODES: u32 = 64u;
 
+/// Blocks about a block and itself.
+const AROUND: u32 = 27u;
+
 /// How far, in nodes, the colour of a node acts: a filter, and the cells about a node. What is solid is asked for one filter
 /// further.
 const NEAR: u32 = 2u;

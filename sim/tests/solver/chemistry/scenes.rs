@@ -52,7 +52,8 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         if impulses.iter().any(|&(first, _)| first == n) {
             // Its table is cleared.
             all.extend(["fill", "upload", "colour", "colour_rim", "colour_walls"]);
-            all.extend(["smooth_colour", "interface", "curvature", "tension"]);
+            all.extend(["smooth_colour", "interface", "unfiltered_curvature"]);
+            all.extend(["curvature", "tension"]);
         }
         all.extend(line_26);
         all.extend((p.vorticity > 0.0).then_some("vorticity"));
