@@ -31,7 +31,6 @@ override GRAVITY_Z: f32 = 0.0;
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> heat: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
-@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
 @group(0) @binding(6) var<storage, read> boils: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> gas: array<vec4<f32>>;
 /// Those before this step, and after it.

@@ -1,10 +1,10 @@
-// Line 10, counting sort: exclusive sums of the counts within a block of
-// cells, and the block's total.
+// Line 10, counting sort: exclusive sums of the counts, a workgroup a block of cells. The blocks before are summed up by each
+// workgroup, which saves a pass between.
 //!include common/liquid/cells.wgsl
 
 @group(0) @binding(0) var<storage, read> cell_counts: array<u32>;
 @group(0) @binding(1) var<storage, read_write> cell_starts: array<u32>;
-@group(0) @binding(2) var<storage, read_write> block_sums: array<u32>;
+@group(0) @binding(2) var<storage, read> block_counts: array<u32>;
 
 var<workgroup> sums: array<u32, 256>;
 
@@ -15,6 +15,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let b = a + cell_counts[first + 1u];
     let c = b + cell_counts[first + 2u];
     let total = c + cell_counts[first + 3u];
+    var of_blocks = 0u;
+    for (var block = local; block < group.x; block += 256u) { of_blocks += block_counts[block]; }
+    sums[local] = of_blocks;
+    workgroupBarrier();
+    for (var reach = 128u; reach > 0u; reach >>= 1u) {
+        if (local < reach) { sums[local] += sums[local + reach]; }
+        workgroupBarrier();
+    }
+    let before_block = sums[0];
+    workgroupBarrier();
     sums[local] = total;
     workgroupBarrier();
     for (var reach = 1u; reach < 256u; reach <<= 1u) {
@@ -24,10 +34,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         sums[local] += add;
         workgroupBarrier();
     }
-    let before = sums[local] - total;
+    let before = before_block + sums[local] - total;
     cell_starts[first] = before;
     cell_starts[first + 1u] = before + a;
     cell_starts[first + 2u] = before + b;
     cell_starts[first + 3u] = before + c;
-    if (local == 255u) { block_sums[group.x] = before + total; }
 }

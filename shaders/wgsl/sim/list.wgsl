@@ -19,7 +19,6 @@ override LIST_LANES: u32 = 1u;
 @group(0) @binding(2) var<storage, read> sorted_velocity: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> sorted_tags: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
-@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
 @group(0) @binding(6) var<storage, read_write> trial: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> velocity: array<vec4<f32>>;

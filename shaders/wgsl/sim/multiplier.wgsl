@@ -117,7 +117,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             list_args[PARTICLE_ARGS] = 0u;
             list_args[CELL_ARGS] = 0u;
             list_args[LIST_ARGS] = 0u;
-            list_args[BLOCK_ARGS] = 0u;
         }
     }
     if (i >= COUNT) { return; }

@@ -1,6 +1,7 @@
 // Line 11: all of a particle's state to its place by cell, and within a cell
-// by its former index, so that the order (and so every sum) repeats.
+// by its former index, so that the order (and so every sum) repeats. Counts return to zero.
 //!include common/chemistry/features.wgsl
+//!include common/liquid/cell_items.wgsl
 //!include common/liquid/cell_starts.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/trial.wgsl
@@ -10,7 +11,7 @@
 @group(0) @binding(2) var<storage, read> velocity: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
-@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
+@group(0) @binding(5) var<storage, read_write> cell_counts: array<u32>;
 @group(0) @binding(6) var<storage, read> cell_items: array<u32>;
 @group(0) @binding(7) var<storage, read_write> sorted_trial: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> sorted_position: array<vec4<f32>>;
@@ -26,6 +27,19 @@
 @group(0) @binding(18) var<storage, read_write> sorted_bulk: array<vec4<f32>>;
 @group(0) @binding(19) var<storage, read> eddies: array<vec2<f32>>;
 @group(0) @binding(31) var<storage, read_write> sorted_eddies: array<vec2<f32>>;
+@group(0) @binding(32) var<storage, read_write> block_counts: array<u32>;
+
+/// How many of a cell's `count` particles come before particle i.
+fn rank_in_cell(i: u32, cell: u32, count: u32) -> u32 {
+    var rank = 0u;
+    if (count <= CELL_ITEMS) {
+        for (var n = 0u; n < count; n++) { rank += select(0u, 1u, cell_items[item_of(cell, n)] < i); }
+        return rank;
+    }
+    // Which of a crowd were noted is chance, so all are asked.
+    for (var other = 0u; other < i; other++) { rank += select(0u, 1u, cell_index(cell_of(trial[other].xyz)) == cell); }
+    return rank;
+}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -34,11 +48,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let x = trial[i];
     let cell = cell_index(cell_of(x.xyz));
     let start = start_of(cell);
-    let end = start_of(cell + 1u);
-    var to = start;
-    for (var k = start; k < end; k++) {
-        to += select(0u, 1u, cell_items[k] < i);
-    }
+    let to = start + rank_in_cell(i, cell, start_of(cell + 1u) - start);
+    cell_counts[cell] = 0u;
+    block_counts[cell / SCAN_BLOCK] = 0u;
     let tag = tags[i];
     // The list pass reads both of every candidate: one fetch in place of two.
     sorted_trial[to] = pack_sorted_trial(x.xyz, tag.x);

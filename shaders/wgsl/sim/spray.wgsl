@@ -20,7 +20,6 @@ override SPACING: f32 = 0.0025;
 /// (membership, identity)
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> cell_starts: array<u32>;
-@group(0) @binding(5) var<storage, read> block_sums: array<u32>;
 @group(0) @binding(14) var<storage, read_write> drops: array<Drops>;
 /// By identity: what drops did to a particle.
 @group(0) @binding(15) var<storage, read_write> sprayed: array<atomic<i32>>;

@@ -41,7 +41,6 @@ pub(super) struct BubbleState {
     pub(super) falls: Vec<[f32; 2]>,
     /// The neighbour search's table, in which bubbles look for particles.
     pub(super) cell_starts: Vec<u32>,
-    pub(super) block_sums: Vec<u32>,
 }
 
 /// One atmosphere, Pa.
@@ -87,8 +86,8 @@ pub(super) fn record(
 }
 
 impl BubbleState {
-    /// The state without bubbles, of `count` particles in as many cells and blocks of them.
-    pub(super) fn start(parameters: &Parameters, count: usize, cells: [u32; 2]) -> Self {
+    /// The state without bubbles, of `count` particles in as many cells.
+    pub(super) fn start(parameters: &Parameters, count: usize, cells: u32) -> Self {
         let Some(bubbles) = parameters.bubbles() else {
             return Self::default();
         };
@@ -99,8 +98,7 @@ impl BubbleState {
             gas: vec![[0.0; 4]; count],
             merging: vec![[0; 3]; slots],
             falls: vec![[0.0; 2]; if bubbles.air { count } else { 0 }],
-            cell_starts: vec![0; cells[0] as usize],
-            block_sums: vec![0; cells[1] as usize],
+            cell_starts: vec![0; cells as usize],
         }
     }
 
@@ -153,8 +151,7 @@ impl BubbleState {
         merging.resize(2 * self.merging.len(), [0; 3]);
         write(gpu, &b.merging, &merging)?;
         write(gpu, &b.falls, &self.falls)?;
-        write(gpu, &b.cell_starts, &self.cell_starts)?;
-        write(gpu, &b.block_sums, &self.block_sums)
+        write(gpu, &b.cell_starts, &self.cell_starts)
     }
 }
 
@@ -199,8 +196,7 @@ impl Solver {
 
     /// What a state of this solver has of bubbles before the first frame.
     pub(super) fn bubbles_at_start(&self) -> BubbleState {
-        let cells = [self.grid.cells(), self.grid.blocks()];
-        BubbleState::start(&self.parameters, self.count as usize, cells)
+        BubbleState::start(&self.parameters, self.count as usize, self.grid.cells())
     }
 
     /// The same of drops.

@@ -19,7 +19,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 45;
+pub(super) const OF_PARTICLES: usize = 44;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
@@ -59,8 +59,7 @@ pub(super) struct Buffers {
     pub(super) sorted_push: Buffer,
     pub(super) cell_counts: Buffer,
     pub(super) cell_starts: Buffer,
-    pub(super) block_sums: Buffer,
-    pub(super) cell_items: Buffer,
+    pub(super) block_counts: Buffer,
     pub(super) list_args: Buffer,
     // Chemistry; state, and scratch of one substep and of a rebuild.
     pub(super) heat: Buffer,
@@ -190,8 +189,7 @@ impl Buffers {
             sorted_push: words("sorted_push", 4 * pushed)?,
             cell_counts: words("cell_counts", u64::from(grid.cells()))?,
             cell_starts: words("cell_starts", u64::from(grid.cells()))?,
-            block_sums: words("block_sums", u64::from(grid.blocks()))?,
-            cell_items: words("cell_items", n)?,
+            block_counts: words("block_counts", u64::from(grid.blocks()))?,
             list_args: words("list_args", 16)?,
             heat: words("heat", 4 * heated)?,
             diffused: words("diffused", 2 * diffused)?,
@@ -264,7 +262,6 @@ impl Buffers {
             &self.sorted_position,
             &self.sorted_tags,
             &self.sorted_push,
-            &self.cell_items,
             &self.heat,
             &self.diffused,
             &self.mixing,
@@ -298,7 +295,7 @@ impl Buffers {
             &self.counters,
             &self.cell_counts,
             &self.cell_starts,
-            &self.block_sums,
+            &self.block_counts,
             &self.list_args,
             &self.mixes_fast,
             &self.solution,

@@ -37,6 +37,24 @@ impl Grid {
         u64::from(count.next_multiple_of(LIST_BLOCK)) * u64::from(self.list_capacity)
     }
 
+    /// Particles of each cell that are noted before they are sorted, where the list will be.
+    pub fn cell_items(&self, count: u32) -> u32 {
+        (self.listed(count) / u64::from(self.cells())).max(1) as u32
+    }
+
+    /// Puts 0 where the list has no neighbours, of which there are so many: what a rebuild noted there is in the order of chance.
+    pub fn forget_unlisted(&self, counts: &[u32], list: &mut [u32]) {
+        let fours = self.list_capacity as usize / 4;
+        let block = LIST_BLOCK as usize;
+        for i in 0..counts.len().next_multiple_of(block) {
+            let listed = counts.get(i).map_or(0, |&count| count.div_ceil(4) as usize);
+            for g in listed..fours {
+                let first = 4 * ((i / block * fours + g) * block + i % block);
+                list[first..first + 4].fill(0);
+            }
+        }
+    }
+
     /// Cells in the table.
     pub fn cells(&self) -> u32 {
         1 << self.bits.iter().sum::<u32>()

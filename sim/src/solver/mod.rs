@@ -8,7 +8,7 @@
 //! `displacement`), and `forces`. The last displacement also commits (lines 22
 //! to 25); `forces` has lines 26 to 28 and the next substep's prediction (line
 //! 16). The neighbour list is rebuilt when a particle has used up its
-//! margin; the GPU decides, by the sizes of six indirect dispatches.
+//! margin; the GPU decides, by the sizes of four indirect dispatches.
 
 mod bubbles;
 mod buffers;

@@ -33,8 +33,6 @@ pub(super) struct Pipelines {
     pub(super) predict: SolverPass,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
-    pub(super) block_scan: SolverPass,
-    pub(super) cell_scatter: SolverPass,
     pub(super) reorder: SolverPass,
     pub(super) list: SolverPass,
     /// Displaces by what was carried.
@@ -140,8 +138,6 @@ impl Pipelines {
             predict: make(sim::PREDICT, &[])?,
             cell_count: make(sim::CELL_COUNT, &[])?,
             cell_scan: make(sim::CELL_SCAN, &[])?,
-            block_scan: make(sim::BLOCK_SCAN, &[])?,
-            cell_scatter: make(sim::CELL_SCATTER, &[])?,
             reorder: make(sim::REORDER, &[])?,
             list: make(sim::LIST, &[])?,
             carried_displacement: make_with(
@@ -331,7 +327,7 @@ impl Constants {
             ("CELL_BITS_X", f64::from(grid.bits[0])),
             ("CELL_BITS_Y", f64::from(grid.bits[1])),
             ("CELL_BITS_Z", f64::from(grid.bits[2])),
-            ("BLOCKS", f64::from(grid.blocks())),
+            ("CELL_ITEMS", f64::from(grid.cell_items(count))),
             ("CELL_GROUPS", f64::from(grid.blocks())),
             ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
             ("LIST_GROUPS", f64::from((count * list_lanes).div_ceil(64))),
@@ -409,6 +405,7 @@ impl Constants {
         let place_of = |binding: &Binding| {
             let label = match binding.name.as_str() {
                 // What is dead during a rebuild lends its memory.
+                "cell_items" => "list",
                 "sorted_trial" => "solved",
                 "sorted_velocity" => "new_velocity",
                 // What is dead once x* is committed.

@@ -15,13 +15,10 @@ impl Solver {
         const PARTICLES: u64 = 0;
         const CELLS: u64 = 16;
         const LIST: u64 = 32;
-        const ONE: u64 = 48;
         let (p, args) = (&self.pipelines, &self.buffers.list_args);
         for (pass, size) in [
             (&p.cell_count, PARTICLES),
             (&p.cell_scan, CELLS),
-            (&p.block_scan, ONE),
-            (&p.cell_scatter, PARTICLES),
             (&p.reorder, PARTICLES),
         ] {
             self.pass(rec, pass).indirect(args, size)?;

@@ -98,8 +98,6 @@ impl Solver {
         })?;
         let count = (&b.cell_starts, bubbles.cell_starts.len());
         to.copy(rec, count, |it| &mut it.bubbles.cell_starts)?;
-        let count = (&b.block_sums, bubbles.block_sums.len());
-        to.copy(rec, count, |it| &mut it.bubbles.block_sums)?;
         to.copy(rec, (&b.drops, spray.drops.len()), |it| &mut it.spray.drops)?;
         to.copy(rec, (&b.sprayed, spray.sprayed.len()), |it| {
             &mut it.spray.sprayed
@@ -112,6 +110,11 @@ impl Solver {
         to.copy(rec, (&b.list_counts, n), |it| &mut it.list_counts)?;
         let listed = self.grid.listed(self.count) as usize;
         to.copy(rec, (&b.list, listed), |it| &mut it.list)?;
+        let grid = self.grid;
+        to.0.push(Box::new(move |state| {
+            grid.forget_unlisted(&state.list_counts, &mut state.list);
+            Ok(())
+        }));
         let words = size_of::<Counters>() / 4;
         to.copy(rec, (&b.counters, words), |it| &mut it.counters)?;
         Ok(to)
@@ -168,7 +171,6 @@ impl Solver {
                 spray.left.len(),
                 no_spray.left.len(),
             ),
-            ("blocks", bubbles.block_sums.len(), none.block_sums.len()),
             ("counters", state.counters.len(), size_of::<Counters>() / 4),
         ] {
             if found != expected {
@@ -204,6 +206,7 @@ impl Solver {
         write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
+        rec.fill(&b.block_counts, 0)?;
         if self.pipelines.bubbles.is_some() {
             // At a frame's end nothing is to be born.
             rec.fill(&b.claims, 0)?;

@@ -90,7 +90,7 @@ impl SolverState {
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
             steam: Steam::start(parameters, n, flasks),
-            bubbles: BubbleState::start(parameters, n, [grid.cells(), grid.blocks()]),
+            bubbles: BubbleState::start(parameters, n, grid.cells()),
             spray: SprayState::start(parameters, n, flasks),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],

@@ -1,5 +1,6 @@
 //! What had to be limited, or taken out, is counted.
 
+use crate::chemistry::setup::mixing_alone;
 use crate::common::{particles as particles_of, *};
 use glam::DVec3;
 use vitriol_gpu::Gpu;
@@ -130,17 +131,25 @@ fn a_list_that_overflows_is_counted() {
 /// a pair exchanged would come from nowhere.
 #[test]
 fn full_lists_make_no_acid() {
+    let paper = Paper {
+        dilution: Some(PaperDilution {
+            ambient: 20.0,
+            heat_diffusivity: 1e-5,
+            acid_diffusivity: 1e-5,
+            heat_generation: 0.0,
+        }),
+        boiling: None,
+    };
+    let mut physical = mixing_alone();
+    physical.mixing.turbulence *= 100.0;
+    no_acid_is_made(Chemistry::Paper(paper));
+    no_acid_is_made(Chemistry::Physical(physical));
+}
+
+fn no_acid_is_made(chemistry: Chemistry) {
     let device = gpu::device();
     let p = Parameters {
-        chemistry: Some(Chemistry::Paper(Paper {
-            dilution: Some(PaperDilution {
-                ambient: 20.0,
-                heat_diffusivity: 1e-5,
-                acid_diffusivity: 1e-5,
-                heat_generation: 0.0,
-            }),
-            boiling: None,
-        })),
+        chemistry: Some(chemistry),
         ..weightless()
     };
     let mut random = Random(3);
@@ -149,7 +158,7 @@ fn full_lists_make_no_acid() {
         .map(|i| {
             let place = random.point(if i < 150 { 0.004 } else { 0.02 });
             Particle {
-                acid: random.number(),
+                acid: 0.45 * (1.0 + random.number()),
                 ..drop_at(place, DVec3::ZERO)
             }
         })
@@ -157,7 +166,11 @@ fn full_lists_make_no_acid() {
     let solver = Setup::new(p, Vec::new(), all).solver(&device);
     let sum = || -> f64 {
         let state = solver.snapshot().unwrap();
-        state.heat.iter().map(|heat| f64::from(heat[1])).sum()
+        // Of the paper's chemistry all have the same mass.
+        let mass =
+            |slot: usize| f64::from(state.matter.get(slot).map_or(1.0, |content| content[3]));
+        let acid = state.heat.iter().map(|heat| f64::from(heat[1]));
+        acid.enumerate().map(|(slot, acid)| acid * mass(slot)).sum()
     };
     let before = sum();
     frames(&device, &solver, &[], 4);
@@ -166,6 +179,8 @@ fn full_lists_make_no_acid() {
     // Rounding of 400 sums in f32.
     let drift = (sum() - before).abs() / before;
     assert!(drift < 1e-6, "{drift}");
+    // Some was exchanged all the same.
+    assert_ne!(sum(), before);
 }
 
 /// Surface tension that would throw a cube together in a substep: line 24 holds after the

@@ -9,12 +9,10 @@ use vitriol_sim::solver::SolverError;
 use vitriol_sim::surface_tension::SurfaceTension;
 use vitriol_tests::gpu;
 
-pub const PASSES: [ShaderId; 13] = [
+pub const PASSES: [ShaderId; 11] = [
     sim::PREDICT,
     sim::CELL_COUNT,
     sim::CELL_SCAN,
-    sim::BLOCK_SCAN,
-    sim::CELL_SCATTER,
     sim::REORDER,
     sim::LIST,
     sim::MULTIPLIER,

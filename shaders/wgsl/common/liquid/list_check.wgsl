@@ -20,6 +20,5 @@ fn check_list(i: u32, predicted: vec3<f32>) {
         atomicStore(&list_args[PARTICLE_ARGS], PARTICLE_GROUPS);
         atomicStore(&list_args[CELL_ARGS], CELL_GROUPS);
         atomicStore(&list_args[LIST_ARGS], LIST_GROUPS);
-        atomicStore(&list_args[BLOCK_ARGS], 1u);
     }
 }

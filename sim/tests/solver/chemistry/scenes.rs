@@ -44,8 +44,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
         |s: &SurfaceTension| s.impulses(p.particle_mass(), p.substeps, p.substep_time());
     let impulses = p.surface.as_ref().map(of_surface).unwrap_or_default();
     for n in 0..p.substeps {
-        all.extend(["cell_count", "cell_scan", "block_scan"]);
-        all.extend(["cell_scatter", "reorder", "list"]);
+        all.extend(["cell_count", "cell_scan", "reorder", "list"]);
         // What is carried displaces first.
         all.extend((p.carry_rate > 0.0).then_some("displacement"));
         all.extend(["multiplier", "displacement"].repeat(p.iterations as usize));
