@@ -1,5 +1,4 @@
 // Line 16 at a frame's start; within a frame the forces end with it.
-// How fast this frame's liquid mixes is not known yet (`sim/turnover.wgsl`).
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/liquid/particle.wgsl
@@ -11,13 +10,11 @@
 /// (membership, identity)
 @group(0) @binding(2) var<storage, read> tags: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> bulk: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> mixes_fast: array<u32>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let i = id.x;
     if (i >= COUNT) { return; }
-    if (PHYSICAL && i == 0u) { mixes_fast[0] = 0u; }
     if (LOADS) { wall_push[i] = vec4<f32>(0.0); }
     var volume = 1.0;
     if (DENSITY) { volume = unpack_bulk(bulk[i]).volume; }

@@ -1,8 +1,8 @@
 // Line 26 of the physical chemistry, before its exchange: what each particle may keep of the exchange that
 // eddies and molecules ask for, so that it swaps no more than all that it has (`chemistry/transport.rs`).
 //
-// Eddies are found once a frame. Where in its first substep no particle swaps half of what it has, none is asked in the others:
-// in them a turnover changes only as neighbours come and go.
+// No scene needs it, and still each substep asks. A turnover that is small in a frame's first substep may pass 1 in its others, where the
+// glass leaves the liquid behind after a stall: then new extremes were made.
 //!include common/chemistry/eddies.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/chemistry/transport.wgsl
@@ -21,11 +21,6 @@
 /// 1 where the turnover is at most 1, else its inverse; 0 of a particle whose list is full, which exchanges nothing.
 @group(0) @binding(5) var<storage, read_write> kept: array<f32>;
 @group(0) @binding(6) var<storage, read_write> counters: Counters;
-/// Whether a turnover above FAST was found in this frame's first substep.
-@group(0) @binding(7) var<storage, read_write> mixes_fast: array<atomic<u32>>;
-
-/// The turnover from which on those of a frame's later substeps are asked for.
-const FAST: f32 = 0.5;
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -35,10 +30,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let full = full_from(atomicLoad(&counters.list_overflows));
     let listed = list_counts[i];
     let most = select(1.0, 0.0, listed >= full);
-    if (!is_first_substep() && atomicLoad(&mixes_fast[0]) == 0u) {
-        if (lane == 0u) { kept[i] = most; }
-        return;
-    }
     let x = position[i].xyz;
     let own = unpack_potential(heat[i]);
     let stirred = unpack_eddies(eddies[i]).diffusivity;
@@ -59,6 +50,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (lane != 0u) { return; }
     let shares = swapped / max(own.mass * vec2<f32>(1.0, own.capacity), vec2<f32>(1e-12));
     let turnover = max(shares.x, shares.y);
-    if (turnover > FAST) { atomicStore(&mixes_fast[0], 1u); }
     kept[i] = most / max(turnover, 1.0);
 }

@@ -76,8 +76,6 @@ pub(super) struct Buffers {
     pub(super) sorted_bulk: Buffer,
     /// What the flow leaves unresolved.
     pub(super) eddies: Buffer,
-    /// A word: whether in this frame a particle swaps much of what it has.
-    pub(super) mixes_fast: Buffer,
     pub(super) sorted_eddies: Buffer,
     pub(super) solution: Buffer,
     pub(super) lamellae: Buffer,
@@ -201,7 +199,6 @@ impl Buffers {
             bulk: words("bulk", 4 * held)?,
             sorted_bulk: words("sorted_bulk", 4 * held)?,
             eddies: words("eddies", 2 * held)?,
-            mixes_fast: words("mixes_fast", u64::from(physical))?,
             sorted_eddies: words("sorted_eddies", 2 * held)?,
             solution: upload(gpu, "solution", &table)?,
             lamellae: upload(gpu, "lamellae", &lamellae)?,
@@ -245,7 +242,7 @@ impl Buffers {
 
     /// All that passes bind, those first that grow with the number of particles; a buffer's label
     /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 30] {
+    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 29] {
         [
             &self.position,
             &self.velocity,
@@ -297,7 +294,6 @@ impl Buffers {
             &self.cell_starts,
             &self.block_counts,
             &self.list_args,
-            &self.mixes_fast,
             &self.solution,
             &self.lamellae,
             &self.bubbles,

@@ -35,11 +35,6 @@ const BUBBLES_ACT: u32 = 2u;
 
 var<immediate> step: Step;
 
-/// Whether this is a frame's first substep; without flasks, of which there are no poses, each is.
-fn is_first_substep() -> bool {
-    return step.before == 0u;
-}
-
 /// 0, as no compiler knows: no scene has 2³¹ poses.
 fn unknown_zero() -> u32 {
     return step.next >> 31u;
