@@ -3,7 +3,7 @@
 //!include common/liquid/cells.wgsl
 //!include common/liquid/particle.wgsl
 
-/// Particles of a cell for which there is room: two fifths of a list's and more, several times what the densest liquid has.
+/// Particles of a cell for which there is room: half of a list's and more. Liquid at rest has an eighth of a list's.
 override CELL_ITEMS: u32 = 1u;
 
 /// Place of a cell's nth.
