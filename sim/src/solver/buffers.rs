@@ -53,7 +53,8 @@ pub(super) struct Buffers {
     pub(super) new_velocity: Buffer,
     pub(super) vorticity: Buffer,
     // Scratch of a rebuild. The sorted copies of what is dead at that moment
-    // share its memory: `solved` and `new_velocity` are written only later.
+    // share its memory: `solved` and `new_velocity` are written only later. The
+    // particles of cells lie in `list` until it is made.
     pub(super) sorted_position: Buffer,
     pub(super) sorted_tags: Buffer,
     pub(super) sorted_push: Buffer,

@@ -46,11 +46,14 @@ impl Grid {
     pub fn forget_unlisted(&self, counts: &[u32], list: &mut [u32]) {
         let fours = self.list_capacity as usize / 4;
         let block = LIST_BLOCK as usize;
-        for i in 0..counts.len().next_multiple_of(block) {
-            let listed = counts.get(i).map_or(0, |&count| count.div_ceil(4) as usize);
-            for g in listed..fours {
-                let first = 4 * ((i / block * fours + g) * block + i % block);
-                list[first..first + 4].fill(0);
+        for (place, four) in list.chunks_exact_mut(4).enumerate() {
+            let g = place / block % fours;
+            let i = place / (block * fours) * block + place % block;
+            if counts
+                .get(i)
+                .is_none_or(|&count| g >= count.div_ceil(4) as usize)
+            {
+                four.fill(0);
             }
         }
     }

@@ -3,7 +3,7 @@
 //!include common/liquid/cells.wgsl
 //!include common/liquid/particle.wgsl
 
-/// Particles of a cell for which there is room: half of a list's and more. Liquid at rest has an eighth of a list's.
+/// Particles of a cell for which there is room: half of a list's and more, but of less than some 500 particles. In liquid at rest a cell has a sixth of a list's on average.
 override CELL_ITEMS: u32 = 1u;
 
 /// Place of a cell's nth.

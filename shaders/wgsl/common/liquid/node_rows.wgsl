@@ -1,4 +1,4 @@
-// Rows of a block's four nodes along x, and a filter of ¼, ½, ¼ along each axis. An invocation has a row: its values are one load, and no
+// Rows of a block's four nodes along x, and a filter of ¼, ½, ¼ along each axis. An invocation has a row, which it loads at once, and no
 // two invocations have to wait for each other.
 //!include common/liquid/blocks_around.wgsl
 
