@@ -189,7 +189,7 @@ impl Buffers {
             cell_counts: words("cell_counts", u64::from(grid.cells()))?,
             cell_starts: words("cell_starts", u64::from(grid.cells()))?,
             block_counts: words("block_counts", u64::from(grid.blocks()))?,
-            list_args: words("list_args", 16)?,
+            list_args: words("list_args", 12)?,
             heat: words("heat", 4 * heated)?,
             diffused: words("diffused", 2 * diffused)?,
             mixing: words("mixing", 4 * heated)?,

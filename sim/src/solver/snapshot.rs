@@ -220,7 +220,7 @@ impl Solver {
             rec.fill(&b.colour, 0)?;
         }
         // Nothing is stale yet; y and z of the dispatch sizes are 1.
-        rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 4])?;
+        rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 3])?;
         gpu.submit(rec)?.wait()?;
         Ok(())
     }

@@ -3,7 +3,8 @@
 //!include common/liquid/cells.wgsl
 //!include common/liquid/particle.wgsl
 
-/// Particles of a cell for which there is room: half of a list's and more, but of less than some 500 particles. In liquid at rest a cell has a sixth of a list's on average.
+/// Particles of a cell for which there is room: half of a list's and more, where there are more than some 500 particles. In liquid at rest
+/// a cell has a sixth of a list's on average.
 override CELL_ITEMS: u32 = 1u;
 
 /// Place of a cell's nth.
