@@ -335,7 +335,9 @@ fn take_from_drops(before: State, identity: u32) -> State {
     let share = share_of(asked, most_given(0.5 * state.content.mass, state.content.mass));
     let mass = rounded(state.content.mass + share * asked);
     let change = mass - state.content.mass;
-    let acid = part_of(did.y, share);
+    // No acid and no water but what there is: neighbours may have brought and taken some since drops asked for theirs.
+    let held = state.acid.value * state.content.mass;
+    let acid = clamp(part_of(did.y, share), i32(-held / SPRAYED_QUANTUM), i32((mass - held) / SPRAYED_QUANTUM));
     state.acid = compensated(state.acid, (f32(acid) * SPRAYED_QUANTUM - state.acid.value * change) / mass);
     let enthalpy_quanta = part_of(did.z, share);
     let enthalpy = f32(enthalpy_quanta) * SPRAYED_ENTHALPY_QUANTUM;
