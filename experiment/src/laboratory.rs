@@ -433,7 +433,7 @@ impl Experiment for Laboratory {
         let limiters = [
             ("neighbour list full", counted.list_overflows),
             (
-                "correction cut to the neighbour list's margin",
+                "correction cut to the neighbour list's reach",
                 counted.list_limited,
             ),
             ("speed cut to v_max", counted.speed_limited),

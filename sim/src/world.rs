@@ -244,7 +244,7 @@ impl World {
     }
 
     /// As many substeps as the fastest wall asks for ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that
-    /// goes further than the particles it meets are wide presses them into each other, and the list's margin
+    /// goes further than the particles it meets are wide presses them into each other, and the list's reach
     /// keeps them there for several substeps.
     fn follow_walls(&mut self, before: &[Pose]) -> Result<(), WorldError> {
         let solver = &self.scene.solver;

@@ -13,6 +13,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/list_place.wgsl
+//!include common/liquid/list_reach.wgsl
 //!include common/liquid/max_speed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/position.wgsl
@@ -29,8 +30,6 @@ override CARRY: bool = false;
 override APPLY_CARRIED: bool = false;
 /// What of σ·sin θ holds a surface's line (`sim/interface.wgsl`); 0 without surface tension.
 override HYSTERESIS: f32 = 0.0;
-/// Half of the list's margin, metres: a particle that went further might miss neighbours.
-override LIST_REACH: f32 = 0.000375;
 
 @group(0) @binding(0) var<storage, read> solved: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> boundary: array<vec4<f32>>;

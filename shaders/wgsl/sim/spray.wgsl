@@ -5,6 +5,7 @@
 //!include common/glass/glass_distance.wgsl
 //!include common/glass/ground.wgsl
 //!include common/liquid/cells_around.wgsl
+//!include common/liquid/list_reach.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 
@@ -87,8 +88,8 @@ fn place_after(within: u32, x: vec3<f32>) -> Place {
 fn nearest_to(x: vec3<f32>, reach: f32) -> u32 {
     var best = reach * reach;
     var found = COUNT;
-    // Particles may have moved by the list's margin since they were put into cells.
-    let around = vec3<f32>(reach + CELL - SUPPORT);
+    // As far may particles have moved since they were put into cells.
+    let around = vec3<f32>(reach + LIST_REACH);
     let low = cell_of(x - around);
     let side = vec3<u32>(cell_of(x + around) - low + 1);
     for (var n = 0u; n < side.x * side.y * side.z; n++) {

@@ -49,10 +49,9 @@ impl Reference {
         self.take_out_non_finite();
     }
 
-    /// Line 10 at `positions`: everything within h and the list's margin,
-    /// since the iterations bring particles together.
+    /// Line 10 at `positions`: everything that corrections may bring within h.
     pub fn neighbours(&self, positions: &[DVec3]) -> Neighbours {
-        let radius = self.parameters.support_radius * (1.0 + self.parameters.list_margin);
+        let radius = self.parameters.support_radius * (1.0 + 2.0 * self.parameters.list_reach);
         neighbours::find(positions, radius, |i, j| {
             see_each_other(
                 &self.surroundings,

@@ -16,9 +16,9 @@ use crate::parameters::Parameters;
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Binding, BindingKind, Library, ShaderId, sim};
 
-/// Part of the list's margin that a prediction may use up; the rest is left
+/// Part of the list's reach that a prediction may use up; the rest is left
 /// for the substep's corrections.
-const MARGIN_FOR_PREDICTION: f64 = 0.4;
+const REACH_OF_PREDICTION: f64 = 0.8;
 
 /// Compiled passes, named as their shaders.
 pub(super) struct Pipelines {
@@ -305,7 +305,7 @@ impl Constants {
         [lanes, list_lanes, group]: [u32; 3],
     ) -> Self {
         let p = &spec.parameters;
-        let margin = grid.cell - p.support_radius;
+        let reach = p.list_reach * p.support_radius;
         let mut all = vec![
             ("COUNT", f64::from(count)),
             ("FRAME_TIME", p.frame_time),
@@ -331,8 +331,8 @@ impl Constants {
             ("CELL_GROUPS", f64::from(grid.blocks())),
             ("PARTICLE_GROUPS", f64::from(count.div_ceil(64))),
             ("LIST_GROUPS", f64::from((count * list_lanes).div_ceil(64))),
-            ("LIST_SLACK", margin * MARGIN_FOR_PREDICTION),
-            ("LIST_REACH", margin * 0.5),
+            ("LIST_SLACK", reach * REACH_OF_PREDICTION),
+            ("LIST_REACH", reach),
             ("FLASKS", spec.flasks.len() as f64),
             ("SOLIDS", flag(spec.solids.is_some())),
             ("LOADS", flag(spec.loads)),

@@ -183,7 +183,7 @@ fn frames_on_end() {
     // reference does not cut what they throw.
     let p = Parameters {
         carry_rate: 5.4,
-        list_margin: 0.3,
+        list_reach: 0.15,
         ..parameters()
     };
     let mut setup = scene(p);

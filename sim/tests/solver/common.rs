@@ -42,7 +42,8 @@ pub fn parameters() -> Parameters {
         surface: None,
         chemistry: None,
         heaters: Vec::new(),
-        list_margin: 0.15,
+        list_margin: 0.05,
+        list_reach: 0.075,
         margin: 0.001 * H,
     }
 }

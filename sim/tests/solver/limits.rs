@@ -78,8 +78,8 @@ fn no_particle_goes_further_than_its_speed() {
     assert_eq!(solver.counters().unwrap().speed_limited, cut);
 }
 
-/// Two particles a hundredth of h apart are pushed further than half of the
-/// list's margin.
+/// Two particles a hundredth of h apart are pushed further than the
+/// list's reach.
 #[test]
 fn corrections_beyond_the_list_are_limited_and_counted() {
     let device = gpu::device();
@@ -93,7 +93,7 @@ fn corrections_beyond_the_list_are_limited_and_counted() {
     let state = solver.snapshot().unwrap();
     let found = particles(&state);
     let list = List::of(&state);
-    let reach = 0.5 * 0.15 * H;
+    let reach = 0.075 * H;
     let mut at_reach = 0;
     for (slot, tag) in state.tags.iter().enumerate() {
         let moved = found[tag[1] as usize].position.distance(list.origins[slot]);
@@ -113,17 +113,17 @@ fn a_list_that_overflows_is_counted() {
             .map(|_| drop_at(centre + random.point(0.003), DVec3::ZERO))
             .collect()
     };
-    // All see each other: 72 neighbours fit, 73 do not.
-    let mut all = ball(73, DVec3::ZERO);
-    all.extend(ball(74, DVec3::X));
+    // All see each other: 56 neighbours fit, 57 do not.
+    let mut all = ball(57, DVec3::ZERO);
+    all.extend(ball(58, DVec3::X));
     let mut setup = Setup::new(weightless(), Vec::new(), all);
     for lanes in lanes(&device) {
         setup.lanes = Some(lanes);
         let solver = setup.solver(&device);
         frames(&device, &solver, &[], 1);
         let list = List::of(&solver.snapshot().unwrap());
-        assert!(list.neighbours.iter().all(|row| row.len() == 72));
-        assert_eq!(solver.counters().unwrap().list_overflows, 74);
+        assert!(list.neighbours.iter().all(|row| row.len() == 56));
+        assert_eq!(solver.counters().unwrap().list_overflows, 58);
     }
 }
 

@@ -67,7 +67,7 @@ fn a_substep_is_the_references() {
     let p = Parameters {
         viscosity: 0.6,
         // Solids press harder on a filling lattice than maps do: relaxed less,
-        // the GPU would cut displacements to the list's margin.
+        // the GPU would cut displacements to the list's reach.
         relaxation: Relaxation::Jacobi { omega: 0.05 },
         ..single_substeps()
     };

@@ -87,7 +87,8 @@ fn bare() -> Parameters {
         surface: None,
         chemistry: None,
         heaters: Vec::new(),
-        list_margin: 0.15,
+        list_margin: 0.05,
+        list_reach: 0.075,
         margin: 5e-6,
     }
 }

@@ -103,7 +103,7 @@ fn one_at_a_time(own: Setting, quick: bool) -> Vec<(Knob, Setting)> {
         };
         all.push((Knob::Support, setting));
     }
-    for list_margin in [0.05, 0.1, 0.25, 0.35] {
+    for list_margin in [0.0, 0.1, 0.15, 0.25] {
         all.push((Knob::Margin, Setting { list_margin, ..own }));
     }
     all

@@ -4,7 +4,7 @@
 // neighbours around zero.
 
 /// Edge of a cell, metres: support radius plus list margin.
-override CELL: f32 = 0.00575;
+override CELL: f32 = 0.00525;
 /// Logarithms of the number of cells in x, y, z.
 override CELL_BITS_X: u32 = 4u;
 override CELL_BITS_Y: u32 = 4u;

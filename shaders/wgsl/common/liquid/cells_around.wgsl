@@ -1,4 +1,4 @@
-// The cells around a place, as the last rebuild of the list filled them. Particles may have moved by its margin since.
+// The cells around a place, as the last rebuild of the list filled them. Particles may have moved by the list's reach since.
 //!include common/liquid/cell_starts.wgsl
 
 /// Particles of a cell: from the first to before the end.

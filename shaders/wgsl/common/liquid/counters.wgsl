@@ -5,7 +5,7 @@ struct Counters {
     rebuilds: atomic<u32>,
     /// Particles whose list was full.
     list_overflows: atomic<u32>,
-    /// Corrections cut so that a particle stays within its list's margin.
+    /// Corrections cut so that a particle stays within its list's reach.
     list_limited: atomic<u32>,
     /// Speeds cut to the maximum.
     speed_limited: atomic<u32>,

@@ -2,7 +2,7 @@
 //!include common/liquid/list_args.wgsl
 
 /// Displacement since the list was built above which it is rebuilt, metres.
-override LIST_SLACK: f32 = 0.0002;
+override LIST_SLACK: f32 = 0.0003;
 /// Workgroups of a pass over particles, over cells, and of the list pass.
 override PARTICLE_GROUPS: u32 = 1u;
 override CELL_GROUPS: u32 = 1u;

@@ -40,7 +40,7 @@ struct Neighbourhood {
     swelling: u32,
     /// Particle spacing d.
     spacing: f32,
-    /// Support radius h, within which the list is complete.
+    /// Support radius h, within which the list lacks next to none.
     support: f32,
     /// Fours of neighbours that the list has room for, of each particle.
     fours: u32,

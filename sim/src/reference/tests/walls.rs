@@ -92,7 +92,7 @@ fn what_pours_over_the_rim_is_seen() {
             DVec3::new(0.030 - 0.0125, rim - 0.0015, 0.0),
         ],
     );
-    water.parameters.list_margin = 0.0;
+    water.parameters.list_reach = 0.0;
     let neighbours = water.neighbours(&water.positions);
     let of = |i: usize| neighbours.of(i).collect::<Vec<_>>();
     assert_eq!(water.membership, [Some(0), None, Some(0), None, Some(1)]);

@@ -189,7 +189,7 @@ fn chemistry_costs_memory_where_it_is_asked_for() {
     // In their place matter, bulk and eddies with copies, and ledger.
     let own = bytes(Some(Chemistry::Physical(mixing_alone())));
     assert_eq!(own - none, 3 * 16 + 5 * 16 + 2 * 8);
-    // Room for 24 more neighbours where the liquid contracts.
+    // Room for 16 more neighbours where the liquid contracts.
     let dense = bytes(Some(Chemistry::Physical(boiling())));
-    assert_eq!(dense - own, 24 * 4);
+    assert_eq!(dense - own, 16 * 4);
 }
