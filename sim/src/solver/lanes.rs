@@ -30,8 +30,8 @@ fn most(gpu: &Gpu) -> u32 {
 }
 
 /// Most invocations of a pass over neighbours while a particle has more than one: with fewer a large GPU waits for fetches, with more
-/// for what each invocation does beside its neighbours. Of 8,000 to 250,000 particles on an H100 the fastest number of lanes is found so,
-/// to within 4 % of a frame (`docs/measurements/performance.md`).
+/// for what each invocation does beside its neighbours. Of 8,000 to 180,000 particles on an H100 the fastest number of lanes is found so,
+/// to within 1 % of a frame (`docs/measurements/performance.md`).
 const MOST_SHARING: u32 = 98_000;
 
 fn wanted(count: u32) -> u32 {
