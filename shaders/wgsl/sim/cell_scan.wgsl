@@ -5,11 +5,13 @@
 @group(0) @binding(0) var<storage, read> cell_counts: array<u32>;
 @group(0) @binding(1) var<storage, read_write> cell_starts: array<u32>;
 @group(0) @binding(2) var<storage, read> block_counts: array<u32>;
+@group(0) @binding(3) var<storage, read_write> long_lists: array<u32>;
 
 var<workgroup> sums: array<u32, 256>;
 
 @compute @workgroup_size(256)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    if (group.x == 0u && local == 0u) { long_lists[0] = 0u; }
     let first = group.x * SCAN_BLOCK + local * 4u;
     let a = cell_counts[first];
     let b = a + cell_counts[first + 1u];

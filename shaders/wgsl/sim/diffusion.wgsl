@@ -12,7 +12,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 
@@ -46,10 +46,10 @@ fn diffuse(i: u32, lane: u32, own: PaperHeat) -> Diffusion {
     var sum: Diffusion;
     let x = position[i].xyz;
     let full = full_from(atomicLoad(&counters.list_overflows));
-    let listed = list_counts[i];
-    let count = select(listed, 0u, listed >= full);
+    let listed = listed_of(i);
+    let count = select(listed.count, 0u, list_counts[i] >= full);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -12,7 +12,7 @@
 //!include common/glass/wall.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/list_reach.wgsl
 //!include common/liquid/max_speed.wgsl
 //!include common/liquid/particle.wgsl
@@ -75,9 +75,9 @@ fn walls_of(i: u32, lane: u32, x_star: vec3<f32>) -> vec4<f32> {
 fn sum_gradients(i: u32, lane: u32, own: vec4<f32>) -> vec3<f32> {
     let change = change_of(i, own);
     var sum = vec3<f32>(0.0);
-    let count = list_counts[i];
-    for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+    let listed = listed_of(i);
+    for (var g = lane; g * 4u < listed.count; g += LANES) {
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let other = solved[j];

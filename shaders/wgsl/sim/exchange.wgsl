@@ -23,7 +23,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/viscosity.wgsl
@@ -111,9 +111,10 @@ fn receive(i: u32, lane: u32, own: Potential, is_full: bool) -> Received {
     // Acid, enthalpy.
     var flux = vec2<f32>(0.0);
     var open = vec3<f32>(0.0);
-    let count = select(list_counts[i], 0u, is_full);
+    let listed = listed_of(i);
+    let count = select(listed.count, 0u, is_full);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

@@ -17,7 +17,7 @@
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/internal_forces.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/prediction.wgsl
 //!include common/liquid/step.wgsl
@@ -116,11 +116,11 @@ fn wall_viscosity(own: Mixing, drag: vec3<f32>) -> vec3<f32> {
 /// All that particle i's neighbours do to it; for lane 0, but all lanes must ask.
 fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, omega: vec4<f32>) -> Sums {
     var sums: Sums;
-    let count = list_counts[i];
+    let listed = listed_of(i);
     var full = 0xffffffffu;
     if (BOILING || DILUTION) { full = full_from(atomicLoad(&counters.list_overflows)); }
-    for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+    for (var g = lane; g * 4u < listed.count; g += LANES) {
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;
@@ -131,7 +131,7 @@ fn sum_neighbours(i: u32, lane: u32, x: vec3<f32>, v: vec3<f32>, own: Mixing, om
             if (MIXES) { other = unpack_mixing(mixing[j]); }
             var whole = 1.0;
             if (BOILING || DILUTION) {
-                whole = has_whole_list(j, i, full) * select(1.0, 0.0, count >= full);
+                whole = has_whole_list(j, i, full) * select(1.0, 0.0, list_counts[i] >= full);
             }
             if (DRAGS) {
                 let relative = new_velocity[j].xyz - v;

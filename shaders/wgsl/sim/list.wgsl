@@ -6,7 +6,7 @@
 //!include common/liquid/cell_starts.wgsl
 //!include common/liquid/counters.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/list_block.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
@@ -37,6 +37,8 @@ override LIST_LANES: u32 = 1u;
 @group(0) @binding(28) var<storage, read_write> bulk: array<vec4<f32>>;
 @group(0) @binding(32) var<storage, read> sorted_eddies: array<vec2<f32>>;
 @group(0) @binding(33) var<storage, read_write> eddies: array<vec2<f32>>;
+/// As `common/liquid/listed.wgsl` has it.
+@group(0) @binding(52) var<storage, read_write> long_lists: array<atomic<u32>>;
 
 /// Whether two particles of different membership see each other past the glass.
 fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
@@ -54,12 +56,39 @@ fn visible(a: u32, x_a: vec3<f32>, b: u32, x_b: vec3<f32>) -> bool {
     return seen;
 }
 
-/// Word of the list that holds particle i's neighbour k.
-fn place(k: u32, i: u32) -> u32 {
-    return place_of_four(k >> 2u, i) * 4u + (k & 3u);
+/// Where neighbours are written: the first four, from each to the next, and how many there is room for.
+struct Place {
+    first: u32,
+    stride: u32,
+    room: u32,
 }
 
+/// A particle's place in the list.
+fn place_of(i: u32) -> Place {
+    return Place(four_in_blocks(0u, i, LIST_CAPACITY / 4u), LIST_BLOCK, LIST_CAPACITY);
+}
+
+/// First of the fours of a long list of so many neighbours.
+fn claim(i: u32, neighbours: u32) -> u32 {
+    let first = atomicAdd(&long_lists[0], (neighbours + 3u) / 4u);
+    atomicStore(&long_lists[1u + i], first);
+    return first;
+}
+
+/// The place from there on; without room if too many asked.
+fn long_place(first: u32, neighbours: u32) -> Place {
+    let fits = first + (neighbours + 3u) / 4u <= LONG_FOURS;
+    return Place(PLACES + first, 1u, select(0u, neighbours, fits));
+}
+
+var<private> place: Place;
 var<private> found: u32;
+
+/// Word of the list for neighbour k.
+fn word(k: u32) -> u32 {
+    return (place.first + (k >> 2u) * place.stride) * 4u + (k & 3u);
+}
+
 var<private> coincident: bool;
 /// Whether any neighbour has another membership; where a lane is alone.
 var<private> mixed: bool;
@@ -118,7 +147,7 @@ fn search_alone(i: u32, x: vec3<f32>, membership: u32, row: Row) {
         while (near != 0u) {
             let j = candidate(start + firstTrailingBit(near), row);
             near &= near - 1u;
-            if (found < LIST_CAPACITY) { list[place(found, i)] = j; }
+            if (found < place.room) { list[word(found)] = j; }
             found++;
         }
     }
@@ -153,7 +182,7 @@ fn lanes_with(lane: Lane, yes: bool) -> u32 {
 fn list_together(i: u32, lane: Lane, near: bool, j: u32) {
     let hits = lanes_with(lane, near);
     let k = found + countOneBits(hits & ((1u << lane.own) - 1u));
-    if (near && k < LIST_CAPACITY) { list[place(k, i)] = j; }
+    if (near && k < place.room) { list[word(k)] = j; }
     found += countOneBits(hits);
 }
 
@@ -190,19 +219,58 @@ fn search_rows_together(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
     }
 }
 
-/// Takes those of the first `listed` neighbours off the list that glass hides.
-fn drop_unseen(i: u32, x: vec3<f32>, membership: u32, listed: u32) {
+/// Takes those of the first `listed` neighbours off the list that glass hides, and says how many are left.
+fn drop_unseen(x: vec3<f32>, membership: u32, listed: u32) -> u32 {
     var kept = 0u;
     for (var k = 0u; k < listed; k++) {
-        let j = list[place(k, i)];
+        let j = list[word(k)];
         let other = sorted_trial[j];
         let theirs = membership_in(other);
         if (theirs == membership || visible(membership, x, theirs, other.xyz)) {
-            list[place(kept, i)] = j;
+            list[word(kept)] = j;
             kept++;
         }
     }
-    if (listed > 0u) { found = kept; }
+    return kept;
+}
+
+/// A particle's list, by itself: once more into the long lists where there are more neighbours than places. A second search beside the first would be walked by
+/// a software driver though nobody needs it.
+fn list_alone(i: u32, x: vec3<f32>, membership: u32) {
+    let cell = cell_of(x);
+    for (var searches = membership != REMOVED; searches;) {
+        found = 0u;
+        for (var row = 0u; row < 9u; row++) { search_alone(i, x, membership, row_at(cell, row)); }
+        let is_long = found > LIST_CAPACITY;
+        if (FLASKS > 0u) {
+            let listed = min(found, place.room);
+            let kept = drop_unseen(x, membership, select(0u, listed, mixed));
+            // A long list is told by its length, in which those behind glass remain.
+            for (var k = kept; k < listed && mixed && is_long; k++) { list[word(k)] = i; }
+            if (mixed && !is_long) { found = kept; }
+        }
+        searches = is_long && place.stride != 1u;
+        if (searches) { place = long_place(claim(i, found), found); }
+    }
+}
+
+/// The same by a particle's lanes. Those of others, whose lists are whole, go along where one searches once more.
+fn list_by_lanes(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
+    var searched = membership;
+    for (var searches = true; searches;) {
+        let before = found;
+        found = 0u;
+        search_rows_together(i, lane, x, searched);
+        found = max(found, before);
+        let is_long = found > LIST_CAPACITY && place.stride != 1u;
+        searched = select(REMOVED, membership, is_long);
+        searches = subgroupAny(is_long);
+        var first = 0u;
+        if (is_long && lane.own == 0u) { first = claim(i, found); }
+        first = subgroupShuffle(first, lane.first);
+        if (is_long) { place = long_place(first, found); }
+    }
+    coincident = lanes_with(lane, coincident) != 0u;
 }
 
 /// A direction from a particle's identity: apart, but the same at each replay.
@@ -223,36 +291,20 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(subgroup_invocati
     found = 0u;
     coincident = false;
     mixed = false;
+    place = place_of(i);
     if (LIST_LANES > 1u) {
-        let lane = Lane(own, in_subgroup - own);
-        search_rows_together(i, lane, x, tag.x);
-        coincident = lanes_with(lane, coincident) != 0u;
+        list_by_lanes(i, Lane(own, in_subgroup - own), x, tag.x);
         if (own != 0u) { return; }
     } else {
-        if (tag.x != REMOVED) {
-            let cell = cell_of(x);
-            for (var row = 0u; row < 9u; row++) { search_alone(i, x, tag.x, row_at(cell, row)); }
-        }
-        let listed = min(found, LIST_CAPACITY);
-        let overflowed = found > LIST_CAPACITY;
-        if (overflowed) { atomicAdd(&counters.list_overflows, 1u); }
-        found = listed;
-        if (FLASKS > 0u) { drop_unseen(i, x, tag.x, select(0u, listed, mixed)); }
-        if (overflowed) {
-            // It still counts as full: see `common/liquid/full_list.wgsl`. Several lanes count what they see alone, so that a crowd beside glass may be
-            // full for one lane and not for them.
-            for (var k = found; k < LIST_CAPACITY; k++) { list[place(k, i)] = i; }
-            found = LIST_CAPACITY;
-        }
+        list_alone(i, x, tag.x);
     }
     // Kernel gradients vanish at distance zero; particles in one place would
     // stay together for ever.
     if (coincident) { x += 1e-3 * SUPPORT * apart(tag.y); }
     if (found > LIST_CAPACITY) { atomicAdd(&counters.list_overflows, 1u); }
-    let listed = min(found, LIST_CAPACITY);
-    list_counts[i] = listed;
+    list_counts[i] = found;
     // Sums take four at a time; the particle itself adds nothing to differences.
-    for (var k = listed; (k & 3u) != 0u; k++) { list[place(k, i)] = i; }
+    for (var k = min(found, place.room); (k & 3u) != 0u; k++) { list[word(k)] = i; }
     var volume = 1.0;
     if (PHYSICAL) { volume = unpack_bulk(sorted_bulk[i]).volume; }
     trial[i] = pack_trial(x, volume);

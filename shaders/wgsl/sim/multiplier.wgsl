@@ -15,7 +15,7 @@
 //!include common/glass/boundary.wgsl
 //!include common/liquid/kernel.wgsl
 //!include common/liquid/list_args.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 //!include common/liquid/trial.wgsl
@@ -52,9 +52,9 @@ const MOST_MIRRORED: f32 = 0.1;
 /// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
 fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
     var sum = 0.0;
-    let count = list_counts[i];
-    for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+    let listed = listed_of(i);
+    for (var g = lane; g * 4u < listed.count; g += LANES) {
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let other = trial[j];

@@ -6,7 +6,7 @@
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/flow.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 
 override GRAVITY_X: f32 = 0.0;
@@ -45,9 +45,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var across = vec3<f32>(0.0);
     var density = vec3<f32>(0.0);
     var moment = 0.0;
-    let count = list_counts[i];
-    for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+    let listed = listed_of(i);
+    for (var g = lane; g * 4u < listed.count; g += LANES) {
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;

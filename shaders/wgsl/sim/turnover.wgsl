@@ -9,7 +9,7 @@
 //!include common/liquid/counters.wgsl
 //!include common/liquid/full_list.wgsl
 //!include common/liquid/kernel.wgsl
-//!include common/liquid/list_place.wgsl
+//!include common/liquid/listed.wgsl
 //!include common/liquid/particle.wgsl
 //!include common/liquid/step.wgsl
 
@@ -28,15 +28,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let lane = id.x % LANES;
     if (i >= COUNT) { return; }
     let full = full_from(atomicLoad(&counters.list_overflows));
-    let listed = list_counts[i];
-    let most = select(1.0, 0.0, listed >= full);
+    let is_full = list_counts[i] >= full;
     let x = position[i].xyz;
     let own = unpack_potential(heat[i]);
     let stirred = unpack_eddies(eddies[i]).diffusivity;
-    let count = select(listed, 0u, listed >= full);
+    let listed = listed_of(i);
+    let count = select(listed.count, 0u, is_full);
     var swapped = vec2<f32>(0.0);
     for (var g = lane; g * 4u < count; g += LANES) {
-        let four = list[place_of_four(g, i)];
+        let four = list[listed.first + g * listed.stride];
         for (var n = 0u; n < 4u; n++) {
             let j = four[n];
             let offset = x - position[j].xyz;
@@ -50,5 +50,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (lane != 0u) { return; }
     let shares = swapped / max(own.mass * vec2<f32>(1.0, own.capacity), vec2<f32>(1e-12));
     let turnover = max(shares.x, shares.y);
-    kept[i] = most / max(turnover, 1.0);
+    kept[i] = select(1.0 / max(turnover, 1.0), 0.0, is_full);
 }

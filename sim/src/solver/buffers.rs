@@ -19,7 +19,7 @@ use vitriol_gpu::{Buffer, Gpu, GpuError};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 44;
+pub(super) const OF_PARTICLES: usize = 45;
 
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
@@ -44,6 +44,8 @@ pub(super) struct Buffers {
     pub(super) list_origin: Buffer,
     pub(super) list_counts: Buffer,
     pub(super) list: Buffer,
+    /// Where in the list those are that are longer than a particle's place.
+    pub(super) long_lists: Buffer,
     pub(super) counters: Buffer,
     // Scratch of one substep.
     pub(super) trial: Buffer,
@@ -175,7 +177,8 @@ impl Buffers {
             tags: words("tags", 2 * n)?,
             list_origin: words("list_origin", 4 * n)?,
             list_counts: words("list_counts", n)?,
-            list: words("list", grid.listed(count))?,
+            list: words("list", grid.places(count) + grid.long(count))?,
+            long_lists: words("long_lists", n + 1)?,
             counters: words("counters", size_of::<Counters>() as u64 / 4)?,
             trial: words("trial", 4 * n)?,
             solved: words("solved", 4 * n)?,
@@ -251,6 +254,7 @@ impl Buffers {
             &self.list_origin,
             &self.list_counts,
             &self.list,
+            &self.long_lists,
             &self.trial,
             &self.solved,
             &self.boundary,

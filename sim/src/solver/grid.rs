@@ -8,6 +8,9 @@ const SCAN_BLOCK: u32 = 1024;
 /// Particles whose neighbours lie side by side, as in `common/liquid/list_block.wgsl`.
 const LIST_BLOCK: u32 = 32;
 
+/// Least number of words for lists that are longer than a place: a crowd of 500 of whom each sees all.
+const LEAST_LONG: u64 = 1 << 18;
+
 /// The neighbour search: cell size, table and list.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
@@ -15,7 +18,7 @@ pub struct Grid {
     pub cell: f64,
     /// Logarithms of the cells in x, y and z.
     pub bits: [u32; 3],
-    /// Rows of the neighbour list.
+    /// Neighbours for which each particle has a place in the list.
     pub list_capacity: u32,
 }
 
@@ -32,18 +35,59 @@ impl Grid {
         }
     }
 
-    /// Words of the list of `count` particles, which fill blocks of it.
-    pub fn listed(&self, count: u32) -> u64 {
+    /// Words of the places of `count` particles, which fill blocks of the list.
+    pub fn places(&self, count: u32) -> u64 {
         u64::from(count.next_multiple_of(LIST_BLOCK)) * u64::from(self.list_capacity)
+    }
+
+    /// Words behind them, for lists that are longer.
+    pub fn long(&self, count: u32) -> u64 {
+        (self.places(count) / 8).max(LEAST_LONG)
     }
 
     /// Particles of each cell that are noted before they are sorted, where the list will be.
     pub fn cell_items(&self, count: u32) -> u32 {
-        (self.listed(count) / u64::from(self.cells())).max(1) as u32
+        (self.places(count) / u64::from(self.cells())).max(1) as u32
     }
 
-    /// Puts 0 where the list has no neighbours, of which there are so many: what a rebuild noted there is in the order of chance.
-    pub fn forget_unlisted(&self, counts: &[u32], list: &mut [u32]) {
+    /// Fours of all lists that are longer than a place, and then the first of each particle's, where they lie in the particles' order.
+    pub fn long_lists(&self, counts: &[u32]) -> Vec<u32> {
+        let mut all = vec![0; 1 + counts.len()];
+        for (first, &count) in (1..).zip(counts) {
+            if count > self.list_capacity {
+                all[first] = all[0];
+                all[0] += count.div_ceil(4);
+            }
+        }
+        all
+    }
+
+    /// Whether so many fours have room among the long lists; else none has any.
+    pub fn fit(&self, fours: u32, count: u32) -> bool {
+        4 * u64::from(fours) <= self.long(count)
+    }
+
+    /// Puts what was written in an order of chance in one that repeats: lists that are longer than a place, of which the device's record is `found`,
+    /// follow the places in the particles' order, and what a rebuild noted elsewhere becomes 0.
+    pub fn settle(&self, counts: &[u32], found: &[u32], list: &mut Vec<u32>) {
+        let n = counts.len() as u32;
+        let places = self.places(n) as usize;
+        let mut long = Vec::new();
+        if found.first().is_some_and(|&fours| self.fit(fours, n)) {
+            for (&count, &first) in counts.iter().zip(&found[1..]) {
+                if count > self.list_capacity {
+                    let from = places + 4 * first as usize;
+                    let words = from..from + 4 * count.div_ceil(4) as usize;
+                    long.extend_from_slice(list.get(words).unwrap_or_default());
+                }
+            }
+        }
+        list.truncate(places);
+        self.forget_unlisted(counts, list);
+        list.extend(long);
+    }
+
+    fn forget_unlisted(&self, counts: &[u32], list: &mut [u32]) {
         let fours = self.list_capacity as usize / 4;
         let block = LIST_BLOCK as usize;
         for (place, four) in list.chunks_exact_mut(4).enumerate() {

@@ -310,6 +310,8 @@ impl Constants {
             ("COUNT", f64::from(count)),
             ("FRAME_TIME", p.frame_time),
             ("LIST_CAPACITY", f64::from(grid.list_capacity)),
+            ("PLACES", (grid.places(count) / 4) as f64),
+            ("LONG_FOURS", (grid.long(count) / 4) as f64),
             ("LANES", f64::from(lanes)),
             ("LIST_LANES", f64::from(list_lanes)),
             ("GROUP", f64::from(group)),

@@ -108,11 +108,12 @@ impl Solver {
         to.copy(rec, (&b.held, self.sticking()), |it| &mut it.held)?;
         to.copy(rec, (&b.list_origin, n), |it| &mut it.list_origin)?;
         to.copy(rec, (&b.list_counts, n), |it| &mut it.list_counts)?;
-        let listed = self.grid.listed(self.count) as usize;
-        to.copy(rec, (&b.list, listed), |it| &mut it.list)?;
         let grid = self.grid;
+        let words = grid.places(self.count) + grid.long(self.count);
+        to.copy(rec, (&b.list, words as usize), |it| &mut it.list)?;
+        let long_lists = rec.read_back(&b.long_lists)?;
         to.0.push(Box::new(move |state| {
-            grid.forget_unlisted(&state.list_counts, &mut state.list);
+            grid.settle(&state.list_counts, &long_lists.get()?, &mut state.list);
             Ok(())
         }));
         let words = size_of::<Counters>() / 4;
@@ -127,7 +128,13 @@ impl Solver {
     /// [`SolverError::OtherState`], or [`SolverError::Gpu`].
     pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
         let n = self.count as usize;
-        let listed = self.grid.listed(self.count) as usize;
+        let long_lists = self.grid.long_lists(&state.list_counts);
+        let long = if self.grid.fit(long_lists[0], self.count) {
+            4 * long_lists[0] as usize
+        } else {
+            0
+        };
+        let listed = self.grid.places(self.count) as usize + long;
         let [heat, matter] = self.lengths();
         let (steam, start) = (&state.steam, Steam::start(&self.parameters, n, self.flasks));
         let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());
@@ -203,6 +210,7 @@ impl Solver {
         write(gpu, &b.list_origin, &state.list_origin)?;
         write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
+        write(gpu, &b.long_lists, &long_lists)?;
         write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;

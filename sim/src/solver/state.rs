@@ -95,7 +95,7 @@ impl SolverState {
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],
             list_origin: vec![[f32::NAN; 4]; n],
             list_counts: vec![0; n],
-            list: vec![0; grid.listed(n as u32) as usize],
+            list: vec![0; grid.places(n as u32) as usize],
             counters: vec![0; size_of::<Counters>() / 4],
         };
         match &parameters.chemistry {

@@ -243,16 +243,35 @@ impl List {
         // Postcard stores fields in their order and no names.
         let fields: Fields = postcard::from_bytes(&bytes).unwrap();
         let n = fields.positions.len();
-        let capacity = fields.list.len() / list::words(n, 1);
-        let row = |slot: usize| {
-            let count = fields.list_counts[slot] as usize;
-            let place = |k| list::place(slot, k, capacity);
-            (0..count).map(|k| fields.list[place(k)] as usize).collect()
+        let counts = fields.list_counts.iter().map(|&count| count as usize);
+        let counts: Vec<_> = counts.collect();
+        // Behind the places lie the lists that are longer.
+        let long = |most: usize| counts.iter().filter(move |&&count| count > most);
+        let words = |most| -> usize { long(most).map(|count| count.next_multiple_of(4)).sum() };
+        let capacity = (8..)
+            .step_by(8)
+            .find(|&most| list::words(n, most) + words(most) == fields.list.len())
+            .unwrap();
+        let mut behind = list::words(n, capacity);
+        let mut row = |slot: usize| {
+            let count = counts[slot];
+            let place = |k| {
+                if count > capacity {
+                    behind + k
+                } else {
+                    list::place(slot, k, capacity)
+                }
+            };
+            let row = (0..count).map(|k| fields.list[place(k)] as usize).collect();
+            if count > capacity {
+                behind += count.next_multiple_of(4);
+            }
+            row
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         Self {
             origins: fields.list_origin.iter().map(origin).collect(),
-            neighbours: (0..n).map(row).collect(),
+            neighbours: (0..n).map(&mut row).collect(),
         }
     }
 }

@@ -65,6 +65,7 @@ fn vorticity_by_gpu(gpu: &Gpu, positions: &[DVec3], velocities: &[DVec3]) -> Vec
             &buffer("counts", bytemuck::cast_slice(&counts)),
         )
         .read("list", &buffer("list", bytemuck::cast_slice(&list)))
+        .read("long_lists", &buffer("long_lists", &[0; 4]))
         .write("vorticity", &out)
         .invocations(n as u32)
         .unwrap();

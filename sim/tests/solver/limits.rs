@@ -1,10 +1,8 @@
 //! What had to be limited, or taken out, is counted.
 
-use crate::chemistry::setup::mixing_alone;
 use crate::common::{particles as particles_of, *};
 use glam::DVec3;
 use vitriol_gpu::Gpu;
-use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
 use vitriol_sim::flask::particles::sample;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
@@ -102,90 +100,6 @@ fn corrections_beyond_the_list_are_limited_and_counted() {
     }
     assert!(at_reach > 10);
     assert_eq!(solver.counters().unwrap().list_limited, at_reach);
-}
-
-#[test]
-fn a_list_that_overflows_is_counted() {
-    let device = gpu::device();
-    let mut random = Random(2);
-    let mut ball = |count: usize, centre: DVec3| -> Vec<Particle> {
-        (0..count)
-            .map(|_| drop_at(centre + random.point(0.003), DVec3::ZERO))
-            .collect()
-    };
-    // All see each other: 56 neighbours fit, 57 do not.
-    let mut all = ball(57, DVec3::ZERO);
-    all.extend(ball(58, DVec3::X));
-    let mut setup = Setup::new(weightless(), Vec::new(), all);
-    for lanes in lanes(&device) {
-        setup.lanes = Some(lanes);
-        let solver = setup.solver(&device);
-        frames(&device, &solver, &[], 1);
-        let list = List::of(&solver.snapshot().unwrap());
-        assert!(list.neighbours.iter().all(|row| row.len() == 56));
-        assert_eq!(solver.counters().unwrap().list_overflows, 58);
-    }
-}
-
-/// In a crowd that no list holds, some pairs are known to one side alone. What such
-/// a pair exchanged would come from nowhere.
-#[test]
-fn full_lists_make_no_acid() {
-    let paper = Paper {
-        dilution: Some(PaperDilution {
-            ambient: 20.0,
-            heat_diffusivity: 1e-5,
-            acid_diffusivity: 1e-5,
-            heat_generation: 0.0,
-        }),
-        boiling: None,
-    };
-    let mut physical = mixing_alone();
-    physical.mixing.turbulence *= 100.0;
-    no_acid_is_made(Chemistry::Paper(paper));
-    no_acid_is_made(Chemistry::Physical(physical));
-}
-
-fn no_acid_is_made(chemistry: Chemistry) {
-    let device = gpu::device();
-    let p = Parameters {
-        chemistry: Some(chemistry),
-        ..weightless()
-    };
-    let mut random = Random(3);
-    // A dense ball in a thin cloud: its edge has whole lists beside full ones.
-    let all: Vec<_> = (0..400)
-        .map(|i| {
-            let place = random.point(if i < 150 { 0.004 } else { 0.02 });
-            Particle {
-                acid: 0.45 * (1.0 + random.number()),
-                ..drop_at(place, DVec3::ZERO)
-            }
-        })
-        .collect();
-    let solver = Setup::new(p, Vec::new(), all).solver(&device);
-    // Σ mc and Σ mc².
-    let sums = || {
-        let state = solver.snapshot().unwrap();
-        let heat = state.heat.iter().enumerate();
-        heat.fold([0.0, 0.0], |[first, second], (slot, heat)| {
-            // Of the paper's chemistry all have the same mass.
-            let mass = state.matter.get(slot).map_or(1.0, |content| content[3]);
-            let (mass, acid) = (f64::from(mass), f64::from(heat[1]));
-            [first + mass * acid, second + mass * acid * acid]
-        })
-    };
-    let before = sums();
-    frames(&device, &solver, &[], 4);
-    let counters = solver.counters().unwrap();
-    assert!(counters.list_overflows > 100, "{counters:?}");
-    // Rounding of 400 sums in f32.
-    let after = sums();
-    let drift = (after[0] - before[0]).abs() / before[0];
-    assert!(drift < 1e-6, "{drift}");
-    // What has whole lists mixes all the same.
-    let mixed = (before[1] - after[1]) / before[1];
-    assert!(mixed > 1e-5, "{mixed}");
 }
 
 /// Surface tension that would throw a cube together in a substep: line 24 holds after the

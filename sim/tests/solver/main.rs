@@ -12,6 +12,7 @@ mod census;
 mod chaos;
 mod chemistry;
 mod common;
+mod crowds;
 mod effort;
 mod forces;
 mod handle;

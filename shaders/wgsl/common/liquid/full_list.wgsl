@@ -1,12 +1,11 @@
-// Pairs of which one list was full. It may lack the other, which has it: what
-// such a pair exchanges would come from nowhere. So particles whose list is
-// full exchange nothing, and their neighbours nothing with them.
+// Particles that have more neighbours than the list has places. They exchange nothing, and their neighbours nothing with them: what they may
+// exchange is bounded by the number of places, and among the long lists there may be none for them.
 //!include common/liquid/particle.wgsl
 
 /// Number of neighbours from which on a list counts as full: none does as long
 /// as nothing overflowed.
 fn full_from(overflows: u32) -> u32 {
-    return select(0xffffffffu, LIST_CAPACITY, overflows > 0u);
+    return select(0xffffffffu, LIST_CAPACITY + 1u, overflows > 0u);
 }
 
 /// 0 where neighbour j's list is full, else 1. `full` is [full_from]'s; while no list is, all ask
