@@ -9,10 +9,11 @@ const TENSION_SLOPE: f32 = 0.002378;
 const LEAST_TENSION: f32 = 0.1;
 
 fn relative_tension(acid: f32, temperature: f32) -> f32 {
-    var points = TENSION_ACIDS;
-    var values = TENSIONS;
-    var k = 0u;
-    while (k < 6u && acid > points[k + 1u]) { k++; }
-    let t = clamp((acid - points[k]) / (points[k + 1u] - points[k]), 0.0, 1.0);
-    return mix(values[k], values[k + 1u], t) * clamp(1.0 - TENSION_SLOPE * (temperature - 20.0), LEAST_TENSION, 1.1);
+    // Each entry is asked for by its own number: a software driver copies an array that is indexed otherwise, for every particle.
+    var tension = 0.0;
+    for (var k = 0u; k < 7u; k++) {
+        let t = clamp((acid - TENSION_ACIDS[k]) / (TENSION_ACIDS[k + 1u] - TENSION_ACIDS[k]), 0.0, 1.0);
+        tension = select(tension, mix(TENSIONS[k], TENSIONS[k + 1u], t), k == 0u || acid > TENSION_ACIDS[k]);
+    }
+    return tension * clamp(1.0 - TENSION_SLOPE * (temperature - 20.0), LEAST_TENSION, 1.1);
 }

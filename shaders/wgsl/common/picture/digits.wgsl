@@ -38,6 +38,13 @@ const LETTERS = array<vec2<u32>, 19>(
     vec2<u32>(0x8422Eu, 0x3A30u), // C
 );
 
+/// A letter's rows. Each entry is asked for by its own number: a software driver copies an array that is indexed otherwise, for every pixel.
+fn letter_of(code: u32) -> vec2<u32> {
+    var rows = vec2<u32>(0u);
+    for (var n = 0u; n <= LETTER_C; n++) { rows = select(rows, LETTERS[n], n == code); }
+    return rows;
+}
+
 /// A point of a letter, 0 or 1.
 fn letter_point(letter: vec2<u32>, x: i32, y: i32) -> f32 {
     let within = x >= 0 && x < 5 && y >= 0 && y < 7;
@@ -51,7 +58,7 @@ fn letter_ink(code: u32, at: vec2<f32>, pixel: f32) -> f32 {
     let lowered = code >= LOWERED;
     let place = select(at, (at - vec2<f32>(0.0, INDEX_DROP)) / INDEX_SIZE, lowered);
     if (any(place < vec2<f32>(-1.0)) || any(place > LETTER + 1.0)) { return 0.0; }
-    let letter = LETTERS[min(code & 31u, LETTER_C)];
+    let letter = letter_of(code & 31u);
     let corner = floor(place - 0.5);
     let share = place - 0.5 - corner;
     let x = i32(corner.x);
@@ -67,13 +74,22 @@ fn digits_of(number: u32) -> u32 {
     return 1u + select(0u, 1u, number > 9u) + select(0u, 1u, number > 99u) + select(0u, 1u, number > 999u);
 }
 
-/// The ink of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
-fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
-    if (at.x < -1.0 || at.y < -1.0 || at.y > LETTER.y + 1.0) { return 0.0; }
+/// A letter of a line: its code, and how far a place is from its upper left corner, points.
+struct LineLetter {
+    code: u32,
+    at: vec2<f32>,
+}
+
+/// A place beside all letters.
+const NO_LETTER = LineLetter(LETTER_SPACE, vec2<f32>(-9.0));
+
+/// That of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
+fn number_letter(number: u32, unit: bool, at: vec2<f32>) -> LineLetter {
+    if (at.x < -1.0 || at.y < -1.0 || at.y > LETTER.y + 1.0) { return NO_LETTER; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);
     let count = digits_of(number);
-    let tens = array<u32, 4>(1u, 10u, 100u, 1000u);
-    let ten = tens[min(max(count, place + 1u) - place - 1u, 3u)];
+    let after = max(count, place + 1u) - place - 1u;
+    let ten = select(1u, 10u, (after & 1u) != 0u) * select(1u, 100u, (after & 2u) != 0u);
     var code = (number / ten) % 10u;
     if (place >= count) {
         let beyond = place - count;
@@ -81,14 +97,20 @@ fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
         if (unit && beyond == 1u) { code = LETTER_M; }
         if (unit && beyond == 2u) { code = LETTER_L; }
     }
-    return letter_ink(code, at - vec2<f32>(LETTER_STEP * f32(place), 0.0), pixel);
+    return LineLetter(code, at - vec2<f32>(LETTER_STEP * f32(place), 0.0));
 }
 
-/// The ink of a line of eight letters at most: codes of six bits, four a number, the first lowest.
-fn line_ink(codes: vec2<f32>, at: vec2<f32>, pixel: f32) -> f32 {
-    if (at.x < -1.0 || at.y < -1.0 || at.x > 8.0 * LETTER_STEP) { return 0.0; }
+/// The same number's ink.
+fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
+    let letter = number_letter(number, unit, at);
+    return letter_ink(letter.code, letter.at, pixel);
+}
+
+/// That of a line of eight letters at most: codes of six bits, four a number, the first lowest.
+fn line_letter(codes: vec2<f32>, at: vec2<f32>) -> LineLetter {
+    if (at.x < -1.0 || at.y < -1.0 || at.x > 8.0 * LETTER_STEP) { return NO_LETTER; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);
     let word = u32(select(codes.x, codes.y, place > 3u));
     let code = (word >> (6u * (place & 3u))) & 63u;
-    return letter_ink(code, at - vec2<f32>(LETTER_STEP * f32(place), 0.0), pixel);
+    return LineLetter(code, at - vec2<f32>(LETTER_STEP * f32(place), 0.0));
 }

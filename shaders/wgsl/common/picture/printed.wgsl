@@ -40,9 +40,18 @@ struct Print {
     open: f32,
 }
 
-/// Paper (x) and ink on it (y) of a label's two rows: the first has the height of its lower edge, that of its letters, the angle of its middle and half
+/// What is printed at a place before it is known how much ink a letter has there.
+struct Written {
+    letter: LineLetter,
+    /// A pixel's width in the letter's points.
+    pixel: f32,
+    /// The share of a label's paper.
+    paper: f32,
+}
+
+/// What is written on a label of two rows: the first has the height of its lower edge, that of its letters, the angle of its middle and half
 /// its angle, and the second two lines of letters. Its lines are one over the other, in four thirds of their height each.
-fn labelled(row: u32, p: vec3<f32>, radius: f32, angle: f32, width: f32) -> vec2<f32> {
+fn labelled(row: u32, p: vec3<f32>, radius: f32, angle: f32, width: f32) -> Written {
     let shape = outlines[row];
     let text = outlines[row + 1u];
     let point = shape.y / LETTER.y;
@@ -53,14 +62,15 @@ fn labelled(row: u32, p: vec3<f32>, radius: f32, angle: f32, width: f32) -> vec2
     let up = p.y - shape.x;
     let edge = min(half - abs(aside), min(up, high - up));
     let paper = saturate(edge / width + 0.5);
-    if (paper == 0.0) { return vec2<f32>(0.0); }
+    if (paper == 0.0) { return Written(NO_LETTER, 1.0, 0.0); }
     let at = vec2<f32>(aside + half - 0.7 * shape.y, high - up - 0.7 * shape.y) / point;
     let second = at.y - 1.4 * LETTER.y;
     let codes = select(text.xy, text.zw, second > -1.0);
-    return vec2<f32>(paper, line_ink(codes, vec2<f32>(at.x, select(at.y, second, second > -1.0)), width / point));
+    return Written(line_letter(codes, vec2<f32>(at.x, select(at.y, second, second > -1.0))), width / point, paper);
 }
 
-/// What is printed at p on a vessel's outside, whose normal (stage) faces the eye, from before if `front`; `width` is a pixel's height there.
+/// What is printed at p on a vessel's outside: of all letters that of one place is asked for its ink, once, since a software driver walks that for each
+/// place that asks. The vessel's normal (stage) faces the eye, from before if `front`; `width` is a pixel's height there.
 fn printed(vessel: u32, p: vec3<f32>, front: bool, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Print {
     let angle = atan2(p.x, p.z);
     let radius = length(p.xz);
@@ -69,27 +79,33 @@ fn printed(vessel: u32, p: vec3<f32>, front: bool, width: f32, normal: vec3<f32>
     let end = select(range.x, range.y, angle > MARKS_FROM && angle < MARKS_TO);
     let digit = DIGIT_HEIGHT * frame.vessels[vessel].outer;
     let point = digit / LETTER.y;
+    // The number that is nearest, and how far up from its middle.
+    var number = 0.0;
+    var above = 0.6 * digit;
     for (var index = range.x; index < end; index++) {
         let mark = unpack_mark(outlines[index]);
         let up = p.y - mark.height;
-        if (abs(angle) < mark.half_angle) {
-            let across = abs(up) / mark.half_width;
-            // A pixel wider than the line has its share of it.
-            let pixel = max(width / mark.half_width, 1e-6);
-            let share = saturate((0.5 - across) / pixel + 0.5) * min(1.0, 1.0 / pixel);
-            covered = max(covered, select(0.0, share, across <= 1.0));
-        } else if (mark.number > 0.0 && abs(up) < 0.6 * digit) {
-            let at = vec2<f32>((angle - NUMBERS_FROM) * radius, 0.5 * digit - up) / point;
-            covered = max(covered, number_ink(u32(mark.number), fract(mark.number) > 0.25, at, width / point));
-        }
+        let is_beside = abs(angle) >= mark.half_angle;
+        let across = abs(up) / mark.half_width;
+        // A pixel wider than the line has its share of it.
+        let pixel = max(width / mark.half_width, 1e-6);
+        let share = saturate((0.5 - across) / pixel + 0.5) * min(1.0, 1.0 / pixel);
+        covered = max(covered, select(share, 0.0, is_beside || across > 1.0));
+        let is_nearest = is_beside && mark.number > 0.0 && abs(up) < abs(above);
+        number = select(number, mark.number, is_nearest);
+        above = select(above, up, is_nearest);
     }
-    var albedo = ENAMEL;
+    var written = Written(NO_LETTER, width / point, 0.0);
+    if (number > 0.0) {
+        let at = vec2<f32>((angle - NUMBERS_FROM) * radius, 0.5 * digit - above) / point;
+        written.letter = number_letter(u32(number), fract(number) > 0.25, at);
+    }
     let label = frame.vessels[vessel].label;
-    if (label > 0u && angle < 0.0) {
-        let paper = labelled(label, p, radius, angle, width);
-        albedo = mix(albedo, mix(PAPER, INK, select(0.0, paper.y, front)), paper.x);
-        covered = max(covered, paper.x);
-    }
+    if (label > 0u && angle < 0.0) { written = labelled(label, p, radius, angle, width); }
+    let ink = letter_ink(written.letter.code, written.letter.at, written.pixel);
+    let is_paper = written.paper > 0.0;
+    let albedo = mix(ENAMEL, mix(PAPER, INK, select(0.0, ink, front)), written.paper);
+    covered = max(covered, select(ink, written.paper, is_paper));
     if (covered == 0.0) { return Print(vec3<f32>(0.0), 1.0); }
     let key = key_light(stage * frame.metres_per_unit);
     let lit = albedo * (ambient_light(normal.y) + max(dot(normal, key.direction), 0.0) * key.light);
