@@ -15,13 +15,11 @@ struct Listed {
 
 fn listed_of(i: u32) -> Listed {
     let count = list_counts[i];
-    var own = Listed(count, four_in_blocks(0u, i, LIST_CAPACITY / 4u), LIST_BLOCK);
-    // A loop, because a software driver jumps over one that nobody enters, and walks a branch.
-    for (var is_long = count > LIST_CAPACITY; is_long; is_long = false) {
-        let fit = long_lists[0] <= LONG_FOURS;
-        own.count = select(LIST_CAPACITY, count, fit);
-        own.first = select(own.first, PLACES + long_lists[1u + i], fit);
-        own.stride = select(LIST_BLOCK, 1u, fit);
+    let place = four_in_blocks(0u, i, LIST_CAPACITY / 4u);
+    // Returns, and no variable that a branch changes: with that an H100 takes 1 % more of a frame.
+    if (count > LIST_CAPACITY) {
+        if (long_lists[0] <= LONG_FOURS) { return Listed(count, PLACES + long_lists[1u + i], 1u); }
+        return Listed(LIST_CAPACITY, place, LIST_BLOCK);
     }
-    return own;
+    return Listed(count, place, LIST_BLOCK);
 }
