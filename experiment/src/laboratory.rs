@@ -431,7 +431,7 @@ impl Experiment for Laboratory {
         let counted = self.world.counters().map_err(blame_world)?;
         let state = self.world.snapshot().map_err(blame_world)?;
         let limiters = [
-            ("neighbour list full", counted.list_overflows),
+            ("more neighbours than places", counted.list_overflows),
             (
                 "correction cut to the neighbour list's reach",
                 counted.list_limited,

@@ -68,9 +68,16 @@ fn place_of(i: u32) -> Place {
     return Place(four_in_blocks(0u, i, LIST_CAPACITY / 4u), LIST_BLOCK, LIST_CAPACITY);
 }
 
-/// First of the fours of a long list of so many neighbours.
+/// First of the fours of a long list of so many neighbours. The sum stops where there is no room any more: that of a million in one place would come
+/// round to a small one.
 fn claim(i: u32, neighbours: u32) -> u32 {
-    let first = atomicAdd(&long_lists[0], (neighbours + 3u) / 4u);
+    let fours = (neighbours + 3u) / 4u;
+    var first = atomicLoad(&long_lists[0]);
+    while (first <= LONG_FOURS) {
+        let asked = atomicCompareExchangeWeak(&long_lists[0], first, min(first + fours, LONG_FOURS + 1u));
+        if (asked.exchanged) { break; }
+        first = asked.old_value;
+    }
     atomicStore(&long_lists[1u + i], first);
     return first;
 }
@@ -234,8 +241,8 @@ fn drop_unseen(x: vec3<f32>, membership: u32, listed: u32) -> u32 {
     return kept;
 }
 
-/// A particle's list, by itself: once more into the long lists where there are more neighbours than places. A second search beside the first would be walked by
-/// a software driver though nobody needs it.
+/// A particle's list, by itself. Where there are more neighbours than places it is searched once more, into the long lists. That is a loop, because a
+/// software driver would walk a second search for particles that need none.
 fn list_alone(i: u32, x: vec3<f32>, membership: u32) {
     let cell = cell_of(x);
     for (var searches = membership != REMOVED; searches;) {
@@ -249,8 +256,11 @@ fn list_alone(i: u32, x: vec3<f32>, membership: u32) {
             for (var k = kept; k < listed && mixed && is_long; k++) { list[word(k)] = i; }
             if (mixed && !is_long) { found = kept; }
         }
-        searches = is_long && place.stride != 1u;
-        if (searches) { place = long_place(claim(i, found), found); }
+        searches = false;
+        if (is_long && place.stride != 1u) {
+            place = long_place(claim(i, found), found);
+            searches = place.room > 0u;
+        }
     }
 }
 
@@ -261,14 +271,16 @@ fn list_by_lanes(i: u32, lane: Lane, x: vec3<f32>, membership: u32) {
         let before = found;
         found = 0u;
         search_rows_together(i, lane, x, searched);
+        // Those that go along find nothing.
         found = max(found, before);
         let is_long = found > LIST_CAPACITY && place.stride != 1u;
-        searched = select(REMOVED, membership, is_long);
-        searches = subgroupAny(is_long);
         var first = 0u;
         if (is_long && lane.own == 0u) { first = claim(i, found); }
         first = subgroupShuffle(first, lane.first);
         if (is_long) { place = long_place(first, found); }
+        let again = is_long && place.room > 0u;
+        searched = select(REMOVED, membership, again);
+        searches = any(subgroupBallot(again) != vec4<u32>(0u));
     }
     coincident = lanes_with(lane, coincident) != 0u;
 }

@@ -44,7 +44,7 @@ pub(super) struct Buffers {
     pub(super) list_origin: Buffer,
     pub(super) list_counts: Buffer,
     pub(super) list: Buffer,
-    /// Where in the list those are that are longer than a particle's place.
+    /// Where in the list those are that are longer than a particle's place; a snapshot has them in the particles' order.
     pub(super) long_lists: Buffer,
     pub(super) counters: Buffer,
     // Scratch of one substep.

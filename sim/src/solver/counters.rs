@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct Counters {
     /// Times the neighbour list was rebuilt.
     pub list_rebuilds: u32,
-    /// Times a particle had more neighbours than its list holds.
+    /// Times a particle had more neighbours than it has places in the list.
     pub list_overflows: u32,
     /// Corrections cut short so that a particle stays where its list is complete.
     pub list_limited: u32,

@@ -8,7 +8,7 @@ const SCAN_BLOCK: u32 = 1024;
 /// Particles whose neighbours lie side by side, as in `common/liquid/list_block.wgsl`.
 const LIST_BLOCK: u32 = 32;
 
-/// Least number of words for lists that are longer than a place: a crowd of 500 of whom each sees all.
+/// Least number of words for lists that are longer than a place: a crowd of 500 in which each sees all others.
 const LEAST_LONG: u64 = 1 << 18;
 
 /// The neighbour search: cell size, table and list.
@@ -52,11 +52,11 @@ impl Grid {
 
     /// Fours of all lists that are longer than a place, and then the first of each particle's, where they lie in the particles' order.
     pub fn long_lists(&self, counts: &[u32]) -> Vec<u32> {
-        let mut all = vec![0; 1 + counts.len()];
+        let mut all = vec![0u32; 1 + counts.len()];
         for (first, &count) in (1..).zip(counts) {
             if count > self.list_capacity {
                 all[first] = all[0];
-                all[0] += count.div_ceil(4);
+                all[0] = all[0].saturating_add(count.div_ceil(4));
             }
         }
         all
@@ -67,8 +67,8 @@ impl Grid {
         4 * u64::from(fours) <= self.long(count)
     }
 
-    /// Puts what was written in an order of chance in one that repeats: lists that are longer than a place, of which the device's record is `found`,
-    /// follow the places in the particles' order, and what a rebuild noted elsewhere becomes 0.
+    /// Puts what was written in an order of chance into one that repeats. Lists that are longer than a place follow the places in the particles' order.
+    /// What a rebuild noted elsewhere becomes 0. `found` is the device's `long_lists`.
     pub fn settle(&self, counts: &[u32], found: &[u32], list: &mut Vec<u32>) {
         let n = counts.len() as u32;
         let places = self.places(n) as usize;

@@ -219,7 +219,8 @@ impl Solver {
     /// Neighbours of each particle as `array<u32>`, the list itself as
     /// `array<vec4<u32>>`, and how many of its fours a particle has: the list is as `common/liquid/list_block.wgsl` says,
     /// the last four filled up with the particle itself. It is complete within the
-    /// support radius at the positions after a frame; `None` before the first.
+    /// support radius at the positions after a frame, but for particles with more neighbours than these: theirs are longer lists, whose first ones are
+    /// here. `None` before the first frame.
     pub fn neighbours(&self) -> Option<(&Buffer, &Buffer, u32)> {
         let listed = self.listed.load(Ordering::Relaxed);
         let fours = self.grid.list_capacity / 4;

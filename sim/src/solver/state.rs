@@ -32,6 +32,7 @@ pub struct SolverState {
     /// Predicted positions when the list was built.
     pub(super) list_origin: Vec<[f32; 4]>,
     pub(super) list_counts: Vec<u32>,
+    /// The places of all particles, and then the lists that are longer, if they have room.
     pub(super) list: Vec<u32>,
     pub(super) counters: Vec<u32>,
     /// (temperature in °C, acid mass fraction, …) by slot; empty where no heat

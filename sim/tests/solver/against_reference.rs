@@ -21,7 +21,7 @@ fn prediction() {
     let solver = setup.solver(&device);
     frame(&device, &solver, &[glass_pose()], &[glass_pose()]);
     let state = solver.snapshot().unwrap();
-    let list = List::of(&state);
+    let list = List::of(&state, setup.parameters.list_capacity());
     let mut put_back = 0;
     for (slot, tag) in state.tags.iter().enumerate() {
         let i = tag[1] as usize;

@@ -228,7 +228,8 @@ pub struct List {
 }
 
 impl List {
-    pub fn of(state: &SolverState) -> Self {
+    /// The list of a state whose particles have `capacity` places each.
+    pub fn of(state: &SolverState, capacity: u32) -> Self {
         #[derive(Deserialize)]
         struct Fields {
             positions: Vec<[f32; 4]>,
@@ -243,30 +244,20 @@ impl List {
         // Postcard stores fields in their order and no names.
         let fields: Fields = postcard::from_bytes(&bytes).unwrap();
         let n = fields.positions.len();
-        let counts = fields.list_counts.iter().map(|&count| count as usize);
-        let counts: Vec<_> = counts.collect();
-        // Behind the places lie the lists that are longer.
-        let long = |most: usize| counts.iter().filter(move |&&count| count > most);
-        let words = |most| -> usize { long(most).map(|count| count.next_multiple_of(4)).sum() };
-        let capacity = (8..)
-            .step_by(8)
-            .find(|&most| list::words(n, most) + words(most) == fields.list.len())
-            .unwrap();
+        let capacity = capacity as usize;
+        // Behind the places lie the lists that are longer, if they have room.
         let mut behind = list::words(n, capacity);
-        let mut row = |slot: usize| {
-            let count = counts[slot];
-            let place = |k| {
-                if count > capacity {
-                    behind + k
-                } else {
-                    list::place(slot, k, capacity)
-                }
-            };
-            let row = (0..count).map(|k| fields.list[place(k)] as usize).collect();
-            if count > capacity {
+        let has_room = fields.list.len() > behind;
+        let mut row = |slot: usize| -> Vec<usize> {
+            let count = fields.list_counts[slot] as usize;
+            if has_room && count > capacity {
+                let row = &fields.list[behind..behind + count];
                 behind += count.next_multiple_of(4);
+                return row.iter().map(|&other| other as usize).collect();
             }
-            row
+            let place = |k| list::place(slot, k, capacity);
+            let listed = 0..count.min(capacity);
+            listed.map(|k| fields.list[place(k)] as usize).collect()
         };
         let origin = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         Self {

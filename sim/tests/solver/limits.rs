@@ -90,7 +90,7 @@ fn corrections_beyond_the_list_are_limited_and_counted() {
     frames(&device, &solver, &[], 1);
     let state = solver.snapshot().unwrap();
     let found = particles(&state);
-    let list = List::of(&state);
+    let list = List::of(&state, weightless().list_capacity());
     let reach = 0.075 * H;
     let mut at_reach = 0;
     for (slot, tag) in state.tags.iter().enumerate() {

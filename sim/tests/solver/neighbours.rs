@@ -57,7 +57,7 @@ fn compare_on(device: &Gpu, setup: &Setup, poses: &[Pose], slack: f64) -> (usize
     let member_of: Vec<_> = setup.particles.iter().map(|p| p.flask).collect();
     frame(device, &solver, poses, poses);
     let state = solver.snapshot().unwrap();
-    let list = List::of(&state);
+    let list = List::of(&state, setup.parameters.list_capacity());
     let member_of: Vec<_> = state
         .tags
         .iter()
@@ -230,7 +230,7 @@ fn lists_lack_little_of_the_density() {
                 .collect();
             let all = find_by_brute_force(&at, H, |_, _| true);
             lacking.extend(
-                List::of(&state)
+                List::of(&state, weightless().list_capacity())
                     .neighbours
                     .iter()
                     .enumerate()

@@ -87,7 +87,7 @@ fn shaders_bind_what_the_scene_has() {
     // Without viscosity and forces, no neighbour is looked at and no wall.
     let idle = bindings(sim::FORCES, &[("VISCOUS", 0.0), ("FLASKS", 1.0)]);
     let looks_at = |name: &&str| idle.contains(&(*name).to_owned());
-    let any = ["list", "list_counts", "maps", "plane"];
+    let any = ["list", "list_counts", "long_lists", "maps", "plane"];
     assert_eq!(any.iter().find(|name| looks_at(name)), None, "{idle:?}");
     let carried = bindings(sim::MULTIPLIER, &[("FIRST", 1.0)]);
     assert!(!carried.contains(&"velocity".to_owned()), "{carried:?}");

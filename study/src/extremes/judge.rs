@@ -216,7 +216,7 @@ fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
 fn limiters(run: &Run) -> BTreeMap<Name, u32> {
     let c = &run.counters;
     [
-        ("neighbour list full", c.list_overflows),
+        ("more neighbours than places", c.list_overflows),
         ("correction cut to the list's reach", c.list_limited),
         ("speed cut to v_max", c.speed_limited),
         ("diffusion cut to what there is", c.diffusion_limited),

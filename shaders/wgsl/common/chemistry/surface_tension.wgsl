@@ -9,7 +9,7 @@ const TENSION_SLOPE: f32 = 0.002378;
 const LEAST_TENSION: f32 = 0.1;
 
 fn relative_tension(acid: f32, temperature: f32) -> f32 {
-    // Each entry is asked for by its own number: a software driver copies an array that is indexed otherwise, for every particle.
+    // Drivers unroll the loop, so that each index is a constant: a software driver copies an array that is indexed otherwise, for every particle.
     var tension = 0.0;
     for (var k = 0u; k < 7u; k++) {
         let t = clamp((acid - TENSION_ACIDS[k]) / (TENSION_ACIDS[k + 1u] - TENSION_ACIDS[k]), 0.0, 1.0);

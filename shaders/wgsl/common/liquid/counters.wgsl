@@ -3,7 +3,7 @@
 struct Counters {
     /// Times the neighbour list was rebuilt.
     rebuilds: atomic<u32>,
-    /// Particles whose list was full.
+    /// Particles with more neighbours than places in the list.
     list_overflows: atomic<u32>,
     /// Corrections cut so that a particle stays within its list's reach.
     list_limited: atomic<u32>,

@@ -1,5 +1,5 @@
 // Where a pass over neighbours finds those of a particle: in the particle's own place, or among the long lists if there are more than fit there.
-// So both of a pair know it, however dense a crowd is, and pushes balance.
+// So both of a pair know it, and the pushes of a crowd balance.
 //!include common/liquid/list_block.wgsl
 //!include common/liquid/particle.wgsl
 

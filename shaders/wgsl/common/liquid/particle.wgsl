@@ -3,7 +3,7 @@
 
 /// Number of particles.
 override COUNT: u32 = 1u;
-/// Rows of the neighbour list.
+/// Neighbours for which a particle has places in the list.
 override LIST_CAPACITY: u32 = 64u;
 /// Invocations of a workgroup of a pass over neighbours.
 override GROUP: u32 = 64u;

@@ -38,7 +38,7 @@ const LETTERS = array<vec2<u32>, 19>(
     vec2<u32>(0x8422Eu, 0x3A30u), // C
 );
 
-/// A letter's rows. Each entry is asked for by its own number: a software driver copies an array that is indexed otherwise, for every pixel.
+/// A letter's rows. Drivers unroll the loop, so that each index is a constant: a software driver copies an array that is indexed otherwise, for every pixel.
 fn letter_of(code: u32) -> vec2<u32> {
     var rows = vec2<u32>(0u);
     for (var n = 0u; n <= LETTER_C; n++) { rows = select(rows, LETTERS[n], n == code); }
@@ -83,7 +83,7 @@ struct LineLetter {
 /// A place beside all letters.
 const NO_LETTER = LineLetter(LETTER_SPACE, vec2<f32>(-9.0));
 
-/// That of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
+/// The letter of a number of four digits at most, and of " mL" after it if `unit`; `at` points from the upper left corner.
 fn number_letter(number: u32, unit: bool, at: vec2<f32>) -> LineLetter {
     if (at.x < -1.0 || at.y < -1.0 || at.y > LETTER.y + 1.0) { return NO_LETTER; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);
@@ -106,7 +106,7 @@ fn number_ink(number: u32, unit: bool, at: vec2<f32>, pixel: f32) -> f32 {
     return letter_ink(letter.code, letter.at, pixel);
 }
 
-/// That of a line of eight letters at most: codes of six bits, four a number, the first lowest.
+/// The letter of a line of eight letters at most: codes of six bits, four a number, the first lowest.
 fn line_letter(codes: vec2<f32>, at: vec2<f32>) -> LineLetter {
     if (at.x < -1.0 || at.y < -1.0 || at.x > 8.0 * LETTER_STEP) { return NO_LETTER; }
     let place = u32(max(at.x, 0.0) / LETTER_STEP);

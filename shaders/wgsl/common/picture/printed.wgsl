@@ -69,8 +69,8 @@ fn labelled(row: u32, p: vec3<f32>, radius: f32, angle: f32, width: f32) -> Writ
     return Written(line_letter(codes, vec2<f32>(at.x, select(at.y, second, second > -1.0))), width / point, paper);
 }
 
-/// What is printed at p on a vessel's outside: of all letters that of one place is asked for its ink, once, since a software driver walks that for each
-/// place that asks. The vessel's normal (stage) faces the eye, from before if `front`; `width` is a pixel's height there.
+/// What is printed at p on a vessel's outside. One letter alone is asked for its ink, because a software driver walks that code once for each call.
+/// The vessel's normal (stage) faces the eye there, from before if `front`; `width` is a pixel's height.
 fn printed(vessel: u32, p: vec3<f32>, front: bool, width: f32, normal: vec3<f32>, stage: vec3<f32>) -> Print {
     let angle = atan2(p.x, p.z);
     let radius = length(p.xz);

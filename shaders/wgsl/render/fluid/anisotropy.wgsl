@@ -99,7 +99,7 @@ struct Moments {
 
 fn neighbours(i: u32, x: vec3<f32>, lane: u32) -> Moments {
     var sum = Moments(0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0));
-    // Of a crowd as many as have places: it has no surface there.
+    // A crowd's longer lists are not read: their first neighbours suffice for a picture.
     let number = min(list_counts[i], 4u * around.fours);
     for (var g = lane; g * 4u < number; g += LANES) {
         let four = list[four_in_blocks(g, i, around.fours)];
