@@ -193,7 +193,7 @@ fn full_lists_make_no_acid() {
     physical.mixing.turbulence *= 100.0;
     for (crowd, radius) in [(150, 0.004), (600, 0.0015)] {
         no_acid_is_made(Chemistry::Paper(paper.clone()), crowd, radius);
-        no_acid_is_made(Chemistry::Physical(physical.clone()), crowd, radius);
+        no_acid_is_made(Chemistry::Physical(physical), crowd, radius);
     }
 }
 
