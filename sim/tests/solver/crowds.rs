@@ -26,26 +26,30 @@ fn ball(random: &mut Random, count: usize, centre: DVec3, radius: f64) -> Vec<Pa
         .collect()
 }
 
-/// Neighbours for which a particle has places.
-fn places(setup: &Setup) -> u32 {
-    setup.parameters.list_capacity()
+/// The list after a frame, and the state, by each number of lanes; so many particles have more neighbours than places.
+fn lists(mut setup: Setup, poses: &[Pose], longer: u32) -> Vec<(List, SolverState)> {
+    let device = gpu::device();
+    let list_by = |lanes: u32| {
+        setup.lanes = Some(lanes);
+        let solver = setup.solver(&device);
+        frames(&device, &solver, poses, 1);
+        assert_eq!(solver.counters().unwrap().list_overflows, longer);
+        let state = solver.snapshot().unwrap();
+        (List::of(&state, setup.parameters.list_capacity()), state)
+    };
+    lanes(&device).into_iter().map(list_by).collect()
 }
 
 /// Balls in which each sees all others. 56 neighbours have a place.
 #[test]
 fn a_list_that_is_longer_than_its_place_is_whole_and_counted() {
-    let device = gpu::device();
     let mut random = Random(2);
     let sizes = [31, 57, 58, 300];
     let centre = |of: usize| DVec3::X * of as f64;
     let all = sizes.iter().enumerate();
     let all = all.flat_map(|(of, &size)| ball(&mut random, size, centre(of), 0.003));
-    let mut setup = Setup::new(weightless(), Vec::new(), all.collect());
-    for lanes in lanes(&device) {
-        setup.lanes = Some(lanes);
-        let solver = setup.solver(&device);
-        frames(&device, &solver, &[], 1);
-        let list = List::of(&solver.snapshot().unwrap(), places(&setup));
+    let setup = Setup::new(weightless(), Vec::new(), all.collect());
+    for (list, _) in lists(setup, &[], 358) {
         for (slot, own) in list.origins.iter().enumerate() {
             let mate = |other: &DVec3| own.distance(*other) < 0.5;
             let near = list.origins.iter().enumerate();
@@ -55,33 +59,25 @@ fn a_list_that_is_longer_than_its_place_is_whole_and_counted() {
             assert_eq!(list.neighbours[slot].len(), near.len());
             assert_eq!(listed, near);
         }
-        assert_eq!(solver.counters().unwrap().list_overflows, 358);
     }
 }
 
 /// 600 of whom each sees all ask for more room than there is for long lists: none has any, and each list ends with its places.
 #[test]
 fn where_long_lists_have_no_room_all_end_with_their_places() {
-    let device = gpu::device();
     let all = ball(&mut Random(4), 600, DVec3::ZERO, 0.003);
-    let mut setup = Setup::new(weightless(), Vec::new(), all);
-    for lanes in lanes(&device) {
-        setup.lanes = Some(lanes);
-        let solver = setup.solver(&device);
-        frames(&device, &solver, &[], 1);
-        let list = List::of(&solver.snapshot().unwrap(), places(&setup));
+    let setup = Setup::new(weightless(), Vec::new(), all);
+    for (list, _) in lists(setup, &[], 600) {
         for (slot, own) in list.neighbours.iter().enumerate() {
             let others: BTreeSet<_> = own.iter().filter(|&&other| other != slot).collect();
             assert_eq!((own.len(), others.len()), (56, 56));
         }
-        assert_eq!(solver.counters().unwrap().list_overflows, 600);
     }
 }
 
 /// Two crowds at one wall, within and without, see nothing of each other.
 #[test]
 fn a_long_list_knows_nothing_behind_glass() {
-    let device = gpu::device();
     let mut random = Random(6);
     let beside = |r: f64| DVec3::new(r, 0.03, 0.0);
     let mut all = ball(&mut random, 80, beside(0.0125), 0.0003);
@@ -89,26 +85,16 @@ fn a_long_list_knows_nothing_behind_glass() {
         particle.flask = Some(0);
     }
     all.extend(ball(&mut random, 80, beside(0.0155), 0.0003));
-    let mut setup = Setup::new(weightless(), vec![narrow_glass()], all);
-    let pose = [Pose::IDENTITY];
-    for lanes in lanes(&device) {
-        setup.lanes = Some(lanes);
-        let solver = setup.solver(&device);
-        frames(&device, &solver, &pose, 1);
-        let state = solver.snapshot().unwrap();
-        let list = List::of(&state, places(&setup));
+    let setup = Setup::new(weightless(), vec![narrow_glass()], all);
+    for (list, state) in lists(setup, &[Pose::IDENTITY], 160) {
         let is_within = |slot: usize| state.tags[slot][1] < 80;
         for (slot, own) in list.neighbours.iter().enumerate() {
             // One lane puts the particle itself where another is hidden.
             let others: BTreeSet<_> = own.iter().filter(|&&other| other != slot).collect();
-            assert_eq!(others.len(), 79, "{lanes} lanes");
-            assert!(
-                others
-                    .iter()
-                    .all(|&&other| is_within(other) == is_within(slot))
-            );
+            assert_eq!(others.len(), 79);
+            let mut sides = others.iter().map(|&&other| is_within(other));
+            assert!(sides.all(|side| side == is_within(slot)));
         }
-        assert_eq!(solver.counters().unwrap().list_overflows, 160);
     }
 }
 
