@@ -124,6 +124,7 @@ pub fn balanced(scene: &Scene) -> [u32; 2] {
 /// What substeps and iterations cost, in iterations. Beside these a substep has the neighbour search,
 /// what is carried on, viscosity and dilution: on an H200 as much as five to eight iterations, on a
 /// software driver as three.
+#[cfg(feature = "session")]
 pub fn cost([substeps, iterations]: [u32; 2]) -> f64 {
     f64::from(substeps) * (5.0 + f64::from(iterations))
 }
@@ -131,6 +132,7 @@ pub fn cost([substeps, iterations]: [u32; 2]) -> f64 {
 /// From what `scene` is solved with down the front, the dearest first; `balanced` is what it has there. Only
 /// what its liquid stands up under; and where boiling's power is the paper's as
 /// printed, which follows the number of substeps, only other iterations.
+#[cfg(feature = "session")]
 pub fn ladder(scene: &Scene, balanced: [u32; 2]) -> Vec<[u32; 2]> {
     let own = [scene.solver.substeps, scene.solver.iterations];
     let mut rungs = vec![own];

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use tracing::level_filters::LevelFilter;
-use vitriol::cli::Cli;
+use vitriol::cli::{Cli, left_out};
 use vitriol_experiment::{error_line, escaped};
 
 fn main() -> ExitCode {
@@ -58,7 +58,18 @@ fn takes_colours() -> bool {
 /// What the command line asks for is not there, or is help.
 fn refused(error: &clap::Error) -> ExitCode {
     let code = u8::try_from(error.exit_code()).unwrap_or(2);
-    let json = std::env::args_os().any(|argument| argument == "--json");
+    let given: Vec<String> = std::env::args_os()
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    let json = given.iter().any(|word| word == "--json");
+    if let Some(text) = left_out::answer(error, &given) {
+        let said = match json {
+            true => error_line(&text, 2),
+            false => format!("vitriol: {}", escaped(&text)),
+        };
+        let _ = writeln!(std::io::stderr(), "{said}");
+        return ExitCode::from(2);
+    }
     if json && error.use_stderr() {
         let text = error.to_string();
         let _ = writeln!(std::io::stderr(), "{}", error_line(text.trim_end(), code));

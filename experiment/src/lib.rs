@@ -1,6 +1,7 @@
 //! The experiment: a scene on a device, driven by poses, and what is kept of it.
-//! Below program and study: it parses no command line.
+//! Below program and study, which have the commands.
 
+pub mod arguments;
 pub mod audible;
 mod camera;
 mod clock;
@@ -24,12 +25,14 @@ mod observer;
 pub mod output;
 pub mod page;
 pub mod particles;
+pub mod passes;
 pub mod progress;
 mod rank;
 mod run;
 mod sample;
 pub mod scenery;
 pub mod scenes;
+pub mod several;
 mod skin;
 mod soundtrack;
 pub mod stage;

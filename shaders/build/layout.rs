@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::comments::{Comments, comments};
+use super::comments::{Comments, comments};
 use naga::{
     AddressSpace, ArraySize, Handle, Module, Scalar, ScalarKind, StructMember, Type, TypeInner,
     VectorSize,

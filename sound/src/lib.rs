@@ -22,6 +22,7 @@ mod limiter;
 mod listener;
 mod mixer;
 mod opus;
+#[cfg(feature = "output")]
 mod output;
 mod pool;
 mod pour;
@@ -35,6 +36,7 @@ pub use event::{Body, Bubbles, Drops, Event, Glass, Onto, Pour, Sound, Strike};
 pub use listener::Listener;
 pub use mixer::Mixer;
 pub use opus::{OPUS_DELAY, OPUS_PACKET, Opus, OpusError};
+#[cfg(feature = "output")]
 pub use output::{Device, DeviceName, Output, OutputError, State, devices};
 
 /// Samples a second of everything here, Hz.

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
+use vitriol_experiment::arguments::{filter, positive, preset};
 use vitriol_experiment::switches::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
-
-use crate::parse::{cases, filter, positive, preset};
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -253,4 +252,36 @@ pub struct ExtremesArgs {
     /// Device to use: its number or a part of its name (see `vitriol doctor`)
     #[arg(long)]
     pub device: Option<String>,
+}
+
+/// Cases from one number on and up to another one, such as `100..200`; or so many from the first on.
+///
+/// # Errors
+/// What would be right.
+fn cases(text: &str) -> Result<Range<usize>, String> {
+    let range = match text.split_once("..") {
+        Some((from, to)) => from.parse().ok().zip(to.parse().ok()),
+        None => text.parse().ok().map(|count| (0, count)),
+    };
+    match range {
+        Some((from, to)) if from <= to => Ok(from..to),
+        _ => {
+            Err("give a number of cases, such as 2000, or a range of them, such as 100..200".into())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_are_a_number_or_a_range() {
+        assert_eq!(cases("2000"), Ok(0..2000));
+        assert_eq!(cases("100..200"), Ok(100..200));
+        assert_eq!(cases("3..3"), Ok(3..3));
+        for wrong in ["", "-1", "2..1", "..", "1..", "a..b", "1...2"] {
+            assert!(cases(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -9,6 +9,4 @@ pub mod extremes;
 pub mod fidelity;
 mod liquid;
 pub mod merge;
-pub mod parse;
-pub mod several;
 pub mod trade;

@@ -9,12 +9,15 @@
 //! Poses are in the stage frame: Y up, metres, -Z ahead; OpenXR's STAGE reference space with
 //! the floor at y = 0 where the runtime knows it.
 
+#[cfg(feature = "openxr")]
 mod entry;
 pub mod files;
 mod frame;
 mod headset;
 mod pose;
+#[cfg(feature = "openxr")]
 pub mod probe;
+#[cfg(feature = "openxr")]
 mod session;
 mod source;
 pub mod track;
@@ -25,5 +28,6 @@ pub use headset::{
     View, depth_extent,
 };
 pub use pose::Pose;
+#[cfg(feature = "openxr")]
 pub use session::{OpenXr, OpenXrOptions};
 pub use source::{PoseSource, SourceError};

@@ -1,8 +1,8 @@
 //! Arguments of how a scene is drawn, which all have that draw it.
 
 use clap::Args;
+use vitriol_experiment::arguments::{room, tint};
 use vitriol_sim::scene::{PictureRoom, PictureTint};
-use vitriol_study::parse::{room, tint};
 
 /// How a scene is drawn, in place of what it says itself.
 #[derive(Args, Clone, Copy, Debug, Default)]

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use vitriol_experiment::arguments::preset;
 use vitriol_lesson::{Language, Mode};
 use vitriol_sim::scene::Preset;
-use vitriol_study::parse::preset;
 
 /// Arguments of `vitriol lesson`.
 #[derive(Debug, Args)]

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glam::Vec3;
+use vitriol_experiment::arguments::{filter, positive, preset};
 use vitriol_experiment::switches::pair;
 use vitriol_experiment::{Colour, HEAD_FIELD, Look};
 use vitriol_sim::scene::{PictureFilter, Preset};
-use vitriol_study::parse::{filter, positive, preset};
 
 use super::arguments::{CameraName, colour};
 use super::drawn::DrawnArgs;

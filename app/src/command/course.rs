@@ -2,10 +2,15 @@
 
 use std::path::Path;
 
-use vitriol_experiment::{Blame, Failure, Judging, Scenes};
+use serde::{Deserialize, Serialize};
+use vitriol_experiment::track::{LESSON, LESSON_HASH, MODE};
+use vitriol_experiment::{Blame, Failure, Judging, Scenes, in_a_line};
+use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Lesson, Mode, SceneFacts};
+use vitriol_xr::track::Track;
 
 use crate::cli::JudgeArgs;
+use crate::command::recorded::recorded_progress;
 
 /// The lesson of that name or file, which its scene has all for, and its mode: one that it has, its usual one where none is named.
 ///
@@ -71,4 +76,52 @@ pub fn judging(
         .input();
     }
     Ok(Judging::new(lesson.clone(), mode, scene))
+}
+
+/// The lesson that is asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AskedLesson {
+    /// Its name.
+    pub name: String,
+    /// Hash of its text.
+    pub hash: String,
+    /// How it was to be gone through.
+    pub mode: Mode,
+}
+
+impl AskedLesson {
+    /// That of a lesson.
+    pub fn of(lesson: &Lesson, mode: Mode) -> Self {
+        Self {
+            name: lesson.name.clone(),
+            hash: lesson.hash().to_owned(),
+            mode,
+        }
+    }
+
+    /// In what the track was made otherwise, in a few words; `None` where it went through this lesson in this mode.
+    pub fn otherwise(&self, track: &Track) -> Option<String> {
+        let made = |key: &str| track.metadata.parameters.get(key).map(String::as_str);
+        let Some(name) = made(LESSON) else {
+            return Some("made without a lesson".into());
+        };
+        let another = || Some(format!("made with another lesson: {}", in_a_line(name)));
+        if name != self.name {
+            return another();
+        }
+        if made(LESSON_HASH) != Some(&self.hash) {
+            return another().map(|text| text + " of another text");
+        }
+        let mode = made(MODE).unwrap_or_default();
+        if mode != self.mode.name() {
+            return Some(format!("made in another mode: {}", in_a_line(mode)));
+        }
+        // What it says is to be of that as well.
+        let other = |it: &Progress| match it {
+            Progress::Begun { lesson, mode, .. } => (lesson, *mode) != (&self.name, self.mode),
+            _ => false,
+        };
+        let other = recorded_progress(track).iter().any(other);
+        other.then(|| "what it says is of another lesson or mode".into())
+    }
 }

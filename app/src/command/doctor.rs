@@ -6,7 +6,6 @@ use std::fmt::Write;
 use serde::Serialize;
 use vitriol_experiment::{Failure, Format, emit};
 use vitriol_gpu::advice::DRIVER;
-use vitriol_xr::probe;
 
 #[derive(Debug, Serialize)]
 struct Findings {
@@ -15,7 +14,9 @@ struct Findings {
     /// A headset's runtime is there too.
     can_enter_vr: bool,
     devices: Vec<Device>,
-    openxr: OpenXr,
+    /// Absent where the build leaves OpenXR out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    openxr: Option<OpenXr>,
     /// What is missing, each in a sentence with its remedy.
     missing: Vec<String>,
 }
@@ -95,25 +96,39 @@ fn look() -> Findings {
             "None of the devices can be used: update their drivers, or {DRIVER}."
         ));
     }
-    let probe = probe::probe();
-    let can_enter_vr = can_replay && probe.missing.is_empty();
-    missing.extend(probe.missing);
+    let (openxr, lacks) = openxr();
+    let can_enter_vr = can_replay && lacks.is_empty();
+    missing.extend(lacks);
     Findings {
         can_replay,
         can_enter_vr,
         devices,
-        openxr: OpenXr {
-            loader: probe.loader,
-            manifest: probe.manifest.map(|path| path.display().to_string()),
-            runtime: probe.runtime,
-            extensions: probe
-                .extensions
-                .into_iter()
-                .map(|(name, present)| Extension { name, present })
-                .collect(),
-        },
+        openxr,
         missing,
     }
+}
+
+/// What of OpenXR is there, and what is missing.
+#[cfg(feature = "vr")]
+fn openxr() -> (Option<OpenXr>, Vec<String>) {
+    let probe = vitriol_xr::probe::probe();
+    let extensions = probe.extensions.into_iter();
+    let extensions = extensions.map(|(name, present)| Extension { name, present });
+    let found = OpenXr {
+        loader: probe.loader,
+        manifest: probe.manifest.map(|path| path.display().to_string()),
+        runtime: probe.runtime,
+        extensions: extensions.collect(),
+    };
+    (Some(found), probe.missing)
+}
+
+/// Nothing, and that the build has no part for it.
+#[cfg(not(feature = "vr"))]
+fn openxr() -> (Option<OpenXr>, Vec<String>) {
+    use crate::cli::left_out::REMEDY;
+    let lack = format!("This build leaves headsets out: {REMEDY}.");
+    (None, vec![lack])
 }
 
 fn describe(findings: &Findings) -> String {
@@ -147,16 +162,8 @@ fn describe(findings: &Findings) -> String {
             let _ = writeln!(text, "      without {lack}");
         }
     }
-    let openxr = &findings.openxr;
-    let _ = writeln!(text, "{} OpenXR loader", mark(openxr.loader));
-    let _ = writeln!(
-        text,
-        "{} OpenXR runtime: {}",
-        mark(openxr.runtime.is_some()),
-        openxr.runtime.as_deref().unwrap_or("none answers")
-    );
-    for extension in &openxr.extensions {
-        let _ = writeln!(text, "      {} {}", mark(extension.present), extension.name);
+    if let Some(openxr) = &findings.openxr {
+        describe_openxr(openxr, &mut text);
     }
     if !findings.missing.is_empty() {
         text.push_str("\nMissing:\n");
@@ -170,6 +177,20 @@ fn describe(findings: &Findings) -> String {
         (false, _) => "\nNothing can be replayed yet.\n",
     });
     text
+}
+
+fn describe_openxr(openxr: &OpenXr, text: &mut String) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{} OpenXR loader", mark(openxr.loader));
+    let _ = writeln!(
+        text,
+        "{} OpenXR runtime: {}",
+        mark(openxr.runtime.is_some()),
+        openxr.runtime.as_deref().unwrap_or("none answers")
+    );
+    for extension in &openxr.extensions {
+        let _ = writeln!(text, "      {} {}", mark(extension.present), extension.name);
+    }
 }
 
 fn mark(there: bool) -> &'static str {

@@ -2,10 +2,15 @@
 
 mod course;
 pub mod doctor;
+#[cfg(feature = "export")]
 pub mod export;
+#[cfg(feature = "class")]
 pub mod forget;
+#[cfg(feature = "class")]
 pub mod grade;
+#[cfg(feature = "class")]
 pub mod hub;
+#[cfg(feature = "class")]
 mod keeping;
 mod lesson;
 pub mod pages;
@@ -15,6 +20,7 @@ mod recorded;
 pub mod replay;
 pub mod scenes;
 pub mod track;
+#[cfg(feature = "session")]
 pub mod vr;
 
 use std::path::Path;
@@ -28,27 +34,42 @@ use crate::cli::{Cli, Command};
 /// # Errors
 /// What the subcommand fails with; nothing is on standard output then, but for several tracks what of them went well.
 pub fn run(cli: &Cli) -> Result<(), Failure> {
-    if matches!(
-        cli.command,
-        Command::Replay(_) | Command::Grade(_) | Command::Export(_) | Command::Picture(_)
-    ) {
+    if simulates(&cli.command) {
         stop_when_asked();
     }
     let format = if cli.json { Format::Json } else { Format::Text };
     match &cli.command {
         Command::Replay(args) => replay::run(args, format, prepare),
+        #[cfg(feature = "class")]
         Command::Grade(args) => grade::run(args, format, prepare),
+        #[cfg(feature = "export")]
         Command::Export(args) => export::run(args, format),
         Command::Picture(args) => picture::run(args, format, prepare),
         Command::Track(args) => track::run(args, format),
         Command::Scenes(args) => scenes::run(args, format),
+        #[cfg(feature = "session")]
         Command::Vr(args) => vr::run(args, format),
+        #[cfg(feature = "class")]
         Command::Hub(args) => hub::run(args, format),
+        #[cfg(feature = "study")]
         Command::Study(command) => vitriol_study::command::run(command, format),
         Command::Lesson(args) => lesson::run(args, format, prepare),
+        #[cfg(feature = "class")]
         Command::Forget(args) => forget::run(args, format),
         Command::Doctor => doctor::run(format),
         Command::Pages(args) => pages::run(args, format),
+    }
+}
+
+/// Whether it simulates a track, and takes away what it began when it is stopped.
+fn simulates(command: &Command) -> bool {
+    match command {
+        Command::Replay(_) | Command::Picture(_) => true,
+        #[cfg(feature = "class")]
+        Command::Grade(_) => true,
+        #[cfg(feature = "export")]
+        Command::Export(_) => true,
+        _ => false,
     }
 }
 

@@ -1,11 +1,12 @@
 //! `vitriol replay`: a track through the simulation to film and report.
 
 mod assemble;
+#[cfg(feature = "class")]
+mod class;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use serde::Serialize;
 use vitriol_experiment::output::{
@@ -20,21 +21,19 @@ use vitriol_experiment::{
 };
 use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
-use vitriol_record::{Session, Timestamp};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
-use vitriol_xr::track::{Track, TrackMetadata, TrackSource};
+use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::cli::ReplayArgs;
-use crate::command::course;
-use crate::command::grade::AskedLesson;
-use crate::command::keeping::{self, Kept, Sitting};
+use crate::command::course::{self, AskedLesson};
+#[cfg(feature = "class")]
+use crate::command::keeping::Kept;
 use crate::command::plan::{Ask, Plan};
 use crate::command::recorded::{
     differences, head, is_recording, recorded_events, recorded_progress,
 };
 use crate::command::stem;
-use crate::live::{Console, Live, Serving};
 use crate::report::{RecordingStatement, Report};
 
 use assemble::assemble;
@@ -51,6 +50,7 @@ struct Replayed {
     #[serde(skip_serializing_if = "Option::is_none")]
     incidents_csv: Option<String>,
     /// What was kept under a pseudonym.
+    #[cfg(feature = "class")]
     #[serde(skip_serializing_if = "Option::is_none")]
     kept: Option<Kept>,
 }
@@ -80,28 +80,20 @@ pub fn run(
     prepare: impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<(), Failure> {
     let bars = Runs::new(format);
-    if !args.live && args.console.is_given() {
-        return Err("--listen, --hub and --name are of the console: give --live with them").input();
-    }
-    let serving = args.live.then(|| Serving::begin(&args.console, false));
-    let serving = serving.transpose()?;
-    if let Some(serving) = &serving {
-        serving.invite(format)?;
-    }
-    let live = serving.as_ref().map(Serving::console);
-    if args.tracks.len() > 1 && args.keep.pseudonym.is_some() {
-        return Err("--pseudonym: several tracks are of several students; replay one at a time")
-            .input();
-    }
+    #[cfg(feature = "class")]
+    let prepare = {
+        let console = class::Console::begin(args, format)?;
+        move |setup: &Setup<'_>| console.show(prepare(setup)?, setup.scene_name)
+    };
     if let [track] = &args.tracks[..] {
-        let done = replay((args, track), args.out.clone(), &bars, live, &prepare)?;
+        let done = replay((args, track), args.out.clone(), &bars, &prepare)?;
         return emit(format, &done, describe);
     }
     let (mut runs, mut failure) = (Vec::new(), None);
     let made = args.out.as_ref().filter(|out| !out.exists());
     for (track, name) in args.tracks.iter().zip(folders(&args.tracks)) {
         let out = args.out.as_ref().map(|out| out.join(name));
-        runs.push(match replay((args, track), out, &bars, live, &prepare) {
+        runs.push(match replay((args, track), out, &bars, &prepare) {
             Ok(done) => Ended::Well(Box::new(done)),
             Err(error) => {
                 let (track, text) = (track.clone(), error.to_string());
@@ -144,7 +136,6 @@ fn replay(
     (args, name): (&ReplayArgs, &str),
     out: Option<PathBuf>,
     bars: &Runs,
-    live: Option<&Console>,
     prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<Replayed, Failure> {
     let ask = ask(args, name);
@@ -166,14 +157,8 @@ fn replay(
     });
     let judging = judging.transpose()?;
     let asked = ask.otherwise(&track);
-    if let (true, Some(option)) = (args.keep.pseudonym.is_some(), asked.first()) {
-        return Err(format!(
-            "--pseudonym keeps what was recorded, and {option} asks for something else: leave one of them out"
-        ))
-        .input();
-    }
-    let keeper = keeping::keeper(&args.keep)?;
-    let session = sitting(name, &track);
+    #[cfg(feature = "class")]
+    let record = class::Record::of((args, name), &track, &asked)?;
     let colours = colours(args, &scene, &name_of_start)?;
     let mut out = OutDir::take(out.as_deref(), &stem(name))?;
     let mut experiment = prepare(&Setup {
@@ -193,9 +178,6 @@ fn replay(
         look: None,
         shaders: Arc::new(Library::watching()),
     })?;
-    if let Some(console) = live {
-        experiment = Box::new(Live::new(experiment, console, &name_of_start)?);
-    }
     if let Some(judging) = judging {
         experiment.judge(judging);
     }
@@ -256,33 +238,18 @@ fn replay(
     }
     out.write(REPORT_JSON, &serde_json::to_vec_pretty(&report).other()?)?;
 
-    let mut replayed = Replayed {
-        kept: None,
-        report: report.without_series(),
-        report_json: out.join(REPORT_JSON).display().to_string(),
-        report_html: out.join(REPORT_HTML).display().to_string(),
-        incidents_csv: incidents.map(|name| out.join(name).display().to_string()),
-    };
     let folder = out.join("");
+    // Whatever becomes of keeping, the run is whole.
     out.complete();
-    let sitting = Sitting {
-        session,
-        source: Some(Path::new(name)),
-        out: Some(&folder),
-    };
-    replayed.kept = keeping::keep_under(&args.keep, &keeper, &sitting, &replayed.report.attempts)?;
-    Ok(replayed)
-}
-
-/// The sitting that a track was recorded in, which began as long before its file was written as it lasts; of a built-in track one of now.
-fn sitting(name: &str, track: &Track) -> Session {
-    let Ok(content) = std::fs::read(name) else {
-        return Session::now();
-    };
-    let written = Path::new(name).metadata().and_then(|it| it.modified()).ok();
-    let begun = written.and_then(|at| at.checked_sub(Duration::from_secs_f64(track.duration())));
-    let begun = begun.and_then(|at| Timestamp::try_from(at).ok());
-    Session::of_recording(&content, begun.unwrap_or_else(Timestamp::now))
+    let place = |name: &str| folder.join(name).display().to_string();
+    Ok(Replayed {
+        #[cfg(feature = "class")]
+        kept: record.keep(&folder, &report.attempts)?,
+        report: report.without_series(),
+        report_json: place(REPORT_JSON),
+        report_html: place(REPORT_HTML),
+        incidents_csv: incidents.map(place),
+    })
 }
 
 /// What the options ask for of a track.
@@ -419,6 +386,7 @@ fn describe(done: &Replayed) -> String {
         lines.push(format!("table   {table}"));
     }
     lines.push(format!("numbers {}", done.report_json));
+    #[cfg(feature = "class")]
     lines.extend(done.kept.iter().flat_map(Kept::lines));
     lines.join("\n")
 }

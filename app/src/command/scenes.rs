@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
+use vitriol_experiment::passes::anatomy;
 use vitriol_experiment::units::{grouped, length, three_digits, with_unit};
 use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_gpu::Timestamps;
 use vitriol_sim::scene::{Feature, Preset, Scene};
-use vitriol_study::bench::frame::anatomy;
 
 use crate::cli::ScenesArgs;
 use crate::report::{SceneStatement, SolverStatement};

@@ -1,5 +1,7 @@
 //! `vitriol vr`: in the headset, or on its stand-in.
 
+#[cfg(feature = "vr")]
+mod headset;
 mod report;
 
 use std::io::IsTerminal;
@@ -9,7 +11,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use vitriol_experiment::{Blame, Failure, Format, Scenes, device, emit, track};
 use vitriol_gpu::{Gpu, PlainLoader, Timestamps};
 use vitriol_sound::Device;
-use vitriol_xr::{Headset, OpenXr, OpenXrOptions};
+use vitriol_xr::Headset;
 
 use crate::budget;
 use crate::cli::VrArgs;
@@ -17,12 +19,9 @@ use crate::command::course;
 use crate::command::keeping::{self, Sitting};
 use crate::command::recorded::whole;
 use crate::live::{Serving, Watchers};
-use crate::vr::blame::blame;
 use crate::vr::decision::Decision;
-use crate::vr::foveating::Foveating;
 use crate::vr::menu;
 use crate::vr::mirror::Window;
-use crate::vr::panel::PANEL;
 use crate::vr::session::{Course, Options, Session};
 use crate::vr::stand_in::{StandIn, StandInSpec, Timing};
 use crate::vr::workbench::Plan;
@@ -33,6 +32,10 @@ use crate::vr::workbench::Plan;
 /// [`Failure::NoDevice`] without runtime or device; [`Failure::Input`] for a scene or track that is
 /// not there or a recording that is; [`Failure::Other`].
 pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
+    #[cfg(not(feature = "vr"))]
+    if args.stand_in.is_none() {
+        return no_headset();
+    }
     let mut scenes = Scenes::default();
     let course = course(args)?;
     let scene = course
@@ -108,29 +111,10 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
             headset = headset.reopening(move || Gpu::open(&mut PlainLoader::default(), &opened));
             (worn(&mut headset)?, Some((spec, headset.ready())))
         }
-        None => {
-            let opened = OpenXrOptions {
-                gpu: vitriol_gpu::Options {
-                    timestamps,
-                    pipelines: device::pipelines(),
-                    ..vitriol_gpu::Options::default()
-                },
-                instance_extensions: Vec::new(),
-                device_extensions: Vec::new(),
-                gaze: args.foveation == Some(Foveating::Eye),
-                inset: args.foveation == Some(Foveating::Eye),
-                panel: PANEL,
-            };
-            let mut told = false;
-            let waits = |remedy: &str| {
-                if !std::mem::replace(&mut told, true) {
-                    eprintln!("{remedy} Waiting for it; Ctrl-C ends.");
-                }
-                true
-            };
-            let mut headset = OpenXr::open(opened, waits).map_err(blame)?;
-            (worn(&mut headset)?, None)
-        }
+        #[cfg(feature = "vr")]
+        None => (worn(&mut headset::open(args.foveation, timestamps)?)?, None),
+        #[cfg(not(feature = "vr"))]
+        None => return no_headset(),
     };
     let mut report = report::report(name, &outcome, stand_in)?;
     report.watched = watchers.map(Watchers::report);
@@ -150,6 +134,16 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
     };
     emit(format, &report, report::describe)?;
     failure.map_or(Ok(()), Err)
+}
+
+/// Says that the build has no OpenXR.
+#[cfg(not(feature = "vr"))]
+fn no_headset() -> Result<(), Failure> {
+    use crate::cli::left_out::REMEDY;
+    Err(format!(
+        "this build leaves headsets out: give --stand-in, or {REMEDY}"
+    ))
+    .input()
 }
 
 /// The lesson that is asked for, which its scene has all for.

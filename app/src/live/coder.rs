@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use vitriol_console::{Codec, EncodedPicture, Port};
 use vitriol_experiment::{Blame, Failure, H264};
 
+#[cfg(feature = "session")]
 use crate::vr::mirror::Shrunk;
 
 /// Longest side of the view, pixels. Our choice: the panel's text is read in it, and a core codes one in a tenth of its time.
@@ -17,6 +18,7 @@ pub const VIEW_FPS: u32 = 30;
 /// A picture to be coded.
 pub enum Picture {
     /// As the device has left it.
+    #[cfg(feature = "session")]
     Shrunk(Shrunk),
     /// RGBA, rows from the top, and its width and height.
     Rgba(Vec<u8>, [u32; 2]),
@@ -131,6 +133,7 @@ impl Coding {
     /// Its pixels as RGBA, and width and height, which H.264 wants even; `None` of one that is too small for it.
     fn unpack(&mut self, picture: &Picture) -> Result<Option<[u32; 2]>, Failure> {
         let extent = match picture {
+            #[cfg(feature = "session")]
             Picture::Shrunk(shrunk) => shrunk.extent,
             Picture::Rgba(_, extent) => *extent,
         };
@@ -141,6 +144,7 @@ impl Coding {
         let (wide, [width, height]) = (extent[0] as usize, size.map(|side| side as usize));
         self.rgba.clear();
         match picture {
+            #[cfg(feature = "session")]
             Picture::Shrunk(shrunk) => {
                 let pixels = shrunk.pixels().other()?;
                 for row in pixels.chunks_exact(wide).take(height) {

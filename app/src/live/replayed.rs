@@ -14,7 +14,7 @@ use vitriol_xr::PoseFrame;
 use super::coder::{Coder, Picture};
 use super::serve::Console;
 use super::told::{incidents, readings};
-use crate::vr::menu::CHOICES;
+use crate::choices::CHOICES;
 
 /// Time between two looks for orders while time is held.
 const PATIENCE: Duration = Duration::from_millis(20);

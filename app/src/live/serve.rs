@@ -10,9 +10,10 @@ use vitriol_console::{
 use vitriol_experiment::{Blame, Failure, Format};
 use vitriol_sim::world::MOST_INTENSITY;
 
+#[cfg(feature = "session")]
 use super::watchers::Watchers;
+use crate::choices::CHOICES;
 use crate::cli::ConsoleArgs;
-use crate::vr::menu;
 
 /// A run's end of the console: what its loop tells and hears, and what was said of the program.
 #[derive(Clone, Debug)]
@@ -79,6 +80,7 @@ impl Serving {
     ///
     /// # Errors
     /// Where the hub is elsewhere, or does not serve them.
+    #[cfg(feature = "session")]
     pub fn watched(&self, count: usize) -> Result<Watchers, Failure> {
         let hub = self.hub.as_ref();
         let hub = hub.ok_or("--watchers look at a console of this computer: leave --hub out");
@@ -152,7 +154,7 @@ pub fn student(name: Option<&str>, is_session: bool) -> Student {
         "water-into-acid" => Kind::Incorrect,
         _ => Kind::Other,
     };
-    let choices = menu::CHOICES.iter().filter(|_| is_session);
+    let choices = CHOICES.iter().filter(|_| is_session);
     Student {
         name: Text::clipped(&name),
         version: Text::clipped(env!("CARGO_PKG_VERSION")),

@@ -3,7 +3,7 @@
 use vitriol_lesson::Tone;
 
 use super::decision::Act;
-use super::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
+use crate::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
 
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -230,7 +230,7 @@ impl Effort {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::vr::texts::Texts;
+    use crate::texts::Texts;
     use vitriol_lesson::Language;
 
     #[test]

@@ -5,7 +5,7 @@ use vitriol_lesson::{Language, Lesson, Mode, Procedure, Texts};
 
 use super::decision::Act;
 use super::info::{ActLine, Mark, Shown};
-use super::texts::LessonTexts;
+use crate::texts::LessonTexts;
 
 /// Lines of the panel that steps and a hint have together, and characters that a line has: as its font fits them at least. A Chinese one
 /// is as wide as two.
@@ -211,7 +211,7 @@ mod tests {
     }
 
     fn in_language(judge: &Procedure, language: Language, hinted: Option<&str>) -> Shown {
-        let around = crate::vr::texts::Texts::english().unwrap().lesson;
+        let around = crate::texts::Texts::english().unwrap().lesson;
         let words = Words {
             around: &around,
             texts: &Texts::of(language).unwrap(),
@@ -292,7 +292,7 @@ mod tests {
         assert!(shown.quiet && shown.steps.is_empty() && shown.hint.is_none());
         // Whatever was done or failed.
         judge.skip("pour", 1.0);
-        let around = crate::vr::texts::Texts::english().unwrap().lesson;
+        let around = crate::texts::Texts::english().unwrap().lesson;
         let words = Words {
             around: &around,
             texts: &Texts::english().unwrap(),

@@ -32,6 +32,5 @@ pub mod session;
 pub mod sign;
 pub mod stand_in;
 pub mod tally;
-pub mod texts;
 mod view;
 pub mod workbench;

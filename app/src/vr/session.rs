@@ -50,8 +50,8 @@ use super::panel::Panel;
 use super::placement::{Placement, Posture};
 use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
-use super::texts::Texts;
 use super::workbench::{Plan, Workbench};
+use crate::texts::Texts;
 
 use benches::Benches;
 use choices::Choices;

@@ -2,14 +2,12 @@
 
 use std::time::Instant;
 
+use vitriol_experiment::passes::{PassRow, Tally, Timing, solve};
 use vitriol_experiment::{Blame, Failure};
-use vitriol_gpu::{Gpu, QueueKind, Ticket};
+use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
-
-use super::report::{PassRow, Timing};
-use super::tally::Tally;
 
 /// Simulated time before the first measured frame, seconds: the filling
 /// lattice has settled, and the driver has compiled what it compiles late.
@@ -19,14 +17,6 @@ const WARM_UP: f64 = 1.0;
 /// recording one frame overlaps with solving the one before, and the time is
 /// that of whichever takes longer.
 pub(super) const QUEUED: u32 = 8;
-
-/// Begins a frame of a scene at rest.
-pub(super) fn solve(gpu: &Gpu, world: &World) -> Result<Ticket, Failure> {
-    let mut rec = gpu.recorder(QueueKind::Main).other()?;
-    let poses = world.poses();
-    world.solver().record(&mut rec, poses, poses).other()?;
-    gpu.submit(rec).other()
-}
 
 /// A frame's share, ms, of [`QUEUED`] frames at rest; `cpu` gets the time that
 /// each took to record and submit.
@@ -56,18 +46,6 @@ pub(super) fn passes(
         tally.add(&solve(gpu, &world)?)?;
     }
     Ok(tally.rows())
-}
-
-/// Passes of a first frame of `scene`, which rebuilds its lists in every substep that
-/// asks for it, and bytes of device memory a particle.
-///
-/// # Errors
-/// What the device says.
-pub fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure> {
-    let world = World::new(gpu, &Library::watching(), scene, 0).other()?;
-    let mut tally = Tally::default();
-    tally.add(&solve(gpu, &world)?)?;
-    Ok((tally.rows().0, world.solver().bytes_per_particle()))
 }
 
 /// A world whose liquid has come to rest.

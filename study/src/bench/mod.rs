@@ -9,4 +9,3 @@ pub mod rest;
 pub mod scaling;
 mod scaling_plot;
 pub mod solver;
-mod tally;

@@ -14,10 +14,10 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Pose};
 
-use super::frame::{QUEUED, milliseconds, solve};
-use super::report::{PassRow, RenderRow, Timing};
-use super::tally::Tally;
+use super::frame::{QUEUED, milliseconds};
+use super::report::RenderRow;
 use crate::cli::BenchArgs;
+use vitriol_experiment::passes::{PassRow, Tally, Timing, solve};
 
 /// Views, and width and height of each.
 const SIZES: [(u32, [u32; 2]); 3] = [(2, [1440, 1584]), (2, [2064, 2208]), (1, [1920, 1080])];

@@ -4,8 +4,9 @@
 use std::fmt::Write;
 
 use serde::Serialize;
+use vitriol_experiment::DeviceStatement;
+use vitriol_experiment::passes::{PassRow, Timing};
 use vitriol_experiment::units::{grouped, percent};
-use vitriol_experiment::{DeviceStatement, Ranks};
 
 use super::rest::PeerRow;
 use super::scaling::Scaling;
@@ -108,43 +109,6 @@ pub struct Row {
     /// Other programs that ran in turn with it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peers: Vec<PeerRow>,
-}
-
-/// One pass in a frame.
-#[derive(Debug, Clone, Serialize)]
-pub struct PassRow {
-    /// Label of the pass.
-    pub name: String,
-    /// Dispatches in a frame.
-    pub dispatches: u32,
-    /// Bytes of the buffers that its dispatches in a frame bind, each once a
-    /// dispatch.
-    pub bytes: u64,
-    /// Its time in a frame.
-    #[serde(flatten)]
-    pub time: Timing,
-}
-
-/// Median and 95th percentile, ms.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Timing {
-    /// Median over frames, ms.
-    pub median_ms: f64,
-    /// 95th percentile over frames, ms.
-    pub p95_ms: f64,
-}
-
-impl Timing {
-    /// Of times in ms, one a frame; NaN where there is none. The percentile
-    /// is the nearest rank, so it is always a time that was measured.
-    pub fn of(times: &[f64]) -> Self {
-        let ranks = Ranks::of(times);
-        let rank = |share| ranks.at(share).unwrap_or(f64::NAN);
-        Self {
-            median_ms: rank(0.5),
-            p95_ms: rank(0.95),
-        }
-    }
 }
 
 /// A column of the paper's Table 2 (its card, 3 substeps × 2 iterations),

@@ -8,7 +8,7 @@ use vitriol_sim::scene::Scene;
 
 use super::frame::{QUEUED, queued, settled};
 use super::peer::{Answer, Asked, Peer};
-use super::report::Timing;
+use vitriol_experiment::passes::Timing;
 
 /// How often ours and the peers take turns, so that what else the machine does falls on all.
 const ROUNDS: usize = 2;

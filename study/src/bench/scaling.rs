@@ -12,9 +12,9 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::WorldError;
 
 use super::peer::Peer;
-use super::report::Timing;
 use super::rest::{PeerRow, at_rest};
 use super::scaling_plot::draw;
+use vitriol_experiment::passes::Timing;
 
 /// Particles of the rows.
 const COUNTS: [u64; 7] = [1_000, 4_000, 16_000, 64_000, 250_000, 1_000_000, 4_000_000];

@@ -8,7 +8,7 @@ use vitriol_shaders::Library;
 use crate::cli::ExtremesArgs;
 use crate::extremes::{Extremes, Finding, Verdict, cases, describe, judge, merge, summary};
 use crate::merge::read;
-use crate::several::at_a_time;
+use vitriol_experiment::several::at_a_time;
 
 /// The numbers' name in the folder.
 const NUMBERS: &str = "extremes.json";

@@ -11,13 +11,13 @@ use super::calorimeter::resolution;
 use crate::calorimeter::{self, Feed};
 use crate::cli::{TradeArgs, TradePart};
 use crate::merge::read;
-use crate::several::at_a_time;
 use crate::trade::constants::{CONSTANTS, Change};
 use crate::trade::report::{Calorimetry, Effect};
 use crate::trade::{
     Errors, Point, Seeds, Setting, Tipped, Trade, boil, convergence, describe, finest, merge, page,
     rest, sweep, tip, vouch,
 };
+use vitriol_experiment::several::at_a_time;
 
 /// The files' names in the folder.
 const NUMBERS: &str = "trade.json";

@@ -5,14 +5,11 @@ use vitriol_study::extremes::{Verdict, cases, judge};
 use vitriol_tests::gpu;
 
 /// Every so many of the cases.
-const STRIDE: usize = 80;
-
-#[test]
-fn every_eightieth_case_keeps_what_it_has_to() {
+fn every(stride: usize) {
     let device = gpu::device();
     let library = Library::embedded();
     let mut refused = 0;
-    for case in cases(2000, 1).iter().step_by(STRIDE) {
+    for case in cases(2000, 1).iter().step_by(stride) {
         let finding = judge(&device, &library, case).unwrap();
         match finding.verdict {
             Verdict::Passed => {}
@@ -22,7 +19,19 @@ fn every_eightieth_case_keeps_what_it_has_to() {
             }
         }
     }
-    assert!(refused < 2000 / STRIDE / 2, "{refused} were refused");
+    assert!(refused < 2000 / stride / 2, "{refused} were refused");
+}
+
+#[test]
+fn every_four_hundredth_case_keeps_what_it_has_to() {
+    every(400);
+}
+
+mod long {
+    #[test]
+    fn every_eightieth_case_keeps_what_it_has_to() {
+        super::every(80);
+    }
 }
 
 /// The same scene 10 km off has the same bits; the judge runs both.

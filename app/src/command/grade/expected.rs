@@ -10,8 +10,7 @@ use vitriol_record::Uuid;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::track::Track;
 
-use super::lesson::AskedLesson;
-use crate::command::course;
+use crate::command::course::{self, AskedLesson};
 
 /// What must hold of a track, and how it is scored.
 #[derive(Clone, Debug)]

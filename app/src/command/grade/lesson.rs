@@ -1,62 +1,10 @@
 //! The lesson that a class is graded by: what a track says of it, and how that agrees with what a simulation finds.
 
-use serde::{Deserialize, Serialize};
-use vitriol_experiment::in_a_line;
-use vitriol_experiment::track::{LESSON, LESSON_HASH, MODE};
-use vitriol_lesson::procedure::{Progress, Verdict, VerdictLine};
+use serde::Serialize;
+use vitriol_lesson::procedure::{Verdict, VerdictLine};
 use vitriol_lesson::{Lesson, Mode};
-use vitriol_xr::track::Track;
 
 use super::agreement::{Agreement, Tolerance};
-use crate::command::recorded::recorded_progress;
-
-/// The lesson that is asked for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AskedLesson {
-    /// Its name.
-    pub name: String,
-    /// Hash of its text.
-    pub hash: String,
-    /// How it was to be gone through.
-    pub mode: Mode,
-}
-
-impl AskedLesson {
-    /// That of a lesson.
-    pub fn of(lesson: &Lesson, mode: Mode) -> Self {
-        Self {
-            name: lesson.name.clone(),
-            hash: lesson.hash().to_owned(),
-            mode,
-        }
-    }
-
-    /// In what the track was made otherwise, in a few words; `None` where it went through this lesson in this mode.
-    pub fn otherwise(&self, track: &Track) -> Option<String> {
-        let made = |key: &str| track.metadata.parameters.get(key).map(String::as_str);
-        let Some(name) = made(LESSON) else {
-            return Some("made without a lesson".into());
-        };
-        let another = || Some(format!("made with another lesson: {}", in_a_line(name)));
-        if name != self.name {
-            return another();
-        }
-        if made(LESSON_HASH) != Some(&self.hash) {
-            return another().map(|text| text + " of another text");
-        }
-        let mode = made(MODE).unwrap_or_default();
-        if mode != self.mode.name() {
-            return Some(format!("made in another mode: {}", in_a_line(mode)));
-        }
-        // What it says is to be of that as well.
-        let other = |it: &Progress| match it {
-            Progress::Begun { lesson, mode, .. } => (lesson, *mode) != (&self.name, self.mode),
-            _ => false,
-        };
-        let other = recorded_progress(track).iter().any(other);
-        other.then(|| "what it says is of another lesson or mode".into())
-    }
-}
 
 /// A lesson's part of a line of the table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

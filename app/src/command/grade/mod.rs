@@ -14,12 +14,12 @@ use std::path::{Path, PathBuf};
 
 use vitriol_experiment::output::write_over;
 use vitriol_experiment::progress::Runs;
+use vitriol_experiment::several::at_a_time;
 use vitriol_experiment::{Blame, Experiment, Failure, Format, Setup, emit, interrupt, track};
 use vitriol_lesson::procedure::Verdict as LessonVerdict;
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_record::store::Store;
 use vitriol_record::{Session, Timestamp};
-use vitriol_study::several::at_a_time;
 use vitriol_xr::files;
 use vitriol_xr::track::{Track, limits};
 
@@ -30,7 +30,6 @@ use crate::command::stem;
 pub use self::agreement::Tolerance;
 use self::expected::Expected;
 use self::graded::{Found, Graded, Scored};
-pub use self::lesson::AskedLesson;
 use self::lesson::Columns;
 use self::table::Ended;
 pub use self::table::{Class, Line, Status};

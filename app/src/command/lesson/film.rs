@@ -19,7 +19,7 @@ use super::subtitles::{Told, Words, cues};
 use crate::cli::LessonArgs;
 use crate::command::course;
 use crate::command::plan::{Ask, Plan};
-use crate::vr::texts::Texts as Around;
+use crate::texts::Texts as Around;
 
 /// How the film goes through a lesson, whatever its modes: each step is shown while it is to be done.
 const MODE: Mode = Mode::Guided;

@@ -4,7 +4,7 @@ use vitriol_experiment::Cue;
 use vitriol_lesson::procedure::{LessonTexts, Progress, Verdict, Why};
 use vitriol_lesson::{Attempt, Texts};
 
-use crate::vr::texts::SummaryTexts;
+use crate::texts::SummaryTexts;
 
 /// How long the title stands at the beginning, s. Our choice.
 const TITLE: f64 = 4.0;
@@ -179,7 +179,7 @@ fn notes(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::vr::texts::Texts as Around;
+    use crate::texts::Texts as Around;
     use vitriol_lesson::procedure::Procedure;
     use vitriol_lesson::{Language, Lesson, Mode};
 

@@ -14,7 +14,7 @@ use crate::report::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, Report, SceneStatement,
     SolverStatement,
 };
-use crate::vr::texts::Texts;
+use crate::texts::Texts;
 
 /// The report, without what it says of the recording and without its score.
 ///

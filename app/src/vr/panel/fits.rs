@@ -6,8 +6,9 @@ use vitriol_lesson::Language;
 
 use super::PANEL;
 use super::view::style;
-use crate::vr::menu::{CHOICES, END};
-use crate::vr::texts::{PanelTexts, Texts};
+use crate::choices::CHOICES;
+use crate::texts::{PanelTexts, Texts};
+use crate::vr::menu::END;
 
 /// Half of the panel without its margins: what buttons, notes and thermometers have, pixels.
 const COLUMN: f32 = (PANEL[0] as f32 - 2.0 * 22.0 - 12.0) / 2.0;

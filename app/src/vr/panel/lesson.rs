@@ -77,7 +77,7 @@ mod tests {
             lesson: Some(lesson),
             ..Info::default()
         };
-        let words = crate::vr::texts::Texts::english().unwrap().panel;
+        let words = crate::texts::Texts::english().unwrap().panel;
         let context = Context::default();
         view::style(&context);
         let [width, height] = PANEL.map(|side| side as f32);

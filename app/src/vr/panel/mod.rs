@@ -20,7 +20,7 @@ use super::decision::Decision;
 use super::hold::Hold;
 use super::info::Info;
 use super::painter::{self, Painter};
-use super::texts::{PanelTexts, Texts};
+use crate::texts::{PanelTexts, Texts};
 
 /// Width and height of the panel, pixels.
 pub const PANEL: [u32; 2] = [1024, 864];

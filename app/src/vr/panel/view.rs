@@ -11,10 +11,11 @@ use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
 use super::lesson;
+use crate::choices::CHOICES;
+use crate::texts::PanelTexts;
 use crate::vr::decision::Decision;
 use crate::vr::info::{FlaskLine, Happened, Info, burns_text};
-use crate::vr::menu::{self, CHOICES};
-use crate::vr::texts::PanelTexts;
+use crate::vr::menu;
 
 /// Least height of text on the panel, pixels: a line of it is seen at 1.2° or more from where one sits or stands, wherever it is
 /// on the panel (`lines_are_seen_at_one_degree_and_a_fifth`): three times what print at arm's length has.

@@ -5,10 +5,10 @@ use vitriol_experiment::{Blame, Failure, Judging, Looked, Wish};
 use vitriol_lesson::procedure::{Progress, Verdict};
 use vitriol_lesson::{Event, Language, Lesson, Mode, Texts};
 
+use crate::texts::LessonTexts;
 use crate::vr::decision::Act;
 use crate::vr::info::Shown;
 use crate::vr::listing::{self, Words};
-use crate::vr::texts::LessonTexts;
 
 /// How long the panel says why a step failed, simulated s. Our choice: it is read twice in that.
 const SAID: f64 = 8.0;

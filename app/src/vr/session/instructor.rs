@@ -13,12 +13,12 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Census, Held};
 
+use crate::choices::CHOICES;
 use crate::live::{Console, incidents, readings};
+use crate::texts::InstructorTexts;
 use crate::vr::decision::Decision;
 use crate::vr::info::Told;
-use crate::vr::menu::CHOICES;
 use crate::vr::session::spills::Spilt;
-use crate::vr::texts::InstructorTexts;
 use crate::vr::view::View;
 
 /// How long the panel says what the instructor has done, ns of the display. Our choice: it is read twice in that.

@@ -3,8 +3,8 @@
 use vitriol_experiment::{Blame, Failure, Looks};
 use vitriol_lesson::{Attempt, Event, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
 
+use crate::texts::SummaryTexts;
 use crate::vr::info::Happened;
-use crate::vr::texts::SummaryTexts;
 
 /// Lines of the panel that sentences have, and characters that a line has: as its font fits them at least.
 const LINES: usize = 15;

@@ -13,7 +13,7 @@ use vitriol_xr::track::TrackMetadata;
 use vitriol_xr::{Pose, PoseFrame, Switch};
 
 use super::guide::Course;
-use crate::vr::menu;
+use crate::choices::CHOICES;
 use crate::vr::record::{Note, RecordingStatus, TrackRecording};
 use crate::vr::workbench::Plan;
 
@@ -160,7 +160,7 @@ fn brings_up(switch: &Switch) -> bool {
 
 /// With all scenes that the session may bring up: a crash leaves no time to add the one that it did.
 fn metadata(plan: &Plan, course: Option<&Course>, device: &DeviceStatement) -> TrackMetadata {
-    let choices = menu::CHOICES.iter().map(|choice| choice.scene);
+    let choices = CHOICES.iter().map(|choice| choice.scene);
     let scenes = choices
         .chain(plan.scenes.own())
         .chain([plan.scene.as_str()]);

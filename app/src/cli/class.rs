@@ -1,0 +1,114 @@
+//! Arguments of what a class needs: console and hub, what is kept of a student, grades.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::Args;
+use vitriol_console::HubAddress;
+use vitriol_experiment::arguments::preset;
+use vitriol_record::Pseudonym;
+use vitriol_record::lrs::Endpoint;
+use vitriol_sim::scene::Preset;
+
+use super::lesson::JudgeArgs;
+use crate::command::grade::Tolerance;
+use crate::live::hub_address;
+
+/// Arguments of `vitriol grade`.
+#[derive(Debug, Args)]
+pub struct GradeArgs {
+    /// Recordings (MCAP), or folders of them; one that cannot be graded stops no other
+    #[arg(required = true, value_name = "DIR|TRACK")]
+    pub tracks: Vec<PathBuf>,
+    /// The scene that they are graded by: a built-in one's name (see `vitriol scenes`) or a TOML file. A track that was
+    /// made with another is listed as such
+    #[arg(long, value_name = "SCENE")]
+    pub scene: String,
+    /// Likewise the preset; without it any will do
+    #[arg(long, value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// Likewise the lesson
+    #[command(flatten)]
+    pub judge: JudgeArgs,
+    /// Tracks at a time; without it as many as there are cores, and one with --verify
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Folder for a result of each track and the table grades.csv, which is written anew each time; results that are there
+    /// and of the same track, scene and preset are taken as they are
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Simulate each track again, and say whether what happens is what it says
+    #[arg(long)]
+    pub verify: bool,
+    /// How far what happens on another device may be from what a track says: a moment, a share of a volume, and a volume
+    /// beside that; without it 0.2,5,0.1
+    #[arg(long, value_name = "S,%,ML", requires = "verify")]
+    pub tolerance: Option<Tolerance>,
+    /// Device for that: its number or a part of its name (see `vitriol doctor`)
+    #[arg(long, requires = "verify")]
+    pub device: Option<String>,
+    /// The class's file, which tells whose tracks they are; without it their files' names stand for students
+    #[arg(long, value_name = "FILE")]
+    pub class: Option<PathBuf>,
+    /// Grade what is whole of a track that breaks off or lacks steps
+    #[arg(long)]
+    pub accept_truncated: bool,
+}
+
+/// Arguments of `vitriol forget`.
+#[derive(Debug, Args)]
+pub struct ForgetArgs {
+    /// Whose attempts and statements are deleted: one word, such as p07
+    #[arg(value_name = "PSEUDONYM")]
+    pub pseudonym: Pseudonym,
+    /// The class's file; without it the one in your folder for data
+    #[arg(long, value_name = "FILE")]
+    pub class: Option<PathBuf>,
+}
+
+/// What is kept of a student. Nothing is without a pseudonym.
+#[derive(Args, Clone, Debug, Default)]
+pub struct KeepArgs {
+    /// Keep the attempts in the class's file under this pseudonym: one word, such as p07
+    #[arg(long, value_name = "PSEUDONYM")]
+    pub pseudonym: Option<Pseudonym>,
+    /// The class's file; without it the one in your folder for data
+    #[arg(long, value_name = "FILE", requires = "pseudonym")]
+    pub class: Option<PathBuf>,
+    /// Send the statements to this Learning Record Store: https, or http on this machine
+    #[arg(long, value_name = "URL", requires_all = ["pseudonym", "lrs_token"])]
+    pub lrs: Option<Endpoint>,
+    /// File with its token, which you alone may read: `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`
+    #[arg(long, value_name = "FILE", requires = "lrs")]
+    pub lrs_token: Option<PathBuf>,
+}
+
+/// Where the instructor's console is. Without any of these it is a page that this computer alone can open; its address, good for one
+/// browser, goes to standard error.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ConsoleArgs {
+    /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "hub")]
+    pub listen: Option<SocketAddr>,
+    /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
+    #[arg(long, value_name = "HUB", value_parser = hub_address)]
+    pub hub: Option<HubAddress>,
+    /// What the console calls this student; without it the computer's name
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+}
+
+impl ConsoleArgs {
+    /// Whether any of them is given.
+    pub fn is_given(&self) -> bool {
+        self.listen.is_some() || self.hub.is_some() || self.name.is_some()
+    }
+}
+
+/// Arguments of `vitriol hub`.
+#[derive(Debug, Args)]
+pub struct HubArgs {
+    /// Where it listens, by HTTPS; 0.0.0.0:8470 for a class
+    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:8470")]
+    pub listen: SocketAddr,
+}

@@ -1,0 +1,39 @@
+//! The headset of a session: OpenXR's, where the build has it.
+
+use vitriol_experiment::device;
+use vitriol_gpu::Timestamps;
+use vitriol_xr::{OpenXr, OpenXrOptions};
+
+use crate::vr::blame::blame;
+use crate::vr::foveating::Foveating;
+use crate::vr::panel::PANEL;
+
+/// Opens it, and waits for one that is not there yet.
+///
+/// # Errors
+/// [`vitriol_experiment::Failure::NoDevice`] without runtime or device.
+pub(super) fn open(
+    foveation: Option<Foveating>,
+    timestamps: Timestamps,
+) -> Result<OpenXr, vitriol_experiment::Failure> {
+    let opened = OpenXrOptions {
+        gpu: vitriol_gpu::Options {
+            timestamps,
+            pipelines: device::pipelines(),
+            ..vitriol_gpu::Options::default()
+        },
+        instance_extensions: Vec::new(),
+        device_extensions: Vec::new(),
+        gaze: foveation == Some(Foveating::Eye),
+        inset: foveation == Some(Foveating::Eye),
+        panel: PANEL,
+    };
+    let mut told = false;
+    let waits = |remedy: &str| {
+        if !std::mem::replace(&mut told, true) {
+            eprintln!("{remedy} Waiting for it; Ctrl-C ends.");
+        }
+        true
+    };
+    OpenXr::open(opened, waits).map_err(blame)
+}

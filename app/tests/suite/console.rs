@@ -1,0 +1,195 @@
+//! The programs that an instructor's browser meets: a session whose hub is elsewhere, and a replay that it watches.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStderr, Command, Stdio};
+
+use serde_json::Value;
+use vitriol_tests::devtools::Tab;
+use vitriol_tests::wait::until;
+
+/// A program at work, which is ended with the test.
+struct Running {
+    child: Child,
+    stderr: BufReader<ChildStderr>,
+}
+
+impl Running {
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+            .args(arguments)
+            .current_dir(folder)
+            .env("XDG_DATA_HOME", folder.join("data"))
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let stderr = BufReader::new(child.stderr.take().unwrap());
+        Self { child, stderr }
+    }
+
+    /// Where a browser comes in, as its standard error says.
+    fn console(&mut self) -> String {
+        let mut said = String::new();
+        loop {
+            let mut line = String::new();
+            let length = self.stderr.read_line(&mut line).unwrap();
+            assert!(length > 0, "no console: {said}");
+            said += &line;
+            let told: Value = serde_json::from_str(&line).unwrap_or_default();
+            if let Some(address) = told["console"].as_str() {
+                return address.to_owned();
+            }
+        }
+    }
+
+    /// The JSON object that it prints first, which may not be its last word.
+    fn object(&mut self) -> Value {
+        let stdout = self.child.stdout.as_mut().unwrap();
+        let mut objects = serde_json::Deserializer::from_reader(stdout).into_iter();
+        objects.next().unwrap().unwrap()
+    }
+
+    /// Waits for its end: the exit code, and what it said last.
+    fn end(mut self) -> (Option<i32>, String) {
+        let ended = until("the program ends", || self.child.try_wait().unwrap());
+        let mut said = String::new();
+        self.stderr.read_to_string(&mut said).unwrap();
+        (ended.code(), said)
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Fails where it has ended by itself, which is as well.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// `two-flasks` with 1,200 particles.
+fn small(folder: &Path) -> PathBuf {
+    let text = include_str!("../../../sim/scenes/two-flasks.toml");
+    let small = text
+        .replace("spacing = 0.0025 ", "spacing = 0.005 ")
+        .replace("substeps = 10", "substeps = 5");
+    assert_ne!(small, text);
+    let file = folder.join("small.toml");
+    std::fs::write(&file, small).unwrap();
+    file
+}
+
+fn at(id: &str) -> String {
+    format!("document.getElementById('{id}')")
+}
+
+/// `vitriol hub` and a student's `vitriol vr --hub`: the page shows the student by name and view, and ends the session.
+#[test]
+fn a_class_has_one_console() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let Some(mut tab) = Tab::new() else { return };
+    let mut hub = Running::start(folder, &["hub", "--json", "--listen", "127.0.0.1:0"]);
+    let told = hub.object();
+    let students = folder.join("hub.txt");
+    std::fs::write(&students, told["students"].as_str().unwrap()).unwrap();
+    tab.go(told["console"].as_str().unwrap());
+    tab.until(&format!("!{}.hidden", at("class")));
+
+    let scene = small(folder);
+    let session = Running::start(
+        folder,
+        &[
+            "vr",
+            "--json",
+            "--stand-in",
+            "two-flasks",
+            "--size",
+            "96x64",
+            "--rate",
+            "10",
+            "--no-mirror",
+            "--fixed",
+            "--preset",
+            "fast",
+            "--scene",
+            scene.to_str().unwrap(),
+            "--hub",
+            students.to_str().unwrap(),
+            "--name",
+            "Ada",
+        ],
+    );
+    tab.until("[...document.querySelectorAll('#students button')].find((it) => it.textContent.includes('Ada'))?.click() ?? !document.getElementById('student').hidden");
+    tab.until(&format!("Number({}.dataset.drawn) > 2", at("picture")));
+    assert_eq!(tab.eval(&format!("{}.textContent", at("name"))), "Ada");
+    tab.eval(&format!("{}.click()", at("end-now")));
+    let (code, said) = session.end();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(tab.complaints().is_empty());
+}
+
+/// A replay is shown while it runs, is held and let go, and offers nothing that would change it.
+#[test]
+fn a_replay_is_watched_and_held() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let Some(mut tab) = Tab::new() else { return };
+    let scene = small(folder);
+    let arguments = [
+        "replay",
+        "--json",
+        "two-flasks",
+        "--live",
+        "--seconds",
+        "1",
+        "--scene",
+        scene.to_str().unwrap(),
+        "--out",
+        "out",
+    ];
+    let mut replay = Running::start(folder, &arguments);
+    tab.go(&replay.console());
+    tab.until(&format!("Number({}.dataset.drawn) > 0", at("picture")));
+    assert_eq!(tab.eval(&format!("{}.hidden", at("send"))), true);
+    tab.eval(&format!("{}.click()", at("pause")));
+    tab.until(&format!(
+        "{}.getAttribute('aria-pressed') === 'true'",
+        at("pause")
+    ));
+    let time = format!("{}.textContent", at("time"));
+    let held = tab.eval(&time);
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    assert_eq!(tab.eval(&time), held);
+    assert_ne!(held, "1.0 s");
+    tab.eval(&format!("{}.click()", at("pause")));
+    tab.until(&format!("{time} === '1.0 s'"));
+    let report = replay.object();
+    let (code, said) = replay.end();
+    assert_eq!(code, Some(0), "{said}");
+    assert_eq!(report["frames"], 90);
+    assert!(folder.join("out/report.html").exists());
+}
+
+/// What goes together is said.
+#[test]
+fn a_console_that_cannot_be_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, word) in [
+        (
+            &["replay", "two-flasks", "--listen", "127.0.0.1:0"][..],
+            "--live",
+        ),
+        (&["hub", "--listen", "203.0.113.1:1"], "cannot listen"),
+        (
+            &["vr", "--stand-in", "two-flasks", "--hub", "nonsense"],
+            "no hub's address",
+        ),
+        (&["vr", "--no-console", "--name", "Ada"], "--no-console"),
+    ] {
+        let (code, said) = Running::start(folder.path(), arguments).end();
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(word), "{said}");
+    }
+}

@@ -1,0 +1,52 @@
+//! What cannot be exported.
+
+use std::fs;
+
+use crate::export::{object, run};
+
+/// What cannot be exported is refused in a word, and nothing is left.
+#[test]
+fn what_cannot_be_exported_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::create_dir(here.join("empty")).unwrap();
+    fs::create_dir(here.join("odd")).unwrap();
+    fs::write(here.join("odd/report.json"), "{}").unwrap();
+    fs::create_dir(here.join("later")).unwrap();
+    fs::write(here.join("later/report.json"), "{\"layout\": 2}").unwrap();
+    // A report from anyone does not make the program open a file: neither its text nor whether it is there is told.
+    fs::write(here.join("secret.toml"), "password = 1").unwrap();
+    object(
+        here,
+        "replay hands-off --scene beaker --preset fast --seconds 0.01 --no-video --out theirs",
+    );
+    let report = fs::read_to_string(here.join("theirs/report.json")).unwrap();
+    let report = report.replace("\"scene\": \"beaker\"", "\"scene\": \"secret.toml\"");
+    fs::write(here.join("theirs/report.json"), report).unwrap();
+    for (arguments, part) in [
+        ("export hands-off --format stl", "vtk"),
+        ("export empty --format csv", "report.json"),
+        ("export odd --format csv", "no report"),
+        ("export later --format csv", "the layout 2"),
+        ("export theirs --format vtk", "name it with --scene"),
+        (
+            "export hands-off --scene beaker --format csv --at 0.1",
+            "leave csv",
+        ),
+        (
+            "export hands-off --scene beaker --format vtk --at 1e3",
+            "ends at",
+        ),
+        ("export hands-off --format csv --from 1e6", "ends at"),
+        (
+            "export hands-off --format vtk --at 1 --seconds 2",
+            "cannot be used",
+        ),
+    ] {
+        let output = run(here, &format!("{arguments} --out out"));
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+        assert!(!here.join("out").exists(), "{arguments:?}");
+    }
+}

@@ -1,0 +1,84 @@
+//! A recording onto a disk that is full for a while: a real one, of memory.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use vitriol_sim::scene::Scene;
+use vitriol_xr::track::Track;
+
+/// Mounts a disk of 512 kB, fills all of it but 64 kB, records until the program says that it waits, makes room, and
+/// takes the recording away when the session has ended.
+const SCRIPT: &str = r#"
+set -eu
+mkdir disk
+mount -t tmpfs -o size=512k tmpfs disk
+head -c 458752 /dev/zero > disk/filler
+"$VITRIOL" vr --stand-in two-flasks --fixed --frames 120 --size 64x64 --no-mirror \
+    --scene small.toml --record disk/x.mcap --json > session.json 2> session.log &
+until grep -q 'waits for the disk' session.log; do
+    kill -0 $! || { cat session.log; exit 1; }
+    sleep 0.05
+done
+rm disk/filler
+wait $!
+cp disk/x.mcap x.mcap
+"#;
+
+/// In a mount namespace of its own, which root may make, and others with a user namespace around it; `None` where
+/// neither is allowed.
+fn in_own_namespace(folder: &Path) -> Option<Output> {
+    let run = |flags: &str, script: &str| {
+        let mut command = Command::new("unshare");
+        command
+            .args([flags, "sh", "-c", script])
+            .current_dir(folder);
+        command.env("VITRIOL", env!("CARGO_BIN_EXE_vitriol"));
+        command.output().unwrap()
+    };
+    let mounts = |flags: &&str| run(flags, "mount -t tmpfs none /mnt").status.success();
+    let flags = ["-m", "-rm"].into_iter().find(mounts)?;
+    Some(run(flags, SCRIPT))
+}
+
+#[test]
+fn a_disk_that_is_full_for_a_while_loses_no_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let small = Scene::builtin_text("two-flasks")
+        .unwrap()
+        .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
+        .replacen("substeps = 10", "substeps = 4", 1);
+    fs::write(here.join("small.toml"), &small).unwrap();
+    let Some(output) = in_own_namespace(here) else {
+        assert!(
+            std::env::var("CI").as_deref() != Ok("true"),
+            "no disk can be mounted here"
+        );
+        eprintln!("NOT TESTED: a full disk, which cannot be mounted here");
+        return;
+    };
+    let log = fs::read_to_string(here.join("session.log")).unwrap_or_default();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}\n{log}");
+
+    assert!(log.contains("No space left"), "{log}");
+    assert!(log.contains("takes the recording again"), "{log}");
+    let session = fs::read(here.join("session.json")).unwrap();
+    let session: serde_json::Value = serde_json::from_slice(&session).unwrap();
+    let recording = &session["recording"];
+    assert_eq!(recording["steps"], session["steps"], "{recording}");
+    assert_eq!(recording["unwritten"], 0);
+    assert!(recording["cause"].is_null(), "{recording}");
+    let track = Track::open(&here.join("x.mcap")).unwrap();
+    assert!(!track.recovered);
+    assert_eq!(track.holes().count(), 0);
+
+    let replay = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+        .args(["replay", "x.mcap", "--no-video", "--json"])
+        .current_dir(here)
+        .output()
+        .unwrap();
+    let replayed: serde_json::Value = serde_json::from_slice(&replay.stdout).unwrap();
+    assert_eq!(replayed["state_hash"], session["state_hash"]);
+}

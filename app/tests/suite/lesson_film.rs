@@ -1,0 +1,88 @@
+//! A lesson's film, made by the program.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use vitriol_lesson::{Language, Lesson};
+use vitriol_tests::program::Program;
+
+const VITRIOL: Program = Program(env!("CARGO_BIN_EXE_vitriol"));
+
+/// A third of a second in which nobody does anything.
+const KEYFRAMES: &str = r#"
+name = "still"
+scene = "acid-into-water"
+duration = 0.3
+head = [{ t = 0.0, position = [0.0, 1.2, 0.0] }]
+"#;
+
+fn vitriol(folder: &Path, arguments: &[&str]) -> Output {
+    VITRIOL.run(folder, arguments)
+}
+
+fn count(bytes: &[u8], part: &[u8]) -> usize {
+    bytes.windows(part.len()).filter(|it| *it == part).count()
+}
+
+/// The film has a track of text in each of the lesson's languages, of which it shows the one that was asked for; a file that is there
+/// stays, and a failure leaves none.
+#[test]
+fn a_lesson_has_a_film_with_subtitles() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("still.toml"), KEYFRAMES).unwrap();
+    let made = vitriol(here, &["track", "still.toml", "-o", "still.mcap"]);
+    assert!(made.status.success());
+
+    let film = ["lesson", "dilute", "--film", "films/dilute.mp4"];
+    let options = [
+        "--track",
+        "still.mcap",
+        "--preset",
+        "fast",
+        "--language",
+        "zh",
+    ];
+    let arguments = [&film[..], &options].concat();
+    let told: serde_json::Value = serde_json::from_str(&VITRIOL.json(here, &arguments)).unwrap();
+    assert_eq!(told["verdict"]["points"], 0, "{told}");
+    assert_eq!(told["subtitles"].as_array().unwrap().len(), 4);
+
+    let path = here.join("films/dilute.mp4");
+    let film = fs::read(&path).unwrap();
+    assert_eq!(count(&film, b"sbtl"), 4);
+    let lesson = Lesson::builtin("dilute").unwrap();
+    for language in Language::ALL {
+        let title = &lesson.texts(language).title;
+        assert!(count(&film, title.as_bytes()) > 0, "{language}: {title}");
+    }
+
+    let again = vitriol(here, &arguments);
+    assert_eq!(again.status.code(), Some(2));
+    let said = String::from_utf8(again.stderr).unwrap();
+    assert!(
+        said.contains("dilute.mp4") && said.contains("not overwritten"),
+        "{said}"
+    );
+    assert!(fs::read(&path).unwrap() == film);
+
+    let nowhere = [
+        "lesson",
+        "dilute",
+        "--film",
+        "other/none.mp4",
+        "--track",
+        "none",
+    ];
+    assert_eq!(vitriol(here, &nowhere).status.code(), Some(2));
+    // No built-in track is made for its scene.
+    let none = vitriol(here, &["lesson", "wrong-order", "--film", "other/none.mp4"]);
+    assert_eq!(none.status.code(), Some(2));
+    let said = String::from_utf8(none.stderr).unwrap();
+    assert!(
+        said.contains("--track") && said.contains("water-into-acid"),
+        "{said}"
+    );
+    assert!(!here.join("other").exists());
+}

@@ -1,0 +1,24 @@
+//! The program, from its command line to the headset.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[cfg(unix)]
+mod bench;
+mod cli;
+#[cfg(target_os = "linux")]
+mod console;
+mod docs;
+mod export;
+mod foreign;
+#[cfg(target_os = "linux")]
+mod full_disk;
+mod grade;
+#[cfg(target_os = "linux")]
+mod headset;
+mod lesson_film;
+mod parts;
+mod passes;
+mod replay;
+mod several;
+#[cfg(target_os = "linux")]
+mod slurm;
+mod vr;

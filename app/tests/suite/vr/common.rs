@@ -1,0 +1,325 @@
+//! A small session, its headset, and the replay of what it recorded.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use tracing::span::{Attributes, Id, Record};
+use tracing::{Event, Metadata, Subscriber};
+use vitriol::vr::decision::Decision;
+use vitriol::vr::foveating::Foveating;
+use vitriol::vr::latch::Grip;
+use vitriol::vr::placement::Posture;
+use vitriol::vr::session::{Options, Session, SessionOutcome};
+use vitriol::vr::stand_in::{StandIn, StandInSpec, Timing};
+use vitriol::vr::workbench::Plan;
+use vitriol_experiment::Scenes;
+use vitriol_gpu::Gpu;
+use vitriol_lesson::Language;
+use vitriol_sim::scene::Preset;
+use vitriol_sound::Device;
+use vitriol_tests::wait::PATIENCE;
+use vitriol_xr::track::{Keyframes, Track};
+use vitriol_xr::{
+    Fov, Headset, HeadsetError, HeadsetFrame, Inset, InsetTargets, Pose, Shown, Side, Targets,
+    Turn, View,
+};
+
+/// Keyframes that pour from one flask into the other, see the track's own text.
+pub fn pour() -> Keyframes {
+    let text = vitriol_xr::track::builtin::text("two-flasks").unwrap();
+    Keyframes::parse(text, Path::new("two-flasks.toml")).unwrap()
+}
+
+/// `two-flasks` with 1,200 particles, as a file in `folder`.
+pub fn scene(folder: &Path) -> PathBuf {
+    let text = include_str!("../../../../sim/scenes/two-flasks.toml");
+    let small = text
+        .replace("spacing = 0.0025 ", "spacing = 0.005 ")
+        .replace("substeps = 10", "substeps = 5");
+    assert_ne!(small, text);
+    let file = folder.join("small.toml");
+    // Colours and depths are looked for that furniture has, too.
+    let bare = format!("{small}\n[picture]\nroom = \"bare\"\n");
+    std::fs::write(&file, bare).unwrap();
+    file
+}
+
+thread_local! {
+    static HEARD: RefCell<BTreeMap<String, u64>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// How many lines with that target the sessions of this thread have logged.
+pub fn heard(target: &str) -> u64 {
+    HEARD.with_borrow(|heard| heard.get(target).copied().unwrap_or(0))
+}
+
+/// Hears what a session logs on its own thread.
+struct Ear;
+
+impl Subscriber for Ear {
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        metadata.target().starts_with("vitriol")
+    }
+    fn event(&self, event: &Event<'_>) {
+        let target = event.metadata().target().to_owned();
+        HEARD.with_borrow_mut(|heard| *heard.entry(target).or_default() += 1);
+    }
+    fn new_span(&self, _: &Attributes<'_>) -> Id {
+        Id::from_u64(1)
+    }
+    fn record(&self, _: &Id, _: &Record<'_>) {}
+    fn record_follows_from(&self, _: &Id, _: &Id) {}
+    fn enter(&self, _: &Id) {}
+    fn exit(&self, _: &Id) {}
+}
+
+/// What goes wrong, or is pressed, in a session.
+pub trait Trouble {
+    /// Before a turn, after so many frames: `Some` in its place.
+    fn turn(&mut self, _headset: &mut StandIn, _after: u64) -> Option<Turn> {
+        None
+    }
+    /// In a frame that has begun, after so many before it.
+    fn frame(&mut self, _frame: &mut HeadsetFrame, _after: u64) {}
+    /// In a frame after its steps, and behind its end.
+    fn acquires(&mut self, _after: u64) {}
+    /// See [`Trouble::acquires`].
+    fn ends(&mut self, _after: u64) {}
+    /// Whether something has still to come after so many frames: until it does, frames do not count.
+    fn awaits(&self, _after: u64) -> bool {
+        false
+    }
+}
+
+/// None.
+pub struct Calm;
+
+impl Trouble for Calm {}
+
+/// A stand-in with trouble, taken off after some frames.
+pub struct Worn<T> {
+    pub inner: StandIn,
+    pub trouble: T,
+    /// Frames after which it is taken off.
+    frames: u64,
+    /// Frames so far, without those in which something was awaited.
+    after: u64,
+    awaiting: Option<Instant>,
+    /// What the eyes see, in place of the stand-in's.
+    pub sees: Option<[Fov; 2]>,
+    /// What no eye sees, in its picture.
+    pub hidden: Vec<[f32; 2]>,
+    /// A second pair of pictures, which see that of what the eyes do, and its images.
+    pub inset: Option<(Inset, InsetTargets)>,
+    /// What was shown with each frame.
+    pub shown: Vec<Shown>,
+    /// What the left and the right hand felt in each.
+    pub felt: Vec<[f32; 2]>,
+}
+
+impl<T: Trouble> Worn<T> {
+    pub fn new(gpu: &Gpu, track: Track, rate_hz: f64, frames: u64, trouble: T) -> Self {
+        Self::of_extent(gpu, track, [96, 64], (rate_hz, frames), trouble)
+    }
+    /// The same with larger pictures, for so many frames a second and altogether.
+    pub fn of_extent(
+        gpu: &Gpu,
+        track: Track,
+        extent: [u32; 2],
+        (rate_hz, frames): (f64, u64),
+        trouble: T,
+    ) -> Self {
+        let spec = StandInSpec {
+            extent,
+            rate_hz,
+            timing: Timing::Free,
+        };
+        Self {
+            inner: StandIn::new(gpu, track, spec).unwrap(),
+            trouble,
+            frames,
+            after: 0,
+            awaiting: None,
+            sees: None,
+            // A corner of each eye's.
+            hidden: vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]],
+            inset: None,
+            shown: Vec::new(),
+            felt: Vec::new(),
+        }
+    }
+}
+
+impl<T: Trouble> Headset for Worn<T> {
+    fn gpu(&self) -> &Gpu {
+        self.inner.gpu()
+    }
+    fn extent(&self) -> [u32; 2] {
+        self.inner.extent()
+    }
+    fn inset(&self) -> Option<Inset> {
+        self.inset.as_ref().map(|(inset, _)| *inset)
+    }
+    fn hidden_area(&self) -> [Vec<[f32; 2]>; 2] {
+        [self.hidden.clone(), self.hidden.clone()]
+    }
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+    fn next(&mut self) -> Result<Turn, HeadsetError> {
+        if let Some(turn) = self.trouble.turn(&mut self.inner, self.after) {
+            return Ok(turn);
+        }
+        let awaits = self.trouble.awaits(self.after);
+        if self.after == self.frames && !awaits {
+            self.inner.request_exit()?;
+        }
+        let mut turn = self.inner.next()?;
+        if let Turn::Frame(frame) = &mut turn {
+            self.trouble.frame(frame, self.after);
+            if awaits {
+                let since = self.awaiting.get_or_insert_with(Instant::now);
+                assert!(since.elapsed() < PATIENCE, "what is awaited does not come");
+                // The processor is for what is made beside the frames, and the track goes on with each: few of them may pass on a busy machine.
+                std::thread::sleep(Duration::from_millis(250));
+            } else {
+                self.awaiting = None;
+                self.after += 1;
+            }
+        }
+        Ok(turn)
+    }
+    fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError> {
+        self.trouble.acquires(self.after - 1);
+        let mut targets = self.inner.acquire(panel)?;
+        if let (Some(targets), Some((_, inset))) = (&mut targets, &self.inset) {
+            targets.inset = Some(inset.clone());
+        }
+        Ok(targets)
+    }
+    fn locate_views(&mut self) -> Result<[View; 2], HeadsetError> {
+        let mut views = self.inner.locate_views()?;
+        for (view, fov) in views.iter_mut().zip(self.sees.iter().flatten()) {
+            view.fov = *fov;
+        }
+        for (view, inset) in views
+            .iter()
+            .zip(self.inset.iter_mut().flat_map(|it| &mut it.0.views))
+        {
+            inset.stage_from_eye = view.stage_from_eye;
+        }
+        Ok(views)
+    }
+    fn gaze(&self) -> Option<Pose> {
+        self.inner.gaze()
+    }
+    fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError> {
+        self.shown.extend(shown.copied());
+        self.felt.push(self.inner.felt);
+        let ended = self.inner.end(shown);
+        self.trouble.ends(self.after - 1);
+        ended
+    }
+    fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError> {
+        self.inner.vibrate(side, amplitude)
+    }
+    fn lose_device(&mut self) {
+        self.inner.lose_device();
+    }
+    fn rates(&self) -> &[f32] {
+        self.inner.rates()
+    }
+    fn request_rate(&mut self, rate: f32) -> Result<(), HeadsetError> {
+        self.inner.request_rate(rate)
+    }
+    fn request_exit(&mut self) -> Result<(), HeadsetError> {
+        self.inner.request_exit()
+    }
+}
+
+/// Nothing comes from the keyboard.
+pub fn nobody() -> Receiver<Decision> {
+    channel().1
+}
+
+/// What a session is to be, recorded in `folder`.
+pub fn options(folder: &Path) -> Options {
+    let mut scenes = Scenes::default();
+    Options {
+        plan: Plan {
+            scene: scenes.open(scene(folder).to_str().unwrap()).unwrap(),
+            scenes,
+            preset: Preset::Balanced,
+            breakable: false,
+            seed: 3,
+            solver: None,
+            filter: None,
+            tint: None,
+            room: None,
+        },
+        posture: Posture::Seated,
+        grip: Grip::Hold,
+        frames: None,
+        record: Some(folder.join("session.mcap")),
+        // What a software driver takes is no matter to most.
+        governed: false,
+        // Pictures are looked at to the pixel.
+        foveating: Some(Foveating::Off),
+        sound: Device::Silent,
+        // Most look at other things.
+        hints: false,
+        console: None,
+        course: None,
+        language: Language::En,
+    }
+}
+
+/// A session to its end, and its recording.
+pub fn session(
+    headset: &mut dyn Headset,
+    folder: &Path,
+    decisions: Receiver<Decision>,
+) -> (SessionOutcome, Track) {
+    session_with(headset, options(folder), decisions)
+}
+
+/// The same with other options.
+pub fn session_with(
+    headset: &mut dyn Headset,
+    options: Options,
+    decisions: Receiver<Decision>,
+) -> (SessionOutcome, Track) {
+    let file = options.record.clone().unwrap();
+    // Of a session before it on this thread.
+    HEARD.take();
+    let session = Session::new(headset, options, decisions).unwrap();
+    let outcome = tracing::subscriber::with_default(Ear, || session.run(headset)).unwrap();
+    let recorded = outcome.recorded.as_ref().unwrap();
+    assert_eq!((recorded.steps, recorded.unwritten), (outcome.steps, 0));
+    let track = Track::open(&file).unwrap();
+    assert!(!track.recovered);
+    (outcome, track)
+}
+
+/// The scenes that a recording carries.
+pub fn carried(track: &Track) -> Scenes {
+    let mut scenes = Scenes::default();
+    scenes.carry(&track.metadata);
+    scenes
+}
+
+/// Hash of the state that a session ended with.
+pub fn hash(outcome: &SessionOutcome) -> u64 {
+    outcome.bench.world.snapshot().unwrap().solver.hash()
+}
+
+/// How far two poses are apart: m, rad.
+pub fn apart(a: &Pose, b: &Pose) -> (f32, f32) {
+    (
+        (a.position - b.position).length(),
+        a.orientation.angle_between(b.orientation),
+    )
+}

@@ -1,0 +1,142 @@
+//! A session that goes through a lesson: what is said of it is in the recording, with what its user asked for, and a replay that judges
+//! the lesson says the same.
+
+use std::path::Path;
+use std::sync::mpsc::{Sender, channel};
+
+use crate::vr::common::{Trouble, Worn, hash, options, pour, session_with};
+use crate::vr::loss::judged;
+use crate::vr::pour::lesson;
+use vitriol::vr::decision::{Act, Decision};
+use vitriol::vr::session::{Course, SessionOutcome};
+use vitriol::vr::stand_in::StandIn;
+use vitriol_experiment::{Judging, Wish};
+use vitriol_gpu::Gpu;
+use vitriol_lesson::procedure::{Progress, Verdict, Why};
+use vitriol_lesson::{Language, Mode};
+use vitriol_tests::gpu;
+use vitriol_xr::Turn;
+use vitriol_xr::track::Track;
+
+/// Presses keys, each before a frame.
+struct Presses {
+    keys: Sender<Decision>,
+    acts: Vec<(u64, Act)>,
+}
+
+impl Trouble for Presses {
+    fn turn(&mut self, _: &mut StandIn, after: u64) -> Option<Turn> {
+        for (_, act) in self.acts.iter().filter(|(frame, _)| *frame == after) {
+            self.keys.send(Decision::Lesson(*act)).unwrap();
+        }
+        None
+    }
+}
+
+/// A session of so many frames, 30 a second, of who pours as the track does and presses these keys.
+fn taught(
+    gpu: &Gpu,
+    folder: &Path,
+    mode: Mode,
+    frames: u64,
+    acts: &[(u64, Act)],
+) -> (SessionOutcome, Track) {
+    let (keys, decisions) = channel();
+    let acts = acts.to_vec();
+    let trouble = Presses { keys, acts };
+    let mut headset = Worn::new(gpu, pour().sample_track(), 30.0, frames, trouble);
+    let mut options = options(folder);
+    options.course = Some(Course {
+        lesson: lesson(),
+        mode,
+        language: Language::De,
+    });
+    session_with(&mut headset, options, decisions)
+}
+
+/// What the recording says of the lesson; a replay that judges it says the same, to the bit, and ends in the same state.
+fn said_and_replayed(
+    gpu: &Gpu,
+    outcome: &SessionOutcome,
+    track: Track,
+    mode: Mode,
+) -> Vec<Progress> {
+    let said = track.progress.iter();
+    let said: Vec<Progress> = said
+        .map(|(_, json)| serde_json::from_str(json).unwrap())
+        .collect();
+    let scene = track.metadata.scene.clone();
+    let replay = judged(gpu, track, Judging::new(lesson(), mode, &scene));
+    assert_eq!(replay.progress, said);
+    assert_eq!(replay.state_hash, hash(outcome));
+    let verdict = outcome.verdict.clone().unwrap();
+    assert_eq!(Verdict::retold(&lesson(), mode, &said), [verdict]);
+    said
+}
+
+fn wishes(track: &Track) -> Vec<Wish> {
+    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    switches.filter_map(Wish::of).map(Result::unwrap).collect()
+}
+
+#[test]
+fn hint_and_skip_are_recorded_and_replay() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let acts = [
+        (5, Act::Hint),
+        // It is shown already, and a guided lesson has no such button.
+        (8, Act::Hint),
+        (10, Act::Finish),
+        (12, Act::Skip),
+        // It comes with the last frame.
+        (39, Act::Skip),
+    ];
+    let (outcome, track) = taught(&gpu, folder.path(), Mode::Guided, 41, &acts);
+    let step = str::to_owned;
+    let expected = [
+        Wish::Hint(step("lift")),
+        Wish::Skip(step("lift")),
+        Wish::Skip(step("pour")),
+    ];
+    assert_eq!(wishes(&track), expected);
+    let made = &track.metadata.parameters;
+    let of_lesson = ["lesson", "lesson_hash", "mode", "language"].map(|key| made[key].as_str());
+    assert_eq!(of_lesson, ["water", lesson().hash(), "guided", "de"]);
+    let said = said_and_replayed(&gpu, &outcome, track, Mode::Guided);
+    let hints = said.iter().filter_map(|it| match it {
+        Progress::HintDue { id, asked, t_s } => Some((id.as_str(), *asked, *t_s)),
+        _ => None,
+    });
+    let hints: Vec<_> = hints.collect();
+    assert_eq!(hints.len(), 1, "{hints:?}");
+    let (id, asked, t_s) = hints[0];
+    // The fifth frame's steps end at 5 / 30 s.
+    assert!(
+        (id, asked) == ("lift", true) && (0.13..0.2).contains(&t_s),
+        "{t_s}"
+    );
+    let skipped = said.iter().filter_map(|it| match it {
+        Progress::StepFailed { id, why, .. } => (*why == Why::Skipped).then_some(id.as_str()),
+        _ => None,
+    });
+    assert_eq!(skipped.collect::<Vec<_>>(), ["lift", "pour"]);
+}
+
+/// Who says that all is done a tenth of a second behind the last drop has poured: it is not known yet, and counts.
+#[test]
+fn an_examination_ends_when_its_user_says_so() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    // By the keyframes it is poured until 6.7 s.
+    let acts = [(30, Act::Hint), (40, Act::Skip), (204, Act::Finish)];
+    let (outcome, track) = taught(&gpu, folder.path(), Mode::Examination, 215, &acts);
+    assert_eq!(wishes(&track), [Wish::Finish]);
+    let verdict = outcome.verdict.clone().unwrap();
+    let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
+    assert_eq!(met, [true, true, false, false], "{verdict:#?}");
+    let put_down = &verdict.lines[3];
+    assert_eq!(put_down.why, Some(Why::NotDone));
+    let said = said_and_replayed(&gpu, &outcome, track, Mode::Examination);
+    assert!(matches!(said.last(), Some(Progress::Over { t_s }) if (6.7..7.0).contains(t_s)));
+}

@@ -1,0 +1,27 @@
+//! Sessions on the stand-in, with the validation layer on, and what their recordings replay to.
+
+mod breaks;
+mod common;
+#[cfg(target_os = "linux")]
+mod console;
+mod contention;
+mod fade;
+mod first_minute;
+mod foveation;
+mod handle;
+mod hands;
+mod inset;
+mod leap;
+mod lesson;
+mod loss;
+#[cfg(target_os = "linux")]
+mod mirror;
+mod one_hand;
+mod pace;
+mod panel;
+mod pour;
+mod recording;
+mod rules;
+mod seen;
+mod spills;
+mod switches;

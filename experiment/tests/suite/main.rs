@@ -1,0 +1,7 @@
+//! Film, sound and subtitles of a run, and the run on a device.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod device;
+mod film;
+mod sound;
+mod subtitles;

@@ -1,0 +1,5 @@
+//! Incidents in words and as a table.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod said;
+mod table;

@@ -1,0 +1,10 @@
+//! What is heard of events, against formulas and published figures.
+
+mod boiling;
+mod captions;
+mod extremes;
+mod measure;
+mod opus;
+mod place;
+mod ringing;
+mod silence;
