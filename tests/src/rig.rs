@@ -140,7 +140,7 @@ fn run_inside(
         .args(["sh", "-c", ENTER, "sh"])
         .arg(root.unwrap_or(Path::new("")))
         .arg(std::env::current_exe().expect("this test's program"))
-        .args(["--exact", name, "--nocapture"])
+        .args(["--exact", name, "--nocapture", "--include-ignored"])
         .env(FOLDER, folder.path())
         .env("VK_DRIVER_FILES", software_driver(&drivers))
         .env("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation")

@@ -47,7 +47,7 @@ pub fn enter(name: &str) -> Option<Screen> {
     match Server::start() {
         Ok(server) => {
             let done = Command::new(std::env::current_exe().expect("this test's program"))
-                .args(["--exact", name, "--nocapture"])
+                .args(["--exact", name, "--nocapture", "--include-ignored"])
                 .env(INSIDE, "")
                 .env("DISPLAY", &server.display)
                 .stdin(Stdio::null())

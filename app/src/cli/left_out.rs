@@ -169,7 +169,7 @@ mod tests {
     }
 }
 
-/// The whole program has all that the table names, and nothing but what every build has besides.
+/// The whole program has what the table names, and nothing but what every build has besides.
 #[cfg(all(
     test,
     feature = "session",
@@ -180,9 +180,10 @@ mod tests {
 mod whole {
     use std::collections::BTreeSet;
 
-    use clap::CommandFactory;
+    use clap::{Arg, Args, Command, CommandFactory};
 
     use super::PARTS;
+    use crate::cli::{ConsoleArgs, KeepArgs};
 
     #[test]
     fn each_command_is_in_every_build_or_of_one_part() {
@@ -195,13 +196,24 @@ mod whole {
         let named: Vec<&str> = parts.chain(every).collect();
         assert_eq!(named.iter().copied().collect::<BTreeSet<_>>(), has);
         assert_eq!(named.len(), has.len(), "one is named twice");
-        for (command, option) in PARTS.iter().flat_map(|part| part.options) {
-            let command = program
-                .get_subcommands()
-                .find(|it| it.get_name() == *command);
-            let mut options = command.into_iter().flat_map(|it| it.get_arguments());
-            let found = options.any(|it| it.get_long() == option.strip_prefix("--"));
-            assert!(found, "{option}");
-        }
+    }
+
+    /// The class's options of a replay.
+    #[test]
+    fn each_option_of_a_part_is_named() {
+        let of_class = ConsoleArgs::augment_args(KeepArgs::augment_args(Command::new("class")));
+        let options = of_class.get_arguments().filter_map(Arg::get_long);
+        let options = options.chain(["live"]);
+        let options: BTreeSet<String> = options.map(|it| format!("--{it}")).collect();
+        let named = PARTS.iter().flat_map(|part| part.options);
+        let named: BTreeSet<String> = named.map(|(_, option)| (*option).to_owned()).collect();
+        assert_eq!(named, options);
+        let program = crate::cli::Cli::command();
+        let has = |option: &str| {
+            let mut replay = program.find_subcommand("replay").into_iter();
+            let long = option.strip_prefix("--");
+            replay.any(|it| it.get_arguments().any(|it| it.get_long() == long))
+        };
+        assert!(named.iter().all(|option| has(option)), "{named:?}");
     }
 }

@@ -263,71 +263,75 @@ fn a_run_has_an_end() {
     }
 }
 
-/// A recording of the program's own, by a wearer of a track: its scene's file is gone when it is replayed.
-#[test]
-fn a_recording_stands_alone_and_tells_what_differs() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let small = Scene::builtin_text("two-flasks")
-        .unwrap()
-        .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
-        .replacen("substeps = 10", "substeps = 4", 1);
-    fs::write(here.join("small.toml"), &small).unwrap();
-    let session = [
-        "vr",
-        "--stand-in",
-        "two-flasks",
-        "--fixed",
-        "--frames",
-        "30",
-        "--size",
-        "64x64",
-        "--scene",
-        "small.toml",
-        "--record",
-        "x.mcap",
-        "--no-mirror",
-        "--json",
-    ];
-    let output = vitriol(here, &session);
-    assert!(output.status.success(), "{}", said(&output));
-    let session: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    fs::remove_file(here.join("small.toml")).unwrap();
+mod long {
+    use super::*;
 
-    let replayed = |arguments: &[&str]| -> serde_json::Value {
-        let all = [&["replay", "x.mcap", "--no-video", "--json"], arguments].concat();
-        let output = vitriol(here, &all);
+    /// A recording of the program's own, by a wearer of a track: its scene's file is gone when it is replayed.
+    #[test]
+    fn a_recording_stands_alone_and_tells_what_differs() {
+        let folder = tempfile::tempdir().unwrap();
+        let here = folder.path();
+        let small = Scene::builtin_text("two-flasks")
+            .unwrap()
+            .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
+            .replacen("substeps = 10", "substeps = 4", 1);
+        fs::write(here.join("small.toml"), &small).unwrap();
+        let session = [
+            "vr",
+            "--stand-in",
+            "two-flasks",
+            "--fixed",
+            "--frames",
+            "30",
+            "--size",
+            "64x64",
+            "--scene",
+            "small.toml",
+            "--record",
+            "x.mcap",
+            "--no-mirror",
+            "--json",
+        ];
+        let output = vitriol(here, &session);
         assert!(output.status.success(), "{}", said(&output));
-        serde_json::from_slice(&output.stdout).unwrap()
-    };
-    let same = replayed(&[]);
-    assert_eq!(same["state_hash"], session["state_hash"]);
-    let recording = &same["recording"];
-    assert_eq!(recording["same_state"], true);
-    assert_eq!(recording["device"], session["device"]["name"]);
-    assert_eq!(recording["differs"], serde_json::json!([]));
-    assert_eq!(same["scene"]["name"], "small.toml");
+        let session: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        fs::remove_file(here.join("small.toml")).unwrap();
 
-    // The same name and another text.
-    let other = small.replacen("volume_ml = 150.0", "volume_ml = 100.0", 1);
-    assert_ne!(other, small);
-    fs::write(here.join("small.toml"), other).unwrap();
-    let other = replayed(&["--scene", "small.toml", "--seed", "9"]);
-    let recording = &other["recording"];
-    assert_eq!(recording["same_state"], false);
-    let differs = recording["differs"].to_string();
-    assert!(differs.contains("another text"), "{differs}");
-    assert!(differs.contains("--seed"), "{differs}");
+        let replayed = |arguments: &[&str]| -> serde_json::Value {
+            let all = [&["replay", "x.mcap", "--no-video", "--json"], arguments].concat();
+            let output = vitriol(here, &all);
+            assert!(output.status.success(), "{}", said(&output));
+            serde_json::from_slice(&output.stdout).unwrap()
+        };
+        let same = replayed(&[]);
+        assert_eq!(same["state_hash"], session["state_hash"]);
+        let recording = &same["recording"];
+        assert_eq!(recording["same_state"], true);
+        assert_eq!(recording["device"], session["device"]["name"]);
+        assert_eq!(recording["differs"], serde_json::json!([]));
+        assert_eq!(same["scene"]["name"], "small.toml");
 
-    // As it would come from another program on another machine.
-    let mut track = Track::open(&here.join("x.mcap")).unwrap();
-    track.metadata.program_version = "0.0.9".into();
-    let parameters = &mut track.metadata.parameters;
-    parameters.insert("device".into(), "Voodoo".into());
-    save(&track, &here.join("x.mcap"), Existing::Replace).unwrap();
-    let elsewhere = replayed(&[]);
-    let differs = elsewhere["recording"]["differs"].to_string();
-    for part in ["version 0.0.9", "the device Voodoo"] {
-        assert!(differs.contains(part), "{differs}");
+        // The same name and another text.
+        let other = small.replacen("volume_ml = 150.0", "volume_ml = 100.0", 1);
+        assert_ne!(other, small);
+        fs::write(here.join("small.toml"), other).unwrap();
+        let other = replayed(&["--scene", "small.toml", "--seed", "9"]);
+        let recording = &other["recording"];
+        assert_eq!(recording["same_state"], false);
+        let differs = recording["differs"].to_string();
+        assert!(differs.contains("another text"), "{differs}");
+        assert!(differs.contains("--seed"), "{differs}");
+
+        // As it would come from another program on another machine.
+        let mut track = Track::open(&here.join("x.mcap")).unwrap();
+        track.metadata.program_version = "0.0.9".into();
+        let parameters = &mut track.metadata.parameters;
+        parameters.insert("device".into(), "Voodoo".into());
+        save(&track, &here.join("x.mcap"), Existing::Replace).unwrap();
+        let elsewhere = replayed(&[]);
+        let differs = elsewhere["recording"]["differs"].to_string();
+        for part in ["version 0.0.9", "the device Voodoo"] {
+            assert!(differs.contains(part), "{differs}");
+        }
     }
 }

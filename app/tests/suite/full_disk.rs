@@ -41,44 +41,48 @@ fn in_own_namespace(folder: &Path) -> Option<Output> {
     Some(run(flags, SCRIPT))
 }
 
-#[test]
-fn a_disk_that_is_full_for_a_while_loses_no_step() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let small = Scene::builtin_text("two-flasks")
-        .unwrap()
-        .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
-        .replacen("substeps = 10", "substeps = 4", 1);
-    fs::write(here.join("small.toml"), &small).unwrap();
-    let Some(output) = in_own_namespace(here) else {
-        assert!(
-            std::env::var("CI").as_deref() != Ok("true"),
-            "no disk can be mounted here"
-        );
-        eprintln!("NOT TESTED: a full disk, which cannot be mounted here");
-        return;
-    };
-    let log = fs::read_to_string(here.join("session.log")).unwrap_or_default();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}\n{log}");
+mod long {
+    use super::*;
 
-    assert!(log.contains("No space left"), "{log}");
-    assert!(log.contains("takes the recording again"), "{log}");
-    let session = fs::read(here.join("session.json")).unwrap();
-    let session: serde_json::Value = serde_json::from_slice(&session).unwrap();
-    let recording = &session["recording"];
-    assert_eq!(recording["steps"], session["steps"], "{recording}");
-    assert_eq!(recording["unwritten"], 0);
-    assert!(recording["cause"].is_null(), "{recording}");
-    let track = Track::open(&here.join("x.mcap")).unwrap();
-    assert!(!track.recovered);
-    assert_eq!(track.holes().count(), 0);
+    #[test]
+    fn a_disk_that_is_full_for_a_while_loses_no_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let here = folder.path();
+        let small = Scene::builtin_text("two-flasks")
+            .unwrap()
+            .replacen("spacing = 0.0025 ", "spacing = 0.006 ", 1)
+            .replacen("substeps = 10", "substeps = 4", 1);
+        fs::write(here.join("small.toml"), &small).unwrap();
+        let Some(output) = in_own_namespace(here) else {
+            assert!(
+                std::env::var("CI").as_deref() != Ok("true"),
+                "no disk can be mounted here"
+            );
+            eprintln!("NOT TESTED: a full disk, which cannot be mounted here");
+            return;
+        };
+        let log = fs::read_to_string(here.join("session.log")).unwrap_or_default();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}\n{log}");
 
-    let replay = Command::new(env!("CARGO_BIN_EXE_vitriol"))
-        .args(["replay", "x.mcap", "--no-video", "--json"])
-        .current_dir(here)
-        .output()
-        .unwrap();
-    let replayed: serde_json::Value = serde_json::from_slice(&replay.stdout).unwrap();
-    assert_eq!(replayed["state_hash"], session["state_hash"]);
+        assert!(log.contains("No space left"), "{log}");
+        assert!(log.contains("takes the recording again"), "{log}");
+        let session = fs::read(here.join("session.json")).unwrap();
+        let session: serde_json::Value = serde_json::from_slice(&session).unwrap();
+        let recording = &session["recording"];
+        assert_eq!(recording["steps"], session["steps"], "{recording}");
+        assert_eq!(recording["unwritten"], 0);
+        assert!(recording["cause"].is_null(), "{recording}");
+        let track = Track::open(&here.join("x.mcap")).unwrap();
+        assert!(!track.recovered);
+        assert_eq!(track.holes().count(), 0);
+
+        let replay = Command::new(env!("CARGO_BIN_EXE_vitriol"))
+            .args(["replay", "x.mcap", "--no-video", "--json"])
+            .current_dir(here)
+            .output()
+            .unwrap();
+        let replayed: serde_json::Value = serde_json::from_slice(&replay.stdout).unwrap();
+        assert_eq!(replayed["state_hash"], session["state_hash"]);
+    }
 }

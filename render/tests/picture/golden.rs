@@ -4,7 +4,7 @@
 //! two pixels, in which edges may fall differently, and compared in the encoded
 //! levels, which are about even to the eye.
 //!
-//! `VITRIOL_KEEP_GOLDEN=1 cargo nextest run -p vitriol-render golden` keeps new ones: look at
+//! `VITRIOL_KEEP_GOLDEN=1 ./lab test -p vitriol-render golden` keeps new ones: look at
 //! them before they are committed.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};

@@ -44,81 +44,85 @@ fn wear(mock: &Mock, at: u64, frame: &PoseFrame) {
     mock.say_at(at, Change::hand(1, state));
 }
 
-#[test]
-fn a_full_flask_stays_full() {
-    let off = [
-        Change::Headset(false),
-        Change::Period((1e9 * PERIOD) as i64),
-    ];
-    let Some(mock) = mock::enter("headset::moved::a_full_flask_stays_full", &off) else {
-        return;
-    };
-    let track = drive::track();
-    for at in 0..=ENDS {
-        let time = PERIOD * at.saturating_sub(BEGINS) as f64;
-        wear(&mock, at, &track.sample(0, time));
+mod long {
+    use super::*;
+
+    #[test]
+    fn a_full_flask_stays_full() {
+        let off = [
+            Change::Headset(false),
+            Change::Period((1e9 * PERIOD) as i64),
+        ];
+        let Some(mock) = mock::enter("headset::moved::long::a_full_flask_stays_full", &off) else {
+            return;
+        };
+        let track = drive::track();
+        for at in 0..=ENDS {
+            let time = PERIOD * at.saturating_sub(BEGINS) as f64;
+            wear(&mock, at, &track.sample(0, time));
+        }
+        let there = mock::Pose::new(Vec3::new(1.0, 0.0, 0.4), Quat::from_rotation_y(1.2));
+        let floor = SpaceKind::LocalFloor;
+        mock.say_at(RECENTRES, Change::recentre(floor, there));
+        // Found again, the session has its floor where it was at first, and nobody says so.
+        mock.say_at(
+            LOSES,
+            Change::Move {
+                space: floor,
+                origin: mock::Pose::IDENTITY,
+                announced: false,
+                pose_valid: false,
+                later: 0,
+            },
+        );
+        mock.say_at(LOSES, Change::Lose(Lost::Session));
+
+        let scene = program::scene(mock.folder());
+        let recording = mock.folder().join("session.mcap");
+        let mut program = Program::start(&scene, &recording);
+        program.says("switch it on");
+        mock.say(Change::Headset(true));
+        program.says("session lost");
+        program.says("Focused");
+        program.frames(20);
+        let (report, _) = program.end();
+        assert_eq!(report["renewals"], 1);
+        assert_eq!(report["lost_particles"], 0);
+
+        let recorded = load(recording.to_str().unwrap()).unwrap();
+        whole(&recorded, report["steps"].as_u64().unwrap());
+        let leaps: Vec<usize> = (0..recorded.frames.len())
+            .filter(|&at| {
+                let scenario = &recorded.frames[at].scenario;
+                scenario.iter().any(|it| it.key == SWITCH_PLACEMENT)
+            })
+            .collect();
+        // The bench is laid at the start, twice as she asks, and once after the loss.
+        assert_eq!(leaps.len(), 4, "{leaps:?}");
+        // It is in the hand whenever that is there: a session that was found has its controllers some frames later.
+        let in_hand = |at: usize| {
+            let hand = recorded.frames[at].hand(Side::Right);
+            let flask = recorded.stage_from_flasks[at][0];
+            let place = hand
+                .stage_from_grip
+                .inverse()
+                .transform_point(flask.position);
+            (hand.active && hand.valid).then_some(place)
+        };
+        let held = in_hand(leaps[1] - 1).unwrap();
+        let known = (leaps[1]..recorded.frames.len() - 1).filter_map(in_hand);
+        let off: Vec<f32> = known.map(|place| place.distance(held)).collect();
+        assert!(
+            off.len() > 60 && off.iter().all(|off| *off < 1e-4),
+            "{off:?}"
+        );
+        let replayed = replay(&recorded);
+        assert_eq!(report["state_hash"], replayed.hash.as_str());
+        // All of its 150 mL; particles are of 85 mg.
+        assert!(
+            replayed.kept > 0.1499 && replayed.poured == 0.0,
+            "{} kg",
+            replayed.kept
+        );
     }
-    let there = mock::Pose::new(Vec3::new(1.0, 0.0, 0.4), Quat::from_rotation_y(1.2));
-    let floor = SpaceKind::LocalFloor;
-    mock.say_at(RECENTRES, Change::recentre(floor, there));
-    // Found again, the session has its floor where it was at first, and nobody says so.
-    mock.say_at(
-        LOSES,
-        Change::Move {
-            space: floor,
-            origin: mock::Pose::IDENTITY,
-            announced: false,
-            pose_valid: false,
-            later: 0,
-        },
-    );
-    mock.say_at(LOSES, Change::Lose(Lost::Session));
-
-    let scene = program::scene(mock.folder());
-    let recording = mock.folder().join("session.mcap");
-    let mut program = Program::start(&scene, &recording);
-    program.says("switch it on");
-    mock.say(Change::Headset(true));
-    program.says("session lost");
-    program.says("Focused");
-    program.frames(20);
-    let (report, _) = program.end();
-    assert_eq!(report["renewals"], 1);
-    assert_eq!(report["lost_particles"], 0);
-
-    let recorded = load(recording.to_str().unwrap()).unwrap();
-    whole(&recorded, report["steps"].as_u64().unwrap());
-    let leaps: Vec<usize> = (0..recorded.frames.len())
-        .filter(|&at| {
-            let scenario = &recorded.frames[at].scenario;
-            scenario.iter().any(|it| it.key == SWITCH_PLACEMENT)
-        })
-        .collect();
-    // The bench is laid at the start, twice as she asks, and once after the loss.
-    assert_eq!(leaps.len(), 4, "{leaps:?}");
-    // It is in the hand whenever that is there: a session that was found has its controllers some frames later.
-    let in_hand = |at: usize| {
-        let hand = recorded.frames[at].hand(Side::Right);
-        let flask = recorded.stage_from_flasks[at][0];
-        let place = hand
-            .stage_from_grip
-            .inverse()
-            .transform_point(flask.position);
-        (hand.active && hand.valid).then_some(place)
-    };
-    let held = in_hand(leaps[1] - 1).unwrap();
-    let known = (leaps[1]..recorded.frames.len() - 1).filter_map(in_hand);
-    let off: Vec<f32> = known.map(|place| place.distance(held)).collect();
-    assert!(
-        off.len() > 60 && off.iter().all(|off| *off < 1e-4),
-        "{off:?}"
-    );
-    let replayed = replay(&recorded);
-    assert_eq!(report["state_hash"], replayed.hash.as_str());
-    // All of its 150 mL; particles are of 85 mg.
-    assert!(
-        replayed.kept > 0.1499 && replayed.poured == 0.0,
-        "{} kg",
-        replayed.kept
-    );
 }

@@ -118,21 +118,25 @@ fn carried(how: How, leaps: usize) -> (f64, f64) {
     (measured.in_flasks[0], measured.kinetic_energy)
 }
 
-#[test]
-fn nothing_is_spilt_where_the_hands_leap() {
-    let (full, calm) = carried(How::Calm, 0);
-    assert!((full - 0.15).abs() < 1e-3, "{full} kg");
-    let another = gpu::another_device(|_| {});
-    for how in [
-        How::Button,
-        How::Runtime,
-        How::Off,
-        How::Renewed(Gpu::clone(&another)),
-    ] {
-        let name = how.name();
-        let (left, energy) = carried(how, 1);
-        assert_eq!(left, full, "{name}");
-        // She goes on in another direction than that in which the liquid sways.
-        assert!(energy < 1.5 * calm, "{name}: {energy} J of {calm}");
+mod long {
+    use super::*;
+
+    #[test]
+    fn nothing_is_spilt_where_the_hands_leap() {
+        let (full, calm) = carried(How::Calm, 0);
+        assert!((full - 0.15).abs() < 1e-3, "{full} kg");
+        let another = gpu::another_device(|_| {});
+        for how in [
+            How::Button,
+            How::Runtime,
+            How::Off,
+            How::Renewed(Gpu::clone(&another)),
+        ] {
+            let name = how.name();
+            let (left, energy) = carried(how, 1);
+            assert_eq!(left, full, "{name}");
+            // She goes on in another direction than that in which the liquid sways.
+            assert!(energy < 1.5 * calm, "{name}: {energy} J of {calm}");
+        }
     }
 }

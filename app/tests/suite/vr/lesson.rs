@@ -123,20 +123,24 @@ fn hint_and_skip_are_recorded_and_replay() {
     assert_eq!(skipped.collect::<Vec<_>>(), ["lift", "pour"]);
 }
 
-/// Who says that all is done a tenth of a second behind the last drop has poured: it is not known yet, and counts.
-#[test]
-fn an_examination_ends_when_its_user_says_so() {
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    // By the keyframes it is poured until 6.7 s.
-    let acts = [(30, Act::Hint), (40, Act::Skip), (204, Act::Finish)];
-    let (outcome, track) = taught(&gpu, folder.path(), Mode::Examination, 215, &acts);
-    assert_eq!(wishes(&track), [Wish::Finish]);
-    let verdict = outcome.verdict.clone().unwrap();
-    let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
-    assert_eq!(met, [true, true, false, false], "{verdict:#?}");
-    let put_down = &verdict.lines[3];
-    assert_eq!(put_down.why, Some(Why::NotDone));
-    let said = said_and_replayed(&gpu, &outcome, track, Mode::Examination);
-    assert!(matches!(said.last(), Some(Progress::Over { t_s }) if (6.7..7.0).contains(t_s)));
+mod long {
+    use super::*;
+
+    /// Who says that all is done a tenth of a second behind the last drop has poured: it is not known yet, and counts.
+    #[test]
+    fn an_examination_ends_when_its_user_says_so() {
+        let gpu = gpu::device();
+        let folder = tempfile::tempdir().unwrap();
+        // By the keyframes it is poured until 6.7 s.
+        let acts = [(30, Act::Hint), (40, Act::Skip), (204, Act::Finish)];
+        let (outcome, track) = taught(&gpu, folder.path(), Mode::Examination, 215, &acts);
+        assert_eq!(wishes(&track), [Wish::Finish]);
+        let verdict = outcome.verdict.clone().unwrap();
+        let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
+        assert_eq!(met, [true, true, false, false], "{verdict:#?}");
+        let put_down = &verdict.lines[3];
+        assert_eq!(put_down.why, Some(Why::NotDone));
+        let said = said_and_replayed(&gpu, &outcome, track, Mode::Examination);
+        assert!(matches!(said.last(), Some(Progress::Over { t_s }) if (6.7..7.0).contains(t_s)));
+    }
 }

@@ -167,42 +167,6 @@ impl Trouble for Breaks {
     }
 }
 
-/// Three times in a pour the device is lost, each time with all that lived on it, once just after a recentring with the full
-/// flask in the hand. The states that were read back and the steps since bring it back to the bit.
-#[test]
-fn lost_devices_in_mid_pour_lose_nothing() {
-    let devices: Vec<_> = (0..4).map(|_| gpu::another_device(|_| {})).collect();
-    let folder = tempfile::tempdir().unwrap();
-    let breaks = Breaks {
-        devices: devices.iter().map(|device| Gpu::clone(device)).collect(),
-        before_steps: 70,
-        before_picture: 105,
-        behind_end: 140,
-        // 20 steps at most are between a state and the next.
-        recentres: [60, 103],
-    };
-    let mut headset = Worn::new(&devices[0], pour().sample_track(), 30.0, 170, breaks);
-    let mut others: Vec<_> = devices[1..]
-        .iter()
-        .map(|device| Gpu::clone(device))
-        .collect();
-    headset.inner = headset.inner.reopening(move || Ok(others.remove(0)));
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
-    assert_eq!((outcome.devices_lost, outcome.renewals), (3, 3));
-    // No step in the first frame, none in those that recentre, and none in the first after each loss.
-    assert_eq!(outcome.steps, 3 * (170 - 1 - 2 - 3));
-    let measured = outcome.bench.world.measure().unwrap();
-    assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
-    // It was poured out, over the bench, which recentrings moved away from under it.
-    assert!(measured.in_flasks[0] < 0.1, "{measured:?}");
-    // One device, never lost, comes to the same bits.
-    let (recorded, replay) = replay_of(&devices[3], track, None);
-    let found = replay.events;
-    assert_eq!(replay.state_hash, hash(&outcome));
-    // And so do the looks that were under way, which are made again.
-    assert_eq!(recorded, found);
-}
-
 /// The device goes with the runtime, while a full flask is in the hand, and is back with the hand 10 cm further on.
 struct Both {
     device: Gpu,
@@ -239,29 +203,6 @@ impl Trouble for Both {
                 hand.stage_from_grip.position.x += 0.10;
             }
         }
-    }
-}
-
-#[test]
-fn a_device_lost_with_its_runtime_spills_nothing() {
-    for in_a_frame in [false, true] {
-        let (first, second) = (gpu::another_device(|_| {}), gpu::another_device(|_| {}));
-        let folder = tempfile::tempdir().unwrap();
-        let both = Both {
-            device: Gpu::clone(&first),
-            then: Gpu::clone(&second),
-            turns: 0,
-            in_a_frame,
-        };
-        let mut headset = Worn::new(&first, pour().sample_track(), 30.0, GONE + 10, both);
-        let then = Gpu::clone(&second);
-        headset.inner = headset.inner.reopening(move || Ok(then.clone()));
-        let (outcome, track) = session(&mut headset, folder.path(), nobody());
-        assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
-        let measured = outcome.bench.world.measure().unwrap();
-        assert!(measured.in_flasks[0] > 0.1499, "{in_a_frame}: {measured:?}");
-        assert_eq!(outcome.bench.world.holder(0), Some(1));
-        assert_eq!(replayed(&second, track), hash(&outcome));
     }
 }
 
@@ -316,4 +257,67 @@ fn nothing_happens_while_the_headset_is_off() {
     assert_eq!(outcome.slowed, 0.0);
     // What nobody would have seen was not missed.
     assert_eq!(outcome.skipped, 0);
+}
+
+mod long {
+    use super::*;
+
+    /// Three times in a pour the device is lost, each time with all that lived on it, once just after a recentring with the full
+    /// flask in the hand. The states that were read back and the steps since bring it back to the bit.
+    #[test]
+    fn lost_devices_in_mid_pour_lose_nothing() {
+        let devices: Vec<_> = (0..4).map(|_| gpu::another_device(|_| {})).collect();
+        let folder = tempfile::tempdir().unwrap();
+        let breaks = Breaks {
+            devices: devices.iter().map(|device| Gpu::clone(device)).collect(),
+            before_steps: 70,
+            before_picture: 105,
+            behind_end: 140,
+            // 20 steps at most are between a state and the next.
+            recentres: [60, 103],
+        };
+        let mut headset = Worn::new(&devices[0], pour().sample_track(), 30.0, 170, breaks);
+        let mut others: Vec<_> = devices[1..]
+            .iter()
+            .map(|device| Gpu::clone(device))
+            .collect();
+        headset.inner = headset.inner.reopening(move || Ok(others.remove(0)));
+        let (outcome, track) = session(&mut headset, folder.path(), nobody());
+        assert_eq!((outcome.devices_lost, outcome.renewals), (3, 3));
+        // No step in the first frame, none in those that recentre, and none in the first after each loss.
+        assert_eq!(outcome.steps, 3 * (170 - 1 - 2 - 3));
+        let measured = outcome.bench.world.measure().unwrap();
+        assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
+        // It was poured out, over the bench, which recentrings moved away from under it.
+        assert!(measured.in_flasks[0] < 0.1, "{measured:?}");
+        // One device, never lost, comes to the same bits.
+        let (recorded, replay) = replay_of(&devices[3], track, None);
+        let found = replay.events;
+        assert_eq!(replay.state_hash, hash(&outcome));
+        // And so do the looks that were under way, which are made again.
+        assert_eq!(recorded, found);
+    }
+
+    #[test]
+    fn a_device_lost_with_its_runtime_spills_nothing() {
+        for in_a_frame in [false, true] {
+            let (first, second) = (gpu::another_device(|_| {}), gpu::another_device(|_| {}));
+            let folder = tempfile::tempdir().unwrap();
+            let both = Both {
+                device: Gpu::clone(&first),
+                then: Gpu::clone(&second),
+                turns: 0,
+                in_a_frame,
+            };
+            let mut headset = Worn::new(&first, pour().sample_track(), 30.0, GONE + 10, both);
+            let then = Gpu::clone(&second);
+            headset.inner = headset.inner.reopening(move || Ok(then.clone()));
+            let (outcome, track) = session(&mut headset, folder.path(), nobody());
+            assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
+            let measured = outcome.bench.world.measure().unwrap();
+            assert!(measured.in_flasks[0] > 0.1499, "{in_a_frame}: {measured:?}");
+            assert_eq!(outcome.bench.world.holder(0), Some(1));
+            assert_eq!(replayed(&second, track), hash(&outcome));
+        }
+    }
 }

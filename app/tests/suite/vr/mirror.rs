@@ -284,51 +284,6 @@ fn records(recording: &Path) {
 }
 
 #[test]
-fn keys_and_closing_are_heard() {
-    let Some(screen) = screen::enter("vr::mirror::keys_and_closing_are_heard") else {
-        return;
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene(folder.path());
-    let recording = folder.path().join("keys.mcap");
-    let keep = ["--record", recording.to_str().unwrap()];
-
-    // `b` without Enter: the scene from its start.
-    let mut program = Program::start(&scene, &keep);
-    let window = screen.wait_for("small.toml");
-    screen.press(window, 'b');
-    screen.wait_for("setting up");
-    until("the scene is set up", || {
-        let title = screen.title(window).unwrap();
-        (!title.contains("setting up")).then_some(())
-    });
-    // Closed, it is gone, and the session goes on until it is asked to end.
-    screen.close(window);
-    until("the window goes", || {
-        screen.find("Vitriol").is_none().then_some(())
-    });
-    records(&recording);
-    assert!(program.runs());
-    program.ask();
-    let (report, log) = program.end();
-    assert_eq!(report["lost_particles"], 0);
-    // A window that is closed is nothing to complain of.
-    assert!(!log.contains("mirror"), "{log}");
-    let track = load(recording.to_str().unwrap()).unwrap();
-    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    let starts = switches.filter(|switch| switch.key == SWITCH_START);
-    assert_eq!(starts.count(), 1);
-
-    // `q`, twice: the end.
-    let program = Program::start(&scene, &[]);
-    let window = screen.wait_for("small.toml");
-    for _ in 0..2 {
-        screen.press(window, 'q');
-    }
-    program.end();
-}
-
-#[test]
 fn there_is_a_session_without_a_window() {
     let Some(screen) = screen::enter("vr::mirror::there_is_a_session_without_a_window") else {
         return;
@@ -347,4 +302,53 @@ fn there_is_a_session_without_a_window() {
     let said: Vec<_> = log.lines().collect();
     assert!(report["steps"].as_u64() > Some(0), "{report}");
     assert!(said.len() == 1 && said[0].contains("console"), "{log}");
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    fn keys_and_closing_are_heard() {
+        let Some(screen) = screen::enter("vr::mirror::long::keys_and_closing_are_heard") else {
+            return;
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path());
+        let recording = folder.path().join("keys.mcap");
+        let keep = ["--record", recording.to_str().unwrap()];
+
+        // `b` without Enter: the scene from its start.
+        let mut program = Program::start(&scene, &keep);
+        let window = screen.wait_for("small.toml");
+        screen.press(window, 'b');
+        screen.wait_for("setting up");
+        until("the scene is set up", || {
+            let title = screen.title(window).unwrap();
+            (!title.contains("setting up")).then_some(())
+        });
+        // Closed, it is gone, and the session goes on until it is asked to end.
+        screen.close(window);
+        until("the window goes", || {
+            screen.find("Vitriol").is_none().then_some(())
+        });
+        records(&recording);
+        assert!(program.runs());
+        program.ask();
+        let (report, log) = program.end();
+        assert_eq!(report["lost_particles"], 0);
+        // A window that is closed is nothing to complain of.
+        assert!(!log.contains("mirror"), "{log}");
+        let track = load(recording.to_str().unwrap()).unwrap();
+        let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+        let starts = switches.filter(|switch| switch.key == SWITCH_START);
+        assert_eq!(starts.count(), 1);
+
+        // `q`, twice: the end.
+        let program = Program::start(&scene, &[]);
+        let window = screen.wait_for("small.toml");
+        for _ in 0..2 {
+            screen.press(window, 'q');
+        }
+        program.end();
+    }
 }

@@ -207,78 +207,6 @@ fn the_filter_gives_way() {
     assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));
 }
 
-/// Pixels aside of the lenses' axes give way before any that are looked at, and come back last: for who has not said whether they
-/// may. A replay knows nothing of it.
-#[test]
-fn pixels_aside_give_way_first() {
-    let gpu = timed();
-    let run = |foveating, until, frames| {
-        let folder = tempfile::tempdir().unwrap();
-        let trouble = Rates {
-            until,
-            between: |_: &mut StandIn, _| None,
-            awaits: None,
-        };
-        let track = pour().sample_track();
-        let mut headset = Worn::of_extent(&gpu, track, [320, 340], (90.0, frames), trouble);
-        let mut options = options(folder.path());
-        options.governed = true;
-        options.foveating = foveating;
-        let (outcome, track) = session_with(&mut headset, options, nobody());
-        let extent = headset.shown.last().unwrap().extent;
-        let seen = Seen::last(&gpu, "gives-way", &headset);
-        ((seen, extent), outcome, track)
-    };
-    let (_, outcome, track) = run(None, 45, 150);
-    let said = switches(&track);
-    assert_eq!(values(&said, SWITCH_FOVEATION), ["fixed", "off"]);
-    let at = |key: &str| -> Vec<u64> {
-        let of = said.iter().filter(|(_, of, _)| of == key);
-        of.map(|(step, _, _)| *step).collect()
-    };
-    let [on, off] = at(SWITCH_FOVEATION)[..] else {
-        panic!("{said:?}")
-    };
-    let smaller = at(SWITCH_RESOLUTION);
-    assert!(smaller.len() > 1, "{said:?}");
-    assert!(
-        smaller.iter().all(|step| (on..=off).contains(step)),
-        "{said:?}"
-    );
-    let settings = outcome.governor.settings.iter().map(|with| with.setting);
-    for setting in settings {
-        assert!(setting.foveated || setting.resolution == 1.0, "{setting:?}");
-    }
-    assert_eq!(outcome.foveating, None);
-    assert_eq!(replayed(&gpu, track), hash(&outcome));
-
-    // Pictures that end as small are nearly the same, unless one is drawn in blocks: 2 to 185 pixels differed, and 14,223 in blocks.
-    let off = Some(Foveating::Off);
-    let pictures = [None, off, off].map(|asked| run(asked, u64::MAX, 60));
-    for ((_, small), outcome, track) in &pictures {
-        assert_eq!(small, &[192, 204]);
-        let settings = &outcome.governor.settings;
-        let foveated = settings.iter().any(|with| with.setting.foveated);
-        assert_eq!(foveated, outcome.foveating.is_none());
-        let said = switches(track);
-        assert_eq!(values(&said, SWITCH_FOVEATION).is_empty(), !foveated);
-    }
-    let [blocks, sharp, again] = pictures.each_ref().map(|((seen, _), _, _)| &seen.pixels);
-    // Beyond what was drawn last the images hold what was drawn before.
-    let drawn = |index: usize| index % 320 < 192 && index / 320 < 204;
-    let differ = |a: &[[u8; 4]], b: &[[u8; 4]]| {
-        let pairs = a.iter().zip(b).enumerate();
-        let apart = pairs.filter(|(index, (a, b))| drawn(*index) && a != b);
-        apart.count()
-    };
-    let (in_blocks, else_) = (differ(blocks, sharp), differ(again, sharp));
-    eprintln!(
-        "of {} pixels {in_blocks} differ, and {else_} in as sharp a picture",
-        192 * 204
-    );
-    assert!(in_blocks > 5_000 && else_ < 1_000, "{in_blocks} {else_}");
-}
-
 /// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
 #[test]
 fn the_displays_rate_gives_way_first() {
@@ -303,4 +231,80 @@ fn the_displays_rate_gives_way_first() {
     let said = switches(&track);
     assert!(values(&said, SWITCH_SOLVER).is_empty(), "{said:?}");
     assert!(values(&said, SWITCH_RESOLUTION).is_empty(), "{said:?}");
+}
+
+mod long {
+    use super::*;
+
+    /// Pixels aside of the lenses' axes give way before any that are looked at, and come back last: for who has not said whether they
+    /// may. A replay knows nothing of it.
+    #[test]
+    fn pixels_aside_give_way_first() {
+        let gpu = timed();
+        let run = |foveating, until, frames| {
+            let folder = tempfile::tempdir().unwrap();
+            let trouble = Rates {
+                until,
+                between: |_: &mut StandIn, _| None,
+                awaits: None,
+            };
+            let track = pour().sample_track();
+            let mut headset = Worn::of_extent(&gpu, track, [320, 340], (90.0, frames), trouble);
+            let mut options = options(folder.path());
+            options.governed = true;
+            options.foveating = foveating;
+            let (outcome, track) = session_with(&mut headset, options, nobody());
+            let extent = headset.shown.last().unwrap().extent;
+            let seen = Seen::last(&gpu, "gives-way", &headset);
+            ((seen, extent), outcome, track)
+        };
+        let (_, outcome, track) = run(None, 45, 150);
+        let said = switches(&track);
+        assert_eq!(values(&said, SWITCH_FOVEATION), ["fixed", "off"]);
+        let at = |key: &str| -> Vec<u64> {
+            let of = said.iter().filter(|(_, of, _)| of == key);
+            of.map(|(step, _, _)| *step).collect()
+        };
+        let [on, off] = at(SWITCH_FOVEATION)[..] else {
+            panic!("{said:?}")
+        };
+        let smaller = at(SWITCH_RESOLUTION);
+        assert!(smaller.len() > 1, "{said:?}");
+        assert!(
+            smaller.iter().all(|step| (on..=off).contains(step)),
+            "{said:?}"
+        );
+        let settings = outcome.governor.settings.iter().map(|with| with.setting);
+        for setting in settings {
+            assert!(setting.foveated || setting.resolution == 1.0, "{setting:?}");
+        }
+        assert_eq!(outcome.foveating, None);
+        assert_eq!(replayed(&gpu, track), hash(&outcome));
+
+        // Pictures that end as small are nearly the same, unless one is drawn in blocks: 2 to 185 pixels differed, and 14,223 in blocks.
+        let off = Some(Foveating::Off);
+        let pictures = [None, off, off].map(|asked| run(asked, u64::MAX, 60));
+        for ((_, small), outcome, track) in &pictures {
+            assert_eq!(small, &[192, 204]);
+            let settings = &outcome.governor.settings;
+            let foveated = settings.iter().any(|with| with.setting.foveated);
+            assert_eq!(foveated, outcome.foveating.is_none());
+            let said = switches(track);
+            assert_eq!(values(&said, SWITCH_FOVEATION).is_empty(), !foveated);
+        }
+        let [blocks, sharp, again] = pictures.each_ref().map(|((seen, _), _, _)| &seen.pixels);
+        // Beyond what was drawn last the images hold what was drawn before.
+        let drawn = |index: usize| index % 320 < 192 && index / 320 < 204;
+        let differ = |a: &[[u8; 4]], b: &[[u8; 4]]| {
+            let pairs = a.iter().zip(b).enumerate();
+            let apart = pairs.filter(|(index, (a, b))| drawn(*index) && a != b);
+            apart.count()
+        };
+        let (in_blocks, else_) = (differ(blocks, sharp), differ(again, sharp));
+        eprintln!(
+            "of {} pixels {in_blocks} differ, and {else_} in as sharp a picture",
+            192 * 204
+        );
+        assert!(in_blocks > 5_000 && else_ < 1_000, "{in_blocks} {else_}");
+    }
 }

@@ -52,51 +52,55 @@ impl Trouble for Restless {
     }
 }
 
-#[test]
-fn start_placement_and_scene_replay() {
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    // Another frame time than the first scene's, and other particles.
-    let other = std::fs::read_to_string(crate::vr::common::scene(folder.path())).unwrap();
-    let other = other
-        .replace("frame_time = 0.011111111111111", "frame_time = 0.02")
-        .replace("volume_ml = 150.0", "volume_ml = 90.0");
-    let other_file = folder.path().join("other.toml");
-    std::fs::write(&other_file, other).unwrap();
-    let (sender, decisions) = channel();
-    let trouble = Restless {
-        decisions: sender,
-        scene: "other.toml".into(),
-        moved: false,
-    };
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 180, trouble);
-    let mut options = options(folder.path());
-    let other = options.plan.scenes.open(other_file.to_str().unwrap());
-    assert_eq!(other.unwrap(), "other.toml");
-    let (outcome, track) = session_with(&mut headset, options, decisions);
-    assert_eq!(outcome.bench.plan.scene, "other.toml");
+mod long {
+    use super::*;
 
-    let switched: Vec<&str> = track
-        .frames
-        .iter()
-        .flat_map(|frame| &frame.scenario)
-        .map(|switch| switch.key.as_str())
-        .collect();
-    assert_eq!(
-        switched,
-        [
-            SWITCH_PLACEMENT,
-            SWITCH_START,
-            SWITCH_PLACEMENT,
-            SWITCH_SCENE
-        ]
-    );
-    // The bench has followed the user: in the scene nothing has moved but by what she did.
-    let first = track.frames[0].stage_from_view.position;
-    let last = track.frames[track.frames.len() - 1]
-        .stage_from_view
-        .position;
-    assert!((first - last).length() < 0.1, "{first} {last}");
-    let expected = hash(&outcome);
-    assert_eq!(replayed(&gpu, track), expected);
+    #[test]
+    fn start_placement_and_scene_replay() {
+        let gpu = gpu::device();
+        let folder = tempfile::tempdir().unwrap();
+        // Another frame time than the first scene's, and other particles.
+        let other = std::fs::read_to_string(crate::vr::common::scene(folder.path())).unwrap();
+        let other = other
+            .replace("frame_time = 0.011111111111111", "frame_time = 0.02")
+            .replace("volume_ml = 150.0", "volume_ml = 90.0");
+        let other_file = folder.path().join("other.toml");
+        std::fs::write(&other_file, other).unwrap();
+        let (sender, decisions) = channel();
+        let trouble = Restless {
+            decisions: sender,
+            scene: "other.toml".into(),
+            moved: false,
+        };
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 180, trouble);
+        let mut options = options(folder.path());
+        let other = options.plan.scenes.open(other_file.to_str().unwrap());
+        assert_eq!(other.unwrap(), "other.toml");
+        let (outcome, track) = session_with(&mut headset, options, decisions);
+        assert_eq!(outcome.bench.plan.scene, "other.toml");
+
+        let switched: Vec<&str> = track
+            .frames
+            .iter()
+            .flat_map(|frame| &frame.scenario)
+            .map(|switch| switch.key.as_str())
+            .collect();
+        assert_eq!(
+            switched,
+            [
+                SWITCH_PLACEMENT,
+                SWITCH_START,
+                SWITCH_PLACEMENT,
+                SWITCH_SCENE
+            ]
+        );
+        // The bench has followed the user: in the scene nothing has moved but by what she did.
+        let first = track.frames[0].stage_from_view.position;
+        let last = track.frames[track.frames.len() - 1]
+            .stage_from_view
+            .position;
+        assert!((first - last).length() < 0.1, "{first} {last}");
+        let expected = hash(&outcome);
+        assert_eq!(replayed(&gpu, track), expected);
+    }
 }

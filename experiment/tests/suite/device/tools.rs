@@ -72,26 +72,6 @@ fn done(said: &[Progress]) -> Vec<&str> {
     done.collect()
 }
 
-#[test]
-fn an_emergency_is_met_as_it_should_be() {
-    let (verdict, said) = judged(builtin::text("emergency").unwrap());
-    let all = ["rinse-glove", "glove-off", "rinse-hand", "put-down", "wipe"];
-    assert_eq!(done(&said), all, "{said:#?}");
-    assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:#?}");
-}
-
-/// Who keeps the glove on rinses no hand, however much water comes.
-#[test]
-fn a_glove_that_stays_on_is_missed() {
-    let text = builtin::text("emergency").unwrap();
-    let pulls = "{ t = 7.2, squeeze = 1.0 },";
-    assert_eq!(text.matches(pulls).count(), 1);
-    let (verdict, said) = judged(&text.replace(pulls, "{ t = 7.2 },"));
-    assert_eq!(done(&said), ["rinse-glove"], "{said:#?}");
-    // 25 of 85, and as much of the rules' 10 and 5.
-    assert_eq!(verdict.points, 25 + 2 + 1);
-}
-
 /// Goggles and gloves lie there at first. They are put on one after the other.
 #[test]
 fn who_dresses_is_seen_to() {
@@ -288,5 +268,29 @@ left = [ { t = 0.0, position = [-0.1, 0.9, 0.0] } ]
         let free = (in_any_order("wrong-order"), Mode::Free);
         let (_, said) = judged_by(free, track, &scene);
         assert_eq!(done(&said).contains(&"heat"), met, "{celsius}: {said:?}");
+    }
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    fn an_emergency_is_met_as_it_should_be() {
+        let (verdict, said) = judged(builtin::text("emergency").unwrap());
+        let all = ["rinse-glove", "glove-off", "rinse-hand", "put-down", "wipe"];
+        assert_eq!(done(&said), all, "{said:#?}");
+        assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:#?}");
+    }
+
+    /// Who keeps the glove on rinses no hand, however much water comes.
+    #[test]
+    fn a_glove_that_stays_on_is_missed() {
+        let text = builtin::text("emergency").unwrap();
+        let pulls = "{ t = 7.2, squeeze = 1.0 },";
+        assert_eq!(text.matches(pulls).count(), 1);
+        let (verdict, said) = judged(&text.replace(pulls, "{ t = 7.2 },"));
+        assert_eq!(done(&said), ["rinse-glove"], "{said:#?}");
+        // 25 of 85, and as much of the rules' 10 and 5.
+        assert_eq!(verdict.points, 25 + 2 + 1);
     }
 }

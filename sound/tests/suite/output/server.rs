@@ -21,7 +21,7 @@ pub fn inside<T>(test: &str, body: impl FnOnce(), before: impl FnOnce(&Path) -> 
         return;
     };
     let mut again = Command::new(std::env::current_exe().unwrap());
-    again.args(["--exact", test, "--nocapture"]);
+    again.args(["--exact", test, "--nocapture", "--include-ignored"]);
     own(&mut again, folder.path());
     let output = again.env(INSIDE, folder.path()).output().unwrap();
     eprint!("{}", String::from_utf8_lossy(&output.stdout));

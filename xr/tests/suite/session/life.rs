@@ -129,7 +129,7 @@ fn the_focus_goes_to_another_program_and_comes_back() {
     };
     until(&mut client, has_hand);
     let other = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name])
+        .args(["--exact", name, "--include-ignored"])
         .env(OTHER, "")
         // Its validation layer would empty the file of ours.
         .env(

@@ -26,7 +26,7 @@ fn a_frame_ends_with_its_own_time_and_views() {
     // The layer is of a process's environment.
     let layers = "XR_APILAYER_LUNARG_core_validation:XR_APILAYER_LUNARG_api_dump";
     let drawn = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name, "--nocapture"])
+        .args(["--exact", name, "--nocapture", "--include-ignored"])
         .env("XR_ENABLE_API_LAYERS", layers)
         .env("XR_API_DUMP_EXPORT_TYPE", "text")
         .env(DUMP, rig.folder().join("dump.txt"))

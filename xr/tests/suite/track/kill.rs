@@ -14,7 +14,7 @@ fn killed(name: &str) -> Track {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("killed.mcap");
     let status = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", name])
+        .args(["--exact", name, "--include-ignored"])
         .env(FILE, &file)
         .output()
         .unwrap()
