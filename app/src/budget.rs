@@ -258,6 +258,7 @@ mod tests {
     }
 
     /// Down the front from wherever a session begins, ever cheaper, and nothing that falls over.
+    #[cfg(feature = "session")]
     #[test]
     fn a_ladder_goes_down_to_what_stands_up() {
         let real = Scene::builtin("two-flasks").unwrap();

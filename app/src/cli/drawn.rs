@@ -15,7 +15,7 @@ pub struct DrawnArgs {
     pub room: Option<PictureRoom>,
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "session"))]
 #[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use clap::{CommandFactory, Parser};
