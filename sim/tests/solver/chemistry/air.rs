@@ -116,40 +116,6 @@ fn millilitres(mass: f64) -> f64 {
     1e6 * mass / AIR
 }
 
-/// Within 30 %: his data scatter by as much, and lots by 10 %. At two sizes of particles, three speeds, and in the middle and beside the
-/// glass. What is taken down comes up again and bursts.
-#[test]
-fn a_stream_takes_down_as_much_air_as_bin_says() {
-    let device = gpu::device();
-    for (spacing, length, speed, aside, until) in [
-        (D, 0.07, 1.0, 0.0, 40),
-        (D, 0.07, 2.0, 0.0, 40),
-        (D, 0.07, 2.0, 0.02, 16),
-        (0.6 * D, 0.11, 1.5, 0.0, 16),
-    ] {
-        let pour = pour_beside(spacing, length, speed, 0.05, aside);
-        let solver = pour.setup.solver(&device);
-        frames(&device, &solver, &[Pose::IDENTITY], 12);
-        let most = ledger(&solver).air_held;
-        frames(&device, &solver, &[Pose::IDENTITY], until - 12);
-        let end = ledger(&solver);
-        let found = end.air / AIR / by_bin(&pour);
-        let water = pour.falling.len() as f64 * pour.setup.parameters.particle_volume() * 1e6;
-        eprintln!(
-            "d {spacing} m, {speed} m/s, {aside} m aside, {:.4} m wide: {} of {water} mL, {found} of Biń's; at most {}, at last {} mL in bubbles",
-            pour.width,
-            millilitres(end.air),
-            millilitres(most),
-            millilitres(end.air_held)
-        );
-        assert!((found - 1.0).abs() < 0.3, "{found}");
-        assert!(most > 0.5 * end.air, "{most}");
-        if until > 30 {
-            assert!(end.air_held < 0.05 * end.air, "{end:?}");
-        }
-    }
-}
-
 /// Onto dry glass the same stream takes none down, and slower than 0.8 m/s none into water.
 #[test]
 fn a_stream_onto_dry_glass_or_a_slow_one_takes_no_air_down() {
@@ -353,4 +319,42 @@ fn air_that_bursts_in_acid_keeps_the_ledger() {
     assert!(((end.mass + end.steam) / start.mass - 1.0).abs() < 1e-8);
     assert!((end.acid / start.acid - 1.0).abs() < 1e-7, "{end:?}");
     assert!(end.closure(&start).abs() < 1e-7, "{end:?}");
+}
+
+mod long {
+    use super::*;
+
+    /// Within 30 %: his data scatter by as much, and lots by 10 %. At two sizes of particles, three speeds, and in the middle and beside the
+    /// glass. What is taken down comes up again and bursts.
+    #[test]
+    fn a_stream_takes_down_as_much_air_as_bin_says() {
+        let device = gpu::device();
+        for (spacing, length, speed, aside, until) in [
+            (D, 0.07, 1.0, 0.0, 40),
+            (D, 0.07, 2.0, 0.0, 40),
+            (D, 0.07, 2.0, 0.02, 16),
+            (0.6 * D, 0.11, 1.5, 0.0, 16),
+        ] {
+            let pour = pour_beside(spacing, length, speed, 0.05, aside);
+            let solver = pour.setup.solver(&device);
+            frames(&device, &solver, &[Pose::IDENTITY], 12);
+            let most = ledger(&solver).air_held;
+            frames(&device, &solver, &[Pose::IDENTITY], until - 12);
+            let end = ledger(&solver);
+            let found = end.air / AIR / by_bin(&pour);
+            let water = pour.falling.len() as f64 * pour.setup.parameters.particle_volume() * 1e6;
+            eprintln!(
+                "d {spacing} m, {speed} m/s, {aside} m aside, {:.4} m wide: {} of {water} mL, {found} of Biń's; at most {}, at last {} mL in bubbles",
+                pour.width,
+                millilitres(end.air),
+                millilitres(most),
+                millilitres(end.air_held)
+            );
+            assert!((found - 1.0).abs() < 0.3, "{found}");
+            assert!(most > 0.5 * end.air, "{most}");
+            if until > 30 {
+                assert!(end.air_held < 0.05 * end.air, "{end:?}");
+            }
+        }
+    }
 }
