@@ -19,8 +19,8 @@ use crate::vr::loss::replayed;
 
 const EXTENT: [u32; 2] = [400, 425];
 /// Frames a second; the track's 9.6 s and half a second in which it is seen that the flask stands.
-const RATE: f64 = 20.0;
-const FRAMES: u64 = 203;
+const RATE: f64 = 30.0;
+const FRAMES: u64 = 304;
 
 /// The left eye's pictures, by frame, row by row.
 type Pictures = Rc<RefCell<BTreeMap<u64, Vec<[u8; 4]>>>>;
