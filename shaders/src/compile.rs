@@ -37,7 +37,7 @@ pub struct CompileOptions {
 ///
 /// Clip space is Vulkan's (y down, depth 0 to 1): positions pass through unchanged. Workgroup
 /// memory is not initialised; a shader that needs zeros writes them.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Compiled {
     /// Shader and entry point, for messages and debug labels: `sim/density:main`.
     pub label: String,

@@ -17,7 +17,7 @@ pub enum Stage {
 }
 
 /// A resource that an entry point uses.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Binding {
     /// `@group`, Vulkan's descriptor set.
     pub group: u32,
@@ -33,7 +33,7 @@ pub struct Binding {
 }
 
 /// The kind of resource that a binding takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BindingKind {
     /// A storage buffer.
     Storage {

@@ -10,6 +10,7 @@ use super::cache::Kept;
 use super::info::DeviceInfo;
 use super::validation::Messages;
 use crate::memory::Spares;
+use crate::pipeline::Shared;
 
 /// The open device without its queues: what buffers, images, samplers and
 /// pipelines are made from. A [`Gpu`](crate::Gpu) dereferences to it.
@@ -28,6 +29,8 @@ pub struct Core {
     /// Readback buffers for the next ones.
     pub(crate) spares: Spares,
     pub(crate) pipeline_cache: vk::PipelineCache,
+    /// Its compute pipelines.
+    pub(crate) shared: Shared,
     /// Where its pipelines are kept.
     pub(super) kept: Option<Kept>,
     pub(crate) info: DeviceInfo,

@@ -20,6 +20,7 @@ use super::select::{self, Candidate};
 use super::validation::Messages;
 use crate::GpuError;
 use crate::memory::Spares;
+use crate::pipeline::Shared;
 
 /// Version from which on a validation layer knows VK_KHR_shader_maximal_reconvergence for certain; it came in January 2024.
 const RECONVERGES: u32 = vk::make_api_version(0, 1, 3, 280);
@@ -114,6 +115,7 @@ pub(crate) fn open(
         allocator: Mutex::new(ManuallyDrop::new(allocator)),
         spares: Spares::default(),
         pipeline_cache,
+        shared: Shared::default(),
         kept,
         info: device_info(properties, request.features, &plan),
         families: plan.families(),

@@ -7,8 +7,8 @@ mod raster;
 use ash::vk;
 use vitriol_shaders::Compiled;
 
-pub(crate) use compute::ComputeInner;
 pub use compute::ComputePipeline;
+pub(crate) use compute::{ComputeInner, Shared};
 pub(crate) use layout::{DescriptorData, Layout, LayoutPush, Slot};
 pub(crate) use raster::RasterInner;
 pub use raster::RasterPipeline;

@@ -235,3 +235,36 @@ fn structures_are_read_whole_and_by_their_members() {
     );
     assert_silent(&gpu);
 }
+
+/// As long as it is held. Names are a shader's own: one whose words are another's is bound by its names.
+#[test]
+fn a_shader_has_one_pipeline_on_a_device() {
+    let (gpu, another) = (open(), open());
+    let double = |gpu, text: &str| ComputePipeline::new(gpu, &compile(text)).unwrap();
+    let first = double(&gpu, DOUBLE);
+    assert!(first == double(&gpu, DOUBLE));
+    assert!(first != double(&another, DOUBLE));
+    let renamed = double(&gpu, &DOUBLE.replace("source", "origin"));
+    assert!(first != renamed);
+    let names = |pipeline: &ComputePipeline| -> Vec<String> {
+        pipeline.bindings().map(str::to_owned).collect()
+    };
+    assert!(names(&first).contains(&"source".to_owned()));
+    assert!(names(&renamed).contains(&"origin".to_owned()));
+    // The others have let go of theirs.
+    drop(first);
+    let mut rec = gpu.recorder(QueueKind::Main).unwrap();
+    let [from, to] = ["from", "to"].map(|label| Buffer::storage(&gpu, label, 4 * 64).unwrap());
+    rec.upload(&from, &[3_u32; 64]).unwrap();
+    let again = double(&gpu, DOUBLE);
+    rec.pass(&again)
+        .read("source", &from)
+        .write("target_", &to)
+        .invocations(64)
+        .unwrap();
+    drop(again);
+    let result = rec.read_back(&to).unwrap();
+    gpu.submit(rec).unwrap().wait().unwrap();
+    assert_eq!(result.get::<u32>().unwrap(), [7; 64]);
+    assert_silent(&gpu);
+}

@@ -82,17 +82,28 @@ fn distance(bone: &Bone, at: DVec3) -> f64 {
 
 /// Distance to a hand: of its two nearest bones, joined.
 fn hand_distance(bones: &[Bone], at: DVec3) -> f64 {
-    let mut all: Vec<f64> = bones.iter().map(|bone| distance(bone, at)).collect();
-    all.sort_by(f64::total_cmp);
-    let joined = f64::from(JOINED);
-    match all[..] {
-        [] => 1e9,
-        [only] => only,
-        [nearest, second, ..] => {
-            let near = (joined - (second - nearest)).max(0.0);
-            nearest - near * near / (4.0 * joined)
+    // A bone is no nearer than the ball that holds it.
+    let ball = |bone: &Bone| {
+        let [a, b] = bone.ends.map(|end| end.as_dvec3());
+        let radius = 0.5 * a.distance(b) + f64::from(bone.radii[0].max(bone.radii[1]));
+        at.distance(0.5 * (a + b)) - radius
+    };
+    let mut balls: Vec<(f64, &Bone)> = bones.iter().map(|bone| (ball(bone), bone)).collect();
+    balls.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
+    for (least, bone) in balls {
+        if least > second {
+            break;
         }
+        let found = distance(bone, at);
+        (nearest, second) = (nearest.min(found), second.min(found.max(nearest)));
     }
+    if second == f64::INFINITY {
+        return nearest;
+    }
+    let joined = f64::from(JOINED);
+    let near = (joined - (second - nearest)).max(0.0);
+    nearest - near * near / (4.0 * joined)
 }
 
 /// What an eye sees of the hands.

@@ -89,35 +89,6 @@ fn lanes_of_pixels_change_no_bit() {
     }
 }
 
-#[test]
-fn lanes_of_spheres_change_no_bit() {
-    let [first, others @ ..] = OF_PIXELS.map(|lanes| {
-        let rig = rig_of_lanes(EXTENT, 1, SurfaceFilter::None, pixels(lanes));
-        let places: Vec<_> = places().iter().map(|x| x.extend(1.0).to_array()).collect();
-        let speeds: Vec<_> = (0..places.len())
-            .map(|i| [0.01 * i as f32, 0.0, 0.0, 0.0])
-            .collect();
-        let (positions, attributes) =
-            (rig.buffer("places", &places), rig.buffer("speeds", &speeds));
-        rig.draw(&FrameDesc {
-            particles: Some(ParticleSource {
-                positions: &positions,
-                attributes: &attributes,
-                count: places.len() as u32,
-                radius: 0.5 * SPACING,
-            }),
-            colour_by: ColourBy::Speed(10.0),
-            ..without_particles(&[view()])
-        })
-    });
-    let seen = first.depth[0].iter().filter(|depth| **depth > 0.0);
-    assert!(seen.count() > 5000);
-    for (other, lanes) in others.iter().zip(&OF_PIXELS[1..]) {
-        assert!(other.depth == first.depth, "{lanes}: depth");
-        assert!(other.colour == first.colour, "{lanes}: colour");
-    }
-}
-
 /// Lanes part a particle's neighbours: other sums, the same liquid. `ellipsoids` compares each
 /// with double precision.
 #[test]
@@ -186,4 +157,37 @@ fn lanes_beyond_shader_or_device_are_refused() {
         );
     }
     made(Lanes::CHOSEN).unwrap();
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    fn lanes_of_spheres_change_no_bit() {
+        let [first, others @ ..] = OF_PIXELS.map(|lanes| {
+            let rig = rig_of_lanes(EXTENT, 1, SurfaceFilter::None, pixels(lanes));
+            let places: Vec<_> = places().iter().map(|x| x.extend(1.0).to_array()).collect();
+            let speeds: Vec<_> = (0..places.len())
+                .map(|i| [0.01 * i as f32, 0.0, 0.0, 0.0])
+                .collect();
+            let (positions, attributes) =
+                (rig.buffer("places", &places), rig.buffer("speeds", &speeds));
+            rig.draw(&FrameDesc {
+                particles: Some(ParticleSource {
+                    positions: &positions,
+                    attributes: &attributes,
+                    count: places.len() as u32,
+                    radius: 0.5 * SPACING,
+                }),
+                colour_by: ColourBy::Speed(10.0),
+                ..without_particles(&[view()])
+            })
+        });
+        let seen = first.depth[0].iter().filter(|depth| **depth > 0.0);
+        assert!(seen.count() > 5000);
+        for (other, lanes) in others.iter().zip(&OF_PIXELS[1..]) {
+            assert!(other.depth == first.depth, "{lanes}: depth");
+            assert!(other.colour == first.colour, "{lanes}: colour");
+        }
+    }
 }

@@ -171,10 +171,10 @@ fn drop_of(device: &Gpu, diameter: f64, spacing: f64, period: f64) -> [f64; 2] {
     panic!("no drop falls");
 }
 
-/// 10 %, of what falls at this flow; a sixth more than without any.
+/// 10 %, of what falls at this flow; a fifth more than without any.
 #[test]
-fn a_nozzles_drop_weighs_what_harkins_and_brown_found() {
-    let [_, of] = drop_of(&gpu::device(), 6e-3, 0.5e-3, 1.5);
+fn a_coarse_nozzles_drop_weighs_what_harkins_and_brown_found() {
+    let [_, of] = drop_of(&gpu::device(), 6e-3, 0.75e-3, 0.5);
     assert!((of - 1.0).abs() < 0.1, "{of}");
 }
 
@@ -187,5 +187,16 @@ fn slow_drops_weigh_what_harkins_and_brown_found() {
     let found = cases.map(|(diameter, spacing)| drop_of(&device, diameter, spacing, 8.0));
     for [of, _] in found {
         assert!((of - 1.0).abs() < 0.1, "{found:?}");
+    }
+}
+
+mod long {
+    use super::*;
+
+    /// 10 %, of what falls at this flow; a sixth more than without any.
+    #[test]
+    fn a_nozzles_drop_weighs_what_harkins_and_brown_found() {
+        let [_, of] = drop_of(&gpu::device(), 6e-3, 0.5e-3, 1.5);
+        assert!((of - 1.0).abs() < 0.1, "{of}");
     }
 }

@@ -150,12 +150,16 @@ fn frequency(device: &Gpu, n: u32, across: f64) -> f64 {
     PI / half / omega
 }
 
+/// 5 %, in mode `n`.
+fn swings_as_rayleigh_says(n: u32) {
+    let found = frequency(&gpu::device(), n, 20.0);
+    eprintln!("mode {n} at {found} of Rayleigh's frequency");
+    assert!((found - 1.0).abs() < 0.05, "mode {n}: {found}");
+}
+
 #[test]
 fn a_ball_swings_as_rayleigh_says() {
-    let device = gpu::device();
-    let found = [2, 3].map(|n| frequency(&device, n, 20.0));
-    eprintln!("modes 2 and 3 at {found:?} of Rayleigh's frequency");
-    assert!(found.iter().all(|f| (f - 1.0).abs() < 0.05), "{found:?}");
+    swings_as_rayleigh_says(3);
 }
 
 /// A sessile drop by Young and Laplace's equation: height, and radius where it stands, m.
@@ -259,17 +263,18 @@ fn stand(device: &Gpu, spacing: f64, angle: f64, frames_count: usize) -> (Sessil
 }
 
 /// 5 % of the height; d = 0.3 mm is a sixth of the lower drop's.
+fn stands_as_young_and_laplace_say(angle: f64) {
+    let (found, volume) = stand(&gpu::device(), 0.3e-3, f64::to_radians(angle), 240);
+    let expected = sessile(volume, f64::to_radians(angle));
+    let [height, base] = [found.height / expected.height, found.base / expected.base];
+    eprintln!("{angle}°: {height} of the height, {base} of the base");
+    assert!((height - 1.0).abs() < 0.05, "{angle}°: {height}");
+    assert!((base - 1.0).abs() < 0.05, "{angle}°: {base}");
+}
+
 #[test]
 fn a_drop_stands_as_young_and_laplace_say() {
-    let device = gpu::device();
-    for angle in [60.0, 110.0] {
-        let (found, volume) = stand(&device, 0.3e-3, f64::to_radians(angle), 240);
-        let expected = sessile(volume, f64::to_radians(angle));
-        let [height, base] = [found.height / expected.height, found.base / expected.base];
-        eprintln!("{angle}°: {height} of the height, {base} of the base");
-        assert!((height - 1.0).abs() < 0.05, "{angle}°: {height}");
-        assert!((base - 1.0).abs() < 0.05, "{angle}°: {base}");
-    }
+    stands_as_young_and_laplace_say(60.0);
 }
 
 /// Where a drop is 2.7 particles high, it stands as at a greater angle. But it stays one: with the walls' F that of the surface it
@@ -285,9 +290,8 @@ fn a_drop_that_wets_stays_one() {
 
 /// A floor that is tilted holds a drop up to ρVg sin α = k·w·σ(cos θ_r − cos θ_a), with its width w. Furmidge 1962 has k = 1, the
 /// most that a line has; published values are 0.59 to 0.88 (Stern et al. 2025), and 0.79 of a round line
-/// whose angle goes evenly from one bound to the other.
-#[test]
-fn a_tilted_floor_holds_a_drop_as_furmidge_says() {
+/// whose angle goes evenly from one bound to the other. What is held may go by `creeps`, m/s.
+fn holds_a_drop_as_furmidge_says(spacing: f64, creeps: f64) {
     let device = gpu::device();
     let (angle, hysteresis) = (f64::to_radians(60.0), f64::to_radians(20.0));
     let width = 2.0 * sessile(50e-9, angle).base;
@@ -302,7 +306,7 @@ fn a_tilted_floor_holds_a_drop_as_furmidge_says() {
             ..SurfaceTension::new(WATER)
         };
         let gravity = [9.81 * tilt.sin(), -9.81 * tilt.cos(), 0.0];
-        let (solver, _) = half_a_ball(&device, 0.3e-3, gravity, surface);
+        let (solver, _) = half_a_ball(&device, spacing, gravity, surface);
         let at = |count: usize| {
             frames(&device, &solver, &[], count);
             let found = particles(&solver.snapshot().unwrap());
@@ -314,8 +318,14 @@ fn a_tilted_floor_holds_a_drop_as_furmidge_says() {
     let found = [0.5, 1.1].map(|share| speed(share, hysteresis));
     let free = speed(0.5, 0.0);
     eprintln!("{found:?} m/s; without hysteresis {free}");
-    assert!(found[0].abs() < 1e-3 && free > 0.1, "{found:?} {free}");
+    assert!(found[0].abs() < creeps && free > 0.1, "{found:?} {free}");
     assert!(found[1] > 0.03, "{found:?}");
+}
+
+#[test]
+fn a_tilted_floor_holds_a_coarse_drop_as_furmidge_says() {
+    // 1.1 mm/s, and 141 without hysteresis.
+    holds_a_drop_as_furmidge_says(0.4e-3, 2e-3);
 }
 
 /// Cubes of eight particles in more places than the table has room for: nothing acts, and it is said. In a few places they draw
@@ -461,4 +471,23 @@ fn small_puddles_gather_and_rest() {
     );
     assert!(10 * gathered > 9 * densities.len(), "{gathered}");
     assert!(speed < 0.01, "{speed}");
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    fn a_ball_swings_in_its_slowest_mode_as_rayleigh_says() {
+        swings_as_rayleigh_says(2);
+    }
+
+    #[test]
+    fn a_drop_that_is_repelled_stands_as_young_and_laplace_say() {
+        stands_as_young_and_laplace_say(110.0);
+    }
+
+    #[test]
+    fn a_tilted_floor_holds_a_drop_as_furmidge_says() {
+        holds_a_drop_as_furmidge_says(0.3e-3, 1e-3);
+    }
 }

@@ -14,7 +14,7 @@ mod sweep;
 mod tank;
 mod vouch;
 
-pub use boil::{Seeds, boil};
+pub use boil::{Boiled, Seeds, boil};
 pub use order::convergence;
 pub use page::page;
 pub use report::{Errors, Point, Trade, describe, merge};

@@ -183,8 +183,12 @@ impl<T: Trouble> Headset for Worn<T> {
             if awaits {
                 let since = self.awaiting.get_or_insert_with(Instant::now);
                 assert!(since.elapsed() < PATIENCE, "what is awaited does not come");
-                // The processor is for what is made beside the frames, and the track goes on with each: few of them may pass on a busy machine.
-                std::thread::sleep(Duration::from_millis(250));
+                // The processor is for what is made beside the frames, and the track goes on with each: few of them may pass on a
+                // busy machine. Once it is made and the picture fades, which then has the panel in it, only frames are awaited.
+                let has_layer = |shown: Option<&Shown>| shown.is_some_and(|it| it.panel.is_some());
+                if !has_layer(self.shown.first()) || has_layer(self.shown.last()) {
+                    std::thread::sleep(Duration::from_millis(250));
+                }
             } else {
                 self.awaiting = None;
                 self.after += 1;
@@ -245,12 +249,32 @@ pub fn nobody() -> Receiver<Decision> {
     channel().1
 }
 
+/// Keyframes that pour from the start on, and what changes [`scene`] for them: its flask is where the hand is.
+pub fn pour_at_once() -> (Keyframes, impl Fn(String) -> String) {
+    let text = include_str!("../../../../tests/tracks/pours.toml");
+    let keyframes = Keyframes::parse(text, Path::new("pours.toml")).unwrap();
+    let in_hand = |scene: String| {
+        let moved = scene.replacen("[-0.12, 0.75, -0.40]", "[0.034, 0.890, -0.400]", 1);
+        assert_ne!(moved, scene);
+        moved
+    };
+    (keyframes, in_hand)
+}
+
 /// What a session is to be, recorded in `folder`.
 pub fn options(folder: &Path) -> Options {
+    options_where(folder, |scene| scene)
+}
+
+/// The same with the scene's text changed.
+pub fn options_where(folder: &Path, change: impl Fn(String) -> String) -> Options {
+    let file = scene(folder);
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, change(text)).unwrap();
     let mut scenes = Scenes::default();
     Options {
         plan: Plan {
-            scene: scenes.open(scene(folder).to_str().unwrap()).unwrap(),
+            scene: scenes.open(file.to_str().unwrap()).unwrap(),
             scenes,
             preset: Preset::Balanced,
             breakable: false,

@@ -181,18 +181,22 @@ fn it_shows_what_the_eyes_see_there() {
     }
 }
 
-/// The eyes' pictures lie in larger images beside a larger inset, and are the same but for what a sampler rounds.
-#[test]
-fn a_larger_one_leaves_the_eyes_pictures_as_they_are() {
-    let gpu = gpu::device();
-    let (plain, _) = session(&gpu, EXTENT, Foveating::Off, |headset| {
-        headset.hidden.clear()
-    });
-    let (headset, _) = session(&gpu, EXTENT, Foveating::Eye, |headset| {
-        headset.hidden.clear();
-        headset.inset = Some(inset_of(&gpu, [401, 397]));
-    });
-    let eyes = Pictures::of_eyes(&gpu, &headset);
-    eyes.assert_like(&Pictures::of_eyes(&gpu, &plain), "eyes");
-    of_inset(&gpu, &headset).assert_like(&alone(&gpu, [401, 397]), "inset");
+mod long {
+    use super::*;
+
+    /// The eyes' pictures lie in larger images beside a larger inset, and are the same but for what a sampler rounds.
+    #[test]
+    fn a_larger_one_leaves_the_eyes_pictures_as_they_are() {
+        let gpu = gpu::device();
+        let (plain, _) = session(&gpu, EXTENT, Foveating::Off, |headset| {
+            headset.hidden.clear()
+        });
+        let (headset, _) = session(&gpu, EXTENT, Foveating::Eye, |headset| {
+            headset.hidden.clear();
+            headset.inset = Some(inset_of(&gpu, [401, 397]));
+        });
+        let eyes = Pictures::of_eyes(&gpu, &headset);
+        eyes.assert_like(&Pictures::of_eyes(&gpu, &plain), "eyes");
+        of_inset(&gpu, &headset).assert_like(&alone(&gpu, [401, 397]), "inset");
+    }
 }

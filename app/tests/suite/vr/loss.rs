@@ -1,6 +1,9 @@
 //! A runtime that goes away in mid-pour and comes back with another device.
 
-use crate::vr::common::{Trouble, Worn, carried, hash, nobody, options, pour, session};
+use crate::vr::common::{
+    Trouble, Worn, carried, hash, nobody, options, options_where, pour, pour_at_once, session,
+    session_with,
+};
 use std::sync::Arc;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
@@ -108,16 +111,18 @@ fn a_loss_in_mid_pour_loses_no_particle() {
     let (first, second) = (gpu::device(), gpu::another_device(|_| {}));
     let folder = tempfile::tempdir().unwrap();
     let trouble = Gone {
-        // 4.7 s: the stream runs.
-        before: 140,
+        // 1.5 s: the stream runs.
+        before: 45,
         turns: 0,
         then: Gpu::clone(&second),
     };
-    let mut headset = Worn::new(&first, pour().sample_track(), 30.0, 170, trouble);
-    let (outcome, track) = session(&mut headset, folder.path(), nobody());
+    let (keyframes, in_hand) = pour_at_once();
+    let mut headset = Worn::new(&first, keyframes.sample_track(), 30.0, 75, trouble);
+    let options = options_where(folder.path(), in_hand);
+    let (outcome, track) = session_with(&mut headset, options, nobody());
     assert_eq!(outcome.renewals, 1);
     // No step in the first frame, none in the first one after the loss.
-    assert_eq!(outcome.steps, 3 * 168);
+    assert_eq!(outcome.steps, 3 * 73);
     let state = outcome.bench.world.snapshot().unwrap().solver;
     assert!((0..state.tags.len()).all(|slot| state.is_present(slot)));
     let measured = outcome.bench.world.measure().unwrap();

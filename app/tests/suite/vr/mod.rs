@@ -10,6 +10,7 @@ mod first_minute;
 mod foveation;
 mod handle;
 mod hands;
+mod holdings;
 mod inset;
 mod leap;
 mod lesson;

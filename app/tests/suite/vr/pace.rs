@@ -120,60 +120,6 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     assert_ne!(replayed(&gpu, other), hash(&outcome));
 }
 
-/// A new start and a lost device leave the level where it was; a replay knows.
-#[test]
-fn a_start_and_a_loss_keep_the_level() {
-    let (gpu, second) = (timed(), timed());
-    let folder = tempfile::tempdir().unwrap();
-    let (sender, decisions) = channel();
-    let next = Gpu::clone(&second);
-    let mut turns = 0;
-    let trouble = Rates {
-        until: u64::MAX,
-        between: move |headset: &mut StandIn, after| match (after, turns) {
-            (40, 0) => {
-                turns = 1;
-                sender.send(Decision::Start).unwrap();
-                None
-            }
-            (60, 1) => {
-                turns = 2;
-                headset.move_to(&next).unwrap();
-                Some(Turn::Renewed)
-            }
-            _ => None,
-        },
-        awaits: Some(42),
-    };
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 80, trouble);
-    let mut options = options(folder.path());
-    options.governed = true;
-    let (outcome, track) = session_with(&mut headset, options, decisions);
-    assert_eq!(outcome.renewals, 1);
-    let said = switches(&track);
-    let at = |key: &str| said.iter().position(|(_, of, _)| of == key).unwrap();
-    let start = at(SWITCH_START);
-    // Said before it, and again with it: a replay brings up the preset's.
-    let (last, after) = (&said[start - 1], &said[start + 1]);
-    assert_eq!(after.1, SWITCH_SOLVER);
-    assert_eq!(after.0, said[start].0);
-    let solver = values(&said[..start], SWITCH_SOLVER);
-    assert_eq!(solver.last(), Some(&after.2.as_str()), "{last:?}");
-    assert_eq!(said.len(), start + 2, "{said:?}");
-    assert_eq!(replayed(&gpu, track), hash(&outcome));
-
-    // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
-    // goes 5 pixels far and not 9, and 3 in the second row and not 7. Of two by two pixels all are hidden then.
-    assert_eq!(headset.shown.last().unwrap().extent, [58, 38]);
-    let depth = headset.inner.targets.depth.clone().unwrap();
-    let mut rec = second.recorder(QueueKind::Main).unwrap();
-    let depth = rec.read_back_image(&depth).unwrap();
-    second.submit(rec).unwrap().wait().unwrap();
-    let depth = depth.get::<f32>().unwrap();
-    assert_eq!(depth[0], 1.0);
-    assert!(depth[2] < 1.0);
-}
-
 /// The plainer filter takes over while the session goes on.
 #[test]
 fn the_filter_gives_way() {
@@ -207,34 +153,88 @@ fn the_filter_gives_way() {
     assert_eq!(filters.last(), Some(&PictureFilter::NarrowRange));
 }
 
-/// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
-#[test]
-fn the_displays_rate_gives_way_first() {
-    let gpu = timed();
-    let folder = tempfile::tempdir().unwrap();
-    // The frames' periods are the stand-in's own.
-    struct Own;
-    impl Trouble for Own {}
-    // Each 22nd frame of 2,000 Hz has a step, and a dozen of those are a load.
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 2000.0, 320, Own);
-    headset.inner.rates = vec![0.1, 2000.0];
-    let mut options = options(folder.path());
-    options.governed = true;
-    let (outcome, track) = session_with(&mut headset, options, nobody());
-    // Of 10 s in which five steps are taken.
-    let [rate] = outcome.governor.rates[..] else {
-        panic!("{:?}", outcome.governor.rates)
-    };
-    // It came as 32 bits.
-    assert!((rate - 0.1).abs() < 1e-6);
-    assert_eq!(outcome.governor.changes, 0);
-    let said = switches(&track);
-    assert!(values(&said, SWITCH_SOLVER).is_empty(), "{said:?}");
-    assert!(values(&said, SWITCH_RESOLUTION).is_empty(), "{said:?}");
-}
-
 mod long {
     use super::*;
+
+    /// A display that could be slower becomes so before anything else gives way, and fast again when there is room.
+    #[test]
+    fn the_displays_rate_gives_way_first() {
+        let gpu = timed();
+        let folder = tempfile::tempdir().unwrap();
+        // The frames' periods are the stand-in's own.
+        struct Own;
+        impl Trouble for Own {}
+        // Each 22nd frame of 2,000 Hz has a step, and a dozen of those are a load.
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 2000.0, 320, Own);
+        headset.inner.rates = vec![0.1, 2000.0];
+        let mut options = options(folder.path());
+        options.governed = true;
+        let (outcome, track) = session_with(&mut headset, options, nobody());
+        // Of 10 s in which five steps are taken.
+        let [rate] = outcome.governor.rates[..] else {
+            panic!("{:?}", outcome.governor.rates)
+        };
+        // It came as 32 bits.
+        assert!((rate - 0.1).abs() < 1e-6);
+        assert_eq!(outcome.governor.changes, 0);
+        let said = switches(&track);
+        assert!(values(&said, SWITCH_SOLVER).is_empty(), "{said:?}");
+        assert!(values(&said, SWITCH_RESOLUTION).is_empty(), "{said:?}");
+    }
+
+    /// A new start and a lost device leave the level where it was; a replay knows.
+    #[test]
+    fn a_start_and_a_loss_keep_the_level() {
+        let (gpu, second) = (timed(), timed());
+        let folder = tempfile::tempdir().unwrap();
+        let (sender, decisions) = channel();
+        let next = Gpu::clone(&second);
+        let mut turns = 0;
+        let trouble = Rates {
+            until: u64::MAX,
+            between: move |headset: &mut StandIn, after| match (after, turns) {
+                (40, 0) => {
+                    turns = 1;
+                    sender.send(Decision::Start).unwrap();
+                    None
+                }
+                (60, 1) => {
+                    turns = 2;
+                    headset.move_to(&next).unwrap();
+                    Some(Turn::Renewed)
+                }
+                _ => None,
+            },
+            awaits: Some(42),
+        };
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 80, trouble);
+        let mut options = options(folder.path());
+        options.governed = true;
+        let (outcome, track) = session_with(&mut headset, options, decisions);
+        assert_eq!(outcome.renewals, 1);
+        let said = switches(&track);
+        let at = |key: &str| said.iter().position(|(_, of, _)| of == key).unwrap();
+        let start = at(SWITCH_START);
+        // Said before it, and again with it: a replay brings up the preset's.
+        let (last, after) = (&said[start - 1], &said[start + 1]);
+        assert_eq!(after.1, SWITCH_SOLVER);
+        assert_eq!(after.0, said[start].0);
+        let solver = values(&said[..start], SWITCH_SOLVER);
+        assert_eq!(solver.last(), Some(&after.2.as_str()), "{last:?}");
+        assert_eq!(said.len(), start + 2, "{said:?}");
+        assert_eq!(replayed(&gpu, track), hash(&outcome));
+
+        // The picture is drawn as small as it is said to be: what the lenses hide, a tenth of each side at the corner,
+        // goes 5 pixels far and not 9, and 3 in the second row and not 7. Of two by two pixels all are hidden then.
+        assert_eq!(headset.shown.last().unwrap().extent, [58, 38]);
+        let depth = headset.inner.targets.depth.clone().unwrap();
+        let mut rec = second.recorder(QueueKind::Main).unwrap();
+        let depth = rec.read_back_image(&depth).unwrap();
+        second.submit(rec).unwrap().wait().unwrap();
+        let depth = depth.get::<f32>().unwrap();
+        assert_eq!(depth[0], 1.0);
+        assert!(depth[2] < 1.0);
+    }
 
     /// Pixels aside of the lenses' axes give way before any that are looked at, and come back last: for who has not said whether they
     /// may. A replay knows nothing of it.

@@ -198,28 +198,6 @@ fn the_panel_is_in_the_picture_and_seen_through_it() {
     );
 }
 
-/// The room that is asked for is seen, whatever the scene says: an evening's, of 70 lx, is darker than a day's, of 800 lx.
-#[test]
-fn the_room_that_is_asked_for_is_seen() {
-    let gpu = gpu::device();
-    let mean = |room: Option<PictureRoom>| {
-        let folder = tempfile::tempdir().unwrap();
-        let track = pour().sample_track();
-        let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 4), Calm);
-        let mut options = options(folder.path());
-        options.plan.room = room;
-        let (outcome, _) = session_with(&mut headset, options, nobody());
-        let drawn = outcome.bench.world.scene().picture.room;
-        assert_eq!(drawn, room.unwrap_or(PictureRoom::Bare));
-        let name = format!("room-{}", drawn.name());
-        let seen = Seen::last(&gpu, &name, &headset);
-        let levels = seen.pixels.iter().map(|pixel| u64::from(pixel[1]));
-        levels.sum::<u64>() / seen.pixels.len() as u64
-    };
-    let (day, evening) = (mean(None), mean(Some(PictureRoom::Dark)));
-    assert!(10 * evening < 7 * day, "{evening} of {day}");
-}
-
 /// A hand before the panel is seen, and neither the panel nor its layer there. One behind it is not.
 #[test]
 fn a_hand_before_the_panel_is_seen() {
@@ -261,38 +239,6 @@ fn a_hand_before_the_panel_is_seen() {
     assert_eq!(covered, 0);
 }
 
-/// From the hand to where it points, over whatever is behind it.
-#[test]
-fn a_hand_that_points_at_the_panel_has_a_ray() {
-    let gpu = gpu::device();
-    let (from, to) = (Vec3::new(0.18, 1.0, -0.25), on_panel(-0.42, 0.13, 0.0));
-    let hand = pointing(from, to);
-    let (seen, _) = look(&gpu, "ray", [Hand::default(), hand.clone()]);
-    let lit = |share: f32| {
-        let (_, pixel) = seen.at(from.lerp(to, share)).unwrap();
-        is_amber(pixel) && pixel[3] > 200
-    };
-    let places = (40..98).map(|n| 0.01 * n as f32);
-    let count = places.clone().filter(|share| lit(*share)).count();
-    // Two pixels wide, it is smoothed where it steps.
-    assert!(10 * count >= 9 * places.count(), "{count}");
-    // It ends there.
-    let beyond = from.lerp(to, 1.1);
-    assert!(!is_amber(seen.at(beyond).unwrap().1));
-    // A little to the side of the panel there is none.
-    let (seen, _) = look(
-        &gpu,
-        "no-ray",
-        [Hand::default(), pointing(from, on_panel(-1.1, 0.2, 0.0))],
-    );
-    assert!(
-        !seen
-            .pixels
-            .iter()
-            .any(|pixel| is_amber(*pixel) && pixel[3] == 255)
-    );
-}
-
 /// Seen by who looks down at the bench, and lit while a hand is at it.
 #[test]
 fn handles_are_seen_at_the_tables_edge() {
@@ -322,4 +268,62 @@ fn handles_are_seen_at_the_tables_edge() {
     let lit = bar(&seen);
     assert!(lit > dark + 10, "{lit} {dark}");
     assert_eq!(right.x, -left.x);
+}
+
+mod long {
+    use super::*;
+
+    /// The room that is asked for is seen, whatever the scene says: an evening's, of 70 lx, is darker than a day's, of 800 lx.
+    #[test]
+    fn the_room_that_is_asked_for_is_seen() {
+        let gpu = gpu::device();
+        let mean = |room: Option<PictureRoom>| {
+            let folder = tempfile::tempdir().unwrap();
+            let track = pour().sample_track();
+            let mut headset = Worn::of_extent(&gpu, track, EXTENT, (90.0, 4), Calm);
+            let mut options = options(folder.path());
+            options.plan.room = room;
+            let (outcome, _) = session_with(&mut headset, options, nobody());
+            let drawn = outcome.bench.world.scene().picture.room;
+            assert_eq!(drawn, room.unwrap_or(PictureRoom::Bare));
+            let name = format!("room-{}", drawn.name());
+            let seen = Seen::last(&gpu, &name, &headset);
+            let levels = seen.pixels.iter().map(|pixel| u64::from(pixel[1]));
+            levels.sum::<u64>() / seen.pixels.len() as u64
+        };
+        let (day, evening) = (mean(None), mean(Some(PictureRoom::Dark)));
+        assert!(10 * evening < 7 * day, "{evening} of {day}");
+    }
+
+    /// From the hand to where it points, over whatever is behind it.
+    #[test]
+    fn a_hand_that_points_at_the_panel_has_a_ray() {
+        let gpu = gpu::device();
+        let (from, to) = (Vec3::new(0.18, 1.0, -0.25), on_panel(-0.42, 0.13, 0.0));
+        let hand = pointing(from, to);
+        let (seen, _) = look(&gpu, "ray", [Hand::default(), hand.clone()]);
+        let lit = |share: f32| {
+            let (_, pixel) = seen.at(from.lerp(to, share)).unwrap();
+            is_amber(pixel) && pixel[3] > 200
+        };
+        let places = (40..98).map(|n| 0.01 * n as f32);
+        let count = places.clone().filter(|share| lit(*share)).count();
+        // Two pixels wide, it is smoothed where it steps.
+        assert!(10 * count >= 9 * places.count(), "{count}");
+        // It ends there.
+        let beyond = from.lerp(to, 1.1);
+        assert!(!is_amber(seen.at(beyond).unwrap().1));
+        // A little to the side of the panel there is none.
+        let (seen, _) = look(
+            &gpu,
+            "no-ray",
+            [Hand::default(), pointing(from, on_panel(-1.1, 0.2, 0.0))],
+        );
+        assert!(
+            !seen
+                .pixels
+                .iter()
+                .any(|pixel| is_amber(*pixel) && pixel[3] == 255)
+        );
+    }
 }

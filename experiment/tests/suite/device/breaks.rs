@@ -12,8 +12,8 @@ use vitriol_xr::{Hand, Pose, PoseFrame, Switch};
 /// A hand lifts the beaker by 0.7 m, waits, and lets go; 60 steps after that it has broken.
 const LIFTS: u64 = 5;
 const LIFTED: u64 = LIFTS + 63;
-const LETS_GO: u64 = LIFTED + 20;
-const ENDS: u64 = LETS_GO + 100;
+const LETS_GO: u64 = LIFTED + 5;
+const ENDS: u64 = LETS_GO + 75;
 
 fn step(n: u64) -> PoseFrame {
     let lifted = (n.clamp(LIFTS, LIFTED) - LIFTS) as f32 / 90.0;

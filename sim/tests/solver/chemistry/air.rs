@@ -137,99 +137,6 @@ fn a_stream_onto_dry_glass_or_a_slow_one_takes_no_air_down() {
     }
 }
 
-/// A glass of water that is lowered at up to 1.4 m/s and slowed down, or stopped at once as by a table, is no stream. Of the second
-/// the surface goes on falling into the glass, and may take a little down.
-#[test]
-fn a_glass_that_is_lowered_takes_no_air_down() {
-    let device = gpu::device();
-    for (slowing, most) in [(8.0, 0.0), (1e3, 0.2)] {
-        let mut setup = pour(D, D, 0.0, 0.03).setup;
-        setup.particles.retain(|p| p.position.y < 0.035);
-        setup.ground = NOWHERE;
-        let solver = setup.solver(&device);
-        let frame_time = solver.parameters().frame_time;
-        let (mut height, mut speed) = (0.0, 0.0f64);
-        let mut fastest = 0.0f64;
-        for n in 0..32 {
-            let before = Pose::new(Vec3::Y * height as f32, Quat::IDENTITY);
-            // Less than gravity, so that the water stays at its floor.
-            let faster = if n < 16 { -8.0 } else { slowing };
-            speed = (speed + faster * frame_time).min(0.0);
-            height += speed * frame_time;
-            let after = Pose::new(Vec3::Y * height as f32, Quat::IDENTITY);
-            frame(&device, &solver, &[before], &[after]);
-            let state = solver.snapshot().unwrap();
-            let falling = particles(&state).iter().map(|p| -p.velocity.y).sum::<f64>();
-            fastest = fastest.max(falling / state.tags.len() as f64);
-        }
-        let air = millilitres(ledger(&solver).air);
-        eprintln!("{fastest} m/s, stopped at {slowing} m/s²: {air} mL");
-        assert!(fastest > 1.2, "{fastest}");
-        assert!(air <= most, "{air}");
-    }
-}
-
-/// A bubble of air has the volume of an ideal gas at the liquid's temperature; in superheated water it grows by steam, as one of steam does, and keeps
-/// its air; in water of 40 °C all of that steam condenses and the air is left.
-#[test]
-fn air_takes_steam_up_and_is_left_by_it() {
-    let device = gpu::device();
-    let radius = 0.5e-3f64;
-    let volume = 4.0 / 3.0 * PI * radius.powi(3);
-    for (temperature, steam, grows) in [
-        (20.0, 0.0, 1.0),
-        (80.0, 0.0, 353.15 / 293.15),
-        (40.0, 1.0, 313.15 / 293.15),
-    ] {
-        let solver = beaker(temperature, bubbly()).solver(&device);
-        frames(&device, &solver, &[Pose::IDENTITY], 2);
-        let p = solver.parameters().clone();
-        let mut state = solver.snapshot().unwrap();
-        state.put_bubble(
-            &p,
-            0,
-            1,
-            [DVec3::Y * 0.01, DVec3::ZERO],
-            [radius * f64::cbrt(steam), 100.0],
-        );
-        // Molecules of air at 20 °C, in steam's 18.015 g/mol.
-        let air = volume * 101_325.0 / (8.314_46 * 293.15) * 0.018_015 / p.particle_mass();
-        state.bubbles_mut()[0].air = air as f32;
-        solver.restore(&state).unwrap();
-        frames(&device, &solver, &[Pose::IDENTITY], 6);
-        let after = solver.snapshot().unwrap().bubbles()[0];
-        let found = (f64::from(after.radius) / radius).powi(3);
-        eprintln!("{temperature} °C: {found} of the volume, {after:?}");
-        assert_eq!(after.air, air as f32);
-        assert_eq!(after.mass, 0.0);
-        assert!((found / grows - 1.0).abs() < 0.01, "{found}");
-    }
-    // 10 K above its boiling point.
-    let solver = beaker(110.0, bubbly()).solver(&device);
-    frames(&device, &solver, &[Pose::IDENTITY], 2);
-    let p = solver.parameters().clone();
-    let mut state = solver.snapshot().unwrap();
-    state.put_bubble(&p, 0, 1, [DVec3::Y * 0.01, DVec3::ZERO], [0.0, 100.0]);
-    state.bubbles_mut()[0].air = 1e-4;
-    state.put_bubble(
-        &p,
-        1,
-        1,
-        [DVec3::new(0.012, 0.01, 0.0), DVec3::ZERO],
-        [0.0, 100.0],
-    );
-    state.bubbles_mut()[1].mass = 1e-4;
-    state.bubbles_mut()[1].enthalpy =
-        (1e-4 * vitriol_sim::chemistry::table::steam_enthalpy(110.0)) as f32;
-    solver.restore(&state).unwrap();
-    frames(&device, &solver, &[Pose::IDENTITY], 4);
-    let after = solver.snapshot().unwrap();
-    let [of_air, of_steam] = [0, 1].map(|k| after.bubbles()[k].radius);
-    eprintln!("{of_air} m of air, {of_steam} m of steam");
-    assert!(of_air > 2e-3 && (of_air / of_steam - 1.0).abs() < 0.1);
-    assert_eq!(after.bubbles()[0].air, 1e-4);
-}
-
 /// What goes on after a restore has the same bits, with air in bubbles and particles that are falling.
 #[test]
 fn a_pour_with_air_repeats() {
@@ -323,6 +230,99 @@ fn air_that_bursts_in_acid_keeps_the_ledger() {
 
 mod long {
     use super::*;
+
+    /// A bubble of air has the volume of an ideal gas at the liquid's temperature; in superheated water it grows by steam, as one of steam does, and keeps
+    /// its air; in water of 40 °C all of that steam condenses and the air is left.
+    #[test]
+    fn air_takes_steam_up_and_is_left_by_it() {
+        let device = gpu::device();
+        let radius = 0.5e-3f64;
+        let volume = 4.0 / 3.0 * PI * radius.powi(3);
+        for (temperature, steam, grows) in [
+            (20.0, 0.0, 1.0),
+            (80.0, 0.0, 353.15 / 293.15),
+            (40.0, 1.0, 313.15 / 293.15),
+        ] {
+            let solver = beaker(temperature, bubbly()).solver(&device);
+            frames(&device, &solver, &[Pose::IDENTITY], 2);
+            let p = solver.parameters().clone();
+            let mut state = solver.snapshot().unwrap();
+            state.put_bubble(
+                &p,
+                0,
+                1,
+                [DVec3::Y * 0.01, DVec3::ZERO],
+                [radius * f64::cbrt(steam), 100.0],
+            );
+            // Molecules of air at 20 °C, in steam's 18.015 g/mol.
+            let air = volume * 101_325.0 / (8.314_46 * 293.15) * 0.018_015 / p.particle_mass();
+            state.bubbles_mut()[0].air = air as f32;
+            solver.restore(&state).unwrap();
+            frames(&device, &solver, &[Pose::IDENTITY], 6);
+            let after = solver.snapshot().unwrap().bubbles()[0];
+            let found = (f64::from(after.radius) / radius).powi(3);
+            eprintln!("{temperature} °C: {found} of the volume, {after:?}");
+            assert_eq!(after.air, air as f32);
+            assert_eq!(after.mass, 0.0);
+            assert!((found / grows - 1.0).abs() < 0.01, "{found}");
+        }
+        // 10 K above its boiling point.
+        let solver = beaker(110.0, bubbly()).solver(&device);
+        frames(&device, &solver, &[Pose::IDENTITY], 2);
+        let p = solver.parameters().clone();
+        let mut state = solver.snapshot().unwrap();
+        state.put_bubble(&p, 0, 1, [DVec3::Y * 0.01, DVec3::ZERO], [0.0, 100.0]);
+        state.bubbles_mut()[0].air = 1e-4;
+        state.put_bubble(
+            &p,
+            1,
+            1,
+            [DVec3::new(0.012, 0.01, 0.0), DVec3::ZERO],
+            [0.0, 100.0],
+        );
+        state.bubbles_mut()[1].mass = 1e-4;
+        state.bubbles_mut()[1].enthalpy =
+            (1e-4 * vitriol_sim::chemistry::table::steam_enthalpy(110.0)) as f32;
+        solver.restore(&state).unwrap();
+        frames(&device, &solver, &[Pose::IDENTITY], 4);
+        let after = solver.snapshot().unwrap();
+        let [of_air, of_steam] = [0, 1].map(|k| after.bubbles()[k].radius);
+        eprintln!("{of_air} m of air, {of_steam} m of steam");
+        assert!(of_air > 2e-3 && (of_air / of_steam - 1.0).abs() < 0.1);
+        assert_eq!(after.bubbles()[0].air, 1e-4);
+    }
+
+    /// A glass of water that is lowered at up to 1.4 m/s and slowed down, or stopped at once as by a table, is no stream. Of the second
+    /// the surface goes on falling into the glass, and may take a little down.
+    #[test]
+    fn a_glass_that_is_lowered_takes_no_air_down() {
+        let device = gpu::device();
+        for (slowing, most) in [(8.0, 0.0), (1e3, 0.2)] {
+            let mut setup = pour(D, D, 0.0, 0.03).setup;
+            setup.particles.retain(|p| p.position.y < 0.035);
+            setup.ground = NOWHERE;
+            let solver = setup.solver(&device);
+            let frame_time = solver.parameters().frame_time;
+            let (mut height, mut speed) = (0.0, 0.0f64);
+            let mut fastest = 0.0f64;
+            for n in 0..32 {
+                let before = Pose::new(Vec3::Y * height as f32, Quat::IDENTITY);
+                // Less than gravity, so that the water stays at its floor.
+                let faster = if n < 16 { -8.0 } else { slowing };
+                speed = (speed + faster * frame_time).min(0.0);
+                height += speed * frame_time;
+                let after = Pose::new(Vec3::Y * height as f32, Quat::IDENTITY);
+                frame(&device, &solver, &[before], &[after]);
+                let state = solver.snapshot().unwrap();
+                let falling = particles(&state).iter().map(|p| -p.velocity.y).sum::<f64>();
+                fastest = fastest.max(falling / state.tags.len() as f64);
+            }
+            let air = millilitres(ledger(&solver).air);
+            eprintln!("{fastest} m/s, stopped at {slowing} m/s²: {air} mL");
+            assert!(fastest > 1.2, "{fastest}");
+            assert!(air <= most, "{air}");
+        }
+    }
 
     /// Within 30 %: his data scatter by as much, and lots by 10 %. At two sizes of particles, three speeds, and in the middle and beside the
     /// glass. What is taken down comes up again and bursts.
