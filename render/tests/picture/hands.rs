@@ -69,12 +69,17 @@ fn distance(bone: &Bone, at: DVec3) -> f64 {
     let of = |s: f64| at.distance(a.lerp(b, s)) - (ra + s * (rb - ra));
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut low, mut high) = (0.0, 1.0);
+    let (mut left, mut right) = (1.0 - ratio, ratio);
+    let (mut of_left, mut of_right) = (of(left), of(right));
     for _ in 0..45 {
-        let (left, right) = (high - ratio * (high - low), low + ratio * (high - low));
-        if of(left) < of(right) {
-            high = right;
+        if of_left < of_right {
+            (high, right, of_right) = (right, left, of_left);
+            left = high - ratio * (high - low);
+            of_left = of(left);
         } else {
-            low = left;
+            (low, left, of_left) = (left, right, of_right);
+            right = low + ratio * (high - low);
+            of_right = of(right);
         }
     }
     of(0.5 * (low + high)).min(of(0.0)).min(of(1.0))

@@ -61,9 +61,8 @@ fn inner_pressure(solver: &Solver, radius: f64) -> f64 {
 }
 
 /// p = 2σ/R. Levels of colour lie 0.4 d beyond the surface on average (`energy_of_a_ball_is_its_area`), which makes 4 % at
-/// R = 10 d; what the solver's pressure is off by is in `a_column_bears_its_weight`.
-#[test]
-fn a_ball_at_rest_has_laplaces_pressure() {
+/// R = 10 d; what the solver's pressure is off by is in `a_column_bears_its_weight`. So many thirds of a second after the start.
+fn has_laplaces_pressure_after(thirds: usize) {
     let device = gpu::device();
     let (particles_at_start, radius) = ball(20.0);
     let p = Parameters {
@@ -71,7 +70,7 @@ fn a_ball_at_rest_has_laplaces_pressure() {
         ..tense(D)
     };
     let solver = Setup::new(p, Vec::new(), particles_at_start).solver(&device);
-    for _ in 0..10 {
+    for _ in 0..thirds {
         frames(&device, &solver, &[], 30);
         let pressure = inner_pressure(&solver, radius);
         let speed = mean_speed(&solver);
@@ -82,6 +81,11 @@ fn a_ball_at_rest_has_laplaces_pressure() {
     let pressure = inner_pressure(&solver, radius);
     assert!((pressure - 1.0).abs() < 0.05, "{pressure}");
     assert!(mean_speed(&solver) < 1e-3);
+}
+
+#[test]
+fn a_ball_at_rest_has_laplaces_pressure() {
+    has_laplaces_pressure_after(6);
 }
 
 fn mean_speed(solver: &Solver) -> f64 {
@@ -475,6 +479,11 @@ fn small_puddles_gather_and_rest() {
 
 mod long {
     use super::*;
+
+    #[test]
+    fn a_ball_long_at_rest_has_laplaces_pressure() {
+        has_laplaces_pressure_after(10);
+    }
 
     #[test]
     fn a_ball_swings_in_its_slowest_mode_as_rayleigh_says() {

@@ -224,29 +224,33 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
     assert_eq!(repeated, said);
 }
 
-/// A hand goes on while time is held: what it holds is where the hand is when time goes on, and not a drop of it is lost.
-#[test]
-fn a_pause_in_mid_pour_spills_nothing() {
-    let gpu = gpu::device();
-    let folder = tempfile::tempdir().unwrap();
-    let deeds = vec![
-        click(66, "pause", &pressed("pause", true)),
-        click(76, "pause", &pressed("pause", false)),
-    ];
-    let Some((_hub, instructor, options)) = directed(folder.path(), deeds) else {
-        return;
-    };
-    assert_eq!(options.plan.preset, Preset::Balanced);
-    let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 100, instructor);
-    let (outcome, track) = session_with(&mut headset, options, nobody());
-    assert!(headset.trouble.deeds.borrow().is_empty());
-    // The hand rose meanwhile by centimetres, and took the flask along at once.
-    let height = |flasks: &Vec<Pose>| flasks.first().map(|flask| flask.position.y);
-    let heights: Vec<_> = track.stage_from_flasks.iter().filter_map(height).collect();
-    let leap = heights.windows(2).map(|pair| pair[1] - pair[0]);
-    let leap = leap.fold(0.0, f32::max);
-    assert!(leap > 0.01, "{leap} m");
-    let spilt = outcome.spilt.bench + outcome.spilt.floor;
-    assert!(spilt < 0.5, "{spilt} mL");
-    assert_eq!(replayed(&gpu, track), hash(&outcome));
+mod long {
+    use super::*;
+
+    /// A hand goes on while time is held: what it holds is where the hand is when time goes on, and not a drop of it is lost.
+    #[test]
+    fn a_pause_in_mid_pour_spills_nothing() {
+        let gpu = gpu::device();
+        let folder = tempfile::tempdir().unwrap();
+        let deeds = vec![
+            click(66, "pause", &pressed("pause", true)),
+            click(76, "pause", &pressed("pause", false)),
+        ];
+        let Some((_hub, instructor, options)) = directed(folder.path(), deeds) else {
+            return;
+        };
+        assert_eq!(options.plan.preset, Preset::Balanced);
+        let mut headset = Worn::new(&gpu, pour().sample_track(), 60.0, 100, instructor);
+        let (outcome, track) = session_with(&mut headset, options, nobody());
+        assert!(headset.trouble.deeds.borrow().is_empty());
+        // The hand rose meanwhile by centimetres, and took the flask along at once.
+        let height = |flasks: &Vec<Pose>| flasks.first().map(|flask| flask.position.y);
+        let heights: Vec<_> = track.stage_from_flasks.iter().filter_map(height).collect();
+        let leap = heights.windows(2).map(|pair| pair[1] - pair[0]);
+        let leap = leap.fold(0.0, f32::max);
+        assert!(leap > 0.01, "{leap} m");
+        let spilt = outcome.spilt.bench + outcome.spilt.floor;
+        assert!(spilt < 0.5, "{spilt} mL");
+        assert_eq!(replayed(&gpu, track), hash(&outcome));
+    }
 }

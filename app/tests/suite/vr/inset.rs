@@ -161,28 +161,28 @@ fn it_leaves_the_eyes_pictures_as_they_are() {
     assert!(read(&gpu, outcome.bench.picture.image()) == eyes.colour);
 }
 
-/// In it is what is there: as in pictures of that field of view and size alone, without what the lenses hide of the eyes' pictures.
-#[test]
-fn it_shows_what_the_eyes_see_there() {
-    let gpu = gpu::device();
-    // Smaller on both sides; wider and less high.
-    for extent in [[212, 160], [351, 233]] {
-        let (headset, _) = with_inset(&gpu, extent);
-        of_inset(&gpu, &headset).assert_like(&alone(&gpu, extent), &format!("{extent:?}"));
-        // Each frame is shown with what it was drawn with.
-        assert_eq!(headset.shown.len(), 5);
-        for shown in &headset.shown {
-            let inset = shown.inset.unwrap();
-            assert_eq!((shown.extent, inset.extent), (EXTENT, extent));
-            assert_eq!(inset.views.map(|view| view.fov), SEES);
-            let eyes = shown.views.map(|view| view.stage_from_eye);
-            assert_eq!(inset.views.map(|view| view.stage_from_eye), eyes);
-        }
-    }
-}
-
 mod long {
     use super::*;
+
+    /// In it is what is there: as in pictures of that field of view and size alone, without what the lenses hide of the eyes' pictures.
+    #[test]
+    fn it_shows_what_the_eyes_see_there() {
+        let gpu = gpu::device();
+        // Smaller on both sides; wider and less high.
+        for extent in [[212, 160], [351, 233]] {
+            let (headset, _) = with_inset(&gpu, extent);
+            of_inset(&gpu, &headset).assert_like(&alone(&gpu, extent), &format!("{extent:?}"));
+            // Each frame is shown with what it was drawn with.
+            assert_eq!(headset.shown.len(), 5);
+            for shown in &headset.shown {
+                let inset = shown.inset.unwrap();
+                assert_eq!((shown.extent, inset.extent), (EXTENT, extent));
+                assert_eq!(inset.views.map(|view| view.fov), SEES);
+                let eyes = shown.views.map(|view| view.stage_from_eye);
+                assert_eq!(inset.views.map(|view| view.stage_from_eye), eyes);
+            }
+        }
+    }
 
     /// The eyes' pictures lie in larger images beside a larger inset, and are the same but for what a sampler rounds.
     #[test]

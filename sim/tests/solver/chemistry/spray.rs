@@ -200,59 +200,6 @@ fn a_glass_that_rises_takes_drops_in() {
     );
 }
 
-/// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the air,
-/// and a glass that is moved over them takes them with it.
-#[test]
-fn drops_cling_leave_or_fall_back() {
-    let device = gpu::device();
-    let setup = glass(20.0);
-    let solver = setup.solver(&device);
-    frames(&device, &solver, &[Pose::IDENTITY], 40);
-    let start = held(&solver);
-    let middle = DVec3::Y * 0.04;
-    launch(
-        &solver,
-        &[
-            launched(middle, DVec3::X * 20.0, 1e-4),
-            launched(DVec3::new(0.024, 0.04, 0.0), DVec3::ZERO, 5e-6),
-            launched(middle, DVec3::new(1.0, 2.0, 0.0), 1e-3),
-            launched(middle, -DVec3::Y, 3e-4),
-        ],
-    );
-    let put = 4.0 * 0.015_625 * setup.parameters.particle_mass();
-    frames(&device, &solver, &[Pose::IDENTITY], 20);
-    let rows = |solver: &Solver| [0, 1, 2, 3].map(|place| drops(solver, place));
-    let [fast, fine, high, low] = rows(&solver);
-    assert!(fast.mass == 0.0 && fast.fallen[0] == 0.015_625, "{fast:?}");
-    assert!(low.mass == 0.0 && low.fallen[0] == 0.0, "{low:?}");
-    assert!(fine.mass > 0.0 && high.mass > 0.0, "{fine:?}, {high:?}");
-    // The glass goes 3 mm to the left in a frame, over the fine ones.
-    let moved = Pose {
-        position: glam::Vec3::X * -0.003,
-        ..Pose::IDENTITY
-    };
-    frames(&device, &solver, &[moved], 1);
-    let fine = drops(&solver, 1);
-    assert!(fine.mass == 0.0 && fine.fallen[0] == 0.015_625, "{fine:?}");
-    assert_eq!(solver.snapshot().unwrap().spray_left(0), 0.0);
-    frames(&device, &solver, &[moved], 500);
-    let high = drops(&solver, 2);
-    assert!(high.mass == 0.0 && high.fallen[0] == 0.015_625, "{high:?}");
-    assert!(
-        high.position[0] > 0.03 && high.position[1] < 0.01,
-        "{high:?}"
-    );
-    assert_eq!(solver.snapshot().unwrap().spray_left(0), 0.015_625);
-    // Of acid, of which there was none, also what fell back is counted.
-    let acid = ledger(&solver).acid;
-    assert!((acid / (0.25 * put) - 1.0).abs() < 1e-5, "{acid}");
-    let end = held(&solver);
-    assert!(
-        ((end[0] - start[0]) / put - 1.0).abs() < 1e-3,
-        "{start:?}, {end:?}"
-    );
-}
-
 /// A kettle that throws up drops: mass and enthalpy as in one that does not, and acid; and its bits repeat.
 #[test]
 fn nothing_is_lost_of_what_is_thrown_up() {
@@ -291,4 +238,61 @@ fn nothing_is_lost_of_what_is_thrown_up() {
     other.restore(&middle).unwrap();
     frames(&device, &other, &[Pose::IDENTITY], 6);
     assert_eq!(solver.snapshot().unwrap(), other.snapshot().unwrap());
+}
+
+mod long {
+    use super::*;
+
+    /// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the air,
+    /// and a glass that is moved over them takes them with it.
+    #[test]
+    fn drops_cling_leave_or_fall_back() {
+        let device = gpu::device();
+        let setup = glass(20.0);
+        let solver = setup.solver(&device);
+        frames(&device, &solver, &[Pose::IDENTITY], 40);
+        let start = held(&solver);
+        let middle = DVec3::Y * 0.04;
+        launch(
+            &solver,
+            &[
+                launched(middle, DVec3::X * 20.0, 1e-4),
+                launched(DVec3::new(0.024, 0.04, 0.0), DVec3::ZERO, 5e-6),
+                launched(middle, DVec3::new(1.0, 2.0, 0.0), 1e-3),
+                launched(middle, -DVec3::Y, 3e-4),
+            ],
+        );
+        let put = 4.0 * 0.015_625 * setup.parameters.particle_mass();
+        frames(&device, &solver, &[Pose::IDENTITY], 20);
+        let rows = |solver: &Solver| [0, 1, 2, 3].map(|place| drops(solver, place));
+        let [fast, fine, high, low] = rows(&solver);
+        assert!(fast.mass == 0.0 && fast.fallen[0] == 0.015_625, "{fast:?}");
+        assert!(low.mass == 0.0 && low.fallen[0] == 0.0, "{low:?}");
+        assert!(fine.mass > 0.0 && high.mass > 0.0, "{fine:?}, {high:?}");
+        // The glass goes 3 mm to the left in a frame, over the fine ones.
+        let moved = Pose {
+            position: glam::Vec3::X * -0.003,
+            ..Pose::IDENTITY
+        };
+        frames(&device, &solver, &[moved], 1);
+        let fine = drops(&solver, 1);
+        assert!(fine.mass == 0.0 && fine.fallen[0] == 0.015_625, "{fine:?}");
+        assert_eq!(solver.snapshot().unwrap().spray_left(0), 0.0);
+        frames(&device, &solver, &[moved], 500);
+        let high = drops(&solver, 2);
+        assert!(high.mass == 0.0 && high.fallen[0] == 0.015_625, "{high:?}");
+        assert!(
+            high.position[0] > 0.03 && high.position[1] < 0.01,
+            "{high:?}"
+        );
+        assert_eq!(solver.snapshot().unwrap().spray_left(0), 0.015_625);
+        // Of acid, of which there was none, also what fell back is counted.
+        let acid = ledger(&solver).acid;
+        assert!((acid / (0.25 * put) - 1.0).abs() < 1e-5, "{acid}");
+        let end = held(&solver);
+        assert!(
+            ((end[0] - start[0]) / put - 1.0).abs() < 1e-3,
+            "{start:?}, {end:?}"
+        );
+    }
 }
