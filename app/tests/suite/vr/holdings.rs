@@ -22,6 +22,7 @@ impl Trouble for Looks {
 }
 
 /// An allocator or a driver takes megabytes at once, now and then: in most windows nothing grows. A leak is in each of them.
+/// What is looked at is the process's, so it has to be the process's only test.
 #[test]
 #[cfg(target_os = "linux")]
 fn nothing_grows_in_a_session() {
