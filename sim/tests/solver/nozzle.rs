@@ -171,7 +171,7 @@ fn drop_of(device: &Gpu, diameter: f64, spacing: f64, period: f64) -> [f64; 2] {
     panic!("no drop falls");
 }
 
-/// 10 %, of what falls at this flow; a fifth more than without any.
+/// 10 %, of what falls at this flow; a fifth more than without flow.
 #[test]
 fn a_coarse_nozzles_drop_weighs_what_harkins_and_brown_found() {
     let [_, of] = drop_of(&gpu::device(), 6e-3, 0.75e-3, 0.5);
@@ -193,7 +193,7 @@ fn slow_drops_weigh_what_harkins_and_brown_found() {
 mod long {
     use super::*;
 
-    /// 10 %, of what falls at this flow; a sixth more than without any.
+    /// 10 %, of what falls at this flow; a sixth more than without flow.
     #[test]
     fn a_nozzles_drop_weighs_what_harkins_and_brown_found() {
         let [_, of] = drop_of(&gpu::device(), 6e-3, 0.5e-3, 1.5);

@@ -9,7 +9,7 @@ use vitriol_tests::gpu;
 
 #[test]
 fn a_column_rests() {
-    column(3, 10, 3);
+    column(4, 10, 3);
 }
 
 /// A minute of the beaker's `reference`.

@@ -184,9 +184,10 @@ impl<T: Trouble> Headset for Worn<T> {
                 let since = self.awaiting.get_or_insert_with(Instant::now);
                 assert!(since.elapsed() < PATIENCE, "what is awaited does not come");
                 // The processor is for what is made beside the frames, and the track goes on with each: few of them may pass on a
-                // busy machine. Once it is made and the picture fades, which then has the panel in it, only frames are awaited.
+                // busy machine. Once the picture fades, all is made. The panel is then in the picture, and not in a layer.
                 let has_layer = |shown: Option<&Shown>| shown.is_some_and(|it| it.panel.is_some());
-                if !has_layer(self.shown.first()) || has_layer(self.shown.last()) {
+                let fades = has_layer(self.shown.first()) && !has_layer(self.shown.last());
+                if !fades {
                     std::thread::sleep(Duration::from_millis(250));
                 }
             } else {

@@ -56,6 +56,7 @@ fn a_flask_changes_hands_and_is_felt() {
     let flasks = track.stage_from_flasks[..until.count()].iter().rev();
     let had = flasks.flatten().next().unwrap().position;
     // 5 cm to the right and 10 cm up from where the left one had it.
+    assert!((had.x - (-0.12 + 0.05)).abs() < 5e-3, "{had}");
     assert!((had.y - (0.75 + 0.15 + 0.10)).abs() < 5e-3, "{had}");
     // The left hand felt the shaking while it held it, the right one nothing then; at rest in the
     // right hand it is the weaker. Frames of 1/45 s.

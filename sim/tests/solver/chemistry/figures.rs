@@ -21,7 +21,7 @@ fn soup(intensity: f64, coarser: f64) -> f64 {
 }
 
 /// Fig. 7: the surface is still at k_v = 0, simmers at 0.75 and boils at 0.9.
-/// After 3 s it has 5, 273 and 375 J; in eight ninths of a second the filling
+/// After 3 s it has 5, 273 and 375 J; in four thirds of a second the filling
 /// has settled enough for ten times what it has without boiling.
 fn moves_the_more_the_stronger_it_boils(coarser: f64) {
     let energies = [0.0, 0.75, 0.9].map(|intensity| soup(intensity, coarser));
