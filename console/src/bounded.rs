@@ -7,6 +7,9 @@ use std::ops::Deref;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+/// Characters of a message to a student. Our choice: what a panel shows in a few lines.
+pub const MESSAGE: usize = 200;
+
 /// One line of at most `MOST` characters, none of them a control character.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Text<const MOST: usize>(String);

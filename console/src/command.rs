@@ -2,11 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bounded::Text;
+use crate::bounded::{MESSAGE, Text};
 use crate::student::Student;
-
-/// Characters of a message to a student. Our choice: what a panel shows in a few lines.
-pub const MESSAGE: usize = 200;
 
 /// The slowest motion, simulated seconds a second. Our choice: a drop still falls within seconds.
 pub const SLOWEST: f64 = 0.05;

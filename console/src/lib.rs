@@ -28,8 +28,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use address::{HubAddress, NoHubAddress};
 pub use auth::NoRandomness;
-pub use bounded::{List, Text};
-pub use command::{Command, MESSAGE, Order, SLOWEST};
+pub use bounded::{List, MESSAGE, Text};
+pub use command::{Command, Order, SLOWEST};
 pub use dial::{Link, LinkStatus};
 pub use error::Error;
 pub use hub::{Config, Hub, HubCounts};

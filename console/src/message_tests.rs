@@ -3,8 +3,8 @@
 
 use proptest::prelude::*;
 
-use crate::bounded::{List, Text};
-use crate::command::{Command, MESSAGE, SLOWEST};
+use crate::bounded::{List, MESSAGE, Text};
+use crate::command::{Command, SLOWEST};
 use crate::picture::{Codec, EncodedPicture};
 use crate::student::*;
 use crate::wire::{FromPage, FromStudent, MOST_FROM_PAGE, MOST_STATE, ToStudent, read};

@@ -5,8 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bounded::{List, Text};
-use crate::command::MESSAGE;
+use crate::bounded::{List, MESSAGE, Text};
 
 /// Characters of a sentence that is shown.
 pub const SENTENCE: usize = 200;

@@ -5,7 +5,7 @@ use std::io::Write;
 use muxide::api::Muxer;
 use vitriol_sound::{OPUS_PACKET, Opus, OpusError, RATE};
 
-use crate::film::FilmError;
+use crate::film_error::FilmError;
 
 /// Packets with their times (s).
 type Packets = Vec<(f64, Vec<u8>)>;

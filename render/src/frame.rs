@@ -4,17 +4,25 @@ use glam::{Affine3A, Mat4, Vec3};
 use vitriol_shaders::layout;
 
 use crate::RenderError;
+use crate::bone::{Bone, MOST_BONES};
 use crate::camera::{Fov, NEAR, View};
 use crate::colour_map::ColourMap;
 use crate::desc::RenderDesc;
-use crate::fluid::bubble_cell;
 use crate::fovea::Foveation;
-use crate::hands::{Bone, MOST_BONES};
 use crate::panel::{Pane, Panel, pane_from_stage, panel_from_stage};
 use crate::scene::{MOST_SHARDS, Scene, ShardDesc};
 use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints::Tint;
+
+/// Side of a cell of bubbles, metres as drawn: wider than most bubbles are, and a tenth of a beaker. In metres, since what bounds a ray's way
+/// is how many cells it goes through (`MOST_CELLS` in `common/picture/bubble_light.wgsl`), and a vessel is as large as it is drawn.
+const BUBBLE_CELL: f32 = 0.006;
+
+/// Side of a cell of bubbles in a scene's unit, which is drawn as `length_scale` metres.
+pub(crate) fn bubble_cell(length_scale: f32) -> f32 {
+    BUBBLE_CELL / length_scale
+}
 
 /// Share of the window's light that a vessel with liquid in it keeps away:
 /// the liquid bends most of it elsewhere, and the glass reflects some.

@@ -25,6 +25,7 @@
 //! its particles coloured by an attribute where it has
 //! [`FrameDesc::particles`].
 
+mod bone;
 pub mod camera;
 pub mod colour_map;
 mod compute;
@@ -54,6 +55,7 @@ mod spray;
 mod tiles;
 pub mod tints;
 
+pub use bone::{Bone, Finish, JOINED, MOST_BONES, Scale};
 pub use camera::{Fov, View};
 pub use colour_map::ColourMap;
 pub use desc::{Lanes, LiquidDesc, RenderDesc, SurfaceFilter};
@@ -62,7 +64,6 @@ pub use fluid::{Surface, SurfaceReadback};
 pub use fovea::Foveation;
 pub use frame::{ColourBy, FrameDesc};
 pub use half_depth::HalfDepth;
-pub use hands::{Bone, Finish, JOINED, MOST_BONES, Scale};
 pub use light::RoomLight;
 pub use panel::{Pane, Panel};
 pub use pass_pictures::{PassPicture, PassesReadback};

@@ -1,7 +1,7 @@
 //! Connections: accepted, bounded in number, encrypted, and each served with HTTP/1.1 alone.
 
 use std::convert::Infallible;
-use std::net::{IpAddr, SocketAddr};
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -19,7 +19,7 @@ use tokio::time::timeout;
 use tokio_rustls::TlsAcceptor;
 use tower_service::Service;
 
-use super::connections::{Connections, Place};
+use super::connections::{Connections, Peer, Place};
 use super::routes;
 use super::shared::Shared;
 
@@ -31,13 +31,6 @@ const HEAD: usize = 8 << 10;
 const FIELDS: usize = 64;
 /// The pause after the system has no more files for connections.
 const PAUSE: Duration = Duration::from_millis(100);
-
-/// Who is at the other end of a request, and its place, which a WebSocket keeps.
-#[derive(Clone)]
-pub(super) struct Peer {
-    pub address: IpAddr,
-    pub place: Arc<Place>,
-}
 
 /// Accepts until it is dropped.
 pub(super) async fn run(listener: TcpListener, tls: Option<TlsAcceptor>, shared: Arc<Shared>) {

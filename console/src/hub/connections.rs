@@ -21,6 +21,13 @@ pub(super) struct Place {
     address: IpAddr,
 }
 
+/// Who is at the other end of a request, and its place, which a WebSocket keeps.
+#[derive(Clone)]
+pub(super) struct Peer {
+    pub address: IpAddr,
+    pub place: Arc<Place>,
+}
+
 impl Connections {
     /// A place for one more, if there is one.
     pub fn place(self: &Arc<Self>, address: IpAddr) -> Option<Place> {

@@ -10,7 +10,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 
-use super::accept::Peer;
+use super::connections::Peer;
 use super::shared::Shared;
 use super::{browser, distant};
 use crate::auth::{Refusal, SessionId};

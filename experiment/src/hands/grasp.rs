@@ -5,7 +5,7 @@ use vitriol_xr::{Pose, Side};
 
 use vitriol_render::Bone;
 
-use super::bones::{THUMB_BONES, bones_of, web};
+use super::bones::{Joints, THUMB_BONES, bones_of, web};
 use super::glass::Glass;
 use super::posture::{CLOSED, Chain, INDEX, Posture, SPREAD_OUT, Thumb, in_grip};
 
@@ -41,6 +41,15 @@ impl Grasp {
             posture: Posture::empty(closed),
             shift: 0.0,
         }
+    }
+
+    /// The joints of a hand that holds a controller, in the grip's parent.
+    pub fn joints(&self, stage_from_grip: &Pose, side: Side) -> Joints {
+        let joints = self.posture.joints();
+        joints.map(|(at, radius)| {
+            let at = in_grip(at + self.shift * Vec3::Y, side);
+            (stage_from_grip.transform_point(at), radius)
+        })
     }
 }
 

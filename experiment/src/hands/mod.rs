@@ -18,7 +18,7 @@ use vitriol_xr::{Hand, Pose, Side};
 pub use bones::{JOINTS, Joints, bones_of};
 pub use glass::Glass;
 pub use grasp::{Grasp, closed_on};
-pub use posture::{Posture, joints_of};
+pub use posture::Posture;
 
 /// The same hand without its glove.
 fn bare(mut bones: Vec<Bone>) -> Vec<Bone> {
@@ -78,6 +78,6 @@ impl Gloves {
             closed_on(&hand.stage_from_grip, side, glass, &stage_from_flask)
         });
         let grasp = grasp.unwrap_or_else(|| Grasp::empty(hand.squeeze.max(hand.trigger)));
-        joints_of(&grasp, &hand.stage_from_grip, side)
+        grasp.joints(&hand.stage_from_grip, side)
     }
 }

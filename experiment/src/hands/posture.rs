@@ -1,10 +1,9 @@
 //! The hand that holds a controller: its size, and how its fingers bend.
 
 use glam::Vec3;
-use vitriol_xr::{Pose, Side};
+use vitriol_xr::Side;
 
 use super::bones::{FINGERS, JOINTS, Joints, PALM, THUMB, WRIST};
-use super::grasp::Grasp;
 
 /// Length of a hand from the wrist to the tip of the middle finger, m: between the medians of women (181 mm) and men (194 mm),
 /// ANSUR II (2012).
@@ -179,15 +178,6 @@ fn chain(
             at += (HAND * lengths[bone] - tip) * (bent.cos() * along + bent.sin() * pad);
         }
         (at, radii[n])
-    })
-}
-
-/// The joints of a hand that holds a controller, in the grip's parent.
-pub fn joints_of(grasp: &Grasp, stage_from_grip: &Pose, side: Side) -> Joints {
-    let joints = grasp.posture.joints();
-    joints.map(|(at, radius)| {
-        let at = in_grip(at + grasp.shift * Vec3::Y, side);
-        (stage_from_grip.transform_point(at), radius)
     })
 }
 

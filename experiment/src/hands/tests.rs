@@ -81,7 +81,7 @@ fn fingers_close_on_a_beaker_and_do_not_go_into_it() {
         ] {
             let grip = at_side(side, height, before, turn);
             let grasp = closed_on(&grip, side, &glass, &Pose::IDENTITY);
-            let bones = bones_of(&joints_of(&grasp, &grip, side));
+            let bones = bones_of(&grasp.joints(&grip, side));
             let case = format!("{} {height} {before} {turn}", side.name());
             let deepest = bones.iter().map(clearance).fold(f32::INFINITY, f32::min);
             assert!(deepest > -0.001, "{case}: {deepest}");
@@ -105,7 +105,7 @@ fn hands_are_mirror_images() {
     let joints = |side: Side| {
         let grip = at_side(side, 0.055, 0.02, 0.0);
         let grasp = closed_on(&grip, side, &glass, &Pose::IDENTITY);
-        joints_of(&grasp, &grip, side)
+        grasp.joints(&grip, side)
     };
     let [left, right] = Side::BOTH.map(joints);
     for ((left, _), (right, _)) in left.into_iter().zip(right) {
@@ -129,7 +129,7 @@ fn nothing_is_grasped_that_is_not_there() {
 
 #[test]
 fn an_open_hand_is_as_long_and_broad_as_a_hand() {
-    let joints = joints_of(&Grasp::empty(0.0), &Pose::IDENTITY, Side::Right);
+    let joints = Grasp::empty(0.0).joints(&Pose::IDENTITY, Side::Right);
     let straight = |first: usize, last: usize| {
         let pairs = (first..last).map(|n| joints[n].0.distance(joints[n + 1].0));
         pairs.sum::<f32>()
@@ -145,7 +145,7 @@ fn an_open_hand_is_as_long_and_broad_as_a_hand() {
     let at = |joint: usize| joints[joint].0;
     assert!(at(tip).y < -0.10 && at(THUMB + 3).z < at(FINGERS[0] + 4).z);
     assert!(at(tip).x < at(FINGERS[1] + 1).x);
-    let fist = joints_of(&Grasp::empty(1.0), &Pose::IDENTITY, Side::Right);
+    let fist = Grasp::empty(1.0).joints(&Pose::IDENTITY, Side::Right);
     assert!(fist[tip].0.y > -0.05 && fist[tip].0.x < -0.005);
 }
 

@@ -20,45 +20,18 @@ use super::file::Lesson;
 use super::keeping::Keeping;
 use super::mode::Mode;
 use super::progress::{Progress, State, Status, StepState, Verdict, Why};
+use super::record::{RuleRecord, StepRecord};
 use super::sight::Sight;
 use super::watch::Watch;
 use crate::event::{Event, Incident, Pour};
-
-/// A step as it stands.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Tried {
-    pub status: Status,
-    /// From when on what happens is of it, s.
-    began: f64,
-    /// From when on it was shown, s.
-    shown: f64,
-    /// From when on the time until the hint runs, s.
-    waits: f64,
-    /// From when on a pour may begin, s: after a failure.
-    again: Option<f64>,
-    watch: Watch,
-    keeping: Vec<Keeping>,
-    pub failures: u32,
-    pub hints: u32,
-    hint: bool,
-    pub evidence: Option<f64>,
-    pub why: Option<Why>,
-}
-
-/// A rule as it stands.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Kept {
-    keeping: Keeping,
-    pub broken: Option<(f64, Why)>,
-}
 
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Procedure {
     pub(super) lesson: Lesson,
     pub(super) mode: Mode,
-    pub(super) steps: Vec<Tried>,
-    pub(super) rules: Vec<Kept>,
+    pub(super) steps: Vec<StepRecord>,
+    pub(super) rules: Vec<RuleRecord>,
     /// Flasks that a hand has held.
     lifted: BTreeSet<String>,
     /// When it began, s; `None` before.
@@ -74,8 +47,8 @@ impl Procedure {
     /// That lesson from its beginning, whether or not it allows the mode: an instructor may choose.
     pub fn new(lesson: Lesson, mode: Mode) -> Self {
         Self {
-            steps: vec![Tried::default(); lesson.steps.len()],
-            rules: vec![Kept::default(); lesson.rules.len()],
+            steps: vec![StepRecord::default(); lesson.steps.len()],
+            rules: vec![RuleRecord::default(); lesson.rules.len()],
             lesson,
             mode,
             lifted: BTreeSet::new(),
@@ -149,7 +122,7 @@ impl Procedure {
 
     /// How it stands.
     pub fn state(&self) -> State {
-        let open = |it: &Tried| it.status == Status::Open;
+        let open = |it: &StepRecord| it.status == Status::Open;
         let pairs = self.lesson.steps.iter().zip(&self.steps);
         let steps = pairs.map(|(step, tried)| StepState {
             id: step.id.clone(),
@@ -169,7 +142,7 @@ impl Procedure {
 
     /// What it comes to by now; at the end after the finder's last events.
     pub fn verdict(&self) -> Verdict {
-        super::verdict::of(self)
+        super::verdict::of(&self.lesson, self.mode, &self.steps, &self.rules)
     }
 
     fn open(&self, id: &str) -> Option<usize> {
@@ -178,8 +151,8 @@ impl Procedure {
     }
 
     fn begin(&mut self, t: f64) {
-        self.steps = vec![Tried::default(); self.lesson.steps.len()];
-        self.rules = vec![Kept::default(); self.lesson.rules.len()];
+        self.steps = vec![StepRecord::default(); self.lesson.steps.len()];
+        self.rules = vec![RuleRecord::default(); self.lesson.rules.len()];
         self.lifted.clear();
         (self.begun, self.over, self.ended) = (Some(t), None, false);
         self.said.push(Progress::Begun {
@@ -341,20 +314,20 @@ impl Procedure {
             .collect();
         for &(at, began) in &next {
             let step = &self.lesson.steps[at];
-            self.steps[at] = Tried {
+            self.steps[at] = StepRecord {
                 status: Status::Open,
                 began,
                 shown: t,
                 waits: t,
                 keeping: vec![Keeping::default(); step.keep.len()],
-                ..Tried::default()
+                ..StepRecord::default()
             };
             self.said.push(Progress::StepBegun {
                 t_s: t,
                 id: step.id.clone(),
             });
         }
-        let left = |it: &Tried| matches!(it.status, Status::Waiting | Status::Open);
+        let left = |it: &StepRecord| matches!(it.status, Status::Waiting | Status::Open);
         if self.over.is_none() && !self.steps.iter().any(left) {
             self.over = Some(t);
             self.said.push(Progress::Over { t_s: t });
@@ -453,13 +426,6 @@ impl Procedure {
             }
         }
         self.settle(t);
-    }
-}
-
-impl Tried {
-    /// Whether what it asks to be kept is so now.
-    fn keeps(&self) -> bool {
-        !self.keeping.iter().any(|it| it.breached)
     }
 }
 

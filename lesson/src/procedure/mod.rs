@@ -12,6 +12,7 @@ mod keeping;
 mod mode;
 mod panel;
 mod progress;
+mod record;
 mod retold;
 mod sight;
 #[cfg(test)]

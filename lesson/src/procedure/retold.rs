@@ -1,9 +1,10 @@
 //! What a lesson comes to by what was said of it, as a recording keeps that.
 
 use super::file::Lesson;
-use super::judge::{Procedure, Tried};
+use super::judge::Procedure;
 use super::mode::Mode;
 use super::progress::{Progress, Status, Verdict, VerdictLine, Why};
+use super::record::StepRecord;
 
 impl Verdict {
     /// What each time comes to that the lesson was begun, in their order: the same as who judged it said, [`Procedure::verdict`]. What is
@@ -70,7 +71,7 @@ impl Procedure {
         }
     }
 
-    fn step(&mut self, id: &str) -> Option<&mut Tried> {
+    fn step(&mut self, id: &str) -> Option<&mut StepRecord> {
         let at = self.lesson.steps.iter().position(|step| step.id == id)?;
         self.steps.get_mut(at)
     }

@@ -1,15 +1,21 @@
 //! What a lesson comes to.
 
-use super::judge::{Procedure, Tried};
+use super::file::Lesson;
+use super::mode::Mode;
 use super::progress::{Status, Verdict, VerdictLine};
+use super::record::{RuleRecord, StepRecord};
 
 /// A step has its points where it was done at the first try, half of them, rounded down, where it was done later. A rule that was kept has
 /// as much of its own as the steps have of theirs, rounded down: clean work on a third of a lesson is a third of clean work, and who
 /// does nothing has kept nothing.
-pub(super) fn of(procedure: &Procedure) -> Verdict {
-    let lesson = &procedure.lesson;
+pub(super) fn of(
+    lesson: &Lesson,
+    mode: Mode,
+    steps: &[StepRecord],
+    rules: &[RuleRecord],
+) -> Verdict {
     let mut lines = Vec::new();
-    for (step, tried) in lesson.steps.iter().zip(&procedure.steps) {
+    for (step, tried) in lesson.steps.iter().zip(steps) {
         let met = tried.status == Status::Done;
         lines.push(VerdictLine {
             id: step.id.clone(),
@@ -25,7 +31,7 @@ pub(super) fn of(procedure: &Procedure) -> Verdict {
     }
     let earned: u32 = lines.iter().map(|line| line.points).sum();
     let all: u32 = lines.iter().map(|line| line.of).sum();
-    for (rule, kept) in lesson.rules.iter().zip(&procedure.rules) {
+    for (rule, kept) in lesson.rules.iter().zip(rules) {
         let met = kept.broken.is_none();
         let share = rule.points * earned / all.max(1);
         lines.push(VerdictLine {
@@ -42,14 +48,14 @@ pub(super) fn of(procedure: &Procedure) -> Verdict {
     }
     Verdict {
         lesson: lesson.name.clone(),
-        mode: procedure.mode,
+        mode,
         points: lines.iter().map(|line| line.points).sum(),
         of: lines.iter().map(|line| line.of).sum(),
         lines,
     }
 }
 
-fn points(tried: &Tried, of: u32) -> u32 {
+fn points(tried: &StepRecord, of: u32) -> u32 {
     match (tried.status, tried.failures) {
         (Status::Done, 0) => of,
         (Status::Done, _) => of / 2,

@@ -6,13 +6,11 @@ use vitriol_shaders::{Library, fluid, layout};
 use super::SLOTS;
 use crate::RenderError;
 use crate::compute::compute;
+use crate::frame::bubble_cell;
 use crate::source::BubbleSource;
 
 /// Places of the table, as in `common/picture/bubble_cells.wgsl`; behind them is the number of entries.
 const CELLS: usize = 32_768;
-/// Side of a cell, metres as drawn: wider than most bubbles are, and a tenth of a beaker. In metres, since what bounds a ray's way
-/// is how many cells it goes through (`MOST_CELLS` in `common/picture/bubble_light.wgsl`), and a vessel is as large as it is drawn.
-const CELL: f32 = 0.006;
 /// Radius from which on a bubble is none, or of a solver that has failed, metres as drawn.
 const LARGEST: f32 = 0.05;
 /// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most. And entries for few bubbles
@@ -22,11 +20,6 @@ const LEAST_ENTRIES: u32 = 1 << 16;
 
 /// Words before the numbers of flights, as in `common/picture/spray_drops.wgsl`.
 const FLYING: usize = 4;
-
-/// Side of a cell in a scene's unit, which is drawn as `length_scale` metres.
-pub(crate) fn bubble_cell(length_scale: f32) -> f32 {
-    CELL / length_scale
-}
 
 /// The cells of the frames that are under way.
 pub(super) struct BubbleCells {

@@ -17,7 +17,7 @@ use crate::scene::MOST_VESSELS;
 use crate::source::{LiquidSource, Neighbours};
 use crate::tiles::{Class, Tiles};
 use bubbles::BubbleCells;
-pub(crate) use bubbles::{Cells, bubble_cell};
+pub(crate) use bubbles::Cells;
 use passes::Passes;
 pub use readback::{Surface, SurfaceReadback};
 

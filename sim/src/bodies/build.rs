@@ -3,12 +3,12 @@
 use glam::{Vec2, Vec3};
 use rapier3d::na::Unit;
 use rapier3d::prelude::{
-    ColliderBuilder, Group, InteractionGroups, InteractionTestMode, MassProperties, PhysicsWorld,
-    RigidBodyBuilder, RigidBodyHandle,
+    ColliderBuilder, Group, InteractionGroups, InteractionTestMode, PhysicsWorld, RigidBodyBuilder,
 };
 
 use crate::scene::TableTop;
 
+use super::body::Body;
 use super::spec::{BodiesError, BodiesSpec, BodySpec, Role, Table};
 use super::units::{UNIT, Units};
 use super::{shell, solid};
@@ -39,22 +39,8 @@ const FLASKS: Group = Group::GROUP_1;
 const TOOLS: Group = Group::GROUP_2;
 const SASH: Group = Group::GROUP_3;
 
-/// What of a body never changes: of a flask, or of a tool.
-pub(super) struct Flask {
-    pub body: RigidBodyHandle,
-    /// As in [`BodySpec::outline`] (m).
-    pub outline: Vec<[f32; 2]>,
-    /// Of the empty flask, SI.
-    pub glass: MassProperties,
-    /// Greatest outer radius, in rapier's unit.
-    pub radius: f32,
-    pub fixed: bool,
-    /// `None` of a flask.
-    pub role: Option<Role>,
-}
-
 /// rapier's world and the bodies in it, the flasks first, at rest where `spec` puts them.
-pub(super) fn build(spec: &BodiesSpec) -> Result<(PhysicsWorld, Vec<Flask>), BodiesError> {
+pub(super) fn build(spec: &BodiesSpec) -> Result<(PhysicsWorld, Vec<Body>), BodiesError> {
     check_world(spec)?;
     let units = Units::new(spec.length_scale);
     let mut rapier = PhysicsWorld {
@@ -157,7 +143,7 @@ fn insert(
     index: usize,
     (spec, role): (&BodySpec, Option<Role>),
     units: Units,
-) -> Result<Flask, BodiesError> {
+) -> Result<Body, BodiesError> {
     check_flask(index, spec)?;
     let outline: Vec<Vec2> = spec
         .outline
@@ -205,7 +191,7 @@ fn insert(
         let collider = surface(collider).collision_groups(groups(role));
         rapier.insert_collider(collider, Some(body));
     }
-    Ok(Flask {
+    Ok(Body {
         body,
         outline: spec.outline.clone(),
         glass,

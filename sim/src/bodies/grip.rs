@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::build::Flask;
+use super::body::Body;
 use super::reach;
 use super::spec::Hand;
 use crate::pose::Pose;
@@ -88,7 +88,7 @@ struct Held {
 pub(super) fn advance(
     grips: &mut [GripState; 2],
     hands: &[Hand; 2],
-    flasks: &[Flask],
+    flasks: &[Body],
     poses: &[Pose],
     reach: f32,
 ) {
@@ -124,7 +124,7 @@ pub(super) fn advance(
     }
 }
 
-fn nearest(stage_from_grip: Pose, flasks: &[Flask], poses: &[Pose], reach: f32) -> Option<Held> {
+fn nearest(stage_from_grip: Pose, flasks: &[Body], poses: &[Pose], reach: f32) -> Option<Held> {
     flasks
         .iter()
         .zip(poses)

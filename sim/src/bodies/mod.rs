@@ -8,6 +8,7 @@
 //! A hand has no collider of its own. It acts by gripping alone: a solid hand
 //! would push a flask away in the very moment in which it reaches for it.
 
+mod body;
 mod build;
 mod coupling;
 mod grip;
@@ -27,7 +28,8 @@ mod tests;
 
 pub use grip::{GRIP_CLOSES, GRIP_OPENS, GRIP_REACH, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 pub use shards::{BASE_SHARE, BREAKS_AT, Break, NOWHERE, SHARDS, Shard, is_nowhere};
-pub use spec::{BodiesError, BodiesSpec, BodySpec, Hand, Load, Role, Table, ToolSpec, Velocity};
+pub use spec::{
+    BodiesError, BodiesSpec, BodySpec, Hand, Load, Role, Table, ToolSpec, Velocity, Worn,
+};
 pub use strikes::Strike;
-pub use wear::Worn;
 pub use world::{Bodies, Leap};

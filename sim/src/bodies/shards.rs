@@ -9,7 +9,8 @@ use rapier3d::prelude::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::build::{Flask, surface};
+use super::body::Body;
+use super::build::surface;
 use super::solid::{self, Piece as Part};
 use super::spec::Velocity;
 use super::units::Units;
@@ -108,7 +109,7 @@ impl Breakage {
         &mut self,
         rapier: &mut PhysicsWorld,
         index: usize,
-        flask: &Flask,
+        flask: &Body,
         (pose, velocity): (Pose, Velocity),
         units: Units,
     ) {

@@ -1,9 +1,9 @@
 //! What the caller hands in, the world, its flasks, and each step's inputs, and how flasks move.
 
 use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::wear::Worn;
 use crate::pose::Pose;
 
 /// The surroundings of the flasks.
@@ -29,6 +29,15 @@ pub struct BodiesSpec {
     pub tools: Vec<ToolSpec>,
     /// What is worn at the start.
     pub worn: Worn,
+}
+
+/// What is worn, where a scene has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Worn {
+    /// Whether the goggles are.
+    pub goggles: Option<bool>,
+    /// Whether a glove is on the left and on the right hand.
+    pub gloves: Option<[bool; 2]>,
 }
 
 /// What a body beside the flasks is.

@@ -4,7 +4,7 @@ use glam::Vec3;
 use rapier3d::prelude::{PhysicsWorld, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
 
-use super::build::Flask;
+use super::body::Body;
 use super::spec::{BodiesSpec, Table};
 use super::units::Units;
 use crate::pose::Pose;
@@ -106,9 +106,9 @@ impl Strikes {
     }
 
     /// One of rapier's steps was taken.
-    pub fn take(&mut self, rapier: &PhysicsWorld, flasks: &[Flask], units: Units) {
+    pub fn take(&mut self, rapier: &PhysicsWorld, flasks: &[Body], units: Units) {
         let contacts = contacts(rapier, flasks, units);
-        let velocity = |flask: &Flask| {
+        let velocity = |flask: &Body| {
             let body = rapier.bodies.get(flask.body);
             body.map_or(Vec3::ZERO, |body| units.to_si(body.linvel()))
         };
@@ -150,7 +150,7 @@ impl Strikes {
     }
 
     /// A held flask, which rapier lets go through table and floor, is at `pose` after a step of `step` (s); `None` where none holds it.
-    pub fn take_held(&mut self, index: usize, flask: &Flask, held: Option<Pose>, step: f32) {
+    pub fn take_held(&mut self, index: usize, flask: &Body, held: Option<Pose>, step: f32) {
         let before = self.memory.clear[index];
         let Some(pose) = held else {
             self.memory.clear[index] = None;
@@ -194,7 +194,7 @@ impl Strikes {
 
     /// Where a flask is that was there `before`. A hand may take it through the table: then it is still the table that it came through,
     /// and under one that it came to from aside it is the floor.
-    fn clearance(&self, flask: &Flask, pose: &Pose, before: Option<Clear>) -> Clear {
+    fn clearance(&self, flask: &Body, pose: &Pose, before: Option<Clear>) -> Clear {
         let axis = pose.orientation * Vec3::Y;
         let sine = (1.0 - axis.y * axis.y).max(0.0).sqrt();
         let heights = flask.outline.iter();
@@ -216,7 +216,7 @@ impl Strikes {
 }
 
 /// Each pair that touches once, the flask of the lower index first.
-fn contacts(rapier: &PhysicsWorld, flasks: &[Flask], units: Units) -> Vec<Contact> {
+fn contacts(rapier: &PhysicsWorld, flasks: &[Body], units: Units) -> Vec<Contact> {
     let flask_of =
         |body: Option<RigidBodyHandle>| flasks.iter().position(|flask| Some(flask.body) == body);
     let mut all: Vec<Contact> = Vec::new();

@@ -3,10 +3,10 @@
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-use super::build::Flask;
+use super::body::Body;
 use super::grip::{GripState, holder};
 use super::reach;
-use super::spec::{Hand, Role};
+use super::spec::{Hand, Role, Worn};
 use crate::pose::Pose;
 
 /// How near the eyes' middle (m, at real size) the middle of goggles must be when they are let go, to be worn: they are as broad as a
@@ -18,15 +18,6 @@ const AT_HAND: f32 = 0.12;
 /// How far it must go from there (m, at real size), closed, until the glove is off: a hand that closes beside the other one, at a button or a
 /// flask, pulls nothing. A glove is 0.24 m long.
 const PULLED: f32 = 0.22;
-
-/// What is worn, where a scene has it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Worn {
-    /// Whether the goggles are.
-    pub goggles: Option<bool>,
-    /// Whether a glove is on the left and on the right hand.
-    pub gloves: Option<[bool; 2]>,
-}
 
 /// See the module.
 #[derive(Clone, Serialize, Deserialize)]
@@ -56,7 +47,7 @@ impl Wearing {
         &mut self,
         (grips, hands): (&[GripState; 2], &[Hand; 2]),
         head: Option<Pose>,
-        (flasks, poses): (&[Flask], &[Pose]),
+        (flasks, poses): (&[Body], &[Pose]),
         scale: f32,
     ) {
         let of_role = |role| flasks.iter().position(|it| it.role == Some(role));
@@ -106,7 +97,7 @@ impl Wearing {
     }
 
     /// Where a body is that is worn.
-    pub fn place(&self, flask: &Flask) -> Option<Pose> {
+    pub fn place(&self, flask: &Body) -> Option<Pose> {
         self.place.filter(|_| flask.role == Some(Role::Goggles))
     }
 }
@@ -119,6 +110,6 @@ fn head_from_goggles() -> Pose {
     )
 }
 
-fn height(flask: &Flask) -> f32 {
+fn height(flask: &Body) -> f32 {
     flask.outline.last().map_or(0.0, |top| top[1])
 }

@@ -4,16 +4,18 @@ use glam::Vec3;
 use rapier3d::prelude::{PhysicsWorld, RigidBodyType};
 use serde::{Deserialize, Serialize};
 
-use super::build::{self, Flask, SUBSTEPS};
+use super::body::Body;
+use super::build::{self, SUBSTEPS};
 use super::coupling::{self, PastPoses};
 use super::grip::{self, GRIP_REACH, GripState, RELEASE_SPEED_MAX, RELEASE_SPIN_MAX};
 use super::reach;
 use super::rolling;
 use super::shards::{BREAKS_AT, Break, Breakage, NOWHERE, Shard};
+use super::spec::Worn;
 use super::spec::{BodiesError, BodiesSpec, Hand, Load, Role, Velocity};
 use super::strikes::{Memory, Strike, Strikes};
 use super::units::Units;
-use super::wear::{Wearing, Worn};
+use super::wear::Wearing;
 use crate::pose::Pose;
 
 /// Speed (m/s, at real size) above which a held flask's motion is a leap of the
@@ -52,7 +54,7 @@ struct State {
 pub struct Bodies {
     rapier: PhysicsWorld,
     /// The flasks, then the tools.
-    flasks: Vec<Flask>,
+    flasks: Vec<Body>,
     /// How many are flasks.
     count: usize,
     state: State,

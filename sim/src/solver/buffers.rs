@@ -3,11 +3,11 @@
 
 use super::colour::{self, Colour};
 use super::counters::Counters;
-use super::dew;
 use super::glass;
 use super::grid::Grid;
 use super::spec::SolverSpec;
 use super::transfer::upload;
+use super::vapour::dew_places;
 use super::vessels::Vessels;
 use crate::chemistry::Chemistry;
 use crate::chemistry::dew::AROUND;
@@ -159,7 +159,7 @@ impl Buffers {
             _ => Vec::new(),
         };
         let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
-        let dew_rows = (dew::places(&spec.parameters, spec.flasks.len()) / AROUND) as u64;
+        let dew_rows = (dew_places(&spec.parameters, spec.flasks.len()) / AROUND) as u64;
         let bubbles = spec.parameters.bubbles();
         let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
         let bubbly = where_asked(bubbles.is_some(), n);

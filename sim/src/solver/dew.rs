@@ -1,38 +1,25 @@
 //! Water on the flasks' inner walls, as a pass after a frame's substeps.
 
+use super::SolverSpec;
 use super::buffers::Buffers;
 use super::error::SolverError;
 use super::glass;
 use super::pipelines::{Constants, SolverPass};
-use super::steam::{PUFFS, VENTS};
 use super::transfer::upload;
+use super::vapour::{PUFFS, VENTS, dew_places};
 use super::vessels::Vessels;
-use super::{SolverSpec, steam};
 use crate::chemistry::dew;
 use crate::chemistry::glass::RINGS;
 use crate::chemistry::puff::Room;
-use crate::parameters::Parameters;
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::{Dew as Place, DewRow, Step};
 use vitriol_shaders::{Library, sim};
-
-/// Places of a flask.
-const PLACES: usize = dew::AROUND * dew::UP;
 
 /// What `sim/dew.wgsl` takes for granted: room for all puffs in a workgroup's memory, and two rings of the glass a row.
 const _: () = assert!(PUFFS <= 1024 && RINGS == 2 * dew::UP);
 
 /// Threads of a workgroup.
 const THREADS: usize = 256;
-
-/// Places of all flasks: none where no steam leaves the liquid, or no heat goes to the glass.
-pub(super) fn places(parameters: &Parameters, flasks: usize) -> usize {
-    let chemistry = parameters.chemistry.as_ref();
-    match (steam::physical(parameters), glass::losses(chemistry)) {
-        (Some(_), Some(_)) => PLACES * flasks,
-        _ => 0,
-    }
-}
 
 /// The walls' water, and what condenses it.
 pub(super) struct Dew {
@@ -52,7 +39,7 @@ impl Dew {
         (buffers, vessels): (&Buffers, &Vessels),
         steam: [&Buffer; 3],
     ) -> Result<Option<Self>, SolverError> {
-        let places = places(&spec.parameters, spec.flasks.len());
+        let places = dew_places(&spec.parameters, spec.flasks.len());
         let losses = glass::losses(spec.parameters.chemistry.as_ref());
         let (Some(losses), 1..) = (losses, places) else {
             return Ok(None);

@@ -35,6 +35,7 @@ mod spray;
 mod state;
 mod steam;
 mod transfer;
+mod vapour;
 mod vessels;
 
 pub(crate) use census::LooksMemoryRecord;
@@ -50,7 +51,7 @@ pub use pane::Pane;
 pub(crate) use snapshot::SolverStateRecord;
 pub use spec::{Ground, Particle, SolverSpec};
 pub use state::SolverState;
-pub use steam::PUFFS;
+pub use vapour::PUFFS;
 
 use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;

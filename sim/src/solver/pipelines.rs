@@ -1,10 +1,10 @@
 //! The passes, specialised for what the scene asks for.
 
 use super::colour::Colour;
-use super::dew;
 use super::glass;
 use super::grid::Grid;
 use super::lanes;
+use super::vapour::dew_places;
 use super::vessels::PLANE_ENTRIES;
 use super::{SolverError, SolverSpec};
 use crate::chemistry::evaporation::StillAir;
@@ -339,7 +339,7 @@ impl Constants {
             ("SOLIDS", flag(spec.solids.is_some())),
             ("LOADS", flag(spec.loads)),
             ("CONSTRAINT", flag(spec.constraint)),
-            ("DEW", flag(dew::places(p, spec.flasks.len()) > 0)),
+            ("DEW", flag(dew_places(p, spec.flasks.len()) > 0)),
             ("PLANE_COUNT", PLANE_ENTRIES as f64),
             ("FLOOR", spec.ground.floor),
         ];

@@ -1,25 +1,19 @@
 //! Steam in the room's air, as passes after a frame's substeps.
 
 use super::buffers::Buffers;
-use super::dew::{self, Dew};
+use super::dew::Dew;
 use super::error::SolverError;
 use super::pipelines::{Constants, SolverPass};
 use super::spec::SolverSpec;
 use super::transfer::write;
+use super::vapour::{PUFFS, VENTS, dew_places, with_steam};
 use super::vessels::Vessels;
 use crate::chemistry::puff::Room;
-use crate::chemistry::{Chemistry, Physical};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::layout::{self, Puff, Step};
 use vitriol_shaders::{Library, sim};
-
-/// Puffs of steam at most; a new one replaces its vent's oldest.
-pub const PUFFS: u32 = 1024;
-
-/// Puffs that a frame may bring.
-pub(super) const VENTS: u32 = 4;
 
 /// Counts that are kept: puffs of each workgroup that makes them, and quanta of water that were washed off glass, as
 /// low and high word.
@@ -87,7 +81,7 @@ impl Steam {
         of_solver: (&Buffers, &Vessels),
     ) -> Result<Option<Self>, SolverError> {
         let parameters = &spec.parameters;
-        let Some(physical) = physical(parameters) else {
+        let Some(physical) = with_steam(parameters) else {
             return Ok(None);
         };
         let ambient = physical.losses.map_or(ROOM_TEMPERATURE, |l| l.ambient);
@@ -125,14 +119,14 @@ impl Steam {
 
     /// The state in which nothing has left yet, of `parameters`' scene.
     pub(super) fn start(parameters: &Parameters, count: usize, flasks: usize) -> SteamState {
-        if physical(parameters).is_none() {
+        if with_steam(parameters).is_none() {
             return SteamState::default();
         }
         SteamState {
             puffs: vec![[0.0; 12]; PUFFS as usize],
             vented: vec![[0.0; 2]; count],
             made: vec![0; COUNTS],
-            dew: vec![[0; 4]; dew::places(parameters, flasks)],
+            dew: vec![[0; 4]; dew_places(parameters, flasks)],
         }
     }
 
@@ -197,12 +191,4 @@ fn bound<'a>([puffs, vented, made, taken]: &'a [Buffer; 4], b: &'a Buffers) -> [
         &b.ledger,
         &b.bubbles,
     ]
-}
-
-/// The chemistry, where steam leaves the liquid.
-pub(super) fn physical(parameters: &Parameters) -> Option<&Physical> {
-    match &parameters.chemistry {
-        Some(Chemistry::Physical(p)) if p.bubbles.is_some() => Some(p),
-        _ => None,
-    }
 }

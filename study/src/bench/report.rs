@@ -8,9 +8,6 @@ use vitriol_experiment::DeviceStatement;
 use vitriol_experiment::passes::{PassRow, Timing};
 use vitriol_experiment::units::{grouped, percent};
 
-use super::rest::PeerRow;
-use super::scaling::Scaling;
-
 /// What `vitriol bench` measured.
 #[derive(Debug, Clone, Serialize)]
 pub struct Benchmark {
@@ -263,4 +260,70 @@ fn describe_picture(row: &RenderRow, text: &mut String) {
     for (name, Timing { median_ms, p95_ms }) in named {
         let _ = writeln!(text, "{name:<28} {median_ms:>10.4} {p95_ms:>10.4}");
     }
+}
+
+/// A peer beside one of our rows: as many particles, substeps and iterations, and the same spacing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PeerRow {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// The device that it names.
+    pub device: String,
+    /// A frame's share of several that are queued.
+    pub total: Timing,
+    /// The least and the greatest of these, ms.
+    pub range_ms: [f64; 2],
+    /// Mean over particles of max(0, ρ/ρ₀ − 1) at its last run's end.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same.
+    pub density_error_p99: f64,
+    /// Its median over ours: above 1 where ours is faster.
+    pub ratio: f64,
+    /// The same of each round.
+    pub ratios: Vec<f64>,
+}
+
+/// A frame's time over the number of particles.
+#[derive(Debug, Clone, Serialize)]
+pub struct Scaling {
+    /// Substeps in a frame.
+    pub substeps: u32,
+    /// Iterations in a substep.
+    pub iterations: u32,
+    /// By ascending number of particles.
+    pub rows: Vec<ScalingRow>,
+    /// What could not be measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub skipped: Vec<Skipped>,
+    /// Where the figure is.
+    pub figure: String,
+}
+
+/// A block at rest.
+#[derive(Debug, Clone, Serialize)]
+pub struct ScalingRow {
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// A frame's share of several that are queued.
+    pub total: Timing,
+    /// Median for a particle and an iteration, ns.
+    pub particle_iteration_ns: f64,
+    /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end.
+    pub density_error_mean: f64,
+    /// 99th percentile of the same.
+    pub density_error_p99: f64,
+    /// Other programs that ran in turn with it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub peers: Vec<PeerRow>,
+}
+
+/// A row that there is no room for.
+#[derive(Debug, Clone, Serialize)]
+pub struct Skipped {
+    /// Fluid particles.
+    pub fluid_particles: u64,
+    /// Why.
+    pub reason: String,
 }

@@ -1,6 +1,5 @@
 //! A frame's time of a scene at rest, and in turn with it that of peers.
 
-use serde::Serialize;
 use vitriol_experiment::units::percent;
 use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, vk};
@@ -8,6 +7,7 @@ use vitriol_sim::scene::Scene;
 
 use super::frame::{QUEUED, queued, settled};
 use super::peer::{Answer, Asked, Peer};
+use super::report::PeerRow;
 use vitriol_experiment::passes::Timing;
 
 /// How often ours and the peers take turns, so that what else the machine does falls on all.
@@ -27,29 +27,6 @@ pub struct AtRest {
     pub density_error_p99: f64,
     /// The peers that ran in turn with it.
     pub peers: Vec<PeerRow>,
-}
-
-/// A peer beside one of our rows: as many particles, substeps and iterations, and the same spacing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PeerRow {
-    /// Its name.
-    pub name: String,
-    /// Its version.
-    pub version: String,
-    /// The device that it names.
-    pub device: String,
-    /// A frame's share of several that are queued.
-    pub total: Timing,
-    /// The least and the greatest of these, ms.
-    pub range_ms: [f64; 2],
-    /// Mean over particles of max(0, ρ/ρ₀ − 1) at its last run's end.
-    pub density_error_mean: f64,
-    /// 99th percentile of the same.
-    pub density_error_p99: f64,
-    /// Its median over ours: above 1 where ours is faster.
-    pub ratio: f64,
-    /// The same of each round.
-    pub ratios: Vec<f64>,
 }
 
 /// Measures `frames` frames of a scene at rest, in turn with the peers.

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-use serde::Serialize;
+use vitriol_experiment::passes::Timing;
 use vitriol_experiment::units::{grouped, percent};
 use vitriol_experiment::{Blame, Failure, output};
 use vitriol_gpu::{Gpu, GpuError};
@@ -12,9 +12,9 @@ use vitriol_sim::scene::Scene;
 use vitriol_sim::world::WorldError;
 
 use super::peer::Peer;
-use super::rest::{PeerRow, at_rest};
+use super::report::{Scaling, ScalingRow, Skipped};
+use super::rest::at_rest;
 use super::scaling_plot::draw;
-use vitriol_experiment::passes::Timing;
 
 /// Particles of the rows.
 const COUNTS: [u64; 7] = [1_000, 4_000, 16_000, 64_000, 250_000, 1_000_000, 4_000_000];
@@ -22,49 +22,6 @@ const COUNTS: [u64; 7] = [1_000, 4_000, 16_000, 64_000, 250_000, 1_000_000, 4_00
 const SPACING: f64 = 0.05;
 /// Most layers of particles, as in `sim/scenes/bench/million.toml`. A deeper column would want shorter substeps.
 const LAYERS: f64 = 20.0;
-
-/// A frame's time over the number of particles.
-#[derive(Debug, Clone, Serialize)]
-pub struct Scaling {
-    /// Substeps in a frame.
-    pub substeps: u32,
-    /// Iterations in a substep.
-    pub iterations: u32,
-    /// By ascending number of particles.
-    pub rows: Vec<ScalingRow>,
-    /// What could not be measured.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub skipped: Vec<Skipped>,
-    /// Where the figure is.
-    pub figure: String,
-}
-
-/// A block at rest.
-#[derive(Debug, Clone, Serialize)]
-pub struct ScalingRow {
-    /// Fluid particles.
-    pub fluid_particles: u64,
-    /// A frame's share of several that are queued.
-    pub total: Timing,
-    /// Median for a particle and an iteration, ns.
-    pub particle_iteration_ns: f64,
-    /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end.
-    pub density_error_mean: f64,
-    /// 99th percentile of the same.
-    pub density_error_p99: f64,
-    /// Other programs that ran in turn with it.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub peers: Vec<PeerRow>,
-}
-
-/// A row that there is no room for.
-#[derive(Debug, Clone, Serialize)]
-pub struct Skipped {
-    /// Fluid particles.
-    pub fluid_particles: u64,
-    /// Why.
-    pub reason: String,
-}
 
 /// Measures blocks of up to `most` particles, and draws them into the file `figure`.
 ///

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
 use vitriol_experiment::units::{grouped, three_digits};
 
-use super::scaling::ScalingRow;
+use super::report::ScalingRow;
 use crate::trade::plot::{span, ticks};
 
 const TEXT: (&str, u32) = ("sans-serif", 16);

@@ -53,7 +53,12 @@ impl Eyes {
         begun: Begun,
         head: &Pose,
     ) -> Result<(), CallFailure> {
-        let (flags, found) = live.views.locate(live, begun.time)?;
+        let (flags, found) = live.views.locate(
+            &live.session,
+            &live.stage.space,
+            (live.gaze.as_ref(), &live.head),
+            begun.time,
+        )?;
         for (eye, found) in found.into_iter().take(self.all.len()).enumerate() {
             let (position, orientation) = sound(found.pose);
             let position = position.filter(|_| flags.contains(xr::ViewStateFlags::POSITION_VALID));

@@ -8,7 +8,6 @@ use openxr as xr;
 use xr::sys;
 
 use super::convert::{CallFailure, failed};
-use super::live::Live;
 use crate::HeadsetError;
 
 /// Views of a session with an inset: the left and the right eye's, then the left and the right inset.
@@ -93,17 +92,17 @@ impl Views {
         .ok()
     }
 
-    /// All of them at that time.
+    /// All of them in `space` at that time. The inset follows the `gaze` while that is tracked in the head's space.
     pub(super) fn locate(
         self,
-        live: &Live,
+        session: &xr::Session<xr::Vulkan>,
+        space: &xr::Space,
+        (gaze, head): (Option<&xr::Space>, &xr::Space),
         time: xr::Time,
     ) -> Result<(xr::ViewStateFlags, Vec<xr::View>), CallFailure> {
-        let (session, space) = (&live.session, &live.stage.space);
         let located = match self {
             Self::Quad { follows: true } => {
-                let gaze = live.gaze.as_ref();
-                let active = gaze.is_some_and(|gaze| is_tracked(gaze, &live.head, time));
+                let active = gaze.is_some_and(|gaze| is_tracked(gaze, head, time));
                 locate_foveated(session, self.kind(), time, space, active)
             }
             _ => session.locate_views(self.kind(), time, space),

@@ -2,7 +2,7 @@
 
 use egui::{Align, Color32, Label, Layout, RichText, Ui, vec2};
 
-use super::view::{FAINT, GOOD, TEXT, WARNING, WHITE};
+use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
 use crate::vr::decision::{Act, Decision};
 use crate::vr::info::{Mark, Shown};
 use crate::vr::menu;

@@ -3,6 +3,7 @@
 //! It is drawn in the scene, and shown by a headset in a layer of its own under the picture (`xr/src/session/layers.rs`). A hand
 //! that points at it has a ray.
 
+mod colours;
 #[cfg(test)]
 mod fits;
 mod lesson;
