@@ -21,8 +21,8 @@ impl Trouble for Looks {
     }
 }
 
-/// An allocator or a driver takes megabytes at once, now and then: in most windows nothing grows. A leak that the allocator has no
-/// room for is in each of them. What is looked at is the process's: nextest gives each test its own.
+/// 33 kB a frame at most: a driver takes megabytes at once, now and then, and a recording that waits for a busy disk held 0.9 MB. The
+/// long sessions find 500 bytes a frame. What is looked at is the process's: nextest gives each test its own.
 #[test]
 #[cfg(target_os = "linux")]
 fn nothing_grows_in_a_session() {
@@ -49,14 +49,6 @@ fn nothing_grows_in_a_session() {
         unreachable!("there are twelve")
     };
     assert!(last.handles <= first.handles + 1, "{looks:?}");
-    let mut growths: Vec<_> = looks
-        .windows(2)
-        .map(|pair| pair[1].memory as f64 - pair[0].memory as f64)
-        .collect();
-    growths.sort_by(f64::total_cmp);
-    let of_a_frame = growths[growths.len() / 2] / WINDOW as f64;
-    eprintln!("{of_a_frame} bytes a frame: {growths:?}");
-    assert!(of_a_frame < 500.0, "{growths:?}");
-    let all = last.memory as f64 - first.memory as f64;
-    assert!(all < 16e6, "{all} bytes in all");
+    let grown = last.memory as f64 - first.memory as f64;
+    assert!(grown < 8e6, "{looks:?}");
 }
