@@ -31,6 +31,7 @@ mod passes;
 mod random_glass;
 mod repeat;
 mod rest;
+mod sessile;
 mod solids;
 mod stream;
 mod tension;
