@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Blame, Failure, Instruction};
+use vitriol_experiment::{Action, Blame, Failure};
 use vitriol_lesson::Language;
 use vitriol_sound::Caption;
 
@@ -221,23 +221,23 @@ impl InstructorTexts {
         self.message.replace("{text}", text)
     }
 
-    /// In words.
-    pub fn instruction(&self, instruction: &Instruction) -> String {
+    /// What an instructor did, in words; empty of an action that is not an instructor's.
+    pub fn instruction(&self, instruction: &Action) -> String {
         match instruction {
-            Instruction::Intensity(value) => {
-                self.intensity.replace("{value}", &three_digits(*value))
-            }
-            Instruction::Pause(true) => self.held.clone(),
-            Instruction::Pause(false) => self.goes_on.clone(),
-            Instruction::Speed(rate) if *rate >= 1.0 => self.full_speed.clone(),
-            Instruction::Speed(rate) => {
+            Action::Intensity(value) => self.intensity.replace("{value}", &three_digits(*value)),
+            Action::Pause(true) => self.held.clone(),
+            Action::Pause(false) => self.goes_on.clone(),
+            Action::Speed(rate) if *rate >= 1.0 => self.full_speed.clone(),
+            Action::Speed(rate) => {
                 let per_cent = format!("{:.0}", 100.0 * rate);
                 self.speed.replace("{percent}", &per_cent)
             }
-            Instruction::Spare(true) => self.muted.clone(),
-            Instruction::Spare(false) => self.heard.clone(),
-            Instruction::Message(text) if text.is_empty() => self.unsaid.clone(),
-            Instruction::Message(text) => self.message(text),
+            Action::Mute(true) => self.muted.clone(),
+            Action::Mute(false) => self.heard.clone(),
+            Action::Message(text) if text.is_empty() => self.unsaid.clone(),
+            Action::Message(text) => self.message(text),
+            // What no instructor does.
+            _ => String::new(),
         }
     }
 }

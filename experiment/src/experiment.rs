@@ -10,9 +10,9 @@ use vitriol_sim::solver::Held;
 use vitriol_sound::{Event, Listener};
 use vitriol_xr::PoseFrame;
 
+use crate::action::Action;
 use crate::device::DeviceStatement;
 use crate::failure::Failure;
-use crate::instruction::Instruction;
 use crate::judging::Judging;
 use crate::sample::Sample;
 
@@ -84,7 +84,7 @@ pub struct Glimpse<'a> {
     /// What was found.
     pub events: &'a [vitriol_lesson::Event],
     /// What an instructor did when it was recorded.
-    pub instructions: &'a [(f64, Instruction)],
+    pub instructions: &'a [(f64, Action)],
 }
 
 /// What can be heard at a camera.
@@ -128,7 +128,7 @@ pub struct Outcome {
     /// What was said of the lesson that is judged; empty without one.
     pub progress: Vec<vitriol_lesson::procedure::Progress>,
     /// What an instructor did, each with the run's time, s.
-    pub instructions: Vec<(f64, Instruction)>,
+    pub instructions: Vec<(f64, Action)>,
     /// What was counted.
     pub counters: Counters,
 }

@@ -3,6 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
+use vitriol_sim::world::WorldError;
+
 /// Any error that can travel between threads.
 pub type Cause = Box<dyn Error + Send + Sync + 'static>;
 
@@ -71,6 +73,14 @@ impl<T, E: Into<Cause>> Blame<T> for Result<T, E> {
 
     fn other(self) -> Result<T, Failure> {
         self.map_err(|error| Failure::Other(error.into()))
+    }
+}
+
+/// Whose fault a world's error is.
+pub(crate) fn blame_world(error: WorldError) -> Failure {
+    match error {
+        WorldError::Fill(_) => Failure::Input(error.into()),
+        _ => Failure::Other(error.into()),
     }
 }
 

@@ -8,8 +8,8 @@ use std::collections::VecDeque;
 use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Event, Lesson, Mode, Procedure, Sight};
 
+use crate::action::Action;
 use crate::looks::Looked;
-use crate::wish::Wish;
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct Judging {
     /// The last look.
     sight: Sight,
     /// What was asked for and has not come to its look, each with the run's time, s.
-    asked: VecDeque<(f64, Wish)>,
+    asked: VecDeque<(f64, Action)>,
 }
 
 impl Judging {
@@ -50,8 +50,8 @@ impl Judging {
     }
 
     /// Something was asked for at the run's time `t_s`, before the step that comes next.
-    pub fn ask(&mut self, t_s: f64, wish: Wish) {
-        self.asked.push_back((t_s, wish));
+    pub fn ask(&mut self, t_s: f64, action: Action) {
+        self.asked.push_back((t_s, action));
     }
 
     /// A scene is brought up before the next step: what was asked for since the last one was of the scene before.
@@ -74,25 +74,31 @@ impl Judging {
         }
         while let Some((t_s, _)) = self.asked.front()
             && *t_s < looked.t
-            && let Some((_, wish)) = self.asked.pop_front()
+            && let Some((_, action)) = self.asked.pop_front()
         {
             if self.is_of(scene) {
-                said.extend(self.grant(&wish, looked.t, &so_far));
+                said.extend(self.grant(&action, looked.t, &so_far));
             }
         }
         said
     }
 
-    fn grant(&mut self, wish: &Wish, t_s: f64, so_far: impl Fn() -> Vec<Event>) -> Vec<Progress> {
+    fn grant(
+        &mut self,
+        action: &Action,
+        t_s: f64,
+        so_far: impl Fn() -> Vec<Event>,
+    ) -> Vec<Progress> {
         let judge = &mut self.procedure;
-        match wish {
-            Wish::Hint(step) => judge.ask_hint(step, t_s).into_iter().collect(),
-            Wish::Skip(step) => judge.skip(step, t_s),
-            Wish::Finish => {
+        match action {
+            Action::Hint(Some(step)) => judge.ask_hint(step, t_s).into_iter().collect(),
+            Action::Skip(Some(step)) => judge.skip(step, t_s),
+            Action::Finish => {
                 let mut said = judge.advance(&self.sight, &so_far());
                 said.extend(judge.finish(t_s));
                 said
             }
+            _ => Vec::new(),
         }
     }
 

@@ -2,35 +2,28 @@
 //! them.
 
 mod sampled;
-mod switched;
 
 use std::sync::Arc;
 
 use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_lesson as lesson;
-use vitriol_lesson::procedure::Progress;
 use vitriol_render::PassPicture;
 use vitriol_shaders::{Library, ShaderId};
 use vitriol_sim::measure::{Departures, Ledger};
 use vitriol_sim::scene::{PictureFilter, PictureRoom, PictureTint, Preset, Scene};
-use vitriol_sim::solver::Held;
-use vitriol_sim::world::{World, WorldError};
-use vitriol_sound::Event;
-use vitriol_xr::{Pose, PoseFrame};
+use vitriol_sim::world::World;
+use vitriol_xr::{Pose, PoseFrame, Switch};
 
-use crate::audible::Audible;
+use crate::action::Action;
 use crate::camera::{Camera, Colour, Look, Shot};
-use crate::clock::SimulatedTime;
 use crate::device;
 use crate::experiment::{Counters, Experiment, Glimpse, Heard, Outcome, Taken};
-use crate::failure::{Blame, Failure};
-use crate::instruction::Instruction;
+use crate::failure::{Blame, Failure, blame_world};
 use crate::judging::Judging;
-use crate::looks::{Looked, Looks};
+use crate::run::Run;
 use crate::sample::{MassByPlace, Sample};
 use crate::scenery::drawn_liquid;
 use crate::scenes::Scenes;
-use crate::stage;
+use crate::track::key;
 
 use sampled::{by_flask, of_heat};
 
@@ -88,7 +81,7 @@ pub fn on_device(gpu: &Gpu, setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Fa
     Ok(Box::new(Laboratory::new(gpu, setup)?))
 }
 
-/// Looks that may be under way: the device does its work meanwhile, as with what pushes on the flasks.
+/// Observations that may be under way: the device does its work meanwhile, as with what pushes on the flasks.
 const MOST_LOOKS: usize = 2;
 
 /// The camera for the pictures that were asked for.
@@ -109,51 +102,26 @@ fn camera(
     shot.map(of_world).transpose()
 }
 
-/// The simulated world and its picture on a device.
+/// A run and its picture on a device.
 pub struct Laboratory {
-    world: World,
+    run: Run,
     film: Option<Camera>,
     /// What the film's pictures are like, whatever the scene.
     shot: Option<Shot>,
     preset: Preset,
     scenes: Scenes,
-    /// The scene's name at the start, and that of the scene that a switch brought up.
-    begun_with: String,
+    /// The scene's name where a switch brought it up.
     switched: Option<String>,
     follows_head: bool,
-    /// Whether glass breaks.
-    breakable: bool,
     seed: u64,
     shaders: Arc<Library>,
     /// Most particles on the wrong side of a wall in any measurement.
     lost: u64,
-    /// Substeps done.
-    substeps: u64,
-    /// Times that a switch changed substeps or iterations.
-    solver_changes: u64,
-    flasks_broken: u64,
     departures: Departures,
     /// The ledger at the first sample.
     start: Option<Ledger>,
     colours: Vec<Colour>,
     picture: Vec<u8>,
-    audible: Audible,
-    time: SimulatedTime,
-    looks: Looks,
-    /// What could be heard since it was asked for last.
-    heard: Vec<Event>,
-    /// What was found so far.
-    found: Vec<lesson::Event>,
-    /// The lesson that is judged, if one is.
-    judging: Option<Judging>,
-    /// What was said of it.
-    progress: Vec<Progress>,
-    /// What an instructor did, and when, s.
-    instructions: Vec<(f64, Instruction)>,
-    /// Whether boiling is not heard.
-    muted: bool,
-    /// By flask, at the last look, and what lay on bench and floor, real m³.
-    seen: (Vec<Held>, [f64; 2]),
 }
 
 impl Laboratory {
@@ -187,41 +155,26 @@ impl Laboratory {
             camera.follow(head);
         }
         Ok(Self {
-            world,
+            run: Run::new(setup.scene_name, world),
             film,
             shot,
             preset: setup.preset,
             scenes: setup.scenes.clone(),
-            begun_with: setup.scene_name.to_owned(),
             switched: None,
             follows_head: setup.head.is_some(),
-            breakable: false,
             seed: setup.seed,
             shaders: setup.shaders.clone(),
             lost: 0,
-            substeps: 0,
-            solver_changes: 0,
-            flasks_broken: 0,
             departures: Departures::default(),
             start: None,
             colours: setup.colours.clone(),
             picture: Vec::new(),
-            audible: Audible::of(setup.scene),
-            time: SimulatedTime::default(),
-            looks: Looks::of(setup.scene_name, setup.scene),
-            heard: Vec::new(),
-            found: Vec::new(),
-            judging: None,
-            progress: Vec::new(),
-            instructions: Vec::new(),
-            muted: false,
-            seen: (Vec::new(), [0.0; 2]),
         })
     }
 
     /// The simulated world now.
     pub fn world(&self) -> &World {
-        &self.world
+        &self.run.world
     }
 
     /// The camera of the pictures that were asked for.
@@ -255,64 +208,59 @@ impl Laboratory {
             renderer.reload(&self.shaders, changed).other()?;
         }
         if let Some(world) = renewed {
-            self.world = world;
+            self.run.world = world;
         }
         Ok(())
     }
 
-    /// Takes in the looks that are older than the newest ones, so many of them; waits for the device.
-    fn collect_looks(&mut self, newest: usize) -> Result<(), Failure> {
-        while self.looks.under_way() > newest {
-            let Some(looked) = self.looks.wait()? else {
-                break;
+    /// Does what the frame's switches say, in their order; whether that brought up a scene.
+    fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
+        let mut anew = false;
+        for switch in switches {
+            let action = match Action::of(switch) {
+                Ok(Some(action)) => action,
+                Ok(None) => continue,
+                // Where nothing is judged, what a student asks for in another version's words does no harm.
+                Err(error) if error.key == key::LESSON && self.run.judging().is_none() => continue,
+                Err(error) => return Err(Failure::Input(error.into())),
             };
-            if let Some(judging) = &mut self.judging {
-                let scene = self.switched.as_ref().unwrap_or(&self.begun_with);
-                let said = judging.looked(scene, &looked, || self.looks.so_far());
-                self.progress.extend(said);
-            }
-            let Looked {
-                census,
-                elapsed,
-                poses,
-                t,
-                events,
-                ..
-            } = looked;
-            self.found.extend(events);
-            let real = self.world.scene().scale.length_scale.powi(3);
-            self.seen.1 = [&census.table, &census.floor].map(|held| real * held.volume);
-            self.seen.0.clone_from(&census.flasks);
-            if self.film.is_some() {
-                // From the look before on: the film's sound up to now is not made yet.
-                let since = t - elapsed;
-                let heard = self.audible.looked(&poses, &census, elapsed, since);
-                self.heard.extend(heard);
+            match action.brings_up().map(str::to_owned) {
+                Some(name) => {
+                    self.bring_up(&name, action)?;
+                    anew = true;
+                }
+                None => _ = self.run.act(action)?,
             }
         }
-        if let Some(camera) = &mut self.film {
-            camera.show_temperature(self.looks.thermometer());
-        }
+        Ok(anew)
+    }
+
+    fn bring_up(&mut self, name: &str, action: Action) -> Result<(), Failure> {
+        self.run.end_attempt()?;
+        let scene = self.scenes.get(name)?.with_preset(self.preset);
+        let gpu = self.run.world.gpu();
+        let world = World::new(gpu, &self.shaders, &scene, self.seed).map_err(blame_world)?;
+        self.run.bring_up(action, world);
+        self.film = camera(&self.run.world, &self.shaders, self.shot, &self.colours)?;
+        (self.departures, self.start) = (Departures::default(), None);
+        self.switched = Some(name.to_owned());
         Ok(())
     }
 
-    /// What went on in the attempt is over.
-    fn end_attempt(&mut self) -> Result<(), Failure> {
-        self.collect_looks(0)?;
-        let events = self.looks.end();
-        if let Some(judging) = &mut self.judging {
-            let scene = self.switched.as_ref().unwrap_or(&self.begun_with);
-            self.progress.extend(judging.ended(scene, &events));
+    /// Collects the observations that are older than the `newest` ones, so many of them; waits for the device.
+    fn collect(&mut self, newest: usize) -> Result<(), Failure> {
+        while self.run.wait(newest)?.is_some() {}
+        if let Some(camera) = &mut self.film {
+            camera.show_temperature(self.run.thermometer());
         }
-        self.found.extend(events);
         Ok(())
     }
 
     /// A new world with the old one's state: shaders change seldom, and a
     /// state that survives a change of device survives this too.
     fn renewed_world(&self) -> Result<World, Failure> {
-        let state = self.world.snapshot().map_err(blame_world)?;
-        let (gpu, scene) = (self.world.gpu(), self.world.scene());
+        let state = self.run.world.snapshot().map_err(blame_world)?;
+        let (gpu, scene) = (self.run.world.gpu(), self.run.world.scene());
         let mut world = World::new(gpu, &self.shaders, scene, self.seed).map_err(blame_world)?;
         world.restore(&state).map_err(blame_world)?;
         Ok(world)
@@ -327,7 +275,7 @@ impl Experiment for Laboratory {
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
-            let scene = self.world.scene();
+            let scene = self.run.world.scene();
             let origin = scene.origin * scene.scale.length_scale;
             let mut view = frame.stage_from_view;
             view.position -= origin.as_vec3();
@@ -338,36 +286,23 @@ impl Experiment for Laboratory {
             }
             camera.show_hands(hands);
         }
-        let scale = self.world.scene().scale;
-        let input = stage::input(frame, self.world.scene());
-        self.world.step(&input).map_err(blame_world)?;
-        self.substeps += u64::from(self.world.scene().solver.substeps);
-        self.flasks_broken += self.world.breaks().len() as u64;
-        self.time.advance(scale.frame_time);
-        let t = self.time.seconds();
-        self.looks
-            .look(&mut self.world, QueueKind::Main, frame, t)?;
-        if self.film.is_some() {
-            let held = |flask| self.world.holder(flask).is_some();
-            let blows = self.audible.struck(self.world.strikes(), held, t);
-            self.heard.extend(blows);
-            let broke = self.audible.broke(self.world.breaks(), t);
-            self.heard.extend(broke);
+        let frame_time = self.run.world.scene().scale.frame_time;
+        self.run.step(QueueKind::Main, frame)?;
+        if self.film.is_none() {
+            // Nobody hears them.
+            drop(self.run.sounds());
         }
-        self.collect_looks(MOST_LOOKS)?;
-        Ok(Taken {
-            frame_time: scale.frame_time,
-            anew,
-        })
+        self.collect(MOST_LOOKS)?;
+        Ok(Taken { frame_time, anew })
     }
 
     fn sample(&mut self, t: f64) -> Result<Sample, Failure> {
-        let state = self.world.solver().snapshot().other()?;
-        let measured = self.world.measure_state(&state).map_err(blame_world)?;
+        let state = self.run.world.solver().snapshot().other()?;
+        let measured = self.run.world.measure_state(&state).map_err(blame_world)?;
         self.lost = self.lost.max(measured.lost_particles);
-        let scene = self.world.scene();
-        let mass = self.world.solver().parameters().particle_mass();
-        let poses = self.world.poses();
+        let scene = self.run.world.scene();
+        let mass = self.run.world.solver().parameters().particle_mass();
+        let poses = self.run.world.poses();
         let departed = self.departures.observe(&state, &scene.flasks, poses, mass);
         let ledger = measured.heat.as_ref().and_then(|heat| heat.ledger);
         let start = *self.start.get_or_insert(ledger.unwrap_or_default());
@@ -391,7 +326,7 @@ impl Experiment for Laboratory {
 
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure> {
         if let (Some(camera), Some(&colour)) = (&self.film, self.colours.get(film)) {
-            self.picture = camera.shoot(&self.world, colour)?;
+            self.picture = camera.shoot(&self.run.world, colour)?;
         }
         Ok(&self.picture)
     }
@@ -400,36 +335,40 @@ impl Experiment for Laboratory {
         let Some(listener) = self.film.as_ref().map(Camera::listener) else {
             return Ok(Heard::default());
         };
-        self.collect_looks(0)?;
-        let events = std::mem::take(&mut self.heard);
+        self.collect(0)?;
+        let events = self.run.sounds();
         Ok(Heard { listener, events })
     }
 
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure> {
-        let passes = self.film.as_ref().map(|camera| camera.passes(&self.world));
+        let passes = self
+            .film
+            .as_ref()
+            .map(|camera| camera.passes(&self.run.world));
         passes.unwrap_or_else(|| Ok(Vec::new()))
     }
 
     fn judge(&mut self, lesson: Judging) {
-        self.judging = Some(lesson);
+        self.run.judge(lesson);
     }
 
     fn glimpse(&self) -> Option<Glimpse<'_>> {
         Some(Glimpse {
-            scene: (self.world.scene(), self.switched.as_deref()),
-            flasks: &self.seen.0,
-            spilt: self.seen.1,
-            intensity: self.world.intensity(),
-            events: &self.found,
-            instructions: &self.instructions,
+            scene: (self.run.world.scene(), self.switched.as_deref()),
+            flasks: &self.run.seen().flasks,
+            spilt: self.run.seen().spilt,
+            intensity: self.run.world.intensity(),
+            events: self.run.events(),
+            instructions: self.run.instructions(),
         })
     }
 
     fn outcome(&mut self) -> Result<Outcome, Failure> {
-        self.end_attempt()?;
-        let measured = self.world.measure().map_err(blame_world)?;
-        let counted = self.world.counters().map_err(blame_world)?;
-        let state = self.world.snapshot().map_err(blame_world)?;
+        self.run.end_attempt()?;
+        let counts = self.run.counts();
+        let measured = self.run.world.measure().map_err(blame_world)?;
+        let counted = self.run.world.counters().map_err(blame_world)?;
+        let state = self.run.world.snapshot().map_err(blame_world)?;
         let limiters = [
             ("more neighbours than places", counted.list_overflows),
             (
@@ -450,19 +389,19 @@ impl Experiment for Laboratory {
         ];
         Ok(Outcome {
             scene: self.switched.clone(),
-            effort: self.world.effort(),
-            fluid_particles: self.world.solver().count().into(),
+            effort: self.run.world.effort(),
+            fluid_particles: self.run.world.solver().count().into(),
             lost_particles: self.lost.max(measured.lost_particles),
             nan_particles: measured.nan_particles,
             state_hash: state.solver.hash(),
-            device: device::statement(self.world.gpu()),
-            events: self.found.clone(),
-            progress: self.progress.clone(),
-            instructions: self.instructions.clone(),
+            device: device::statement(self.run.world.gpu()),
+            events: self.run.events().to_vec(),
+            progress: self.run.progress().to_vec(),
+            instructions: self.run.instructions().to_vec(),
             counters: Counters {
-                substeps: self.substeps,
-                solver_changes: self.solver_changes,
-                flasks_broken: self.flasks_broken,
+                substeps: counts.substeps,
+                solver_changes: counts.solver_changes,
+                flasks_broken: counts.flasks_broken,
                 neighbour_rebuilds: counted.list_rebuilds.into(),
                 limiters: limiters
                     .map(|(name, times)| (name.to_owned(), times.into()))
@@ -470,12 +409,5 @@ impl Experiment for Laboratory {
                     .collect(),
             },
         })
-    }
-}
-
-fn blame_world(error: WorldError) -> Failure {
-    match error {
-        WorldError::Fill(_) => Failure::Input(error.into()),
-        _ => Failure::Other(error.into()),
     }
 }

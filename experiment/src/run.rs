@@ -1,52 +1,369 @@
-//! The one loop for replay and picture: poses in, simulation steps, pictures
-//! and samples out, on the simulation's own fixed clock.
+//! A run: the world of a scene, and what is observed, judged, heard and recorded of it. A replay and a session drive the same, so that
+//! one is the other by construction.
 
-use vitriol_xr::{PoseFrame, PoseSource};
+mod recording;
 
-use crate::clock::{SimulatedTime, Span};
-use crate::experiment::Experiment;
-use crate::failure::{Blame, Failure};
-use crate::interrupt;
-use crate::moment::{Moment, Watch};
+use vitriol_gpu::{QueueKind, Ticket};
+use vitriol_lesson as lesson;
+use vitriol_lesson::procedure::Progress;
+use vitriol_sim::solver::Held;
+use vitriol_sim::world::{Look, World};
+use vitriol_sound as sound;
+use vitriol_xr::PoseFrame;
 
-/// Runs an experiment with the poses of a source. Where the source ends before
-/// the span does, its last poses are held. The span's steps are those of the scene
-/// at the start; where a switch brings up one with others, the time counts.
+use crate::action::Action;
+use crate::audible::Audible;
+use crate::clock::SimulatedTime;
+use crate::failure::{Blame, Failure, blame_world};
+use crate::judging::Judging;
+use crate::looks::{Looked, Looks};
+use crate::{stage, track};
+
+pub use recording::{Note, RecordingStatus, Said, Sink, TrackRecording};
+
+/// A run of a scene, and of those that are brought up after it.
 ///
-/// # Errors
-/// What source, experiment or film say.
-pub fn run<E: Experiment + ?Sized>(
-    source: &mut dyn PoseSource,
-    experiment: &mut E,
-    span: Span,
-    watch: &mut impl Watch<E>,
-) -> Result<(), Failure> {
-    let mut time = SimulatedTime::default();
-    watch.observe(&Moment { time, frame: None }, experiment)?;
-    let mut held: Option<PoseFrame> = None;
-    while !span.is_over(&time) {
-        interrupt::check()?;
-        let step = time.steps();
-        match source.next(step, time.seconds()).other()? {
-            Some(frame) => held = Some(frame),
-            None => {
-                if let Some(frame) = &mut held {
-                    frame.step = step;
-                    // A switch acts once, not again in each held frame.
-                    frame.scenario.clear();
+/// Before a step come [`Run::act`] and [`Run::bring_up`], behind it [`Run::collect`] or [`Run::wait`].
+pub struct Run {
+    /// The world of the present scene.
+    pub world: World,
+    scene: String,
+    looks: Looks,
+    audible: Audible,
+    judging: Option<Judging>,
+    recording: Option<TrackRecording>,
+    /// Since the last step. They go with the next one.
+    actions: Vec<Action>,
+    time: SimulatedTime,
+    breakable: bool,
+    muted: bool,
+    seen: LastSeen,
+    events: Vec<lesson::Event>,
+    progress: Vec<Progress>,
+    instructions: Vec<(f64, Action)>,
+    sounds: Vec<sound::Event>,
+    counts: RunCounts,
+}
+
+/// Where the liquid was in the last observation that was collected; nowhere before the first one of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LastSeen {
+    /// By flask.
+    pub flasks: Vec<Held>,
+    /// What lay on the bench and on the floor, real m³.
+    pub spilt: [f64; 2],
+}
+
+/// What is counted over a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunCounts {
+    /// Substeps done.
+    pub substeps: u64,
+    /// Times that substeps or iterations changed.
+    pub solver_changes: u64,
+    /// Flasks that broke.
+    pub flasks_broken: u64,
+}
+
+impl Run {
+    /// A run that begins in `world`, of the scene that is called `scene`.
+    pub fn new(scene: &str, world: World) -> Self {
+        Self {
+            looks: Looks::of(scene, world.scene()),
+            audible: Audible::of(world.scene()),
+            world,
+            scene: scene.to_owned(),
+            judging: None,
+            recording: None,
+            actions: Vec::new(),
+            time: SimulatedTime::default(),
+            breakable: false,
+            muted: false,
+            seen: LastSeen::default(),
+            events: Vec::new(),
+            progress: Vec::new(),
+            instructions: Vec::new(),
+            sounds: Vec::new(),
+            counts: RunCounts::default(),
+        }
+    }
+
+    /// Judges a lesson over what is observed from now on.
+    pub fn judge(&mut self, lesson: Judging) {
+        self.judging = Some(lesson);
+    }
+
+    /// Records the steps from now on.
+    pub fn record(&mut self, recording: TrackRecording) {
+        self.recording = Some(recording);
+    }
+
+    /// The present scene's name.
+    pub fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// Steps, and simulated time at the end of the last one.
+    pub fn time(&self) -> &SimulatedTime {
+        &self.time
+    }
+
+    /// The lesson that is judged.
+    pub fn judging(&self) -> Option<&Judging> {
+        self.judging.as_ref()
+    }
+
+    /// What was found in observations that were collected.
+    pub fn events(&self) -> &[lesson::Event] {
+        &self.events
+    }
+
+    /// What would be found if the attempt ended now, beside [`Run::events`].
+    pub fn so_far(&self) -> Vec<lesson::Event> {
+        self.looks.so_far()
+    }
+
+    /// How the lesson went so far.
+    pub fn progress(&self) -> &[Progress] {
+        &self.progress
+    }
+
+    /// What an instructor did, each with simulated time, s.
+    pub fn instructions(&self) -> &[(f64, Action)] {
+        &self.instructions
+    }
+
+    /// Where the liquid was last.
+    pub fn seen(&self) -> &LastSeen {
+        &self.seen
+    }
+
+    /// What the thermometer shows, °C.
+    pub fn thermometer(&self) -> f64 {
+        self.looks.thermometer()
+    }
+
+    /// What was counted.
+    pub fn counts(&self) -> RunCounts {
+        self.counts
+    }
+
+    /// How the recording stands; `None` without one.
+    pub fn recorded(&self) -> Option<RecordingStatus> {
+        self.recording.as_ref().map(TrackRecording::state)
+    }
+
+    /// What can be heard since the last call; its times are simulated time, s.
+    pub fn sounds(&mut self) -> Vec<sound::Event> {
+        std::mem::take(&mut self.sounds)
+    }
+
+    /// Whether something was done since the last step that a replay does again before a step.
+    pub fn awaits_step(&self) -> bool {
+        let again =
+            |it: &Action| it.brings_up().is_some() || it.is_instructors() || it.is_of_lesson();
+        self.actions.iter().any(again)
+    }
+
+    /// Does an action before the step that comes next; a scene is [`Run::bring_up`]'s. Whether it is done: k_v is left out in a scene
+    /// that has none.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a number that the solver does not take.
+    pub fn act(&mut self, action: Action) -> Result<bool, Failure> {
+        let now = self.time.seconds();
+        match &action {
+            Action::Solver(effort) => {
+                let changes = *effort != self.world.effort();
+                self.world.set_effort(*effort).input()?;
+                self.counts.solver_changes += u64::from(changes);
+            }
+            Action::Glass(breaks) => {
+                self.breakable = *breaks;
+                self.world.set_breakable(*breaks);
+            }
+            Action::Leap(_) => self.world.hands_leap(),
+            Action::Intensity(value) if self.world.intensity().is_none() => {
+                tracing::warn!("a switch of k_v to {value} is left out: this scene has none");
+                return Ok(false);
+            }
+            Action::Intensity(value) => {
+                let set = self.world.set_intensity(*value);
+                set.map_err(|error| format!("a switch of k_v to {value}: {error}"))
+                    .input()?;
+            }
+            Action::Mute(on) => {
+                self.muted = *on;
+                self.audible.mute_boiling(*on);
+            }
+            Action::Hint(_) | Action::Skip(_) | Action::Finish => {
+                if let Some(judging) = &mut self.judging {
+                    judging.ask(now, action.clone());
                 }
             }
+            // Between two steps, where nothing is simulated; and what pictures are drawn with.
+            Action::Pause(_) | Action::Speed(_) | Action::Message(_) => {}
+            Action::Resolution(_) | Action::Filter(_) | Action::Foveation(_) => {}
+            Action::Scene(_) | Action::Start(_) => return Ok(false),
         }
-        let Some(frame) = &held else {
-            return Err("the track has no pose at its start; record it again").input();
-        };
-        let taken = experiment.step(frame)?;
-        if taken.anew {
-            watch.start_over()?;
+        if action.is_instructors() {
+            self.instructions.push((now, action.clone()));
         }
-        time.advance(taken.frame_time);
-        let frame = Some(frame);
-        watch.observe(&Moment { time, frame }, experiment)?;
+        self.actions.push(action);
+        Ok(true)
     }
-    Ok(())
+
+    /// Ends the attempt, and gives the observations that were under way; waits for the device. A scene may be brought up then.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn end_attempt(&mut self) -> Result<Vec<Looked>, Failure> {
+        let mut late = Vec::new();
+        while let Some(looked) = self.wait(0)? {
+            late.push(looked);
+        }
+        let events = self.looks.end();
+        if let Some(judging) = &mut self.judging {
+            let said = judging.ended(&self.scene, &events);
+            self.found(events);
+            self.progressed(said);
+        } else {
+            self.found(events);
+        }
+        Ok(late)
+    }
+
+    /// Goes on in `world`, which `action` brings up at its start. [`Run::end_attempt`] comes before it: what is observed of a scene is
+    /// of that scene's length, flasks and sounds.
+    pub fn bring_up(&mut self, action: Action, world: World) {
+        if let Some(name) = action.brings_up() {
+            name.clone_into(&mut self.scene);
+        }
+        self.actions.push(action);
+        self.world = world;
+        self.world.set_breakable(self.breakable);
+        if let Some(judging) = &mut self.judging {
+            judging.bring_up();
+        }
+        self.looks = Looks::of(&self.scene, self.world.scene());
+        self.audible = Audible::of(self.world.scene());
+        self.audible.mute_boiling(self.muted);
+        self.seen = LastSeen::default();
+    }
+
+    /// Takes a step with that frame's poses (in the frame of the scene's file), observes the liquid behind it on the same queue, and
+    /// gives both submissions. Does not wait for the observation.
+    ///
+    /// # Errors
+    /// What device or solver say. [`Run::time`] tells whether the step was taken: if only its observation failed, it was.
+    pub fn step(&mut self, queue: QueueKind, frame: &PoseFrame) -> Result<Vec<Ticket>, Failure> {
+        let input = stage::input(frame, self.world.scene());
+        self.world.step_on(queue, &input).map_err(blame_world)?;
+        let mut submitted: Vec<Ticket> = self.world.last_step().cloned().into_iter().collect();
+        let actions = std::mem::take(&mut self.actions);
+        if let Some(recording) = &mut self.recording {
+            let step = PoseFrame {
+                step: self.time.steps(),
+                time_ns: nanoseconds(&self.time),
+                scenario: actions.iter().map(Action::switch).collect(),
+                ..frame.clone()
+            };
+            recording.push(&step, stage::flasks(&self.world));
+        }
+        self.counts.substeps += u64::from(self.world.scene().solver.substeps);
+        self.counts.flasks_broken += self.world.breaks().len() as u64;
+        self.time.advance(self.world.scene().scale.frame_time);
+        let t = self.time.seconds();
+        let held = |flask| self.world.holder(flask).is_some();
+        let blows = self.audible.struck(self.world.strikes(), held, t);
+        self.sounds.extend(blows);
+        let breaks = self.audible.broke(self.world.breaks(), t);
+        self.sounds.extend(breaks);
+        submitted.push(self.looks.look(&mut self.world, queue, frame, t)?);
+        Ok(submitted)
+    }
+
+    /// The oldest observation that was not collected yet, if it has come; does not wait.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
+        let looked = self.looks.collect()?;
+        Ok(looked.map(|it| self.take(it)))
+    }
+
+    /// The oldest observation that was not collected yet, if there are more than `newest` of them; waits for the device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn wait(&mut self, newest: usize) -> Result<Option<Looked>, Failure> {
+        if self.looks.under_way() <= newest {
+            return Ok(None);
+        }
+        let looked = self.looks.wait()?;
+        Ok(looked.map(|it| self.take(it)))
+    }
+
+    /// Goes on in that world, which is the present one on another device. `again` are its observations behind steps that were taken
+    /// again there; without them those that are under way are lost.
+    pub fn move_to(&mut self, world: World, again: Option<Vec<Look>>) {
+        self.world = world;
+        match again {
+            Some(looks) => self.looks.take_again(looks),
+            None => self.looks.forget(),
+        }
+    }
+
+    /// Ends the recording, if there is one, in the state whose hash is given, and waits for its file.
+    pub fn finish_recording(&mut self, state_hash: u64) -> Option<RecordingStatus> {
+        let recording = self.recording.take()?;
+        let outcome = [(track::STATE_HASH.to_owned(), format!("{state_hash:016x}"))];
+        let (steps, end_ns) = (self.time.steps(), nanoseconds(&self.time));
+        Some(recording.finish(steps, end_ns, outcome.into()))
+    }
+
+    fn take(&mut self, mut looked: Looked) -> Looked {
+        let said = self.judging.as_mut().map(|judging| {
+            let looks = &self.looks;
+            judging.looked(&self.scene, &looked, || looks.so_far())
+        });
+        self.found(std::mem::take(&mut looked.events));
+        self.progressed(said.unwrap_or_default());
+        let real = self.world.scene().scale.length_scale.powi(3);
+        let census = &looked.census;
+        self.seen.spilt = [&census.table, &census.floor].map(|held| real * held.volume);
+        self.seen.flasks.clone_from(&census.flasks);
+        // From the observation before on.
+        let since = looked.t - looked.elapsed;
+        let heard = self
+            .audible
+            .looked(&looked.poses, census, looked.elapsed, since);
+        self.sounds.extend(heard);
+        looked
+    }
+
+    fn found(&mut self, events: Vec<lesson::Event>) {
+        if let Some(recording) = &mut self.recording {
+            for event in &events {
+                // A struct of numbers and texts has a JSON; what is not finite becomes null.
+                let json = serde_json::to_string(event).unwrap_or_default();
+                recording.found(nanoseconds(&self.time), Note::Event(json));
+            }
+        }
+        self.events.extend(events);
+    }
+
+    fn progressed(&mut self, said: Vec<Progress>) {
+        if let Some(recording) = &mut self.recording {
+            for progress in &said {
+                let json = serde_json::to_string(progress).unwrap_or_default();
+                recording.found(nanoseconds(&self.time), Note::Progress(json));
+            }
+        }
+        self.progress.extend(said);
+    }
+}
+
+fn nanoseconds(time: &SimulatedTime) -> i64 {
+    (1e9 * time.seconds()).round() as i64
 }

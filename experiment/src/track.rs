@@ -1,9 +1,13 @@
-//! Pose tracks by name or file, and whose fault it is where one cannot be read.
+//! Pose tracks by name or file, how they spell actions, and whose fault it is where one cannot be read.
+
+mod spelling;
 
 use vitriol_xr::files::FileError;
 use vitriol_xr::track::{self, Track, TrackError};
 
 use crate::failure::Failure;
+
+pub use spelling::{SpellingError, key};
 
 /// Names under which a recording says with what it was made, and how it ended.
 pub const PRESET: &str = "preset";

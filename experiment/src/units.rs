@@ -87,6 +87,18 @@ pub fn grouped(number: u64) -> String {
     out
 }
 
+/// Two whole numbers above zero, such as a solver's substeps and iterations, or a picture's sides.
+///
+/// # Errors
+/// What is to be given.
+pub fn pair(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(w, h)| [w.parse(), h.parse()]);
+    match sides {
+        Some([Ok(width), Ok(height)]) if width > 0 && height > 0 => Ok([width, height]),
+        _ => Err("give two whole numbers above 0 with an x between them, such as 960x540".into()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,5 +115,13 @@ mod tests {
         assert_eq!(three_digits(f64::NAN), "not finite");
         assert_eq!(grouped(13_894), "13\u{202f}894");
         assert_eq!(grouped(999), "999");
+    }
+
+    #[test]
+    fn pairs_are_two_numbers_above_zero() {
+        assert_eq!(pair("960x540"), Ok([960, 540]));
+        for wrong in ["960", "960x", "0x540", "960,540", "-1x2", "axb"] {
+            assert!(pair(wrong).is_err(), "{wrong}");
+        }
     }
 }

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use vitriol_experiment::output::OutDir;
 use vitriol_experiment::particles::Particles;
-use vitriol_experiment::switches::SWITCH_SOLVER;
 use vitriol_experiment::track::{STATE_HASH, blame};
 use vitriol_experiment::{
-    Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, H264, Laboratory, Moment, Sample, stage,
+    Action, Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, H264, Laboratory, Moment, Sample,
+    stage,
 };
+use vitriol_xr::PoseFrame;
 use vitriol_xr::track::{Annex, Existing, TrackWriter};
-use vitriol_xr::{PoseFrame, Switch};
 
 use crate::Origin;
 use crate::sink::{Frame, Sink};
@@ -63,10 +63,8 @@ impl Recording {
     ) -> Result<(), Failure> {
         let mut frame = frame.clone();
         frame.time_ns = std::mem::replace(&mut self.now_ns, end_ns);
-        let solver = self.solver.take().map(|[substeps, iterations]| Switch {
-            key: SWITCH_SOLVER.into(),
-            value: format!("{substeps}x{iterations}"),
-        });
+        let solver = self.solver.take();
+        let solver = solver.map(|effort| Action::Solver(effort).switch());
         // After a switch of scene, which brings its own.
         frame.scenario.extend(solver);
         let flasks = stage::flasks(laboratory.world());

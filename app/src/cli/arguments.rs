@@ -6,7 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use vitriol_experiment::Colour;
 use vitriol_experiment::arguments::{filter, named, positive, preset};
-use vitriol_experiment::switches::pair;
+use vitriol_experiment::units::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 #[cfg(feature = "class")]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use glam::Vec3;
 use vitriol_experiment::arguments::{filter, positive, preset};
-use vitriol_experiment::switches::pair;
+use vitriol_experiment::units::pair;
 use vitriol_experiment::{Colour, HEAD_FIELD, Look};
 use vitriol_sim::scene::{PictureFilter, Preset};
 

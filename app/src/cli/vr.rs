@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use vitriol_experiment::arguments::{positive, preset};
-use vitriol_experiment::switches::pair;
+use vitriol_experiment::units::pair;
 use vitriol_lesson::{Language, Mode};
 use vitriol_sim::scene::Preset;
 

@@ -191,7 +191,7 @@ fn simulated(
     let progress = Runs::new(format).of(&args.input, plan.span);
     let mut export = Export::new(formats, times, (plan.span, progress), &origin, out)?;
     let span = plan.span;
-    vitriol_experiment::run(
+    vitriol_experiment::replay(
         &mut TrackSource::new(plan.track),
         &mut laboratory,
         span,

@@ -93,7 +93,7 @@ pub fn run(
     })?;
     let span = Span::covering(args.at, scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Runs::new(format).of(&args.track, span));
-    vitriol_experiment::run(
+    vitriol_experiment::replay(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,

@@ -1,14 +1,13 @@
 //! A replay before it runs: its track, scene, preset, solver and length, all checked.
 
-use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
-use vitriol_experiment::{Blame, Failure, Scenes, Span, device, track};
+use vitriol_experiment::{Action, Blame, Failure, Scenes, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Track, limits};
 
 use crate::budget;
 use crate::command::recorded::{
-    changes_scene, differences, is_recording, own_solver, preset_of, scene_of, whole,
+    actions, changes_scene, differences, is_recording, own_solver, preset_of, scene_of, whole,
 };
 
 /// What is asked for.
@@ -71,9 +70,11 @@ fn track_preset(track: &Track) -> Option<&str> {
 fn breaks_glass(track: &Track) -> bool {
     let first = track.frames.first();
     let mut from_start = first.into_iter().flat_map(|frame| &frame.scenario);
-    let mut all = track.frames.iter().flat_map(|frame| &frame.scenario);
-    from_start.any(|switch| switch.key == SWITCH_GLASS)
-        && all.all(|switch| switch.key != SWITCH_GLASS || switch.value == GLASS[1])
+    from_start.any(is_of_glass) && actions(track).all(|action| action != Action::Glass(false))
+}
+
+fn is_of_glass(switch: &Switch) -> bool {
+    matches!(Action::of(switch), Ok(Some(Action::Glass(_))))
 }
 
 /// What is to run.
@@ -132,7 +133,7 @@ impl Plan {
         let breakable = ask.breakable && !breaks_glass(&track);
         if breakable {
             for frame in &mut track.frames {
-                frame.scenario.retain(|switch| switch.key != SWITCH_GLASS);
+                frame.scenario.retain(|switch| !is_of_glass(switch));
             }
         }
         let preset = preset_of(ask.preset, &track);
@@ -145,11 +146,7 @@ impl Plan {
         }
         // Only now, since it is no part of what was recorded.
         if let Some(first) = track.frames.first_mut().filter(|_| breakable) {
-            let switch = Switch {
-                key: SWITCH_GLASS.into(),
-                value: GLASS[1].into(),
-            };
-            first.scenario.insert(0, switch);
+            first.scenario.insert(0, Action::Glass(true).switch());
         }
         let gpu = || device::open(ask.device);
         let chosen = budget::chosen(ask.solver, ask.budget_ms, &scene, gpu)?;
@@ -196,12 +193,12 @@ mod tests {
             };
             let plan = Plan::new(&ask).unwrap();
             let switches = plan.track.frames.iter().enumerate().flat_map(|(n, frame)| {
-                let glass = frame.scenario.iter().filter(|it| it.key == SWITCH_GLASS);
+                let glass = frame.scenario.iter().filter(|it| is_of_glass(it));
                 glass.map(move |it| (n, it.value.clone()))
             });
             switches.collect::<Vec<_>>()
         };
-        let breaks = [(0, GLASS[1].to_owned())];
+        let breaks = [(0, "breaks".to_owned())];
         assert_eq!(switches("two-flasks", false), []);
         assert_eq!(switches("two-flasks", true), breaks);
         assert_eq!(switches("dropped", false), breaks);
@@ -209,10 +206,7 @@ mod tests {
 
         let mut track = track::load("dropped").unwrap();
         assert!(breaks_glass(&track));
-        let holds = Switch {
-            key: SWITCH_GLASS.into(),
-            value: GLASS[0].into(),
-        };
+        let holds = Action::Glass(false).switch();
         track.frames[9].scenario.push(holds.clone());
         assert!(!breaks_glass(&track));
         track.frames[9].scenario.clear();

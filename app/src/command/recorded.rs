@@ -1,9 +1,8 @@
 //! What a recording says of how it is to be replayed, and what is asked for instead.
 
-use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_SOLVER, SWITCH_START};
 use vitriol_experiment::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
 use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
+use vitriol_experiment::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
 use vitriol_sim::scene::Preset;
@@ -161,7 +160,7 @@ pub fn own_solver(
     let mut any = false;
     for frame in &mut track.frames {
         frame.scenario.retain(|switch| {
-            let kept = switch.key != SWITCH_SOLVER;
+            let kept = !matches!(Action::of(switch), Ok(Some(Action::Solver(_))));
             any |= !kept;
             kept
         });
@@ -171,8 +170,14 @@ pub fn own_solver(
 
 /// Whether someone changed the scene, or began it anew, while the track was recorded.
 pub fn changes_scene(track: &Track) -> bool {
-    let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    switches.any(|switch| [SWITCH_SCENE, SWITCH_START].contains(&&*switch.key))
+    let mut actions = actions(track);
+    actions.any(|action| action.brings_up().is_some())
+}
+
+/// What is done in a track, in its order, without what this version cannot read.
+pub fn actions(track: &Track) -> impl Iterator<Item = Action> {
+    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    switches.filter_map(|switch| Action::of(switch).ok().flatten())
 }
 
 /// Where the head is at the start, if the film is to show what it sees.
@@ -191,29 +196,24 @@ pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_experiment::track;
-    use vitriol_xr::Switch;
+    use vitriol_experiment::track::{self, key};
 
     /// A recording's own changes of the solver are repeated, unless something else is asked for.
     #[test]
     fn what_is_asked_for_comes_before_what_was_recorded() {
-        let switch = |key: &str, value: &str| Switch {
-            key: key.into(),
-            value: value.into(),
-        };
         let mut recorded = track::load("hands-off").unwrap();
         recorded.metadata.scene = "beaker".into();
         let parameters = &mut recorded.metadata.parameters;
         parameters.insert(PRESET.into(), "fast".into());
-        recorded.frames[0].scenario =
-            vec![switch(SWITCH_SOLVER, "8x4"), switch(SWITCH_START, "beaker")];
+        let start = Action::Start(Some("beaker".into()));
+        recorded.frames[0].scenario = vec![Action::Solver([8, 4]).switch(), start.switch()];
         let repeats = |asked, scene| {
             let mut track = recorded.clone();
             let any = own_solver(asked, (scene, &Scenes::default()), &mut track);
             let keys = track.frames[0].scenario.iter();
             let keys: Vec<&str> = keys.map(|switch| switch.key.as_str()).collect();
-            assert_eq!(any, keys == [SWITCH_START]);
-            keys == [SWITCH_SOLVER, SWITCH_START]
+            assert_eq!(any, keys == [key::START]);
+            keys == [key::SOLVER, key::START]
         };
         assert!(repeats((false, None), "beaker"));
         assert!(repeats((false, Some(Preset::Fast)), "beaker"));

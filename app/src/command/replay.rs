@@ -199,7 +199,7 @@ fn replay(
     });
     let films = films.collect::<Result<_, _>>().other()?;
     let mut observer = Observer::new(span, films, bars.of(name, span));
-    vitriol_experiment::run(
+    vitriol_experiment::replay(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Order, State, Text};
 use vitriol_experiment::{
-    Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Instruction, Judging, Outcome, Sample,
+    Action, Blame, Experiment, FILM_SIZE, Failure, Glimpse, Heard, Judging, Outcome, Sample,
     SimulatedTime, Taken, interrupt,
 };
 use vitriol_lesson::Texts;
@@ -120,10 +120,10 @@ impl Live {
         };
         for (_, instruction) in glimpse.instructions {
             match instruction {
-                Instruction::Spare(on) => controls.spared = *on,
-                Instruction::Message(text) => controls.message = Text::clipped(text),
+                Action::Mute(on) => controls.spared = *on,
+                Action::Message(text) => controls.message = Text::clipped(text),
                 // A recording has no time in which it was held, and its steps are as long as ever.
-                Instruction::Pause(_) | Instruction::Speed(_) | Instruction::Intensity(_) => {}
+                _ => {}
             }
         }
         let all = &self.incidents.1;

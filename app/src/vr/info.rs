@@ -2,8 +2,8 @@
 
 use vitriol_lesson::Tone;
 
-use super::decision::Act;
 use crate::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
+use vitriol_experiment::Action;
 
 /// A session's state in words and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,10 +81,10 @@ pub enum Mark {
 }
 
 /// A button of the lesson.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ActLine {
     /// What it asks for.
-    pub act: Act,
+    pub act: Action,
     /// What it says.
     pub text: String,
     /// Whether there is any now.

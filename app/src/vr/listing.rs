@@ -1,9 +1,9 @@
 //! What the panel says of a lesson: its steps as the mode allows, and what the user can ask for.
 
+use vitriol_experiment::Action;
 use vitriol_lesson::procedure::{State, Status, StepState};
 use vitriol_lesson::{Language, Lesson, Mode, Procedure, Texts};
 
-use super::decision::Act;
 use super::info::{ActLine, Mark, Shown};
 use crate::texts::LessonTexts;
 
@@ -111,23 +111,23 @@ fn hint_of<'a>(state: &'a State, hinted: Option<&str>) -> Option<&'a str> {
 }
 
 /// What can be asked for in that mode.
-pub fn can_ask(mode: Mode) -> &'static [Act] {
+pub fn can_ask(mode: Mode) -> &'static [Action] {
     match mode {
-        Mode::Guided => &[Act::Hint, Act::Skip],
-        Mode::Free => &[Act::Hint, Act::Finish],
-        Mode::Examination => &[Act::Finish],
+        Mode::Guided => &[Action::Hint(None), Action::Skip(None)],
+        Mode::Free => &[Action::Hint(None), Action::Finish],
+        Mode::Examination => &[Action::Finish],
     }
 }
 
 fn acts(state: &State, hinted: Option<&str>, texts: &Texts) -> Vec<ActLine> {
-    let line = |act: &Act| ActLine {
-        act: *act,
+    let line = |act: &Action| ActLine {
+        act: act.clone(),
         text: match act {
-            Act::Hint => texts.ask_hint(),
-            Act::Skip => texts.skip_step(),
-            Act::Finish => texts.finish_lesson(),
+            Action::Hint(_) => texts.ask_hint(),
+            Action::Skip(_) => texts.skip_step(),
+            _ => texts.finish_lesson(),
         },
-        on: *act != Act::Hint || to_hint(state, hinted).is_some(),
+        on: *act != Action::Hint(None) || to_hint(state, hinted).is_some(),
     };
     can_ask(state.mode).iter().map(line).collect()
 }
@@ -220,8 +220,12 @@ mod tests {
         shown(judge, words, hinted, None)
     }
 
-    fn acts(shown: &Shown) -> Vec<(Act, bool)> {
-        shown.acts.iter().map(|it| (it.act, it.on)).collect()
+    fn acts(shown: &Shown) -> Vec<(Action, bool)> {
+        shown
+            .acts
+            .iter()
+            .map(|it| (it.act.clone(), it.on))
+            .collect()
     }
 
     /// Steps of each lesson are listed whole in each language; of a lesson with more than fit, those that are to be done first.
@@ -258,7 +262,10 @@ mod tests {
         assert!(shown.steps[2].1.starts_with("Pour the acid"));
         assert_eq!(shown.note.as_deref(), Some("More steps: 2"));
         assert!(!shown.quiet);
-        assert_eq!(acts(&shown), [(Act::Hint, true), (Act::Finish, true)]);
+        assert_eq!(
+            acts(&shown),
+            [(Action::Hint(None), true), (Action::Finish, true)]
+        );
         judge.skip("dress", 1.0);
         assert_eq!(marks(&said(&judge, None))[..3], [Missed, Open, Waiting]);
         let mut sight = Sight::default();
@@ -288,7 +295,7 @@ mod tests {
                 .starts_with("Examination: diluting sulfuric acid: Dilute the 98")
         );
         assert_eq!(shown.note.as_deref(), Some("Number of steps: 6"));
-        assert_eq!(acts(&shown), [(Act::Finish, true)]);
+        assert_eq!(acts(&shown), [(Action::Finish, true)]);
         assert!(shown.quiet && shown.steps.is_empty() && shown.hint.is_none());
         // Whatever was done or failed.
         judge.skip("pour", 1.0);
@@ -313,13 +320,16 @@ mod tests {
         let mut judge = begun("dilute", Mode::Guided);
         assert_eq!(
             acts(&said(&judge, None)),
-            [(Act::Hint, true), (Act::Skip, true)]
+            [(Action::Hint(None), true), (Action::Skip(None), true)]
         );
         assert_eq!(to_hint(&judge.state(), None), Some("dress"));
         judge.ask_hint("dress", 1.0).unwrap();
         // It is shown: there is no other.
         let shown = said(&judge, Some("dress"));
-        assert_eq!(acts(&shown), [(Act::Hint, false), (Act::Skip, true)]);
+        assert_eq!(
+            acts(&shown),
+            [(Action::Hint(None), false), (Action::Skip(None), true)]
+        );
         assert!(shown.hint.unwrap().starts_with("Bring the goggles"));
         judge.skip("dress", 2.0);
         assert_eq!(to_hint(&judge.state(), Some("dress")), Some("lift"));

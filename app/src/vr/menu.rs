@@ -1,22 +1,23 @@
 //! What can be chosen while a session runs, on the panel and by the computer's keyboard.
 
+use vitriol_experiment::Action;
 use vitriol_lesson::Mode;
 
-use super::decision::{Act, Decision};
+use super::decision::Decision;
 use super::listing::can_ask;
 use crate::choices::{CHOICES, Choice};
 
-/// Key of [`Decision::Start`].
+/// Key of [`Action::Start`].
 pub const START: char = 'b';
 /// Key of [`Decision::Recentre`].
 pub const RECENTRE: char = 'a';
 /// Key of [`Decision::Summary`].
 pub const SUMMARY: char = 's';
-/// Key of [`Act::Hint`].
+/// Key of [`Action::Hint`].
 pub const HINT: char = 'h';
-/// Key of [`Act::Skip`].
+/// Key of [`Action::Skip`].
 pub const SKIP: char = 'n';
-/// Key of [`Act::Finish`].
+/// Key of [`Action::Finish`].
 pub const FINISH: char = 'f';
 /// Key of [`Decision::AskEnd`].
 pub const END: char = 'q';
@@ -27,16 +28,16 @@ pub const INVITE: char = 'i';
 pub fn decision(key: char) -> Option<Decision> {
     let key = key.to_ascii_lowercase();
     match key {
-        START => Some(Decision::Start),
+        START => Some(Decision::Act(Action::Start(None))),
         RECENTRE => Some(Decision::Recentre),
         SUMMARY => Some(Decision::Summary),
-        HINT => Some(Decision::Lesson(Act::Hint)),
-        SKIP => Some(Decision::Lesson(Act::Skip)),
-        FINISH => Some(Decision::Lesson(Act::Finish)),
+        HINT => Some(Decision::Act(Action::Hint(None))),
+        SKIP => Some(Decision::Act(Action::Skip(None))),
+        FINISH => Some(Decision::Act(Action::Finish)),
         END => Some(Decision::AskEnd),
         _ => {
             let chosen = CHOICES.iter().find(|choice| choice.key == key);
-            chosen.map(|choice| Decision::Scene(choice.scene.into()))
+            chosen.map(|choice| Decision::Act(Action::Scene(choice.scene.into())))
         }
     }
 }
@@ -51,9 +52,9 @@ pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
         &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened");
     for act in lesson.map_or(&[][..], can_ask) {
         let (key, does) = match act {
-            Act::Hint => (HINT, "a hint"),
-            Act::Skip => (SKIP, "leave this step out"),
-            Act::Finish => (FINISH, "all is done: the lesson ends"),
+            Action::Hint(_) => (HINT, "a hint"),
+            Action::Skip(_) => (SKIP, "leave this step out"),
+            _ => (FINISH, "all is done: the lesson ends"),
         };
         text += &format!("\n  {key}  {does}");
     }
@@ -74,14 +75,14 @@ mod tests {
         for choice in CHOICES {
             assert!(Scene::builtin_names().contains(&choice.scene));
             let decided = decision(choice.key).unwrap();
-            assert_eq!(decided, Decision::Scene(choice.scene.into()));
+            assert_eq!(decided, Decision::Act(Action::Scene(choice.scene.into())));
         }
-        assert_eq!(decision('B'), Some(Decision::Start));
+        assert_eq!(decision('B'), Some(Decision::Act(Action::Start(None))));
         assert_eq!(decision('s'), Some(Decision::Summary));
         assert_eq!(decision('x'), None);
         let acts = ['H', 'n', 'f'].map(decision);
-        let expected = [Act::Hint, Act::Skip, Act::Finish];
-        assert_eq!(acts, expected.map(|act| Some(Decision::Lesson(act))));
+        let expected = [Action::Hint(None), Action::Skip(None), Action::Finish];
+        assert_eq!(acts, expected.map(|act| Some(Decision::Act(act))));
         let keys = [START, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE];
         let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
         let count = all.len();

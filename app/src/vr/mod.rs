@@ -27,7 +27,6 @@ pub mod panel;
 pub mod picture;
 pub mod placement;
 pub mod rates;
-pub mod record;
 pub mod session;
 pub mod sign;
 pub mod stand_in;

@@ -4,14 +4,14 @@
 //! −Z. It is laid into the headset's stage, `stage_from_scene`, so that the table's top lies as far
 //! below the eyes as it does for a grown person who sits or stands at a bench, and turned to where
 //! she looks. A handle at its edge changes its height (`handle`), and recentring keeps that. Bodies, liquid, picture and recording are in the scene's stage: a recording holds what the steps
-//! consumed, and a replay needs no placement. The track keeps it as a switch all the same, so that one can tell
+//! consumed, and a replay needs no placement. The track keeps it all the same, so that one can tell
 //! where in the room the bench was.
 
 use std::f32::consts::TAU;
 
 use glam::{EulerRot, Quat, Vec3};
-use vitriol_experiment::switches::SWITCH_PLACEMENT;
-use vitriol_xr::{Pose, PoseFrame, Switch};
+use vitriol_experiment::Action;
+use vitriol_xr::{Pose, PoseFrame};
 
 use super::handle::DROPS;
 
@@ -89,9 +89,9 @@ impl Placement {
     }
 
     /// Lays the bench before the user where that is `asked`, where she has not been seen yet, and where she is elsewhere
-    /// after an interruption. `Some` where, seen from the bench, the hands leap in the next step, with the switch that says
+    /// after an interruption. `Some` where, seen from the bench, the hands leap in the next step, with the action that says
     /// so in a recording; then the last frame is forgotten, since between it and the next one lies the leap.
-    pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Switch> {
+    pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Action> {
         let interrupted = self.interrupted.take();
         let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
         if asked || elsewhere || !self.is_known() {
@@ -100,12 +100,12 @@ impl Placement {
             return None;
         }
         self.last = None;
-        Some(self.switch())
+        Some(self.leap())
     }
 
     /// Moves the bench up by so much (m), as far as the table's top stays as far below the eyes as it may; further off
     /// than that it only comes nearer. `Some` where it moves: seen from the bench, the hands leap by as much in the next step.
-    pub fn raise(&mut self, now: &PoseFrame, by: f32) -> Option<Switch> {
+    pub fn raise(&mut self, now: &PoseFrame, by: f32) -> Option<Action> {
         let placed = self.stage_from_scene.as_mut()?;
         let eyes = now.stage_from_view.position.y;
         let drop = eyes - placed.position.y - SCENE_TABLE;
@@ -116,14 +116,11 @@ impl Placement {
         }
         placed.position.y = eyes - wanted - SCENE_TABLE;
         self.chosen = Some(wanted);
-        Some(self.switch())
+        Some(self.leap())
     }
 
-    fn switch(&self) -> Switch {
-        Switch {
-            key: SWITCH_PLACEMENT.into(),
-            value: as_text(&self.stage_from_scene()),
-        }
+    fn leap(&self) -> Action {
+        Action::Leap(as_text(&self.stage_from_scene()))
     }
 
     /// The last frame, in the scene's stage.
@@ -194,7 +191,7 @@ pub fn shifted(mut frame: PoseFrame, origin: Vec3) -> PoseFrame {
     frame
 }
 
-/// See [`SWITCH_PLACEMENT`].
+/// See [`Action::Leap`].
 fn as_text(stage_from_scene: &Pose) -> String {
     let Vec3 { x, y, z } = stage_from_scene.position;
     let (yaw, _, _) = stage_from_scene.orientation.to_euler(EulerRot::YXZ);

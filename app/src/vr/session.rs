@@ -11,6 +11,7 @@ mod hints;
 mod instructor;
 mod keeper;
 mod losses;
+mod metadata;
 mod pacing;
 mod readings;
 mod repaint;
@@ -19,7 +20,6 @@ mod spills;
 mod steps;
 mod summary;
 mod telling;
-mod track;
 
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
@@ -27,14 +27,15 @@ use std::time::Instant;
 
 use vitriol_experiment::device::statement;
 use vitriol_experiment::hands::Joints;
-use vitriol_experiment::switches::{GLASS, SWITCH_GLASS};
-use vitriol_experiment::{Blame, Failure, Looks};
+use vitriol_experiment::run::{RecordingStatus, TrackRecording};
+use vitriol_experiment::{Action, Blame, Failure, Judging, Run, track};
 use vitriol_gpu::Timestamps;
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Language};
 use vitriol_render::Bone;
+use vitriol_sim::world::World;
 use vitriol_sound::Device;
-use vitriol_xr::{Headset, Pause, Switch, Turn};
+use vitriol_xr::{Headset, Pause, Turn};
 
 use crate::live::Console;
 
@@ -48,7 +49,6 @@ use super::latch::{Grip, Latches};
 use super::mirror::{Mirror, Window};
 use super::panel::Panel;
 use super::placement::{Placement, Posture};
-use super::record::RecordingStatus;
 use super::tally::{Holdings, Tally};
 use super::workbench::{Plan, Workbench};
 use crate::texts::Texts;
@@ -62,17 +62,17 @@ use hints::Hints;
 use instructor::Instructor;
 use keeper::Keeper;
 use losses::Losses;
+use metadata::metadata;
 use pacing::Pacing;
 use readings::Readings;
 use sounds::Sounds;
 use spills::Spills;
 use steps::Steps;
 use summary::Summary;
-use track::{Finished, SessionTrack};
 
 pub use counts::WARM_UP;
 pub use guide::Course;
-pub use pacing::{FramesWith, GovernorReport, SWITCH_FILTER, SWITCH_FOVEATION, SWITCH_RESOLUTION};
+pub use pacing::{FramesWith, GovernorReport};
 pub use sounds::SoundReport;
 pub use spills::{Contacts, Spilt, Touched};
 
@@ -109,6 +109,8 @@ pub struct Options {
 pub struct SessionOutcome {
     /// The bench.
     pub bench: Workbench,
+    /// Its world.
+    pub world: World,
     /// Steps taken.
     pub steps: u64,
     /// Simulated time, s.
@@ -169,10 +171,8 @@ pub struct Session {
     joints: [Option<Joints>; 2],
     /// Steps that are due.
     steps: Steps,
-    /// Looks at the bench before, of which some are under way, and its scene.
-    ending: Option<(String, Looks)>,
-    /// The recording, with simulated time and the switches of the next step.
-    track: SessionTrack,
+    /// The world, and what is observed, judged and recorded of it.
+    run: Run,
     /// What the panel says of the flasks.
     readings: Readings,
     /// What the bench is brought back from where the device is lost.
@@ -205,8 +205,6 @@ pub struct Session {
     losses: Losses,
     /// What is said, in the user's language.
     texts: Texts,
-    /// Flasks that broke.
-    broken: u32,
 }
 
 impl Session {
@@ -224,7 +222,7 @@ impl Session {
         // Without a governor nothing gives way.
         let fixed = (!options.governed).then_some(Foveating::Off);
         let foveating = options.foveating.or(fixed);
-        let mut benches = Benches::new(headset, &options.plan, foveating)?;
+        let (benches, world) = Benches::new(headset, &options.plan, foveating)?;
         let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
         let counts = options.frames.is_some();
         let timed = gpu.options().timestamps != Timestamps::None;
@@ -234,19 +232,20 @@ impl Session {
         let toggles = options.grip == Grip::Toggle;
         let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
         // After what fails for a user's mistake, so that a session that never was leaves no file.
-        let goes_through = (&options.plan, options.course.as_ref());
-        let mut track =
-            SessionTrack::new(options.record.as_deref(), goes_through, &statement(gpu))?;
-        if options.plan.breakable {
-            track.switch(Switch {
-                key: SWITCH_GLASS.into(),
-                value: GLASS[1].into(),
-            });
+        let mut run = Run::new(&options.plan.scene, world);
+        if let Some(file) = &options.record {
+            let metadata = metadata(&options.plan, options.course.as_ref(), &statement(gpu));
+            let recording = TrackRecording::create(file, &metadata);
+            run.record(recording.map_err(track::blame)?);
         }
-        pacing.begin(true, None, &mut benches.current, &mut track)?;
-        let scene = benches.current.world.scene();
-        let steps = Steps::new(&benches.current.plan.scene, scene);
-        let sounds = Sounds::new(options.sound, scene, options.plan.seed);
+        if let Some(Course { lesson, mode, .. }) = &options.course {
+            run.judge(Judging::new(lesson.clone(), *mode, &options.plan.scene));
+        }
+        if options.plan.breakable {
+            run.act(Action::Glass(true))?;
+        }
+        pacing.begin(true, None, &benches.current, &mut run)?;
+        let sounds = Sounds::new(options.sound, options.plan.seed);
         let made_for = (gpu, &*benches.library, benches.eyes.extent);
         let instructor = Instructor::new(options.console, made_for)?;
         Ok(Self {
@@ -257,9 +256,8 @@ impl Session {
             handles: Handles::default(),
             latches: toggles.then(Latches::default),
             joints: [None; 2],
-            steps,
-            ending: None,
-            track,
+            steps: Steps::new(),
+            run,
             readings: Readings::default(),
             sounds,
             hints,
@@ -268,7 +266,7 @@ impl Session {
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],
             panel,
-            guide: Guide::new(options.course, &options.plan.scene)?,
+            guide: Guide::new(options.course)?,
             instructor,
             mirror: None,
             pacing,
@@ -277,7 +275,6 @@ impl Session {
             renewals: 0,
             losses: Losses::default(),
             texts,
-            broken: 0,
         })
     }
 
@@ -286,7 +283,7 @@ impl Session {
     /// # Errors
     /// What the device says.
     pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
-        let (gpu, benches) = (self.benches.current.world.gpu(), &self.benches);
+        let (gpu, benches) = (self.run.world.gpu(), &self.benches);
         let mirror = Mirror::new(gpu, &benches.library, benches.eyes.extent, window)?;
         self.mirror = Some(mirror);
         Ok(self)
@@ -362,7 +359,7 @@ impl Session {
         self.tell(false);
         match self.catch_up(&NoFrameOpen::in_a_turn_without()) {
             // Nothing comes from it any more; what is due is taken on the next one.
-            Err(_) if self.benches.current.world.gpu().is_lost() => Ok(()),
+            Err(_) if self.run.world.gpu().is_lost() => Ok(()),
             caught_up => caught_up,
         }
     }
@@ -371,16 +368,12 @@ impl Session {
     fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
         self.pause("the headset was lost")?;
         self.renewals += 1;
-        if !self.benches.current.world.gpu().is_lost() {
-            self.take_looks(1e-9 * self.shown_at() as f64, true)?;
+        if !self.run.world.gpu().is_lost() {
+            self.observe(true)?;
         }
         let gpu = headset.gpu();
-        match self.benches.move_to(headset)? {
-            Some(looks) => {
-                self.losses.brought_back(self.counts.frames);
-                self.steps.looks.take_again(looks);
-            }
-            None => self.steps.looks.forget(),
+        if self.benches.move_to(headset, &mut self.run)? {
+            self.losses.brought_back(self.counts.frames);
         }
         self.keeper.forget();
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
@@ -395,39 +388,32 @@ impl Session {
         self.pacing.forget_rates();
         self.counts.tally.restart();
         self.steps.submitted();
-        if let Some((_, looks)) = &mut self.ending {
-            looks.forget();
-        }
         // What a lost device has left due belongs to the hands as they were before.
         let no_frame = NoFrameOpen::in_a_turn_without();
-        let world = &mut self.benches.current.world;
-        self.steps.take_rest(world, &mut self.track, &no_frame)?;
+        self.steps.take_rest(&mut self.run, &no_frame)?;
         self.steps.submitted();
         Ok(())
     }
 
     fn finish(mut self) -> Result<SessionOutcome, Failure> {
-        self.step_for_switches();
+        self.step_for_switches()?;
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
-        self.take_looks(1e-9 * self.shown_at() as f64, true)?;
-        let events = self.steps.looks.end();
-        let said = self.guide.ended(&self.benches.current.plan.scene, &events);
-        self.track.found(events);
-        self.track.progressed(&said);
-        self.benches.current.world.gpu().wait_idle().other()?;
+        for looked in self.run.end_attempt()? {
+            self.observed(&looked);
+        }
+        self.guide.follow(&self.run);
+        self.run.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
         self.tell(true);
-        let world = &self.benches.current.world;
-        let hash = || Ok(world.snapshot().other()?.solver.hash());
-        let Finished {
-            time,
-            events,
-            recorded,
-        } = self.track.finish(hash)?;
+        let mut run = self.run;
+        let recorded = match run.recorded() {
+            Some(_) => run.finish_recording(run.world.snapshot().other()?.solver.hash()),
+            None => None,
+        };
         Ok(SessionOutcome {
             bench: self.benches.current,
-            steps: time.steps(),
-            simulated: time.seconds(),
+            steps: run.time().steps(),
+            simulated: run.time().seconds(),
             slowed: self.steps.clock.slowed,
             frames: self.counts.frames,
             skipped: self.counts.skipped,
@@ -440,12 +426,13 @@ impl Session {
             sound: self.sounds.report(),
             spilt: self.spills.spilt,
             contacts: self.spills.contacts,
-            broken: self.broken,
+            broken: run.counts().flasks_broken as u32,
             first_minute: self.hints.report(),
             holdings: [self.counts.began_with, Holdings::now()],
             recorded,
-            attempts: Attempt::all(events),
-            verdict: self.guide.verdict(),
+            attempts: Attempt::all(run.events().iter().cloned()),
+            verdict: run.judging().map(|it| it.procedure().verdict()),
+            world: run.world,
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The bench that the user works at: a world with its picture.
+//! The bench that the user works at: what it is made of, and the picture of its world.
 
 use vitriol_experiment::{Failure, Scenes};
 use vitriol_gpu::Gpu;
@@ -37,7 +37,7 @@ pub struct Plan {
     pub seed: u64,
 }
 
-/// A world and its picture.
+/// What goes with a world: its picture, and what it may be solved and drawn with.
 pub struct Workbench {
     /// What it was made of.
     pub plan: Plan,
@@ -45,19 +45,23 @@ pub struct Workbench {
     pub ladder: Ladder,
     /// Substeps and iterations that its preset has, which a replay begins with.
     pub of_preset: [u32; 2],
-    /// The world.
-    pub world: World,
     /// Its picture.
     pub picture: Picture,
+    filter: PictureFilter,
 }
 
 impl Workbench {
-    /// The bench at its start.
+    /// The bench at its start, and its world.
     ///
     /// # Errors
     /// [`Failure::Input`] for a scene that is not there or whose liquid does not fit; what the
     /// device says.
-    pub fn new(gpu: &Gpu, library: &Library, plan: &Plan, eyes: &Eyes) -> Result<Self, Failure> {
+    pub fn new(
+        gpu: &Gpu,
+        library: &Library,
+        plan: &Plan,
+        eyes: &Eyes,
+    ) -> Result<(Self, World), Failure> {
         let loaded = plan.scenes.get(&plan.scene)?;
         let mut scene = loaded.with_preset(plan.preset);
         let of_preset = [scene.solver.substeps, scene.solver.iterations];
@@ -75,25 +79,25 @@ impl Workbench {
         world.set_breakable(plan.breakable);
         // A session outlives its device.
         world.follow();
-        Ok(Self {
+        let bench = Self {
             plan: plan.clone(),
             ladder,
             of_preset,
+            filter: scene.picture.filter,
             picture: Picture::new(gpu, library, &scene, Subject::of(&world), eyes)?,
-            world,
-        })
+        };
+        Ok((bench, world))
     }
 
     /// Filter of the liquid's surface in its picture.
     pub fn filter(&self) -> PictureFilter {
-        let of_scene = self.world.scene().picture.filter;
-        self.plan.filter.unwrap_or(of_scene)
+        self.filter
     }
 
     /// Draws from now on with `picture`, which has that filter.
     pub fn repaint(&mut self, picture: Picture, filter: PictureFilter) {
         let before = std::mem::replace(&mut self.picture, picture);
         self.picture.follow(before);
-        self.plan.filter = Some(filter);
+        (self.plan.filter, self.filter) = (Some(filter), filter);
     }
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
-use vitriol_experiment::{Colour, Experiment, Failure, Format, Instruction, Setup};
+use vitriol_experiment::{Action, Colour, Experiment, Failure, Format, Setup};
 
 use toy::{FLASK, Toy, replay, replay_of, report_of};
 use vitriol_lesson::{Attempt, Event, Rubric, Texts};
@@ -33,7 +33,7 @@ fn what_was_found_is_kept_under_a_pseudonym() {
         let options = [&["--no-video"], more].concat();
         let finds = || Toy {
             finds: true,
-            instructions: vec![(0.5, Instruction::Message("Slowly <please>".into()))],
+            instructions: vec![(0.5, Action::Message("Slowly <please>".into()))],
             ..Toy::new(u64::MAX)
         };
         replay_of(track.to_str().unwrap(), &out, &options, finds).unwrap();

@@ -86,7 +86,7 @@ fn recording(folder: &Path) -> Track {
     let span = Span::covering(track.duration(), scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Progress::hidden());
     let mut source = TrackSource::new(track.clone());
-    vitriol_experiment::run(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
+    vitriol_experiment::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     say(&mut track, &experiment.outcome().unwrap().events);
     track
 }

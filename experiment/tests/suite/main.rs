@@ -3,5 +3,6 @@
 
 mod device;
 mod film;
+mod recording;
 mod sound;
 mod subtitles;

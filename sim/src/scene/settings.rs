@@ -246,6 +246,9 @@ pub enum PictureFilter {
 }
 
 impl PictureFilter {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::NarrowRange, Self::CurvatureFlow];
+
     /// The name as it is given and reported.
     pub fn name(self) -> &'static str {
         match self {

@@ -2,15 +2,15 @@
 //! it, since a student could have diluted "acid" in a scene of the same name.
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
 use vitriol_experiment::track::PRESET;
-use vitriol_experiment::{Blame, Failure, Instruction, Scenes, in_a_line};
+use vitriol_experiment::{Action, Blame, Failure, Scenes, in_a_line};
 use vitriol_lesson::{Attempt, Lesson, Mode, Rubric};
 use vitriol_record::Uuid;
 use vitriol_sim::scene::Preset;
 use vitriol_xr::track::Track;
 
 use crate::command::course::{self, AskedLesson};
+use crate::command::recorded::actions;
 
 /// What must hold of a track, and how it is scored.
 #[derive(Clone, Debug)]
@@ -73,14 +73,12 @@ impl Expected {
     /// In what the track was made otherwise, in a few words; `None` where nothing is known.
     pub fn otherwise(&self, track: &Track, attempts: &[Attempt]) -> Option<String> {
         let (asked, made) = (&self.asked, &track.metadata);
-        let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        let brought_up = switches
-            .filter(|it| [SWITCH_SCENE, SWITCH_START].contains(&&*it.key))
-            .map(|it| &it.value);
-        let mut scenes = std::iter::once(&made.scene)
+        let actions: Vec<Action> = actions(track).collect();
+        let brought_up = actions.iter().filter_map(Action::brings_up);
+        let mut scenes = std::iter::once(made.scene.as_str())
             .chain(brought_up)
-            .chain(attempts.iter().map(|it| &it.scene));
-        if let Some(other) = scenes.find(|name| **name != asked.scene) {
+            .chain(attempts.iter().map(|it| it.scene.as_str()));
+        if let Some(other) = scenes.find(|name| *name != asked.scene) {
             let other = if other.is_empty() {
                 "one without a name".into()
             } else {
@@ -98,9 +96,8 @@ impl Expected {
                 return Some("made with a scene whose text it does not carry".into());
             }
         }
-        let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        if let Some(k_v) = switches.find_map(|it| match Instruction::of(it) {
-            Some(Ok(Instruction::Intensity(k_v))) => Some(k_v),
+        if let Some(k_v) = actions.iter().find_map(|it| match it {
+            Action::Intensity(k_v) => Some(k_v),
             _ => None,
         }) {
             return Some(format!("made with another k_v: {k_v}"));

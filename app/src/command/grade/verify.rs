@@ -111,7 +111,7 @@ impl Verified {
         }
         let mut observer = Observer::new(plan.span, Vec::new(), bars.of(&name, plan.span));
         let mut source = TrackSource::new(plan.track);
-        vitriol_experiment::run(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
+        vitriol_experiment::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
         let outcome = experiment.outcome()?;
         let scene = (plan.name.as_str(), &plan.scenes);
         // What was not yet over where a recording breaks off is not in it.

@@ -92,7 +92,7 @@ pub fn make(
     let shown = Runs::new(format).of(&track, plan.span);
     let mut observer = Observer::new(plan.span, vec![film], shown);
     let mut source = TrackSource::new(plan.track);
-    vitriol_experiment::run(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
+    vitriol_experiment::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
     let outcome = experiment.outcome()?;
     let verdict = Verdict::retold(lesson, MODE, &outcome.progress).pop();
     let seconds = plan.span.seconds();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use vitriol_experiment::{
-    Colour, FILM_FPS, FILM_SIZE, Failure, Instruction, Observations, Outcome, Sample,
+    Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample,
 };
 use vitriol_lesson::Attempt;
 use vitriol_sim::scene::{Preset, Scene};
@@ -89,9 +89,9 @@ pub(super) fn assemble(
 }
 
 /// What an instructor did, in sentences.
-fn said(instructions: &[(f64, Instruction)]) -> Result<Vec<InstructorStatement>, Failure> {
+fn said(instructions: &[(f64, Action)]) -> Result<Vec<InstructorStatement>, Failure> {
     let words = Texts::english()?.instructor;
-    let of = |(t_s, instruction): &(f64, Instruction)| InstructorStatement {
+    let of = |(t_s, instruction): &(f64, Action)| InstructorStatement {
         t_s: *t_s,
         text: words.instruction(instruction),
     };

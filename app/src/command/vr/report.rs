@@ -12,12 +12,12 @@ use crate::command::keeping::Kept;
 use crate::live::WatchReport;
 use crate::vr::first_minute::FirstMinuteReport;
 use crate::vr::foveating::Foveating;
-use crate::vr::record::RecordingStatus;
 use crate::vr::session::{
     Contacts, FramesWith, GovernorReport, SessionOutcome, SoundReport, Spilt, WARM_UP,
 };
 use crate::vr::stand_in::{Ready, StandInSpec};
 use crate::vr::tally::{FramesReport, Holdings, Spread, WaitsReport};
+use vitriol_experiment::run::RecordingStatus;
 
 /// What `vitriol vr` prints at the session's end.
 #[derive(Debug, Serialize)]
@@ -115,7 +115,7 @@ pub(super) fn report(
     outcome: &SessionOutcome,
     stand_in: Option<(StandInSpec, Vec<Ready>)>,
 ) -> Result<SessionReport, Failure> {
-    let world = &outcome.bench.world;
+    let world = &outcome.world;
     let measured = world.measure().other()?;
     let tally = &outcome.tally;
     let counted: Vec<f64> = stand_in.as_ref().map_or_else(Vec::new, |(_, ready)| {

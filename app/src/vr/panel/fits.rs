@@ -137,14 +137,14 @@ fn each_announcement_has_a_line() {
             texts.summary.nothing.clone(),
         ];
         let instructions = {
-            use vitriol_experiment::Instruction as It;
+            use vitriol_experiment::Action as It;
             [
                 It::Intensity(0.125),
                 It::Pause(false),
                 It::Speed(0.5),
                 It::Speed(1.0),
-                It::Spare(true),
-                It::Spare(false),
+                It::Mute(true),
+                It::Mute(false),
                 It::Message(String::new()),
             ]
         };

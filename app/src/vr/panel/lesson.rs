@@ -1,9 +1,10 @@
 //! A lesson on the panel: what is to be done, and what can be asked for.
 
 use egui::{Align, Color32, Label, Layout, RichText, Ui, vec2};
+use vitriol_experiment::Action;
 
 use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
-use crate::vr::decision::{Act, Decision};
+use crate::vr::decision::Decision;
 use crate::vr::info::{Mark, Shown};
 use crate::vr::menu;
 
@@ -39,13 +40,13 @@ fn step(ui: &mut Ui, mark: Mark, text: &str) {
 /// What can be asked for, each with its key and whether it can now.
 pub fn asks(shown: &Shown) -> impl Iterator<Item = (String, bool, Decision)> {
     shown.acts.iter().map(|line| {
-        let key = match line.act {
-            Act::Hint => menu::HINT,
-            Act::Skip => menu::SKIP,
-            Act::Finish => menu::FINISH,
+        let key = match &line.act {
+            Action::Hint(_) => menu::HINT,
+            Action::Skip(_) => menu::SKIP,
+            _ => menu::FINISH,
         };
         let text = format!("{}   {}", key.to_ascii_uppercase(), line.text);
-        (text, line.on, Decision::Lesson(line.act))
+        (text, line.on, Decision::Act(line.act.clone()))
     })
 }
 
@@ -136,9 +137,9 @@ mod tests {
             hint: Some(lines(3)),
             failed: None,
             acts: vec![
-                act(Act::Hint, texts.ask_hint()),
-                act(Act::Skip, texts.skip_step()),
-                act(Act::Finish, texts.finish_lesson()),
+                act(Action::Hint(None), texts.ask_hint()),
+                act(Action::Skip(None), texts.skip_step()),
+                act(Action::Finish, texts.finish_lesson()),
             ],
             quiet: false,
         }

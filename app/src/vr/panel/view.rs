@@ -7,6 +7,7 @@ use egui::{
     TextStyle, TopBottomPanel, Ui, Vec2, pos2, vec2,
 };
 use std::f32::consts::TAU;
+use vitriol_experiment::Action;
 use vitriol_lesson::Tone;
 use vitriol_render::tints;
 
@@ -313,12 +314,12 @@ fn buttons(ui: &mut Ui, (info, words): (&Info, &PanelTexts), seen: &mut Seen) {
     }
     for choice in scenes {
         let text = format!("{}   {}", choice.key, words.scene(choice.scene));
-        let decision = Decision::Scene(choice.scene.into());
+        let decision = Decision::Act(Action::Scene(choice.scene.into()));
         button(ui, text, info.scene == choice.scene, decision);
     }
     let key = |key: char| key.to_ascii_uppercase();
     let start = format!("{}   {}", key(menu::START), words.start);
-    button(ui, start, false, Decision::Start);
+    button(ui, start, false, Decision::Act(Action::Start(None)));
     ui.add_space(10.0);
     let recentre = format!("{}   {}", key(menu::RECENTRE), words.recentre);
     button(ui, recentre, false, Decision::Recentre);

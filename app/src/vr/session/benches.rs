@@ -3,17 +3,16 @@
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
-use vitriol_experiment::switches::{SWITCH_SCENE, SWITCH_START};
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Action, Blame, Failure, Run};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
-use vitriol_sim::world::Look;
-use vitriol_xr::{Headset, Switch};
+use vitriol_sim::world::World;
+use vitriol_xr::Headset;
 
 use super::ended::NoFrameOpen;
 use crate::vr::foveating::Foveating;
 use crate::vr::picture::Eyes;
-use crate::vr::workbench::{Plan, TAKEN_UP, Workbench};
+use crate::vr::workbench::{Plan, Workbench};
 
 /// The bench in use, what it and its like are made with, and the next one.
 pub(super) struct Benches {
@@ -25,9 +24,7 @@ pub(super) struct Benches {
     pub current: Workbench,
     coming: Option<Coming>,
     /// What was to come, and was on a device that was lost meanwhile.
-    again: Option<(Plan, Switch)>,
-    /// The bench before it, until a frame's end.
-    gone: Option<Workbench>,
+    again: Option<(Plan, Action)>,
 }
 
 /// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
@@ -35,35 +32,36 @@ struct Coming {
     plan: Plan,
     /// What its picture is made for.
     eyes: Eyes,
-    thread: JoinHandle<Result<Workbench, Failure>>,
-    /// What a recording keeps of it.
-    switch: Switch,
+    thread: JoinHandle<Result<(Workbench, World), Failure>>,
+    /// What brings it up.
+    action: Action,
 }
 
 impl Benches {
-    /// The first bench, at its start.
+    /// The first bench, and its world at its start.
     pub fn new(
         headset: &dyn Headset,
         plan: &Plan,
         foveating: Option<Foveating>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<(Self, World), Failure> {
         let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset, foveating));
-        Ok(Self {
-            current: Workbench::new(headset.gpu(), &library, plan, &eyes)?,
+        let (current, world) = Workbench::new(headset.gpu(), &library, plan, &eyes)?;
+        let benches = Self {
+            current,
             library,
             eyes,
             coming: None,
             again: None,
-            gone: None,
-        })
+        };
+        Ok((benches, world))
     }
 
     /// Begins to build a scene at its start; a bench that is under construction already is given up.
     pub fn build(&mut self, gpu: &Gpu, scene: String) {
         let same = scene == self.current.plan.scene;
-        let switch = Switch {
-            key: if same { SWITCH_START } else { SWITCH_SCENE }.into(),
-            value: scene.clone(),
+        let action = match same {
+            true => Action::Start(Some(scene.clone())),
+            false => Action::Scene(scene.clone()),
         };
         let mut plan = Plan {
             scene,
@@ -74,24 +72,24 @@ impl Benches {
             (plan.solver, plan.filter) = (None, None);
         }
         self.again = None;
-        self.start(gpu, plan, switch);
+        self.start(gpu, plan, action);
     }
 
-    fn start(&mut self, gpu: &Gpu, plan: Plan, switch: Switch) {
+    fn start(&mut self, gpu: &Gpu, plan: Plan, action: Action) {
         let (gpu, library) = (gpu.clone(), Arc::clone(&self.library));
         let (made, of) = (plan.clone(), self.eyes.clone());
         self.coming = Some(Coming {
             plan,
             eyes: self.eyes.clone(),
             thread: std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of)),
-            switch,
+            action,
         });
     }
 
     /// The scene of the bench that is being built.
     pub fn coming(&self) -> Option<&str> {
         let coming = self.coming.as_ref();
-        coming.map(|coming| coming.switch.value.as_str())
+        coming.and_then(|coming| coming.action.brings_up())
     }
 
     /// Whether a bench is ready to follow the one in use.
@@ -100,22 +98,21 @@ impl Benches {
         coming.is_some_and(|coming| coming.thread.is_finished())
     }
 
-    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a
-    /// failure; does not wait. Its switch is for the recording.
-    pub fn replace_if_built(&mut self) -> Option<Switch> {
+    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a failure, and gives its
+    /// world and what brings that up. Waits until the old one has given back its memory.
+    pub fn replace_if_built(&mut self, gpu: &Gpu, _: &NoFrameOpen) -> Option<(Action, World)> {
         let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
         let made = coming.thread.join();
         match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
-            Ok(bench) => {
-                self.gone = Some(std::mem::replace(&mut self.current, bench));
+            Ok((bench, world)) => {
+                self.current = bench;
                 // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
                 // these.
                 self.eyes = coming.eyes;
-                tracing::info!(target: TAKEN_UP, "set up: {}", coming.switch.value);
-                Some(coming.switch)
+                Some((coming.action, world))
             }
-            Err(_) if self.current.world.gpu().is_lost() => {
-                self.again = Some((coming.plan, coming.switch));
+            Err(_) if gpu.is_lost() => {
+                self.again = Some((coming.plan, coming.action));
                 None
             }
             Err(failure) => {
@@ -123,12 +120,6 @@ impl Benches {
                 None
             }
         }
-    }
-
-    /// Lets the bench go in whose place another one came: giving back its memory and its passes takes as long as a
-    /// frame's other work.
-    pub fn let_go(&mut self, _: &NoFrameOpen) {
-        self.gone = None;
     }
 
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
@@ -142,36 +133,39 @@ impl Benches {
         Ok(())
     }
 
-    /// Moves the bench to the headset's new device, every particle where it was, and begins the one that was being
-    /// built anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of
-    /// it, and the looks behind the steps that were taken again are given; `None` where it is not lost.
-    pub fn move_to(&mut self, headset: &dyn Headset) -> Result<Option<Vec<Look>>, Failure> {
+    /// Moves the bench and its run to the headset's new device, every particle where it was, and begins the one that was being built
+    /// anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of it, and what
+    /// was observed behind the steps that are taken again is observed again. Whether that was so.
+    pub fn move_to(&mut self, headset: &dyn Headset, run: &mut Run) -> Result<bool, Failure> {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset, self.eyes.foveating);
-        let before = &self.current.world;
-        let mut bench = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
+        let before = &run.world;
+        let (bench, mut world) =
+            Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
         let state = before.snapshot();
         let lost = before.gpu().is_lost();
-        let looks = match before.lifeline().filter(|_| lost) {
+        let again = match before.lifeline().filter(|_| lost) {
             Some(lifeline) => {
-                let looks = bench.world.revive(lifeline).other()?;
+                let again = world.revive(lifeline).other()?;
                 tracing::info!("brought back, {} steps taken again", lifeline.steps());
-                Some(looks)
+                Some(again)
             }
             None => {
-                bench.world.solve_like(before).other()?;
-                bench.world.restore(&state.other()?).other()?;
+                world.solve_like(before).other()?;
+                world.restore(&state.other()?).other()?;
                 let memory = before.looks_memory().other()?;
-                bench.world.remember_looks(&memory).other()?;
+                world.remember_looks(&memory).other()?;
                 None
             }
         };
+        let revived = again.is_some();
+        run.move_to(world, again);
         self.current = bench;
         let coming = self.coming.take();
-        let coming = coming.map(|coming| (coming.plan, coming.switch));
-        if let Some((plan, switch)) = coming.or(self.again.take()) {
-            self.start(gpu, plan, switch);
+        let coming = coming.map(|coming| (coming.plan, coming.action));
+        if let Some((plan, action)) = coming.or(self.again.take()) {
+            self.start(gpu, plan, action);
         }
-        Ok(looks)
+        Ok(revived)
     }
 }

@@ -3,9 +3,10 @@
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
+use vitriol_experiment::Action;
 use vitriol_xr::Hand;
 
-use crate::vr::decision::{Act, Decision};
+use crate::vr::decision::Decision;
 use crate::vr::inputs::Buttons;
 
 /// Within this time the end must be asked for again.
@@ -20,19 +21,6 @@ pub(super) struct Choices {
     wanted: Vec<Decision>,
     /// When the end was asked for once.
     asked: Option<Instant>,
-}
-
-/// What a frame has to do.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Chosen {
-    /// This scene from its start.
-    pub scene: Option<String>,
-    /// The bench before the user.
-    pub recentre: bool,
-    /// What happened is asked for, or enough of it.
-    pub summary: bool,
-    /// What is asked of the lesson, in its order.
-    pub acts: Vec<Act>,
 }
 
 impl Choices {
@@ -76,29 +64,27 @@ impl Choices {
         self.wanted.extend(decision);
     }
 
-    /// What is to be done in a frame with these hands, shown at `now` (ns), beside the scene `present`. Of several scenes it
-    /// is the last; a decision counts more than a button.
-    pub fn take(&mut self, hands: &[Hand; 2], now: i64, present: &str) -> Chosen {
+    /// What is to be done in a frame with these hands, shown at `now` (ns), in its order. Of several scenes it is the last; a decision
+    /// counts more than a button.
+    pub fn take(&mut self, hands: &[Hand; 2], now: i64) -> Vec<Decision> {
         let pressed = self.buttons.advance(hands, now);
-        let mut chosen = Chosen {
-            scene: pressed.start.then(|| present.to_owned()),
-            recentre: pressed.recentre,
-            summary: false,
-            acts: Vec::new(),
-        };
-        for decision in std::mem::take(&mut self.wanted) {
-            match decision {
-                Decision::Scene(name) => chosen.scene = Some(name),
-                Decision::Start => chosen.scene = Some(present.to_owned()),
-                Decision::Recentre => chosen.recentre = true,
-                Decision::Summary => chosen.summary ^= true,
-                Decision::Lesson(act) => chosen.acts.push(act),
-                // `hear` has taken them.
-                Decision::End | Decision::AskEnd => {}
-            }
-        }
+        let start = Decision::Act(Action::Start(None));
+        let buttons = [
+            (pressed.start, start),
+            (pressed.recentre, Decision::Recentre),
+        ];
+        let buttons = buttons.into_iter().filter(|(pressed, _)| *pressed);
+        let mut chosen: Vec<Decision> = buttons.map(|(_, decision)| decision).collect();
+        chosen.append(&mut self.wanted);
+        let last = chosen.iter().rposition(brings_up);
+        let mut at = 0..;
+        chosen.retain(|decision| at.next() == last || !brings_up(decision));
         chosen
     }
+}
+
+fn brings_up(decision: &Decision) -> bool {
+    matches!(decision, Decision::Act(Action::Scene(_) | Action::Start(_)))
 }
 
 #[cfg(test)]
@@ -108,7 +94,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     fn scene(name: &str) -> Decision {
-        Decision::Scene(name.into())
+        Decision::Act(Action::Scene(name.into()))
     }
 
     #[test]
@@ -116,25 +102,18 @@ mod tests {
         let (keys, elsewhere) = channel();
         let mut choices = Choices::new(elsewhere);
         let hands = [Hand::default(), Hand::default()];
-        let hint = Decision::Lesson(Act::Hint);
+        let hint = Decision::Act(Action::Hint(None));
         for decision in [scene("first"), Decision::Recentre, hint, scene("second")] {
             keys.send(decision).unwrap();
         }
         assert!(!choices.hear(Instant::now()));
-        let chosen = choices.take(&hands, 0, "present");
-        let scene = Some("second".to_owned());
-        let expected = Chosen {
-            scene,
-            recentre: true,
-            summary: false,
-            acts: vec![Act::Hint],
-        };
-        assert_eq!(chosen, expected);
-        assert_eq!(choices.take(&hands, 0, "present"), Chosen::default());
-        // A start is one of the scene that is there.
-        choices.add(Some(Decision::Start));
-        let chosen = choices.take(&hands, 0, "present");
-        assert_eq!(chosen.scene.as_deref(), Some("present"));
+        let expected = [
+            Decision::Recentre,
+            Decision::Act(Action::Hint(None)),
+            scene("second"),
+        ];
+        assert_eq!(choices.take(&hands, 0), expected);
+        assert_eq!(choices.take(&hands, 0), []);
     }
 
     #[test]
@@ -146,7 +125,7 @@ mod tests {
         assert!(choices.hear(Instant::now()));
         assert!(!choices.hear(Instant::now()));
         let hands = [Hand::default(), Hand::default()];
-        assert_eq!(choices.take(&hands, 0, "x").scene.as_deref(), Some("other"));
+        assert_eq!(choices.take(&hands, 0), [scene("other")]);
     }
 
     #[test]
@@ -181,14 +160,14 @@ mod tests {
                 keys.send(scene("other")).unwrap();
                 choices.hear(Instant::now());
             }
-            choices.take(&b(down), 1_000_000_000 * seconds, "x").scene
+            choices.take(&b(down), 1_000_000_000 * seconds)
         };
-        assert_eq!(frame(true, 0, false), None);
-        assert_eq!(frame(true, 1, true).as_deref(), Some("other"));
+        assert_eq!(frame(true, 0, false), []);
+        assert_eq!(frame(true, 1, true), [scene("other")]);
         // Held on it counts no more; let go and held again it does.
-        assert_eq!(frame(true, 2, false), None);
-        assert_eq!(frame(false, 3, false), None);
-        assert_eq!(frame(true, 4, false), None);
-        assert_eq!(frame(true, 5, false).as_deref(), Some("x"));
+        assert_eq!(frame(true, 2, false), []);
+        assert_eq!(frame(false, 3, false), []);
+        assert_eq!(frame(true, 4, false), []);
+        assert_eq!(frame(true, 5, false), [Decision::Act(Action::Start(None))]);
     }
 }

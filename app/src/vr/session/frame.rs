@@ -3,8 +3,7 @@
 use std::time::Instant;
 
 use vitriol_experiment::scenery::has_acid;
-use vitriol_experiment::switches::SWITCH_START;
-use vitriol_experiment::{Failure, Looks};
+use vitriol_experiment::{Action, Failure, Looked};
 use vitriol_gpu::{LockWaits, Ticket};
 use vitriol_render::camera::NEAR;
 use vitriol_sim::scene::PictureTint;
@@ -16,6 +15,7 @@ use super::Session;
 use super::ended::NoFrameOpen;
 use crate::vr::blame::blame;
 use crate::vr::closing;
+use crate::vr::decision::Decision;
 use crate::vr::haptics;
 use crate::vr::info::{Info, Lying};
 use crate::vr::inputs::sound;
@@ -24,7 +24,7 @@ use crate::vr::panel;
 use crate::vr::picture::{self, Outlook, Sight, eye};
 use crate::vr::sign::{Drawn, Sign};
 use crate::vr::tally::Submitted;
-use crate::vr::workbench::Workbench;
+use crate::vr::workbench::TAKEN_UP;
 
 /// Steps in which the panel's rings fill, per cent: the panel is drawn anew for each.
 const RING: u32 = 5;
@@ -51,15 +51,13 @@ impl Session {
             self.pacing.report.settings.clear();
             self.pacing.report.rates.clear();
         }
-        // 2. What the user decided, and a bench that was built meanwhile.
+        // 2. What the user decided.
         let mut now = sound(&frame.poses, self.placement.last.as_ref());
-        self.decide(headset, frame.recentred, &now);
+        self.decide(headset, frame.recentred, &now)?;
         self.fade
             .advance(info.xr_time, frame.lost, self.benches.is_built());
-        if self.fade.shown() == 0.0 || !frame.should_render {
-            self.replace_bench()?;
-        }
-        let (world, placed) = (&self.benches.current.world, &self.placement);
+        let dark = self.fade.shown() == 0.0 || !frame.should_render;
+        let (world, placed) = (&self.run.world, &self.placement);
         let (last, stage_from_scene) = (placed.last.as_ref(), placed.stage_from_scene());
         closing::close(&mut now, &frame.joints, last, world, &stage_from_scene);
         if let Some(latches) = &mut self.latches {
@@ -72,7 +70,7 @@ impl Session {
                 latches.apply(side, &mut now.hands[side as usize], holds);
             }
         }
-        self.move_bench(&now);
+        self.move_bench(&now)?;
         let scene_from_stage = self.placement.stage_from_scene().inverse();
         self.joints = frame.joints.each_ref().map(|joints| {
             let joints = joints.as_ref()?.0;
@@ -115,12 +113,15 @@ impl Session {
         self.instructor.took(1e-3 * cpu_ms);
         self.tell(false);
         self.catch_up(&no_frame)?;
-        // 10. What the next frames are solved and drawn with.
+        // 10. A bench that was built meanwhile, in the dark; and what the next frames are solved and drawn with.
         let (loads, period) = (self.counts.tally.loads(), 1e-6 * info.period_ns as f64);
-        let (benches, track) = (&mut self.benches, &mut self.track);
+        if dark {
+            self.replace_bench(&no_frame)?;
+        }
+        let (benches, run) = (&mut self.benches, &mut self.run);
         let display = (period, headset.rates());
         self.pacing
-            .govern(&loads, display, benches, track, &no_frame)?;
+            .govern(&loads, display, benches, run, &no_frame)?;
         if let Some(rate) = self.pacing.wants_rate.take() {
             headset.request_rate(rate).map_err(blame)?;
         }
@@ -134,67 +135,81 @@ impl Session {
     }
 
     /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
-    fn decide(&mut self, headset: &dyn Headset, recentred: bool, now: &PoseFrame) {
-        let present = &self.benches.current.plan.scene;
-        let chosen = self.choices.take(&now.hands, now.info.xr_time, present);
-        if chosen.summary && self.guide.tells(present) {
-            self.summary.toggle();
+    fn decide(
+        &mut self,
+        headset: &dyn Headset,
+        recentred: bool,
+        now: &PoseFrame,
+    ) -> Result<(), Failure> {
+        let mut recentre = recentred;
+        for decision in self.choices.take(&now.hands, now.info.xr_time) {
+            match decision {
+                Decision::Act(Action::Scene(name)) => self.benches.build(headset.gpu(), name),
+                Decision::Act(Action::Start(_)) => {
+                    let present = self.run.scene().to_owned();
+                    self.benches.build(headset.gpu(), present);
+                }
+                Decision::Act(action) => {
+                    if let Some(action) = self.guide.named(&self.run, action) {
+                        self.run.act(action)?;
+                    }
+                }
+                Decision::Recentre => recentre = true,
+                Decision::Summary if self.guide.tells(&self.run) => self.summary.toggle(),
+                Decision::Summary => {}
+                // `Choices::hear` has taken them.
+                Decision::End | Decision::AskEnd => {}
+            }
         }
-        let wishes = chosen.acts.iter();
-        let wishes = wishes.filter_map(|act| self.guide.wish(present, *act));
-        wishes.for_each(|wish| self.track.switch(wish.switch()));
-        if let Some(scene) = chosen.scene {
-            self.benches.build(headset.gpu(), scene);
-        }
-        if let Some(switch) = self.placement.place(now, chosen.recentre || recentred) {
-            self.track.switch(switch);
-            self.benches.current.world.hands_leap();
+        if let Some(leap) = self.placement.place(now, recentre) {
+            self.run.act(leap)?;
             self.handles.leap();
             self.steps.clock.pause();
         }
+        Ok(())
     }
 
     /// Moves the bench with the hand that holds a handle of it. Steps go on: between the last frame and this one each hand
     /// moves as it did in the room, and leaps by what the bench has moved.
-    fn move_bench(&mut self, now: &PoseFrame) {
+    fn move_bench(&mut self, now: &PoseFrame) -> Result<(), Failure> {
         let placed = self.placement.stage_from_scene();
-        let world = &mut self.benches.current.world;
-        let Some(by) = self.handles.update(now, &placed, world) else {
-            return;
+        let Some(by) = self.handles.update(now, &placed, &self.run.world) else {
+            return Ok(());
         };
-        if let Some(switch) = self.placement.raise(now, by) {
-            self.track.switch(switch);
-            world.hands_leap();
+        if let Some(leap) = self.placement.raise(now, by) {
+            self.run.act(leap)?;
         }
         self.handles.settle(now, &self.placement.stage_from_scene());
+        Ok(())
     }
 
-    /// Goes on with the bench that was built meanwhile, if one was. The picture is dark.
-    fn replace_bench(&mut self) -> Result<(), Failure> {
+    /// Goes on with the bench that was built meanwhile, if one was. The picture is dark, and what was under way on the bench before is
+    /// waited for: it is counted, heard and judged with that bench.
+    fn replace_bench(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
         let drawn = self.pacing.setting(&self.benches.current);
-        let before = self.benches.current.plan.scene.clone();
-        if let Some(switch) = self.benches.replace_if_built() {
-            let same = switch.key == SWITCH_START;
-            self.fade.close();
-            // Before the switches of its settings: a replay brings up the scene first.
-            self.track.switch(switch);
-            let (bench, track) = (&mut self.benches.current, &mut self.track);
-            self.pacing.begin(same, Some(drawn), bench, track)?;
-            self.readings.clear();
-            let (name, scene) = (
-                &self.benches.current.plan.scene,
-                self.benches.current.world.scene(),
-            );
-            let looks = std::mem::replace(&mut self.steps.looks, Looks::of(name, scene));
-            self.ending = Some((before, looks));
-            let muted = self.instructor.mutes_boiling();
-            self.sounds.begin(self.benches.current.world.scene(), muted);
-            self.instructor.begin();
-            self.keeper.forget();
-            self.spills.clean();
-            self.hints.begin();
-            self.summary.begin();
+        let gpu = self.run.world.gpu().clone();
+        let Some((action, world)) = self.benches.replace_if_built(&gpu, no_frame) else {
+            return Ok(());
+        };
+        for looked in self.run.end_attempt()? {
+            self.observed(&looked);
         }
+        self.guide.follow(&self.run);
+        self.hear();
+        let same = matches!(action, Action::Start(_));
+        // Before the actions of its settings: a replay brings up the scene first.
+        self.run.bring_up(action, world);
+        tracing::info!(target: TAKEN_UP, "set up: {}", self.run.scene());
+        self.fade.close();
+        let (bench, run) = (&self.benches.current, &mut self.run);
+        self.pacing.begin(same, Some(drawn), bench, run)?;
+        self.readings.clear();
+        self.sounds.begin();
+        self.instructor.begin();
+        self.keeper.forget();
+        self.spills.clean();
+        self.hints.begin();
+        self.summary.begin();
         Ok(())
     }
 
@@ -205,15 +220,15 @@ impl Session {
             self.placement.last = Some(now);
             return Ok(());
         }
-        let world = &mut self.benches.current.world;
-        self.steps.plan(&now, &self.placement, world.scene());
+        let scene = self.run.world.scene();
+        self.steps.plan(&now, &self.placement, scene);
         self.placement.last = Some(now);
-        self.steps.take_ready(world, &mut self.track)
+        self.steps.take_ready(&mut self.run)
     }
 
     /// Lets each hand feel what stirs in the flask that it holds, and acid that touches it.
     fn vibrate(&mut self, headset: &mut dyn Headset) -> Result<(), Failure> {
-        let world = &self.benches.current.world;
+        let world = &self.run.world;
         let scale = world.scene().scale.length_scale;
         for side in Side::BOTH {
             let now = self.shown_at();
@@ -232,7 +247,7 @@ impl Session {
 
     /// Brings panel and window title up to date, and lets the hands that hold nothing point at the panel.
     fn show_panel(&mut self) {
-        let world = &self.benches.current.world;
+        let world = &self.run.world;
         let seen = self.placement.seen();
         let pointing = |side: Side| -> Option<&Hand> {
             let hand = seen.as_ref()?.hand(side);
@@ -252,7 +267,7 @@ impl Session {
     fn hint(&mut self) {
         let (seen, time) = (self.placement.seen(), 1e-9 * self.shown_at() as f64);
         let bare = self.joints.each_ref().map(Option::is_some);
-        let world = &self.benches.current.world;
+        let world = &self.run.world;
         self.hints.update(world, seen.as_ref(), bare, time);
     }
 
@@ -263,7 +278,7 @@ impl Session {
         let Some(targets) = targets.map_err(blame)? else {
             return Ok(None);
         };
-        let Workbench { world, picture, .. } = &self.benches.current;
+        let (world, picture) = (&self.run.world, &self.benches.current.picture);
         let mut state = None;
         let shapes = picture.shapes(world.gpu(), world, |rec| {
             state = self.keeper.record(world, rec)?;
@@ -288,7 +303,7 @@ impl Session {
         let setting = self.pacing.setting(&self.benches.current);
         let extent = scaled(self.benches.eyes.extent, &setting);
         let foveating = self.benches.eyes.foveating(setting.foveated);
-        let Workbench { world, picture, .. } = &mut self.benches.current;
+        let (world, picture) = (&self.run.world, &mut self.benches.current.picture);
         self.gloves = picture.gloves(world, seen.as_ref(), &self.joints);
         self.spills.wears(world.worn());
         for side in Side::BOTH {
@@ -303,7 +318,7 @@ impl Session {
             bones.extend(handle);
         }
 
-        let tools = vitriol_experiment::tools(world, self.steps.looks.thermometer());
+        let tools = vitriol_experiment::tools(world, self.run.thermometer());
         let (image, shown) = (self.panel.image.clone(), self.fade.shown());
         let sign = self.hints.sign.as_ref().and_then(Sign::drawn);
 
@@ -364,71 +379,53 @@ impl Session {
         })
     }
 
-    /// Does what may wait for the device or takes long: lets go of the bench before, takes the steps that are left over, waits for the picture before the last,
+    /// Does what may wait for the device or takes long: takes the steps that are left over, waits for the picture before the last,
     /// and collects pictures, readings and times that have come.
     pub(super) fn catch_up(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
-        self.benches.let_go(no_frame);
-        let Workbench { world, picture, .. } = &mut self.benches.current;
-        self.steps.take_rest(world, &mut self.track, no_frame)?;
-        picture.keep_up()?;
+        self.steps.take_rest(&mut self.run, no_frame)?;
+        self.benches.current.picture.keep_up()?;
         if let Some(mirror) = &mut self.mirror {
             mirror.hand_over()?;
         }
         self.instructor.hand_over()?;
-        let now = self.shown_at();
-        let time = 1e-9 * now as f64;
-        let world = &self.benches.current.world;
-        let blows = self.steps.blows();
-        self.broken += blows.1.len() as u32;
-        self.sounds.struck(world, &blows, time);
-        self.take_looks(time, false)?;
-        let seen = self.placement.seen();
-        self.sounds
-            .hear(seen.as_ref().map(|it| &it.stage_from_view));
-        self.keeper.collect(&mut self.benches.current.world)?;
+        self.observe(false)?;
+        self.hear();
+        self.keeper.collect(&mut self.run.world)?;
         self.counts.tally.collect()
     }
 
-    /// Takes in the looks that have come, in the frame that is shown at `time` (s); or all, where `wait`.
-    pub(super) fn take_looks(&mut self, time: f64, wait: bool) -> Result<(), Failure> {
-        self.guide.asked(self.track.asked());
-        // Of the bench before: what is found there is said before what is found here.
-        if let Some((scene, mut looks)) = self.ending.take() {
-            while let Some(looked) = looks.wait()? {
-                let said = self.guide.looked(&scene, &looked, || looks.so_far());
-                self.track.found(looked.events);
-                self.track.progressed(&said);
-            }
-            let events = looks.end();
-            let said = self.guide.ended(&scene, &events);
-            self.track.found(events);
-            self.track.progressed(&said);
+    /// Takes in the observations that have come, or all where it shall `wait`.
+    pub(super) fn observe(&mut self, wait: bool) -> Result<(), Failure> {
+        while let Some(looked) = match wait {
+            true => self.run.wait(0)?,
+            false => self.run.collect()?,
+        } {
+            self.observed(&looked);
         }
-        loop {
-            let looks = &mut self.steps.looks;
-            let looked = if wait {
-                looks.wait()?
-            } else {
-                looks.collect()?
-            };
-            let Some(looked) = looked else {
-                return Ok(());
-            };
-            let world = &self.benches.current.world;
-            let scale = world.scene().scale.length_scale;
-            let hands = looked.hands.each_ref().map(Vec::as_slice);
-            self.readings.take(&looked.census);
-            self.instructor.looked(&looked.census);
-            let burnt = self
-                .spills
-                .take(&looked.census, scale, hands, self.shown_at());
-            self.sounds.looked(world, &looked, &burnt, time);
-            self.hints.looked(world, &looked.census, time);
-            let (scene, looks) = (&self.benches.current.plan.scene, &self.steps.looks);
-            let said = self.guide.looked(scene, &looked, || looks.so_far());
-            self.track.found(looked.events);
-            self.track.progressed(&said);
-        }
+        self.guide.follow(&self.run);
+        Ok(())
+    }
+
+    pub(super) fn observed(&mut self, looked: &Looked) {
+        let now = self.shown_at();
+        let time = 1e-9 * now as f64;
+        let (world, census) = (&self.run.world, &looked.census);
+        let scale = world.scene().scale.length_scale;
+        let hands = looked.hands.each_ref().map(Vec::as_slice);
+        self.readings.take(census);
+        self.instructor.looked(census);
+        let burnt = self.spills.take(census, scale, hands, now);
+        self.sounds.burnt(&burnt, census, scale, time);
+        self.hints.looked(world, census, time);
+    }
+
+    /// Lets the user hear what happened up to the frame that was shown last.
+    fn hear(&mut self) {
+        let time = 1e-9 * self.shown_at() as f64;
+        self.sounds.add(self.run.sounds(), time);
+        let seen = self.placement.seen();
+        self.sounds
+            .hear(seen.as_ref().map(|it| &it.stage_from_view));
     }
 
     /// Display time of the last frame, ns.
@@ -442,26 +439,23 @@ impl Session {
     /// What panel and window title say.
     pub(super) fn info(&mut self) -> Info {
         let ends = self.choices.asks_to_end(Instant::now());
-        let bench = &self.benches.current;
-        let happened = {
-            let words = &self.texts.summary;
-            let ends = ends && self.guide.tells(&bench.plan.scene);
-            (self.summary).shown(words, &self.track.events, &self.steps.looks, ends)
-        };
-        let scene = bench.world.scene();
-        let recorded = self.track.state();
+        let (bench, run) = (&self.benches.current, &self.run);
+        let ends_told = ends && self.guide.tells(run);
+        let happened = (self.summary).shown(&self.texts.summary, run, ends_told);
+        let scene = run.world.scene();
+        let recorded = run.recorded();
         Info {
-            scene: bench.plan.scene.clone(),
-            flasks: (self.readings).lines(scene, |flask| bench.world.is_broken(flask)),
+            scene: run.scene().to_owned(),
+            flasks: (self.readings).lines(scene, |flask| run.world.is_broken(flask)),
             acid: has_acid(scene) && scene.picture.tint == PictureTint::Artificial,
             spilt: Lying::of(self.spills.spilt.bench, self.spills.spilt.floor),
             heard: (self.texts).heard(&self.sounds.captions(1e-9 * self.shown_at() as f64)),
             device_lost: self.losses.is_said(self.counts.frames),
             burns: Skin::ALL.map(|skin| self.spills.touched(skin)),
             slow: self.steps.slow_motion(),
-            recording: recorded.as_ref().map(|(seconds, _)| *seconds as u64),
-            waits_for_disk: recorded.as_ref().is_some_and(|(_, state)| state.refused),
-            unwritten: recorded.map_or(0, |(_, state)| state.unwritten),
+            recording: recorded.as_ref().map(|_| run.time().seconds() as u64),
+            waits_for_disk: recorded.as_ref().is_some_and(|state| state.refused),
+            unwritten: recorded.map_or(0, |state| state.unwritten),
             missed: self.counts.skipped,
             effort: self.pacing.effort(bench),
             coming: self.benches.coming().map(Into::into),
@@ -469,7 +463,7 @@ impl Session {
                 .map(|share| RING * (100.0 * share / RING as f32) as u32),
             ends,
             happened,
-            lesson: self.guide.shown(&bench.plan.scene, &self.texts.lesson),
+            lesson: self.guide.shown(run, &self.texts.lesson),
             told: (self.instructor).told(&self.texts.instructor, self.shown_at()),
         }
     }

@@ -1,12 +1,11 @@
-//! The lesson that a session goes through: its steps are judged look by look, and panel and console show the same.
+//! The lesson that a session goes through, as panel and console show it.
 
 use vitriol_console::{Said, Step, Text};
-use vitriol_experiment::{Blame, Failure, Judging, Looked, Wish};
-use vitriol_lesson::procedure::{Progress, Verdict};
-use vitriol_lesson::{Event, Language, Lesson, Mode, Texts};
+use vitriol_experiment::{Action, Blame, Failure, Judging, Run};
+use vitriol_lesson::procedure::Progress;
+use vitriol_lesson::{Language, Lesson, Mode, Texts};
 
 use crate::texts::LessonTexts;
-use crate::vr::decision::Act;
 use crate::vr::info::Shown;
 use crate::vr::listing::{self, Words};
 
@@ -24,10 +23,12 @@ pub struct Course {
     pub language: Language,
 }
 
-/// See the module. Without a lesson it says nothing.
+/// What panel and console show of a lesson that the run judges. Without a lesson it shows nothing.
 pub(super) struct Guide {
-    course: Option<(Course, Judging)>,
+    course: Option<Course>,
     texts: Texts,
+    /// How much of the run's progress was taken in.
+    taken: usize,
     /// Hints that were given, each with its time, s.
     hints: Vec<(f64, String)>,
     /// The step whose hint was given last.
@@ -37,82 +38,52 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    /// At the lesson's beginning, in the scene of that name.
+    /// At the lesson's beginning.
     ///
     /// # Errors
     /// [`Failure::Other`] where a text is missing, which a test rules out.
-    pub fn new(course: Option<Course>, scene: &str) -> Result<Self, Failure> {
+    pub fn new(course: Option<Course>) -> Result<Self, Failure> {
         let language = course.as_ref().map_or(Language::En, |it| it.language);
         Ok(Self {
-            course: course.map(|course| {
-                let judging = Judging::new(course.lesson.clone(), course.mode, scene);
-                (course, judging)
-            }),
+            course,
             texts: Texts::of(language).other()?,
+            taken: 0,
             hints: Vec::new(),
             hinted: None,
             failed: None,
         })
     }
 
-    /// What the user asks for in the scene of that name, as a track keeps it; `None` where the mode has no such thing, or there is no step
-    /// that it is of.
-    pub fn wish(&self, scene: &str, act: Act) -> Option<Wish> {
-        let (course, judging) = self.of(scene)?;
+    /// The same with the step that it is of, of what the user asks for in the run's scene; `None` where the mode has no such thing, or
+    /// there is no step.
+    pub fn named(&self, run: &Run, action: Action) -> Option<Action> {
+        let (course, judging) = self.of(run)?;
         let state = judging.procedure().state();
-        if state.over || !listing::can_ask(course.mode).contains(&act) {
+        if state.over || !listing::can_ask(course.mode).contains(&action) {
             return None;
         }
-        let step = |id: &str| id.to_owned();
-        match act {
-            Act::Hint => {
-                let id = listing::to_hint(&state, self.hinted.as_deref());
-                id.map(step).map(Wish::Hint)
+        Some(match action {
+            Action::Hint(_) => {
+                let id = listing::to_hint(&state, self.hinted.as_deref())?;
+                Action::Hint(Some(id.to_owned()))
             }
-            Act::Skip => {
-                let open = state.steps.get(state.number? - 1);
-                open.map(|it| Wish::Skip(step(&it.id)))
+            Action::Skip(_) => {
+                let open = state.steps.get(state.number? - 1)?;
+                Action::Skip(Some(open.id.clone()))
             }
-            Act::Finish => Some(Wish::Finish),
-        }
+            action => action,
+        })
     }
 
-    /// These were asked for, each at its simulated time before a step that was taken, s.
-    pub fn asked(&mut self, asked: Vec<(f64, Wish)>) {
-        if let Some((_, judging)) = &mut self.course {
-            for (t_s, wish) in asked {
-                judging.ask(t_s, wish);
-            }
-        }
-    }
-
-    /// Takes in a look at the scene of that name; of another one than the lesson's nothing is judged. `so_far` says what the attempt would
-    /// end with now. What was said of it.
-    pub fn looked(
-        &mut self,
-        scene: &str,
-        looked: &Looked,
-        so_far: impl Fn() -> Vec<Event>,
-    ) -> Vec<Progress> {
-        let judging = self.course.as_mut().map(|(_, judging)| judging);
-        let said = judging.map(|it| it.looked(scene, looked, so_far));
-        self.hear(said.unwrap_or_default())
-    }
-
-    /// What was found last, when the attempt ended. What was said of that.
-    pub fn ended(&mut self, scene: &str, events: &[Event]) -> Vec<Progress> {
-        let judging = self.course.as_mut().map(|(_, judging)| judging);
-        let said = judging.map(|it| it.ended(scene, events));
-        self.hear(said.unwrap_or_default())
-    }
-
-    /// Remembers what panel and console show of it.
-    fn hear(&mut self, said: Vec<Progress>) -> Vec<Progress> {
-        let Some((course, _)) = &self.course else {
-            return said;
+    /// Takes in how the lesson went on.
+    pub fn follow(&mut self, run: &Run) {
+        let new = &run.progress()[self.taken..];
+        self.taken = run.progress().len();
+        let Some(course) = &self.course else {
+            return;
         };
         let texts = course.lesson.texts(course.language);
-        for progress in &said {
+        for progress in new {
             match progress {
                 Progress::Begun { .. } => {
                     self.hints.clear();
@@ -130,25 +101,24 @@ impl Guide {
                 Progress::StepBegun { .. } | Progress::StepDone { .. } | Progress::Over { .. } => {}
             }
         }
-        said
     }
 
-    /// The lesson, where the scene of that name is its own.
-    fn of(&self, scene: &str) -> Option<&(Course, Judging)> {
-        let course = self.course.as_ref();
-        course.filter(|(_, judging)| judging.is_of(scene))
+    /// The lesson, where the run's scene is its own.
+    fn of<'a>(&'a self, run: &'a Run) -> Option<(&'a Course, &'a Judging)> {
+        let judging = run.judging().filter(|it| it.is_of(run.scene()))?;
+        Some((self.course.as_ref()?, judging))
     }
 
-    /// Whether a user in that scene is told what was done and what went wrong: not who is examined, before the end.
-    pub fn tells(&self, scene: &str) -> bool {
-        let course = self.of(scene);
+    /// Whether a user in the run's scene is told what was done and what went wrong: not who is examined, before the end.
+    pub fn tells(&self, run: &Run) -> bool {
+        let course = self.of(run);
         course
             .is_none_or(|(course, judging)| course.mode.tells() || judging.procedure().state().over)
     }
 
-    /// The step that is to be done in that scene, as the console shows it.
-    pub fn step(&self, scene: &str) -> Option<Step> {
-        let (course, judging) = self.of(scene)?;
+    /// The step that is to be done in the run's scene, as the console shows it.
+    pub fn step(&self, run: &Run) -> Option<Step> {
+        let (course, judging) = self.of(run)?;
         let state = judging.procedure().state();
         let texts = course.lesson.texts(course.language);
         let id = state.number.and_then(|number| state.steps.get(number - 1));
@@ -169,9 +139,9 @@ impl Guide {
         })
     }
 
-    /// What the panel shows of it in that scene.
-    pub fn shown(&self, scene: &str, around: &LessonTexts) -> Option<Shown> {
-        let (course, judging) = self.of(scene)?;
+    /// What the panel shows of it in the run's scene.
+    pub fn shown(&self, run: &Run, around: &LessonTexts) -> Option<Shown> {
+        let (course, judging) = self.of(run)?;
         let words = Words {
             around,
             texts: &self.texts,
@@ -182,11 +152,5 @@ impl Guide {
         let failed = failed.map(|(_, why)| why.as_str());
         let hinted = self.hinted.as_deref();
         Some(listing::shown(judging.procedure(), words, hinted, failed))
-    }
-
-    /// What it comes to; `None` without a lesson.
-    pub fn verdict(&self) -> Option<Verdict> {
-        let judging = self.course.as_ref().map(|(_, judging)| judging);
-        judging.map(|it| it.procedure().verdict())
     }
 }

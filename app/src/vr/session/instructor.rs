@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use vitriol_console::{Command, Controls, Frames, List, Said, State, Step, Student, Text};
-use vitriol_experiment::{Blame, Failure, Instruction};
+use vitriol_experiment::{Action, Blame, Failure};
 use vitriol_gpu::{Gpu, Image};
 use vitriol_lesson::{Event, Texts};
 use vitriol_shaders::Library;
@@ -29,17 +29,6 @@ const FELT: i64 = 250_000_000;
 const STRENGTH: f32 = 0.5;
 /// Over which frames' times are told.
 const LATELY: Duration = Duration::from_secs(1);
-
-/// What an order asks of a session.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Asked {
-    /// What the user could decide as well.
-    Decided(Decision),
-    /// What only an instructor does.
-    Instruction(Instruction),
-    /// The session's end.
-    End,
-}
 
 /// What is told of a frame.
 pub(super) struct Now<'a> {
@@ -106,7 +95,7 @@ impl Instructor {
 
     /// What was asked for since the last call, each with its order's number. Of what this program cannot do the instructor sees that it
     /// was not done.
-    pub fn orders(&self) -> Vec<(u64, Option<Asked>)> {
+    pub fn orders(&self) -> Vec<(u64, Option<Decision>)> {
         let Some(Console { port, student }) = &self.console else {
             return Vec::new();
         };
@@ -127,15 +116,15 @@ impl Instructor {
     }
 
     /// An instruction counts from now on.
-    pub fn follow(&mut self, instruction: &Instruction) {
+    pub fn follow(&mut self, instruction: &Action) {
         let controls = &mut self.controls;
         match instruction {
-            Instruction::Pause(on) => controls.paused = *on,
-            Instruction::Speed(rate) => controls.rate = *rate,
-            Instruction::Spare(on) => controls.spared = *on,
-            Instruction::Message(text) => controls.message = Text::clipped(text),
-            // The world's own is told.
-            Instruction::Intensity(_) => {}
+            Action::Pause(on) => controls.paused = *on,
+            Action::Speed(rate) => controls.rate = *rate,
+            Action::Mute(on) => controls.spared = *on,
+            Action::Message(text) => controls.message = Text::clipped(text),
+            // The world's own k_v is told.
+            _ => {}
         }
     }
 
@@ -284,19 +273,19 @@ impl Instructor {
 }
 
 /// `None` of what this program cannot do.
-fn asked(command: Command, student: &Student) -> Option<Asked> {
+fn asked(command: Command, student: &Student) -> Option<Decision> {
     command.check(student).ok()?;
-    Some(match command {
+    Some(Decision::Act(match command {
+        Command::End {} => return Some(Decision::End),
         Command::Scene { choice } => {
             let choice = CHOICES.get(usize::from(choice))?;
-            Asked::Decided(Decision::Scene(choice.scene.into()))
+            Action::Scene(choice.scene.into())
         }
-        Command::Reset {} => Asked::Decided(Decision::Start),
-        Command::End {} => Asked::End,
-        Command::KV { value } => Asked::Instruction(Instruction::Intensity(value)),
-        Command::Pause { on } => Asked::Instruction(Instruction::Pause(on)),
-        Command::SlowMotion { rate } => Asked::Instruction(Instruction::Speed(rate)),
-        Command::Spare { on } => Asked::Instruction(Instruction::Spare(on)),
-        Command::Message { text } => Asked::Instruction(Instruction::Message(text.to_string())),
-    })
+        Command::Reset {} => Action::Start(None),
+        Command::KV { value } => Action::Intensity(value),
+        Command::Pause { on } => Action::Pause(on),
+        Command::SlowMotion { rate } => Action::Speed(rate),
+        Command::Spare { on } => Action::Mute(on),
+        Command::Message { text } => Action::Message(text.to_string()),
+    }))
 }

@@ -1,30 +1,19 @@
 //! Fits frames into the display's period: what the governor decides is done here, said and recorded.
 
 use serde::Serialize;
-use vitriol_experiment::switches::SWITCH_SOLVER;
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Action, Blame, Failure, Run};
 use vitriol_gpu::{Gpu, Timestamps};
-use vitriol_xr::Switch;
 
 use super::benches::Benches;
 use super::ended::NoFrameOpen;
 use super::repaint::Repainter;
-use super::track::SessionTrack;
 use crate::vr::clock::MOST_STEPS;
-use crate::vr::foveating;
 use crate::vr::governor::{FrameTimes, Governor, Level};
 use crate::vr::info::Effort;
 use crate::vr::ladder::Setting;
 use crate::vr::rates::{Rates, Taken};
 use crate::vr::tally::FrameLoad;
 use crate::vr::workbench::{TAKEN_UP, Workbench};
-
-/// Key of the switch to a picture of another resolution, its value each side over the display's.
-pub const SWITCH_RESOLUTION: &str = "resolution";
-/// Key of the switch to another filter of the liquid's surface, its value as `--filter` takes it.
-pub const SWITCH_FILTER: &str = "filter";
-/// Key of the switch to pictures that are sharp everywhere, or about the lenses' axes alone, its value as `--foveation` takes it.
-pub const SWITCH_FOVEATION: &str = "foveation";
 
 /// What the governor did in a session.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -148,7 +137,7 @@ impl Pacing {
         loads: &[FrameLoad],
         (period, rates): (f64, &[f32]),
         benches: &mut Benches,
-        track: &mut SessionTrack,
+        run: &mut Run,
         no_frame: &NoFrameOpen,
     ) -> Result<(), Failure> {
         // A runtime may not say how long a frame is shown. While another picture is in the making nothing is
@@ -156,8 +145,8 @@ impl Pacing {
         if period > 0.0 && !self.repainter.is_busy() {
             (self.rates).get_or_insert_with(|| Rates::new(rates, 1e3 / period));
             for load in loads {
-                if let Some(level) = self.heed(load, period, &benches.current) {
-                    self.go_to(level, &mut benches.current, track)?;
+                if let Some(level) = self.heed(load, period, run) {
+                    self.go_to(level, &benches.current, run)?;
                 }
             }
         }
@@ -165,15 +154,15 @@ impl Pacing {
             self.settle();
             let name = filter.name();
             tracing::info!(target: TAKEN_UP, "to keep pace: filter {name}");
-            track.switch(switch(SWITCH_FILTER, name.into()));
+            run.act(Action::Filter(filter))?;
         }
         let wanted = benches.current.ladder.setting(self.level).filter;
-        self.repainter.want(wanted, benches);
+        self.repainter.want(wanted, benches, &run.world);
         Ok(())
     }
 
     /// Tells the governor of a frame that is done; the new level, if it wants another.
-    fn heed(&mut self, load: &FrameLoad, period: f64, bench: &Workbench) -> Option<Level> {
+    fn heed(&mut self, load: &FrameLoad, period: f64, run: &Run) -> Option<Level> {
         let governor = self.governor.as_mut()?;
         self.since += 1e-3 * period;
         if load.stamp != self.stamp {
@@ -186,7 +175,7 @@ impl Pacing {
         }
         // As many steps as a period has. A frame that makes up for a missed one has more, which is no reason to do
         // less in the next ones.
-        let frame_time = 1e3 * bench.world.scene().scale.frame_time;
+        let frame_time = 1e3 * run.world.scene().scale.frame_time;
         let steps = (period / frame_time - 1e-6)
             .ceil()
             .clamp(1.0, MOST_STEPS.into());
@@ -225,19 +214,13 @@ impl Pacing {
     }
 
     /// Goes on at `level`, and has it recorded.
-    fn go_to(
-        &mut self,
-        level: Level,
-        bench: &mut Workbench,
-        track: &mut SessionTrack,
-    ) -> Result<(), Failure> {
+    fn go_to(&mut self, level: Level, bench: &Workbench, run: &mut Run) -> Result<(), Failure> {
         let before = bench.ladder.setting(self.level);
         let after = bench.ladder.setting(level);
         self.level = level;
         self.settle();
-        if after.solver != bench.world.effort() {
-            bench.world.set_effort(after.solver).other()?;
-            track.switch(solver_switch(after.solver));
+        if after.solver != run.world.effort() {
+            run.act(Action::Solver(after.solver))?;
         }
         let ([substeps, iterations], percent) = (after.solver, 100.0 * after.resolution);
         let aside = if after.foveated {
@@ -247,10 +230,10 @@ impl Pacing {
         };
         tracing::info!("to keep pace: {substeps} × {iterations}, picture {percent:.0} %{aside}");
         if after.resolution != before.resolution {
-            track.switch(resolution_switch(after.resolution));
+            run.act(Action::Resolution(after.resolution))?;
         }
         if after.foveated != before.foveated {
-            track.switch(foveation_switch(after.foveated));
+            run.act(Action::Foveation(after.foveated))?;
         }
         Ok(())
     }
@@ -262,8 +245,8 @@ impl Pacing {
         &mut self,
         same: bool,
         drawn: Option<Setting>,
-        bench: &mut Workbench,
-        track: &mut SessionTrack,
+        bench: &Workbench,
+        run: &mut Run,
     ) -> Result<(), Failure> {
         if !same {
             self.level = [0, 0];
@@ -273,16 +256,17 @@ impl Pacing {
         }
         self.forget();
         let setting = bench.ladder.setting(self.level);
-        bench.world.set_effort(setting.solver).other()?;
         if setting.solver != bench.of_preset {
-            track.switch(solver_switch(setting.solver));
+            run.act(Action::Solver(setting.solver))?;
+        } else {
+            run.world.set_effort(setting.solver).other()?;
         }
         let (resolution, foveated) = drawn.map_or((1.0, false), |it| (it.resolution, it.foveated));
         if setting.resolution != resolution {
-            track.switch(resolution_switch(setting.resolution));
+            run.act(Action::Resolution(setting.resolution))?;
         }
         if setting.foveated != foveated {
-            track.switch(foveation_switch(setting.foveated));
+            run.act(Action::Foveation(setting.foveated))?;
         }
         Ok(())
     }
@@ -301,24 +285,4 @@ impl Pacing {
             rate: rate.map(|rate| rate.round() as u32),
         })
     }
-}
-
-fn switch(key: &str, value: String) -> Switch {
-    Switch {
-        key: key.into(),
-        value,
-    }
-}
-
-fn solver_switch([substeps, iterations]: [u32; 2]) -> Switch {
-    switch(SWITCH_SOLVER, format!("{substeps}x{iterations}"))
-}
-
-fn resolution_switch(resolution: f64) -> Switch {
-    switch(SWITCH_RESOLUTION, resolution.to_string())
-}
-
-fn foveation_switch(foveated: bool) -> Switch {
-    let value = foveating::now(None, foveated);
-    switch(SWITCH_FOVEATION, value.name().into())
 }

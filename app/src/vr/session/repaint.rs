@@ -5,6 +5,7 @@ use std::thread::JoinHandle;
 
 use vitriol_experiment::{Blame, Failure};
 use vitriol_sim::scene::PictureFilter;
+use vitriol_sim::world::World;
 
 use super::benches::Benches;
 use super::ended::NoFrameOpen;
@@ -38,16 +39,16 @@ impl Repainter {
 
     /// Begins to make a picture with that filter, unless the bench has it or it is being made; gives up one
     /// that is no longer wanted.
-    pub fn want(&mut self, filter: PictureFilter, benches: &Benches) {
+    pub fn want(&mut self, filter: PictureFilter, benches: &Benches, world: &World) {
         let bench = &benches.current;
         if self.failed || filter == bench.filter() {
             self.under_way = None;
         } else if self.under_way.is_none() {
-            let gpu = bench.world.gpu().clone();
+            let gpu = world.gpu().clone();
             let (library, eyes) = (Arc::clone(&benches.library), benches.eyes.clone());
-            let mut scene = bench.world.scene().clone();
+            let mut scene = world.scene().clone();
             scene.picture.filter = filter;
-            let subject = Subject::of(&bench.world);
+            let subject = Subject::of(world);
             let of = eyes.clone();
             self.under_way = Some(Repaint {
                 filter,

@@ -4,12 +4,8 @@
 
 use glam::DVec3;
 use serde::Serialize;
-use vitriol_experiment::Looked;
 use vitriol_experiment::audible::Audible;
-use vitriol_sim::bodies::{Break, Strike};
-use vitriol_sim::scene::Scene;
-use vitriol_sim::solver::Skin;
-use vitriol_sim::world::World;
+use vitriol_sim::solver::{Census, Skin};
 use vitriol_sound::{Caption, Device, Ear, Event, Listener, Mixer, Output, State};
 use vitriol_xr::Pose;
 
@@ -39,7 +35,6 @@ pub(super) struct Sounds {
     output: Output,
     /// Why there is no output, where one was asked for.
     cause: Option<String>,
-    audible: Audible,
     ear: Ear,
     /// Of this frame.
     events: Vec<Event>,
@@ -48,8 +43,8 @@ pub(super) struct Sounds {
 }
 
 impl Sounds {
-    /// Played there, of a scene. Without an output the session is silent, and its captions go on.
-    pub fn new(device: Device, scene: &Scene, seed: u64) -> Self {
+    /// Played there. Without an output the session is silent, and its captions go on.
+    pub fn new(device: Device, seed: u64) -> Self {
         let opened = Output::open(device, Mixer::new(seed));
         let (output, cause) = match opened {
             Ok(output) => (output, None),
@@ -61,7 +56,6 @@ impl Sounds {
         Self {
             output,
             cause,
-            audible: Audible::of(scene),
             ear: Ear::default(),
             events: Vec::new(),
             made: 0,
@@ -69,41 +63,22 @@ impl Sounds {
         }
     }
 
-    /// Boiling is heard no more, or again.
-    pub fn mute_boiling(&mut self, on: bool) {
-        self.audible.mute_boiling(on);
-    }
-
-    /// Another bench, or this one anew, of which boiling is heard or not.
-    pub fn begin(&mut self, scene: &Scene, muted: bool) {
-        self.audible = Audible::of(scene);
-        self.audible.mute_boiling(muted);
+    /// Another bench, or this one anew.
+    pub fn begin(&mut self) {
         self.events.clear();
         self.ear.clear();
     }
 
-    /// Blows in the steps of the frame that is shown at `time` (s), and flasks that broke.
-    pub fn struck(
-        &mut self,
-        world: &World,
-        (blows, breaks): &(Vec<Strike>, Vec<Break>),
-        time: f64,
-    ) {
-        let events = self
-            .audible
-            .struck(blows, |flask| world.holder(flask).is_some(), time);
-        self.events.extend(events);
-        self.events.extend(self.audible.broke(breaks, time));
+    /// What the run makes heard in the frame that is shown at `time` (s): it sounds with its picture, whenever it was simulated.
+    pub fn add(&mut self, events: Vec<Event>, time: f64) {
+        let shown = events.into_iter().map(|event| Event { time, ..event });
+        self.events.extend(shown);
     }
 
-    /// A look has come; `burnt` is whose skin acid came to.
-    pub fn looked(&mut self, world: &World, looked: &Looked, burnt: &[Skin], time: f64) {
-        let (census, elapsed) = (&looked.census, looked.elapsed);
-        let events = self.audible.looked(&looked.poses, census, elapsed, time);
-        self.events.extend(events);
-        let scale = world.scene().scale.length_scale;
+    /// Acid came to the skin of these, of a scene with that length scale.
+    pub fn burnt(&mut self, burnt: &[Skin], census: &Census, length_scale: f64, time: f64) {
         for skin in burnt {
-            let at: DVec3 = scale * census.skin[*skin as usize].came.position;
+            let at: DVec3 = length_scale * census.skin[*skin as usize].came.position;
             self.events.push(Audible::burns(*skin, at, time));
         }
     }

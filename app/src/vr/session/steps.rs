@@ -2,15 +2,12 @@
 
 use std::collections::VecDeque;
 
-use vitriol_experiment::{Blame, Failure, Looks, stage};
+use vitriol_experiment::{Blame, Failure, Run};
 use vitriol_gpu::{QueueKind, Ticket};
-use vitriol_sim::bodies::{Break, Strike};
 use vitriol_sim::scene::Scene;
-use vitriol_sim::world::World;
 use vitriol_xr::PoseFrame;
 
 use super::ended::NoFrameOpen;
-use super::track::SessionTrack;
 use crate::vr::clock::StepClock;
 use crate::vr::placement::{self, Placement};
 
@@ -25,11 +22,6 @@ pub(super) struct Steps {
     pub clock: StepClock,
     /// Poses of the steps that the frame has still to take, in the frame of the scene's file.
     due: VecDeque<PoseFrame>,
-    /// Blows and breaks in the steps since they were asked for.
-    blows: Vec<Strike>,
-    breaks: Vec<Break>,
-    /// Looks behind them.
-    pub looks: Looks,
     /// Submissions of the steps since the last picture.
     submitted: Vec<Ticket>,
     /// Simulated time over display time, of the last frames.
@@ -37,14 +29,11 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// None yet, in real time, of a scene that is called `name`.
-    pub fn new(name: &str, scene: &Scene) -> Self {
+    /// None yet, in real time.
+    pub fn new() -> Self {
         Self {
-            looks: Looks::of(name, scene),
             clock: StepClock::default(),
             due: VecDeque::new(),
-            blows: Vec::new(),
-            breaks: Vec::new(),
             submitted: Vec::new(),
             speed: 1.0,
         }
@@ -80,54 +69,33 @@ impl Steps {
 
     /// Takes the steps that are due as far as the device has got: a step needs the push on the flasks of two
     /// steps ago, and a frame that is open waits for nothing. The rest is for [`Steps::take_rest`].
-    pub fn take_ready(
-        &mut self,
-        world: &mut World,
-        track: &mut SessionTrack,
-    ) -> Result<(), Failure> {
-        while !self.due.is_empty() && world.is_ready().other()? {
-            self.take(world, track)?;
+    pub fn take_ready(&mut self, run: &mut Run) -> Result<(), Failure> {
+        while !self.due.is_empty() && run.world.is_ready().other()? {
+            self.take(run)?;
         }
         Ok(())
     }
 
     /// Takes all steps that are due; may wait for the device.
-    pub fn take_rest(
-        &mut self,
-        world: &mut World,
-        track: &mut SessionTrack,
-        _: &NoFrameOpen,
-    ) -> Result<(), Failure> {
+    pub fn take_rest(&mut self, run: &mut Run, _: &NoFrameOpen) -> Result<(), Failure> {
         while !self.due.is_empty() {
-            self.take(world, track)?;
+            self.take(run)?;
         }
         Ok(())
     }
 
-    fn take(&mut self, world: &mut World, track: &mut SessionTrack) -> Result<(), Failure> {
-        let Some(poses) = self.due.front().cloned() else {
+    fn take(&mut self, run: &mut Run) -> Result<(), Failure> {
+        let Some(poses) = self.due.front() else {
             return Ok(());
         };
-        let input = stage::input(&poses, world.scene());
-        world.step_on(QueueKind::Async, &input).other()?;
+        let before = run.time().steps();
+        let submitted = run.step(QueueKind::Async, poses);
         // Where the device is lost in it, it is due on the next one.
-        self.due.pop_front();
-        self.blows.extend_from_slice(world.strikes());
-        self.breaks.extend_from_slice(world.breaks());
-        self.submitted.extend(world.last_step().cloned());
-        let frame_time = world.scene().scale.frame_time;
-        track.step(poses.clone(), frame_time, || stage::flasks(world));
-        let look = self
-            .looks
-            .look(world, QueueKind::Async, &poses, track.seconds())?;
-        self.submitted.push(look);
+        if run.time().steps() > before {
+            self.due.pop_front();
+        }
+        self.submitted.extend(submitted?);
         Ok(())
-    }
-
-    /// Blows since the last call, and flasks that broke.
-    pub fn blows(&mut self) -> (Vec<Strike>, Vec<Break>) {
-        let Self { blows, breaks, .. } = self;
-        (std::mem::take(blows), std::mem::take(breaks))
     }
 
     /// Submissions since the last call.
@@ -198,7 +166,7 @@ mod tests {
     fn each_step_has_the_poses_of_its_own_time() {
         let mut scene = Scene::builtin("two-flasks").unwrap();
         scene.origin = DVec3::new(0.0, 0.0, 0.5);
-        let mut steps = Steps::new("two-flasks", &scene);
+        let mut steps = Steps::new();
         let times: Vec<f64> = (0..5).map(|n| f64::from(n) / 30.0).collect();
         let planned = planned(&mut steps, &scene, &times);
         let counts: Vec<usize> = planned.iter().map(Vec::len).collect();
@@ -219,7 +187,7 @@ mod tests {
     #[test]
     fn a_pause_plans_nothing() {
         let scene = Scene::builtin("two-flasks").unwrap();
-        let mut steps = Steps::new("two-flasks", &scene);
+        let mut steps = Steps::new();
         let mut placement = Placement::new(Posture::Seated);
         placement.place(&at(0.0), false);
         let mut due = |time: f64, pause: bool| {
@@ -240,7 +208,7 @@ mod tests {
     #[test]
     fn slow_motion_is_said_to_the_next_five_per_cent() {
         let scene = Scene::builtin("two-flasks").unwrap();
-        let mut steps = Steps::new("two-flasks", &scene);
+        let mut steps = Steps::new();
         let times: Vec<f64> = (0..200).map(|n| 0.1 * f64::from(n)).collect();
         let planned = planned(&mut steps, &scene, &times);
         assert!(planned[1..].iter().all(|due| due.len() == 5));

@@ -1,7 +1,7 @@
 //! What happened in the attempt, for who asks on the panel.
 
-use vitriol_experiment::{Blame, Failure, Looks};
-use vitriol_lesson::{Attempt, Event, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
+use vitriol_experiment::{Blame, Failure, Run};
+use vitriol_lesson::{Attempt, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
 
 use crate::texts::SummaryTexts;
 use crate::vr::info::Happened;
@@ -46,22 +46,17 @@ impl Summary {
         self.shown = None;
     }
 
-    /// What the panel shows of it, where it was asked for or the session `ends`. It is of what was found so far, `events`, and of what goes
+    /// What the panel shows of it, where it was asked for or the session `ends`. It is of what was found in the run so far, and of what goes
     /// on; it is made anew where more was found.
-    pub fn shown(
-        &mut self,
-        words: &SummaryTexts,
-        events: &[Event],
-        looks: &Looks,
-        ends: bool,
-    ) -> Option<Happened> {
+    pub fn shown(&mut self, words: &SummaryTexts, run: &Run, ends: bool) -> Option<Happened> {
         if !self.asked && !ends {
             self.shown = None;
             return None;
         }
+        let events = run.events();
         let old = |(count, _): &(usize, Happened)| *count != events.len();
         if self.shown.as_ref().is_none_or(old) {
-            let found = events.iter().cloned().chain(looks.so_far());
+            let found = events.iter().cloned().chain(run.so_far());
             let happened = self.of(words, &Attempt::all(found));
             self.shown = Some((events.len(), happened));
         }

@@ -1,11 +1,11 @@
 //! A session and its instructor: what she asks for is done, and she is told what goes on.
 
 use vitriol_console::List;
-use vitriol_experiment::{Failure, Instruction};
+use vitriol_experiment::{Action, Failure};
 use vitriol_xr::Shown;
 
 use super::Session;
-use super::instructor::{Asked, Now};
+use super::instructor::Now;
 use crate::vr::decision::Decision;
 
 impl Session {
@@ -13,25 +13,13 @@ impl Session {
     pub(super) fn obey(&mut self) -> bool {
         let mut ends = false;
         for (order, asked) in self.instructor.orders() {
-            let words = &self.texts.instructor;
             let said = match asked {
-                Some(Asked::Decided(decision)) => {
-                    let said = match &decision {
-                        Decision::Scene(name) => words.scene(self.texts.panel.scene(name)),
-                        _ => words.start.clone(),
-                    };
-                    self.choices.add(Some(decision));
-                    Some(said)
-                }
-                Some(Asked::Instruction(instruction)) => {
-                    let said = words.instruction(&instruction);
-                    self.follow(&instruction).then_some(said)
-                }
-                Some(Asked::End) => {
+                Some(Decision::End) => {
                     ends = true;
-                    Some(words.end.clone())
+                    Some(self.texts.instructor.end.clone())
                 }
-                None => None,
+                Some(Decision::Act(action)) => self.follow(action),
+                _ => None,
             };
             if let Some(said) = said {
                 tracing::info!("{said}");
@@ -42,60 +30,70 @@ impl Session {
         ends
     }
 
-    /// Whether it is followed, from the next step on.
-    fn follow(&mut self, instruction: &Instruction) -> bool {
-        match instruction {
-            Instruction::Intensity(value) => {
-                if let Err(error) = self.benches.current.world.set_intensity(*value) {
-                    tracing::warn!("the instructor's k_v is not set: {error}");
-                    return false;
-                }
-            }
-            // The hands went on meanwhile: what they hold goes to where they are.
-            Instruction::Pause(false) if self.instructor.holds_time() => self.placement.interrupt(),
-            Instruction::Speed(rate) => self.steps.clock.rate = *rate,
-            Instruction::Spare(on) => self.sounds.mute_boiling(*on),
-            Instruction::Pause(_) | Instruction::Message(_) => {}
+    /// Does what the instructor does, from the next step on, and gives it in words; `None` where it is not done.
+    fn follow(&mut self, action: Action) -> Option<String> {
+        let words = &self.texts.instructor;
+        let said = match &action {
+            Action::Scene(name) => words.scene(self.texts.panel.scene(name)),
+            Action::Start(_) => words.start.clone(),
+            action => words.instruction(action),
+        };
+        if !action.is_instructors() {
+            self.choices.add(Some(Decision::Act(action)));
+            return Some(said);
         }
-        self.instructor.follow(instruction);
-        self.track.switch(instruction.switch());
-        true
+        match self.run.act(action.clone()) {
+            Ok(true) => {}
+            Ok(false) => return None,
+            Err(error) => {
+                tracing::warn!("the instructor's wish is left out: {error}");
+                return None;
+            }
+        }
+        match &action {
+            // The hands went on meanwhile: what they hold goes to where they are.
+            Action::Pause(false) if self.instructor.holds_time() => self.placement.interrupt(),
+            Action::Speed(rate) => self.steps.clock.rate = *rate,
+            _ => {}
+        }
+        self.instructor.follow(&action);
+        Some(said)
     }
 
     /// A replay does what was switched before the step that came next. Where none would, one more is taken.
-    pub(super) fn step_for_switches(&mut self) {
+    pub(super) fn step_for_switches(&mut self) -> Result<(), Failure> {
         let last = self.placement.last.clone();
-        let (Some(now), true) = (last, self.track.awaits_step()) else {
-            return;
+        let (Some(now), true) = (last, self.run.awaits_step()) else {
+            return Ok(());
         };
         if self.instructor.holds_time() {
             // As where time goes on.
             self.placement.interrupt();
-            if let Some(switch) = self.placement.place(&now, false) {
-                self.track.switch(switch);
-                self.benches.current.world.hands_leap();
+            if let Some(leap) = self.placement.place(&now, false) {
+                self.run.act(leap)?;
             }
             self.placement.last = Some(now.clone());
         }
-        let scene = self.benches.current.world.scene();
+        let scene = self.run.world.scene();
         self.steps.once_more(&now, &self.placement, scene);
+        Ok(())
     }
 
     /// Tells the instructor how it is.
     pub(super) fn tell(&mut self, ended: bool) {
-        let bench = &self.benches.current;
+        let run = &self.run;
         let info = self.placement.last.as_ref().map(|last| last.info);
         let period = info.filter(|info| info.period_ns > 0);
         self.instructor.tell(&Now {
             frame: self.counts.frames,
-            time: self.track.seconds(),
-            scene: (&bench.plan.scene, bench.world.scene()),
-            intensity: bench.world.intensity(),
+            time: run.time().seconds(),
+            scene: (run.scene(), run.world.scene()),
+            intensity: run.world.intensity(),
             spilt: self.spills.spilt,
-            events: &self.track.events,
+            events: run.events(),
             period: period.map(|info| 1e-9 * info.period_ns as f64),
             missed: self.counts.skipped,
-            step: self.guide.step(&bench.plan.scene),
+            step: self.guide.step(run),
             hints: List::clipped(self.guide.hints()),
             ended,
         });

@@ -2,7 +2,7 @@
 //! elsewhere.
 
 use glam::{Quat, Vec3};
-use vitriol_experiment::switches::SWITCH_PLACEMENT;
+use vitriol_experiment::track::key;
 use vitriol_tests::mock::{self, Change, HandState, Lost, Mock, SpaceKind};
 use vitriol_xr::track::load;
 use vitriol_xr::{Hand, PoseFrame, Side};
@@ -94,7 +94,7 @@ mod long {
         let leaps: Vec<usize> = (0..recorded.frames.len())
             .filter(|&at| {
                 let scenario = &recorded.frames[at].scenario;
-                scenario.iter().any(|it| it.key == SWITCH_PLACEMENT)
+                scenario.iter().any(|it| it.key == key::PLACEMENT)
             })
             .collect();
         // The bench is laid at the start, twice as she asks, and once after the loss.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SOLVER};
+use vitriol_experiment::track::key;
 use vitriol_experiment::{Scenes, stage};
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::Library;
@@ -143,12 +143,12 @@ pub fn replay(track: &Track) -> Replayed {
             break;
         }
         // What the session did to keep pace with the runtime's display.
-        let solver = frame.scenario.iter().filter(|it| it.key == SWITCH_SOLVER);
+        let solver = frame.scenario.iter().filter(|it| it.key == key::SOLVER);
         for (substeps, iterations) in solver.filter_map(|it| it.value.split_once('x')) {
             let effort = [substeps, iterations].map(|number| number.parse().unwrap());
             world.set_effort(effort).unwrap();
         }
-        if frame.scenario.iter().any(|it| it.key == SWITCH_PLACEMENT) {
+        if frame.scenario.iter().any(|it| it.key == key::PLACEMENT) {
             world.hands_leap();
         }
         let hands = stage::hands(&frame.hands, &scene);

@@ -8,7 +8,7 @@ use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
 use vitriol_experiment::{
-    Blame, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample, Instruction,
+    Action, Blame, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
     Judging, LedgerSample, MassByPlace, Outcome, Sample, Taken,
 };
 use vitriol_lesson::{Cause, Ending, Event, Incident, What};
@@ -25,7 +25,7 @@ pub(super) struct Toy {
     pub(super) hot: bool,
     /// Whether something is found.
     pub(super) finds: bool,
-    pub(super) instructions: Vec<(f64, Instruction)>,
+    pub(super) instructions: Vec<(f64, Action)>,
     pub(super) picture: Vec<u8>,
 }
 

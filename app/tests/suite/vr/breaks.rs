@@ -6,7 +6,7 @@ use crate::vr::common::{Trouble, Worn, hash, heard, nobody, options, session_wit
 use crate::vr::loss::replayed;
 use vitriol::vr::session::SessionOutcome;
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::{GLASS, SWITCH_GLASS, SWITCH_START};
+use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Cause, What};
 use vitriol_tests::gpu;
@@ -49,9 +49,9 @@ mod long {
         let gpu = gpu::device();
         let (outcome, track) = dropped(&gpu, false, ROUND - 8);
         assert_eq!(outcome.broken, 0);
-        assert!(!outcome.bench.world.is_broken(0));
+        assert!(!outcome.world.is_broken(0));
         let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        assert!(!switches.any(|it| it.key == SWITCH_GLASS));
+        assert!(!switches.any(|it| it.key == key::GLASS));
     }
 
     /// It breaks on a bench that began anew as well; so does what was recorded.
@@ -60,7 +60,7 @@ mod long {
         let gpu = gpu::device();
         let (outcome, track) = dropped(&gpu, true, ENDS);
         assert_eq!(outcome.broken, 1);
-        let world = &outcome.bench.world;
+        let world = &outcome.world;
         assert!(world.is_broken(0) && !world.is_broken(1));
         assert_eq!(world.holder(0), None);
         let spilt = outcome.spilt.bench + outcome.spilt.floor;
@@ -70,9 +70,9 @@ mod long {
             .iter()
             .flat_map(|frame| &frame.scenario)
             .collect();
-        let glass = switches.iter().filter(|it| it.key == SWITCH_GLASS);
-        assert_eq!(glass.map(|it| &*it.value).collect::<Vec<_>>(), [GLASS[1]]);
-        assert!(switches.iter().any(|it| it.key == SWITCH_START));
+        let glass = switches.iter().filter(|it| it.key == key::GLASS);
+        assert_eq!(glass.map(|it| &*it.value).collect::<Vec<_>>(), ["breaks"]);
+        assert!(switches.iter().any(|it| it.key == key::START));
         // It began anew, and was dropped then: one fall, with its break. Let go of half a metre above the floor and more, at √(2 g h).
         let [before, after] = &outcome.attempts[..] else {
             panic!("{:?}", outcome.attempts);

@@ -338,7 +338,7 @@ pub fn carried(track: &Track) -> Scenes {
 
 /// Hash of the state that a session ended with.
 pub fn hash(outcome: &SessionOutcome) -> u64 {
-    outcome.bench.world.snapshot().unwrap().solver.hash()
+    outcome.world.snapshot().unwrap().solver.hash()
 }
 
 /// How far two poses are apart: m, rad.

@@ -9,7 +9,7 @@ use serde_json::Value;
 use vitriol::live::{Console, start, student};
 use vitriol::vr::session::Options;
 use vitriol_console::Hub;
-use vitriol_experiment::Instruction;
+use vitriol_experiment::Action;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::devtools::Tab;
 use vitriol_tests::gpu;
@@ -196,28 +196,29 @@ fn what_an_instructor_does_is_done_said_and_replayed() {
         .frames
         .iter()
         .flat_map(|frame| frame.scenario.iter().map(move |it| (frame.time_ns, it)))
-        .filter_map(|(t, it)| Some((t, Instruction::of(it)?.unwrap())))
+        .filter_map(|(t, it)| Some((t, Action::of(it).unwrap()?)))
+        .filter(|(_, it)| it.is_instructors())
         .collect();
     let order: Vec<_> = said.iter().map(|(_, it)| it.clone()).collect();
-    use Instruction::{Intensity, Message, Pause, Spare, Speed};
+    use Action::{Intensity, Message, Mute, Pause, Speed};
     assert_eq!(
         order,
         [
             Message(MESSAGE.into()),
             Intensity(2.5),
-            Spare(true),
+            Mute(true),
             Speed(0.25),
             Pause(true),
             Pause(false),
             Speed(1.0),
             Message(String::new()),
-            Spare(false),
+            Mute(false),
             Pause(true),
             Message(BYE.into()),
         ]
     );
     // Nothing was simulated in the pause.
-    let at = |of: &Instruction| said.iter().find(|(_, it)| it == of).unwrap().0;
+    let at = |of: &Action| said.iter().find(|(_, it)| it == of).unwrap().0;
     assert_eq!(at(&Pause(true)), at(&Pause(false)));
     let (state, repeated) = instructed(&gpu, track);
     assert_eq!(state, hash(&outcome));

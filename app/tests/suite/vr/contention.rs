@@ -7,6 +7,7 @@ use vitriol::vr::decision::Decision;
 use vitriol::vr::session::WARM_UP;
 use vitriol::vr::stand_in::StandIn;
 use vitriol::vr::workbench::TAKEN_UP;
+use vitriol_experiment::Action;
 use vitriol_tests::gpu;
 use vitriol_xr::Turn;
 
@@ -22,7 +23,7 @@ impl Trouble for Starts {
         if after == WARM_UP + ALONE
             && let Some(decisions) = self.0.take()
         {
-            decisions.send(Decision::Start).unwrap();
+            decisions.send(Decision::Act(Action::Start(None))).unwrap();
         }
         None
     }

@@ -4,6 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use vitriol::vr::decision::Decision;
 use vitriol::vr::workbench::TAKEN_UP;
+use vitriol_experiment::Action;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
@@ -65,7 +66,7 @@ impl Trouble for StartsOver {
 
     fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
         if after == ASKS {
-            self.0.send(Decision::Start).unwrap();
+            self.0.send(Decision::Act(Action::Start(None))).unwrap();
         }
     }
 }

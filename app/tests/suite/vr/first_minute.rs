@@ -249,6 +249,6 @@ mod long {
         let expected = hash(&without.outcome);
         assert_eq!(hash(&with.outcome), expected);
         assert_eq!(replayed(&gpu, with.track), expected);
-        assert_eq!(without.outcome.bench.world.holder(0), None);
+        assert_eq!(without.outcome.world.holder(0), None);
     }
 }

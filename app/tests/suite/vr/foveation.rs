@@ -19,7 +19,7 @@ fn look(gpu: &Gpu, foveating: Foveating) -> (Seen, String) {
     options.foveating = Some(foveating);
     let (outcome, _) = session_with(&mut headset, options, nobody());
     assert_eq!(outcome.foveating, Some(foveating));
-    let hash = outcome.bench.world.snapshot().unwrap().solver.hash();
+    let hash = outcome.world.snapshot().unwrap().solver.hash();
     let name = format!("foveating-{foveating:?}").to_lowercase();
     (Seen::last(gpu, &name, &headset), format!("{hash:016x}"))
 }

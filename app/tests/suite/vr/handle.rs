@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use vitriol::vr::session::SessionOutcome;
-use vitriol_experiment::switches::SWITCH_PLACEMENT;
+use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Keyframes, Track};
@@ -64,10 +64,7 @@ fn run_at(
 /// When the bench was put somewhere, s, and at what height, m.
 fn heights(track: &Track) -> Vec<(f64, f32)> {
     let of = |frame: &vitriol_xr::PoseFrame| {
-        let placed = frame
-            .scenario
-            .iter()
-            .filter(|it| it.key == SWITCH_PLACEMENT);
+        let placed = frame.scenario.iter().filter(|it| it.key == key::PLACEMENT);
         let y = |value: &str| value.split(' ').nth(1).unwrap().parse().unwrap();
         let time = 1e-9 * frame.time_ns as f64;
         placed.map(|it| (time, y(&it.value))).collect::<Vec<_>>()
@@ -83,7 +80,7 @@ fn a_hand_at_the_handle_raises_the_bench() {
         panic!("it has moved");
     };
     assert!(height.abs() < 1e-6, "{height}");
-    let full = still.bench.world.measure().unwrap();
+    let full = still.world.measure().unwrap();
 
     let (outcome, track) = run(&gpu, 0.86, |scene| scene);
     let placed = heights(&track);
@@ -96,15 +93,15 @@ fn a_hand_at_the_handle_raises_the_bench() {
     // Time went on.
     assert_eq!(outcome.steps, still.steps);
     // The other hand has the flask where it was in the room, so it is lower in the scene; and all that was in it.
-    let world = &outcome.bench.world;
+    let world = &outcome.world;
     assert_eq!(world.holder(0), Some(1));
-    let lower = still.bench.world.poses()[0].position - world.poses()[0].position;
+    let lower = still.world.poses()[0].position - world.poses()[0].position;
     assert!((lower - 0.10 * Vec3::Y).length() < 2e-3, "{lower}");
     let measured = world.measure().unwrap();
     assert_eq!(measured.in_flasks[0], full.in_flasks[0]);
     assert!((full.in_flasks[0] - 0.15).abs() < 1e-3);
     // What stands on the bench has not moved.
-    let apart = (world.poses()[1].position - still.bench.world.poses()[1].position).length();
+    let apart = (world.poses()[1].position - still.world.poses()[1].position).length();
     assert!(apart < 1e-5, "{apart}");
     let expected = hash(&outcome);
     assert_eq!(replayed(&gpu, track), expected);
@@ -145,7 +142,7 @@ mod long {
         // It was lifted by 10 cm and let go.
         let lifted = highest(&track);
         assert!((lifted - 0.85).abs() < 3e-3, "{lifted}");
-        assert_eq!(outcome.bench.world.holder(0), None);
+        assert_eq!(outcome.world.holder(0), None);
 
         // Nor does the bench move where the hand closes on its way up, in a frame without a step: until there is one nobody holds
         // the flask. Every fourth frame has one.

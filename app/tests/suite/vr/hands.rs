@@ -74,8 +74,8 @@ fn a_flask_changes_hands_and_is_felt() {
     assert!(track.frames.len() > 180);
 
     // And let go it falls, at rest some 0.25 m lower after a while.
-    assert_eq!(outcome.bench.world.holder(0), None);
-    assert!(outcome.bench.world.poses()[0].position.y < had.y - 5e-3);
+    assert_eq!(outcome.world.holder(0), None);
+    assert!(outcome.world.poses()[0].position.y < had.y - 5e-3);
 }
 
 /// A bare hand about an axis that stands, its palm to the user: thumb and four fingers so far (m) from the axis, on opposite
@@ -150,7 +150,7 @@ mod long {
             let mut options = options(folder.path());
             options.grip = grip;
             let (outcome, _) = session_with(&mut headset, options, nobody());
-            let world = &outcome.bench.world;
+            let world = &outcome.world;
             (world.holder(0), world.poses()[0].position.y)
         };
         let (holder, height) = run(Grip::Toggle, 58);
@@ -171,7 +171,7 @@ mod long {
             let trouble = Bare { closes_to };
             let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, frames, trouble);
             let (outcome, track) = session(&mut headset, folder.path(), nobody());
-            let world = &outcome.bench.world;
+            let world = &outcome.world;
             let found = (world.holder(0), world.poses()[0].position.y);
             let expected = hash(&outcome);
             assert_eq!(replayed(&gpu, track), expected);

@@ -3,7 +3,7 @@
 
 use glam::{Quat, Vec3};
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::switches::SWITCH_PLACEMENT;
+use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pause, Pose, PoseFrame, Turn};
@@ -107,11 +107,11 @@ fn carried(how: How, leaps: usize) -> (f64, f64) {
     let trouble = Leaping { how, turns: 0 };
     let mut headset = Worn::new(&gpu, pour().sample_track(), 30.0, LEAP + 12, trouble);
     let (outcome, track) = session(&mut headset, folder.path(), nobody());
-    let world = &outcome.bench.world;
+    let world = &outcome.world;
     assert_eq!(world.holder(0), Some(1), "{name}");
     let measured = world.measure().unwrap();
     let placed = track.frames.iter().flat_map(|frame| &frame.scenario);
-    let placed = placed.filter(|switch| switch.key == SWITCH_PLACEMENT);
+    let placed = placed.filter(|switch| switch.key == key::PLACEMENT);
     assert_eq!(placed.count(), 1 + leaps, "{name}");
     let expected = hash(&outcome);
     assert_eq!(replayed(&gpu, track), expected, "{name}");

@@ -7,10 +7,10 @@ use std::sync::mpsc::{Sender, channel};
 use crate::vr::common::{Trouble, Worn, hash, options, pour, session_with};
 use crate::vr::loss::judged;
 use crate::vr::pour::lesson;
-use vitriol::vr::decision::{Act, Decision};
+use vitriol::vr::decision::Decision;
 use vitriol::vr::session::{Course, SessionOutcome};
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{Judging, Wish};
+use vitriol_experiment::{Action, Judging};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::procedure::{Progress, Verdict, Why};
 use vitriol_lesson::{Language, Mode};
@@ -21,13 +21,13 @@ use vitriol_xr::track::Track;
 /// Presses keys, each before a frame.
 struct Presses {
     keys: Sender<Decision>,
-    acts: Vec<(u64, Act)>,
+    acts: Vec<(u64, Action)>,
 }
 
 impl Trouble for Presses {
     fn turn(&mut self, _: &mut StandIn, after: u64) -> Option<Turn> {
         for (_, act) in self.acts.iter().filter(|(frame, _)| *frame == after) {
-            self.keys.send(Decision::Lesson(*act)).unwrap();
+            self.keys.send(Decision::Act(act.clone())).unwrap();
         }
         None
     }
@@ -39,7 +39,7 @@ fn taught(
     folder: &Path,
     mode: Mode,
     frames: u64,
-    acts: &[(u64, Act)],
+    acts: &[(u64, Action)],
 ) -> (SessionOutcome, Track) {
     let (keys, decisions) = channel();
     let acts = acts.to_vec();
@@ -74,9 +74,10 @@ fn said_and_replayed(
     said
 }
 
-fn wishes(track: &Track) -> Vec<Wish> {
+fn asked(track: &Track) -> Vec<Action> {
     let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    switches.filter_map(Wish::of).map(Result::unwrap).collect()
+    let actions = switches.filter_map(|it| Action::of(it).unwrap());
+    actions.filter(Action::is_of_lesson).collect()
 }
 
 #[test]
@@ -84,22 +85,22 @@ fn hint_and_skip_are_recorded_and_replay() {
     let gpu = gpu::device();
     let folder = tempfile::tempdir().unwrap();
     let acts = [
-        (5, Act::Hint),
+        (5, Action::Hint(None)),
         // It is shown already, and a guided lesson has no such button.
-        (8, Act::Hint),
-        (10, Act::Finish),
-        (12, Act::Skip),
+        (8, Action::Hint(None)),
+        (10, Action::Finish),
+        (12, Action::Skip(None)),
         // It comes with the last frame.
-        (39, Act::Skip),
+        (39, Action::Skip(None)),
     ];
     let (outcome, track) = taught(&gpu, folder.path(), Mode::Guided, 41, &acts);
-    let step = str::to_owned;
+    let step = |id: &str| Some(id.to_owned());
     let expected = [
-        Wish::Hint(step("lift")),
-        Wish::Skip(step("lift")),
-        Wish::Skip(step("pour")),
+        Action::Hint(step("lift")),
+        Action::Skip(step("lift")),
+        Action::Skip(step("pour")),
     ];
-    assert_eq!(wishes(&track), expected);
+    assert_eq!(asked(&track), expected);
     let made = &track.metadata.parameters;
     let of_lesson = ["lesson", "lesson_hash", "mode", "language"].map(|key| made[key].as_str());
     assert_eq!(of_lesson, ["water", lesson().hash(), "guided", "de"]);
@@ -132,9 +133,13 @@ mod long {
         let gpu = gpu::device();
         let folder = tempfile::tempdir().unwrap();
         // By the keyframes it is poured until 6.7 s.
-        let acts = [(30, Act::Hint), (40, Act::Skip), (204, Act::Finish)];
+        let acts = [
+            (30, Action::Hint(None)),
+            (40, Action::Skip(None)),
+            (204, Action::Finish),
+        ];
         let (outcome, track) = taught(&gpu, folder.path(), Mode::Examination, 215, &acts);
-        assert_eq!(wishes(&track), [Wish::Finish]);
+        assert_eq!(asked(&track), [Action::Finish]);
         let verdict = outcome.verdict.clone().unwrap();
         let met: Vec<_> = verdict.lines.iter().map(|line| line.met).collect();
         assert_eq!(met, [true, true, false, false], "{verdict:#?}");

@@ -7,9 +7,7 @@ use crate::vr::common::{
 use std::sync::Arc;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{
-    Instruction, Judging, Observer, Outcome, Progress, Setup, Span, on_device,
-};
+use vitriol_experiment::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
 use vitriol_shaders::Library;
@@ -29,7 +27,7 @@ pub fn replayed(gpu: &Gpu, track: Track) -> u64 {
 }
 
 /// The hash, and what an instructor did in the replay, with simulated times in ns.
-pub fn instructed(gpu: &Gpu, track: Track) -> (u64, Vec<(i64, Instruction)>) {
+pub fn instructed(gpu: &Gpu, track: Track) -> (u64, Vec<(i64, Action)>) {
     let (_, outcome) = replay_of(gpu, track, None);
     let instructions = outcome.instructions.into_iter();
     let instructions = instructions.map(|(t, it)| ((1e9 * t).round() as i64, it));
@@ -77,7 +75,7 @@ fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, O
         .map(|(_, json)| serde_json::from_str(json).unwrap())
         .collect();
     let mut source = TrackSource::new(track);
-    vitriol_experiment::run(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
+    vitriol_experiment::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     let outcome = experiment.outcome().unwrap();
     assert!(!recorded.is_empty());
     (recorded, outcome)
@@ -123,9 +121,9 @@ fn a_loss_in_mid_pour_loses_no_particle() {
     assert_eq!(outcome.renewals, 1);
     // No step in the first frame, none in the first one after the loss.
     assert_eq!(outcome.steps, 3 * 73);
-    let state = outcome.bench.world.snapshot().unwrap().solver;
+    let state = outcome.world.snapshot().unwrap().solver;
     assert!((0..state.tags.len()).all(|slot| state.is_present(slot)));
-    let measured = outcome.bench.world.measure().unwrap();
+    let measured = outcome.world.measure().unwrap();
     assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
     // 150 g were in the first beaker; some have come to the second.
     assert!(
@@ -291,7 +289,7 @@ mod long {
         assert_eq!((outcome.devices_lost, outcome.renewals), (3, 3));
         // No step in the first frame, none in those that recentre, and none in the first after each loss.
         assert_eq!(outcome.steps, 3 * (170 - 1 - 2 - 3));
-        let measured = outcome.bench.world.measure().unwrap();
+        let measured = outcome.world.measure().unwrap();
         assert_eq!((measured.lost_particles, measured.nan_particles), (0, 0));
         // It was poured out, over the bench, which recentrings moved away from under it.
         assert!(measured.in_flasks[0] < 0.1, "{measured:?}");
@@ -319,9 +317,9 @@ mod long {
             headset.inner = headset.inner.reopening(move || Ok(then.clone()));
             let (outcome, track) = session(&mut headset, folder.path(), nobody());
             assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
-            let measured = outcome.bench.world.measure().unwrap();
+            let measured = outcome.world.measure().unwrap();
             assert!(measured.in_flasks[0] > 0.1499, "{in_a_frame}: {measured:?}");
-            assert_eq!(outcome.bench.world.holder(0), Some(1));
+            assert_eq!(outcome.world.holder(0), Some(1));
             assert_eq!(replayed(&second, track), hash(&outcome));
         }
     }

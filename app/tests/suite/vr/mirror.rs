@@ -10,7 +10,7 @@ use crate::vr::loss::replayed;
 use vitriol::vr::mirror;
 use vitriol::vr::session::Session;
 use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::switches::SWITCH_START;
+use vitriol_experiment::track::key;
 use vitriol_gpu::QueueKind;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
@@ -340,7 +340,7 @@ mod long {
         assert!(!log.contains("mirror"), "{log}");
         let track = load(recording.to_str().unwrap()).unwrap();
         let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-        let starts = switches.filter(|switch| switch.key == SWITCH_START);
+        let starts = switches.filter(|switch| switch.key == key::START);
         assert_eq!(starts.count(), 1);
 
         // `q`, twice: the end.

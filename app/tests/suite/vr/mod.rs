@@ -21,7 +21,6 @@ mod one_hand;
 mod pace;
 mod panel;
 mod pour;
-mod recording;
 mod rules;
 mod seen;
 mod spills;

@@ -10,7 +10,8 @@ use vitriol::vr::decision::Decision;
 use vitriol::vr::handle::middles;
 use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_START};
+use vitriol_experiment::Action;
+use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::GRIP_REACH;
@@ -125,7 +126,7 @@ head = [ { t = 0.0, position = [0.0, 1.20, 0.0] } ]
     let trouble = Alone {
         side,
         recentre: place_of(gpu, &Decision::Recentre),
-        scene: place_of(gpu, &Decision::Scene(scene.into())),
+        scene: place_of(gpu, &Decision::Act(Action::Scene(scene.into()))),
     };
     let mut headset = Worn::new(gpu, track.sample_track(), 45.0, ENDS, trouble);
     let (outcome, track) = session(&mut headset, folder.path(), nobody());
@@ -133,21 +134,16 @@ head = [ { t = 0.0, position = [0.0, 1.20, 0.0] } ]
         .frames
         .iter()
         .flat_map(|frame| &frame.scenario)
-        .filter(|switch| [SWITCH_PLACEMENT, SWITCH_START, SWITCH_SCENE].contains(&&*switch.key))
+        .filter(|switch| [key::PLACEMENT, key::START, key::SCENE].contains(&&*switch.key))
         .collect();
     let keys: Vec<&str> = switches.iter().map(|switch| switch.key.as_str()).collect();
     // At the start, by button, by panel, and from the start.
-    let expected = [
-        SWITCH_PLACEMENT,
-        SWITCH_PLACEMENT,
-        SWITCH_PLACEMENT,
-        SWITCH_START,
-    ];
+    let expected = [key::PLACEMENT, key::PLACEMENT, key::PLACEMENT, key::START];
     assert_eq!(keys[..4], expected, "{side:?}: {keys:?}");
     // Then it rises, and the other scene stands as high.
     let (last, raised) = keys[4..].split_last().unwrap();
-    assert_eq!(*last, SWITCH_SCENE, "{side:?}: {keys:?}");
-    assert!(raised.iter().all(|key| *key == SWITCH_PLACEMENT));
+    assert_eq!(*last, key::SCENE, "{side:?}: {keys:?}");
+    assert!(raised.iter().all(|key| *key == key::PLACEMENT));
     let height =
         |switch: &Switch| -> f32 { switch.value.split(' ').nth(1).unwrap().parse().unwrap() };
     let risen = height(switches[switches.len() - 2]) - height(switches[2]);
@@ -209,8 +205,12 @@ fn either_arm_reaches_all() {
 fn either_hand_presses_each_button_from_its_place() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
-    let scenes = CHOICES.map(|choice| Decision::Scene(choice.scene.into()));
-    let all = [&scenes[..], &[Decision::Start, Decision::Recentre]].concat();
+    let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let all = [
+        &scenes[..],
+        &[Decision::Act(Action::Start(None)), Decision::Recentre],
+    ]
+    .concat();
     for decision in all {
         let button = place_of(&gpu, &decision);
         for shoulder in SHOULDERS {

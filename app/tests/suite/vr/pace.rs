@@ -8,10 +8,11 @@ use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
 use vitriol::vr::decision::Decision;
 use vitriol::vr::foveating::Foveating;
-use vitriol::vr::session::{SWITCH_FILTER, SWITCH_FOVEATION, SWITCH_RESOLUTION, WARM_UP};
+use vitriol::vr::session::WARM_UP;
 use vitriol::vr::stand_in::StandIn;
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SOLVER, SWITCH_START};
+use vitriol_experiment::Action;
+use vitriol_experiment::track::key;
 use vitriol_gpu::{Gpu, QueueKind, Timestamps};
 use vitriol_sim::scene::PictureFilter;
 use vitriol_tests::gpu;
@@ -56,7 +57,7 @@ fn switches(track: &Track) -> Vec<(u64, String, String)> {
         said.map(move |switch| (step, switch.key, switch.value))
     };
     let all = track.frames.iter().flat_map(of);
-    all.filter(|(_, key, _)| key != SWITCH_PLACEMENT).collect()
+    all.filter(|(_, key, _)| key != key::PLACEMENT).collect()
 }
 
 fn values<'a>(all: &'a [(u64, String, String)], key: &str) -> Vec<&'a str> {
@@ -81,9 +82,9 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     options.plan.solver = Some([7, 6]);
     let (outcome, track) = session_with(&mut headset, options, nobody());
     let said = switches(&track);
-    let solver = values(&said, SWITCH_SOLVER);
+    let solver = values(&said, key::SOLVER);
     // What was asked for is not the preset's; then down, and up to it again.
-    assert_eq!((said[0].0, said[0].1.as_str()), (0, SWITCH_SOLVER));
+    assert_eq!((said[0].0, said[0].1.as_str()), (0, key::SOLVER));
     assert_eq!((solver[0], *solver.last().unwrap()), ("7x6", "7x6"));
     assert!(solver.len() > 3, "{solver:?}");
     let least = solver.iter().map(|value| {
@@ -91,7 +92,7 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
         substeps.parse::<u32>().unwrap() * iterations.parse::<u32>().unwrap()
     });
     assert!(least.min().unwrap() < 21, "{solver:?}");
-    let resolution = values(&said, SWITCH_RESOLUTION);
+    let resolution = values(&said, key::RESOLUTION);
     assert!(resolution.contains(&"0.6"), "{resolution:?}");
     assert_eq!(resolution.last(), Some(&"1"));
     // What is shown is as large as was said.
@@ -115,7 +116,7 @@ fn a_session_gives_way_and_its_replay_repeats_it() {
     // It is the changes that make it so.
     let mut other = track;
     for frame in &mut other.frames {
-        frame.scenario.retain(|switch| switch.key != SWITCH_SOLVER);
+        frame.scenario.retain(|switch| switch.key != key::SOLVER);
     }
     assert_ne!(replayed(&gpu, other), hash(&outcome));
 }
@@ -142,7 +143,7 @@ fn the_filter_gives_way() {
     plan.scene = plan.scenes.open(file.to_str().unwrap()).unwrap();
     let (outcome, track) = session_with(&mut headset, options, nobody());
     assert_eq!(outcome.bench.filter(), PictureFilter::NarrowRange);
-    assert_eq!(values(&switches(&track), SWITCH_FILTER), ["narrow-range"]);
+    assert_eq!(values(&switches(&track), key::FILTER), ["narrow-range"]);
     let filters: Vec<_> = outcome
         .governor
         .settings
@@ -178,8 +179,8 @@ mod long {
         assert!((rate - 0.1).abs() < 1e-6);
         assert_eq!(outcome.governor.changes, 0);
         let said = switches(&track);
-        assert!(values(&said, SWITCH_SOLVER).is_empty(), "{said:?}");
-        assert!(values(&said, SWITCH_RESOLUTION).is_empty(), "{said:?}");
+        assert!(values(&said, key::SOLVER).is_empty(), "{said:?}");
+        assert!(values(&said, key::RESOLUTION).is_empty(), "{said:?}");
     }
 
     /// A new start and a lost device leave the level where it was; a replay knows.
@@ -195,7 +196,7 @@ mod long {
             between: move |headset: &mut StandIn, after| match (after, turns) {
                 (40, 0) => {
                     turns = 1;
-                    sender.send(Decision::Start).unwrap();
+                    sender.send(Decision::Act(Action::Start(None))).unwrap();
                     None
                 }
                 (60, 1) => {
@@ -214,12 +215,12 @@ mod long {
         assert_eq!(outcome.renewals, 1);
         let said = switches(&track);
         let at = |key: &str| said.iter().position(|(_, of, _)| of == key).unwrap();
-        let start = at(SWITCH_START);
+        let start = at(key::START);
         // Said before it, and again with it: a replay brings up the preset's.
         let (last, after) = (&said[start - 1], &said[start + 1]);
-        assert_eq!(after.1, SWITCH_SOLVER);
+        assert_eq!(after.1, key::SOLVER);
         assert_eq!(after.0, said[start].0);
-        let solver = values(&said[..start], SWITCH_SOLVER);
+        let solver = values(&said[..start], key::SOLVER);
         assert_eq!(solver.last(), Some(&after.2.as_str()), "{last:?}");
         assert_eq!(said.len(), start + 2, "{said:?}");
         assert_eq!(replayed(&gpu, track), hash(&outcome));
@@ -260,15 +261,15 @@ mod long {
         };
         let (_, outcome, track) = run(None, 45, 150);
         let said = switches(&track);
-        assert_eq!(values(&said, SWITCH_FOVEATION), ["fixed", "off"]);
+        assert_eq!(values(&said, key::FOVEATION), ["fixed", "off"]);
         let at = |key: &str| -> Vec<u64> {
             let of = said.iter().filter(|(_, of, _)| of == key);
             of.map(|(step, _, _)| *step).collect()
         };
-        let [on, off] = at(SWITCH_FOVEATION)[..] else {
+        let [on, off] = at(key::FOVEATION)[..] else {
             panic!("{said:?}")
         };
-        let smaller = at(SWITCH_RESOLUTION);
+        let smaller = at(key::RESOLUTION);
         assert!(smaller.len() > 1, "{said:?}");
         assert!(
             smaller.iter().all(|step| (on..=off).contains(step)),
@@ -290,7 +291,7 @@ mod long {
             let foveated = settings.iter().any(|with| with.setting.foveated);
             assert_eq!(foveated, outcome.foveating.is_none());
             let said = switches(track);
-            assert_eq!(values(&said, SWITCH_FOVEATION).is_empty(), !foveated);
+            assert_eq!(values(&said, key::FOVEATION).is_empty(), !foveated);
         }
         let [blocks, sharp, again] = pictures.each_ref().map(|((seen, _), _, _)| &seen.pixels);
         // Beyond what was drawn last the images hold what was drawn before.

@@ -10,7 +10,8 @@ use vitriol::vr::info::{Effort, FlaskLine, Happened, Info, Lying, Told};
 use vitriol::vr::panel::{PANEL, Panel, WIDTH, scene_from_panel};
 use vitriol::vr::workbench::TAKEN_UP;
 use vitriol_console::MESSAGE;
-use vitriol_experiment::switches::SWITCH_START;
+use vitriol_experiment::Action;
+use vitriol_experiment::track::key;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson::Tone;
 use vitriol_shaders::Library;
@@ -137,8 +138,12 @@ fn each_choice_can_be_pressed() {
     let gpu = gpu::device();
     let mut panel = Panel::new(&gpu, &Library::embedded()).unwrap();
     // What would lose the user's work takes a second.
-    let scenes = CHOICES.map(|choice| Decision::Scene(choice.scene.into()));
-    let others = [Decision::Start, Decision::Recentre, Decision::Summary];
+    let scenes = CHOICES.map(|choice| Decision::Act(Action::Scene(choice.scene.into())));
+    let others = [
+        Decision::Act(Action::Start(None)),
+        Decision::Recentre,
+        Decision::Summary,
+    ];
     let all = [&scenes[..], &others].concat();
     assert_eq!(down_the_buttons(&mut panel, 1.2), all);
     let at_once = [Decision::Recentre, Decision::Summary];
@@ -371,12 +376,12 @@ impl Trouble for Points {
 fn a_hand_presses_the_panel_in_a_session() {
     let gpu = gpu::device();
     let trouble = Points {
-        at: place_of(&gpu, &Decision::Start),
+        at: place_of(&gpu, &Decision::Act(Action::Start(None))),
     };
     let folder = tempfile::tempdir().unwrap();
     let mut headset = Worn::new(&gpu, pour().sample_track(), 90.0, 120, trouble);
     let (_, track) = session(&mut headset, folder.path(), channel().1);
     let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    let starts = switches.filter(|switch| switch.key == SWITCH_START).count();
+    let starts = switches.filter(|switch| switch.key == key::START).count();
     assert_eq!(starts, 1);
 }

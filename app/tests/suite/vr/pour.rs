@@ -166,17 +166,17 @@ mod long {
         assert_eq!(outcome.slowed, 0.0);
 
         // It was poured: 150 mL were in the first.
-        let measured = outcome.bench.world.measure().unwrap();
+        let measured = outcome.world.measure().unwrap();
         let [source, target] = measured.in_flasks[..] else {
             panic!("two flasks");
         };
         assert!(target > 0.8 * (source + target), "{source} {target}");
         assert_eq!(measured.lost_particles, 0);
         // And the flask was put back to where it stood, and let go.
-        let stood = outcome.bench.world.scene().flasks[0].stage_from_flask;
-        let stands = outcome.bench.world.poses()[0];
+        let stood = outcome.world.scene().flasks[0].stage_from_flask;
+        let stands = outcome.world.poses()[0];
         assert!((stands.position - stood.position).length() < 5e-3);
-        assert_eq!(outcome.bench.world.holder(0), None);
+        assert_eq!(outcome.world.holder(0), None);
 
         // Each step has the poses of its own time. Between two frames of the display, 33 ms apart,
         // hands that speed up by 10 m/s², as at the end, leave the straight line by 10 · 0.033²/8 =

@@ -10,7 +10,8 @@ use vitriol::vr::decision::Decision;
 use vitriol::vr::panel::{PANEL, WIDTH, scene_from_panel};
 use vitriol::vr::stand_in::StandIn;
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::SWITCH_START;
+use vitriol_experiment::Action;
+use vitriol_experiment::track::key;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::SceneDesc;
 use vitriol_sim::scene::Scene;
@@ -62,7 +63,7 @@ struct Starts(Sender<Decision>);
 impl Trouble for Starts {
     fn turn(&mut self, _: &mut StandIn, after: u64) -> Option<Turn> {
         if after == 10 {
-            self.0.send(Decision::Start).unwrap();
+            self.0.send(Decision::Act(Action::Start(None))).unwrap();
         }
         None
     }
@@ -143,7 +144,7 @@ fn nothing_waits_for_the_device_within_a_frame() {
     let mut headset = Strict::new(&gpu, 60, Starts(sender));
     let (_, track) = session(&mut headset, folder.path(), decisions);
     let mut switches = track.frames.iter().flat_map(|frame| &frame.scenario);
-    assert!(switches.any(|switch| switch.key == SWITCH_START));
+    assert!(switches.any(|switch| switch.key == key::START));
     // Between frames it waits for the picture before the last, in all frames but the first ones.
     let waited = waits() - headset.within;
     assert!(waited > 50, "{waited} waits were heard of");

@@ -284,7 +284,7 @@ mod long {
             let mut options = options(folder.path());
             options.plan.room = room;
             let (outcome, _) = session_with(&mut headset, options, nobody());
-            let drawn = outcome.bench.world.scene().picture.room;
+            let drawn = outcome.world.scene().picture.room;
             assert_eq!(drawn, room.unwrap_or(PictureRoom::Bare));
             let name = format!("room-{}", drawn.name());
             let seen = Seen::last(&gpu, &name, &headset);

@@ -2,13 +2,16 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::mpsc::{Sender, channel};
 
-use crate::vr::common::{Calm, Trouble, Worn, hash, nobody, options, session_with};
+use crate::vr::common::{Calm, Trouble, Worn, hash, heard, nobody, options, session_with};
 use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
 use glam::{Quat, Vec3};
+use vitriol::vr::decision::Decision;
 use vitriol::vr::session::Contacts;
-use vitriol_experiment::Scenes;
+use vitriol::vr::workbench::TAKEN_UP;
+use vitriol_experiment::{Action, Scenes};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Attempt, Cause, Incident, Skin as SkinOf, Surface, What};
 use vitriol_tests::gpu;
@@ -207,6 +210,56 @@ fn seen_under(gpu: &Gpu, fraction: &str, ducks: Range<u64>) -> (Seen, Contacts) 
     (Seen::last(gpu, &name, &headset), outcome.contacts)
 }
 
+/// Begins the scene anew while acid is poured over her left hand.
+struct StartsOver(Sender<Decision>);
+
+/// The frame that asks, and the one before which the new bench is there: it flows from 2.6 to 3.2 s.
+const ASKS: u64 = 117;
+const COMES: u64 = 118;
+
+impl Trouble for StartsOver {
+    fn awaits(&self, after: u64) -> bool {
+        after == COMES && heard(TAKEN_UP) == 0
+    }
+
+    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
+        if after == ASKS {
+            self.0.send(Decision::Act(Action::Start(None))).unwrap();
+        }
+    }
+}
+
+/// What touched her is summed by the session and found for the lesson, from the same observations: also from those that are under way
+/// when a scene is begun anew.
+#[test]
+fn a_touch_just_before_a_new_start_counts() {
+    let gpu = gpu::device();
+    let folder = tempfile::tempdir().unwrap();
+    let keyframes = Keyframes::parse(TRACK, Path::new("beside.toml")).unwrap();
+    let (sender, decisions) = channel();
+    let trouble = StartsOver(sender);
+    let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, COMES + 5, trouble);
+    let mut plan = options(folder.path());
+    let mut scenes = Scenes::default();
+    plan.plan.scene = scenes.open(acid(folder.path()).to_str().unwrap()).unwrap();
+    plan.plan.scenes = scenes;
+    let (outcome, _) = session_with(&mut headset, plan, decisions);
+    let [attempt, _] = &outcome.attempts[..] else {
+        panic!("{:?}", outcome.attempts);
+    };
+    let touched = attempt.incidents.iter().filter_map(|it| match &it.what {
+        What::OnSkin { volume_m3, .. } => Some(1e6 * volume_m3),
+        _ => None,
+    });
+    let (found, counted) = (touched.sum::<f64>(), outcome.contacts.left_hand.liquid_ml);
+    // The same volumes in another order of addition.
+    assert!(
+        found > 1.0 && (counted - found).abs() < 1e-9 * found,
+        "{counted} {found} {:?}",
+        outcome.attempts
+    );
+}
+
 mod long {
     use super::*;
 
@@ -223,7 +276,7 @@ mod long {
         let (outcome, track) = session_with(&mut headset, plan, nobody());
 
         // What lies there, by a measurement of its own: mL of 1.83 g/mL.
-        let world = &outcome.bench.world;
+        let world = &outcome.world;
         let measured = world.measure().unwrap();
         let lies = 1e3 * measured.on_table / 1.83;
         assert!(lies > 10.0, "{measured:?}");

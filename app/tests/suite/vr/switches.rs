@@ -7,7 +7,8 @@ use crate::vr::loss::replayed;
 use glam::{Quat, Vec3};
 use vitriol::vr::decision::Decision;
 use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::switches::{SWITCH_PLACEMENT, SWITCH_SCENE, SWITCH_START};
+use vitriol_experiment::Action;
+use vitriol_experiment::track::key;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose};
 
@@ -36,7 +37,7 @@ impl Trouble for Restless {
         frame.poses.hands[0].button_a = after == A;
         if after == SCENE {
             self.decisions
-                .send(Decision::Scene(self.scene.clone()))
+                .send(Decision::Act(Action::Scene(self.scene.clone())))
                 .unwrap();
         }
         self.moved |= after == A;
@@ -87,12 +88,7 @@ mod long {
             .collect();
         assert_eq!(
             switched,
-            [
-                SWITCH_PLACEMENT,
-                SWITCH_START,
-                SWITCH_PLACEMENT,
-                SWITCH_SCENE
-            ]
+            [key::PLACEMENT, key::START, key::PLACEMENT, key::SCENE]
         );
         // The bench has followed the user: in the scene nothing has moved but by what she did.
         let first = track.frames[0].stage_from_view.position;

@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::{Quat, Vec3};
 use vitriol_experiment::Colour;
-use vitriol_experiment::switches::SWITCH_SCENE;
+use vitriol_experiment::track::key;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{PictureRoom, Scene};
 use vitriol_tests::gpu;
@@ -94,7 +94,7 @@ fn the_room_that_is_asked_for_is_drawn() {
     assert!(10 * mean(&said) < 7 * day, "{} of {day}", mean(&said));
     let mut other = frame(0, Pose::IDENTITY);
     other.scenario.push(Switch {
-        key: SWITCH_SCENE.into(),
+        key: key::SCENE.into(),
         value: "beaker".into(),
     });
     asked.step(&other).unwrap();

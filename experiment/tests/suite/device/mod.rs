@@ -4,4 +4,6 @@ mod breaks;
 mod camera;
 mod common;
 mod reload;
+mod run;
+mod switched;
 mod tools;

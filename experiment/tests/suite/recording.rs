@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use vitriol::vr::record::{Note, Said, Sink, TrackRecording};
+use vitriol_experiment::run::{Note, Said, Sink, TrackRecording};
 use vitriol_tests::wait::own_time;
 use vitriol_xr::track::{Track, TrackError, TrackMetadata};
 use vitriol_xr::{FrameInfo, Hand, Pose, PoseFrame, Switch};

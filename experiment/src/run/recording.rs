@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use crate::track::BROKEN_OFF;
 use serde::Serialize;
-use vitriol_experiment::track::BROKEN_OFF;
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
 use vitriol_xr::track::{Annex, Existing, TrackError, TrackMetadata, TrackWriter};
