@@ -18,6 +18,7 @@ use crate::failure::{Blame, Failure};
 use crate::hands::Gloves;
 use crate::legend::{Legend, draw_tints};
 use crate::scenery::{affine, filter, has_acid, laboratory, liquid_of, shards, tint};
+use crate::stage;
 use crate::tools::{pane, tools};
 
 /// Radius of a drawn particle over the spacing d: closes the gaps between them.
@@ -80,7 +81,7 @@ pub struct Look {
 impl Look {
     /// What is seen of a scene, in its own frame, real metres.
     fn view(&self, scene: &Scene, aspect: f32) -> View {
-        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
+        let origin = stage::origin(scene);
         let fov = Fov::symmetric(self.field.to_radians(), aspect);
         View::look_at(self.eye - origin, self.target - origin, fov)
     }

@@ -23,6 +23,7 @@ use crate::run::Run;
 use crate::sample::{MassByPlace, Sample};
 use crate::scenery::drawn_liquid;
 use crate::scenes::Scenes;
+use crate::stage;
 use crate::track::key;
 
 use sampled::{by_flask, of_heat};
@@ -275,16 +276,9 @@ impl Experiment for Laboratory {
         if let Some(camera) = &mut self.film
             && self.follows_head
         {
-            let scene = self.run.world.scene();
-            let origin = scene.origin * scene.scale.length_scale;
-            let mut view = frame.stage_from_view;
-            view.position -= origin.as_vec3();
-            camera.follow(&view);
-            let mut hands = frame.hands.clone();
-            for hand in &mut hands {
-                hand.stage_from_grip.position -= origin.as_vec3();
-            }
-            camera.show_hands(hands);
+            let near = stage::near_from_stage(frame, self.run.world.scene());
+            camera.follow(&near.stage_from_view);
+            camera.show_hands(near.hands);
         }
         let frame_time = self.run.world.scene().scale.frame_time;
         self.run.step(QueueKind::Main, frame)?;

@@ -71,7 +71,7 @@ impl Looks {
         }
     }
 
-    /// Looks at `world` behind the step that was taken with `frame` (in the frame of the scene's file) on that queue, after which the run's
+    /// Looks at `world` behind the step that was taken with that frame, [near](crate::stage) the scene's own origin, on that queue, after which the run's
     /// time is `t` (s). Does not wait; gives the submission that it is in.
     ///
     /// # Errors
@@ -80,20 +80,17 @@ impl Looks {
         &mut self,
         world: &mut World,
         queue: QueueKind,
-        frame: &PoseFrame,
+        near: &PoseFrame,
         t: f64,
     ) -> Result<Ticket, Failure> {
         let scale = world.scene().scale.length_scale;
-        let origin = (scale * world.scene().origin).as_vec3();
-        let mut hands = frame.hands.clone();
-        for hand in &mut hands {
-            hand.stage_from_grip.position -= origin;
-        }
-        let mut head = frame.stage_from_view;
-        head.position -= origin;
         // Tracked fingers are not recorded, so they are as a controller's would be.
-        let hands = self.gloves.worn(world, &hands, &[None, None]);
-        let parts = skin(hands.each_ref().map(Vec::as_slice), &head, scale);
+        let hands = self.gloves.worn(world, &near.hands, &[None, None]);
+        let parts = skin(
+            hands.each_ref().map(Vec::as_slice),
+            &near.stage_from_view,
+            scale,
+        );
         let look = world.look_on(queue, &parts).other();
         let flasks = 0..world.scene().flasks.len();
         self.under_way.push_back(UnderWay {

@@ -4,6 +4,8 @@ use glam::DVec3;
 use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::World;
 
+use crate::stage::stage_from_scene;
+
 /// The particles that are there at one moment, a row each, in the order of their identities.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Particles {
@@ -45,7 +47,7 @@ impl Particles {
         Self {
             id: all().map(|slot| state.tags[slot][1]).collect(),
             position: all()
-                .map(|slot| (vector(state.positions[slot]) + scene.origin) * scale)
+                .map(|slot| stage_from_scene(scene, vector(state.positions[slot])))
                 .collect(),
             velocity: all()
                 .map(|slot| vector(state.velocities[slot]) * scale)

@@ -251,13 +251,14 @@ impl Run {
         self.seen = LastSeen::default();
     }
 
-    /// Takes a step with that frame's poses (in the frame of the scene's file), observes the liquid behind it on the same queue, and
+    /// Takes a step with the poses of that frame of the [stage], observes the liquid behind it on the same queue, and
     /// gives both submissions. Does not wait for the observation.
     ///
     /// # Errors
     /// What device or solver say. [`Run::time`] tells whether the step was taken: if only its observation failed, it was.
     pub fn step(&mut self, queue: QueueKind, frame: &PoseFrame) -> Result<Vec<Ticket>, Failure> {
-        let input = stage::input(frame, self.world.scene());
+        let near = stage::near_from_stage(frame, self.world.scene());
+        let input = stage::input(&near, self.world.scene());
         self.world.step_on(queue, &input).map_err(blame_world)?;
         let mut submitted: Vec<Ticket> = self.world.last_step().cloned().into_iter().collect();
         let actions = std::mem::take(&mut self.actions);
@@ -279,7 +280,7 @@ impl Run {
         self.sounds.extend(blows);
         let breaks = self.audible.broke(self.world.breaks(), t);
         self.sounds.extend(breaks);
-        submitted.push(self.looks.look(&mut self.world, queue, frame, t)?);
+        submitted.push(self.looks.look(&mut self.world, queue, &near, t)?);
         Ok(submitted)
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 use serde_json::{Value, json};
-use vitriol_experiment::{EYES_APART, HEAD_FIELD, tripod};
+use vitriol_experiment::{EYES_APART, HEAD_FIELD, stage, tripod};
 use vitriol_render::{Fov, View};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::PoseFrame;
@@ -22,8 +22,7 @@ pub struct NamedView {
 /// Cameras of a scene at a moment, eyes where a frame has them.
 pub fn of(scene: &Scene, frame: Option<&PoseFrame>) -> Vec<NamedView> {
     let mut fixed = tripod(scene, ASPECT);
-    let origin = (scene.origin * scene.scale.length_scale).as_vec3();
-    fixed.stage_from_eye.translation += glam::Vec3A::from(origin);
+    fixed.stage_from_eye.translation += glam::Vec3A::from(stage::origin(scene));
     let mut cameras = vec![NamedView {
         name: "tripod",
         view: fixed,

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use vitriol_experiment::stage;
 use vitriol_sim::measure::AIR_OVER_STEAM;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;
@@ -84,7 +85,7 @@ impl Cloud {
 
 /// A place in the scene's unit as drawn.
 fn place(scene: &Scene, [x, y, z]: [f32; 3]) -> DVec3 {
-    (DVec3::new(x.into(), y.into(), z.into()) + scene.origin) * scene.scale.length_scale
+    stage::stage_from_scene(scene, DVec3::new(x.into(), y.into(), z.into()))
 }
 
 #[cfg(test)]

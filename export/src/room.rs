@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use vitriol_experiment::scenery::laboratory;
+use vitriol_experiment::stage;
 use vitriol_render::BoxDesc;
 use vitriol_sim::scene::Scene;
 
@@ -10,10 +11,7 @@ use crate::mesh::Mesh;
 /// The table, where there is one, and the room as seen from within, in the stage, m.
 pub fn meshes(scene: &Scene) -> [Mesh; 2] {
     let desc = laboratory(scene);
-    let place = |mesh: Mesh| {
-        let scale = scene.scale.length_scale;
-        mesh.moved(|at| (at + scene.origin) * scale, |normal| normal)
-    };
+    let place = |mesh: Mesh| mesh.moved(|at| stage::stage_from_scene(scene, at), |normal| normal);
     let table = desc.table.map(|table| boxed(&table)).unwrap_or_default();
     let room = desc.room.map(|room| boxed(&room).turned());
     [place(table), place(room.unwrap_or_default())]

@@ -5,8 +5,8 @@
 //! the glass, and the glass along it: no gap of half a particle is left between liquid and wall, and none shines through.
 
 use glam::{DAffine3, DQuat, DVec3};
-use vitriol_experiment::Liquid;
 use vitriol_experiment::glassware::Glassware;
+use vitriol_experiment::{Liquid, stage};
 use vitriol_render::reference::{Anisotropy, Field, Nothing, SURFACE, Shape, Surroundings};
 use vitriol_sim::bodies::is_nowhere;
 use vitriol_sim::flask::Profile;
@@ -99,8 +99,8 @@ impl Surfaces {
     }
 
     fn into_stage(self, scene: &Scene) -> Self {
-        let scale = scene.scale.length_scale;
-        let place = |mesh: Mesh| mesh.moved(|at| (at + scene.origin) * scale, |normal| normal);
+        let place =
+            |mesh: Mesh| mesh.moved(|at| stage::stage_from_scene(scene, at), |normal| normal);
         Self {
             air_liquid: place(self.air_liquid),
             glass_liquid: place(self.glass_liquid),

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 /// Lines without their marks.
 #[derive(Default)]
 pub struct Comments {
-    /// Those above the struct.
+    /// Lines above the struct.
     pub own: Vec<String>,
-    /// Those above each field that has any.
+    /// Lines above each field that has a comment.
     pub fields: BTreeMap<String, Vec<String>>,
 }
 

@@ -13,12 +13,12 @@ use crate::include::Expanded;
 pub struct Checked {
     /// naga's intermediate representation, without the names of `let`s.
     pub module: Module,
-    /// What validation found out about it.
+    /// Results of its validation.
     pub info: ModuleInfo,
 }
 
-/// What a shader may use: all that naga's SPIR-V writer can write, but for pipelines and types
-/// that this project does not have (rays, meshes, cooperative matrices).
+/// Features that a shader may use: all that naga's SPIR-V writer can write, except pipelines and types that this project does not have
+/// (rays, meshes, cooperative matrices).
 pub fn capabilities() -> Capabilities {
     naga::back::spv::supported_capabilities()
         - Capabilities::RAY_QUERY

@@ -33,7 +33,7 @@ pub struct CompileOptions {
     pub debug_info: bool,
 }
 
-/// SPIR-V for one entry point, and what it demands of a pipeline.
+/// SPIR-V for one entry point, and its requirements of a pipeline.
 ///
 /// Clip space is Vulkan's (y down, depth 0 to 1): positions pass through unchanged. Workgroup
 /// memory is not initialised; a shader that needs zeros writes them.
@@ -49,13 +49,12 @@ pub struct Compiled {
     pub stage: Stage,
     /// Invocations of a workgroup in x, y, z; zeros but for compute.
     pub workgroup_size: [u32; 3],
-    /// The resources it uses, by group and binding. What only a branch uses that the override
-    /// constants rule out is not among them.
+    /// The resources that it uses, by group and binding, without those that only branches use that the override constants rule out.
     pub bindings: Vec<Binding>,
     /// Size of the `var<immediate>` in bytes, 0 without one.
     pub immediate_bytes: u32,
-    /// Names of the resources (and of the `var<immediate>`) that the file declares and this
-    /// entry point, as specialised, does without. A pass may name them; it binds nothing.
+    /// Names of the resources (and of the `var<immediate>`) that the file declares and this entry point, as specialised, does not use. A
+    /// pass may name them; they are not bound.
     pub unused: Vec<String>,
 }
 

@@ -1,6 +1,6 @@
-//! What can be wrong with a shader or with a request to compile it.
+//! Errors of shaders and of requests to compile them.
 
-/// An error in a WGSL file, or in what was asked of it.
+/// An error in a WGSL file, or in a request to compile it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ShaderError {
     /// A WGSL file is wrong at a known place: an include that leads nowhere or in a circle, a
@@ -71,16 +71,16 @@ pub enum ShaderError {
         shader: String,
         /// The entry point being compiled.
         entry: String,
-        /// What naga says.
+        /// naga's message.
         message: String,
     },
-    /// [`Compiled::spirv`](crate::Compiled::spirv) is no SPIR-V module, so that nothing can be
-    /// changed in it. Take it from [`Library::compile`](crate::Library::compile).
+    /// [`Compiled::spirv`](crate::Compiled::spirv) is no SPIR-V module, so that it cannot be changed. Take it from
+    /// [`Library::compile`](crate::Library::compile).
     #[error("{shader}: its SPIR-V cannot be read ({message}): compile it from WGSL")]
     Spirv {
         /// Shader and entry point.
         shader: String,
-        /// What the parser says.
+        /// The parser's message.
         message: String,
     },
 }

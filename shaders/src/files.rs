@@ -24,7 +24,7 @@ pub const FOLDERS: [&str; 13] = [
 /// A folder that does not exist is empty.
 ///
 /// # Errors
-/// What reading a folder that exists may fail with.
+/// An I/O error while reading a folder that exists.
 pub fn list(root: &Path) -> io::Result<Vec<(String, PathBuf)>> {
     let mut files = Vec::new();
     for folder in FOLDERS {

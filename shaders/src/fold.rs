@@ -55,7 +55,7 @@ impl Folder<'_> {
         let mut out = Block::with_capacity(block.len());
         for (statement, span) in block.span_into_iter() {
             if self.statement(statement, span, &mut out) {
-                // What follows is dead, and the bindings it uses are not to be held.
+                // The rest of the block is dead, and its bindings must not be kept.
                 return (out, true);
             }
         }

@@ -123,9 +123,9 @@ impl Expansion<'_, '_> {
 }
 
 enum Fault {
-    /// The include line itself is wrong.
+    /// The include line itself is wrong; the message.
     Here(String),
-    /// A file below it is.
+    /// A file below it is wrong.
     Inside(ShaderError),
 }
 

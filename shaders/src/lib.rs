@@ -6,7 +6,7 @@
 //! passes share lies in `wgsl/common` and enters by a line `//!include common/folder/name.wgsl`:
 //! - `maths`: no more than mathematics, for both;
 //! - `liquid`: the particles, their records and Algorithm 1 (`sim/src/solver`);
-//! - `chemistry`: what particles hold and exchange, and steam (`sim/src/chemistry`);
+//! - `chemistry`: properties that particles hold and exchange, and steam (`sim/src/chemistry`);
 //! - `glass`: flasks, table and floor as the solver meets them (`sim/src/flask`);
 //! - `picture`: everything that only the renderer needs.
 //!
@@ -17,9 +17,9 @@
 //! `wgsl/sim/density.wgsl` there is [`ShaderId`] `sim::DENSITY`; for each struct of a buffer or of
 //! `var<immediate>` there is one in [`layout`].
 //!
-//! A [`Library`] compiles: [`Library::compile`] takes an entry point and values for override
-//! constants, drops the branches that those rule out, and tells with the SPIR-V which bindings
-//! are left. [`Library::watching`] takes up changed files in a running development build.
+//! A [`Library`] compiles: [`Library::compile`] takes an entry point and values for override constants, drops the branches that those rule
+//! out, and returns the SPIR-V with the bindings that are left. [`Library::watching`] takes up changed files in a running development
+//! build.
 //!
 //! Limits of naga 30: no `enable subgroups` line (the operations work without it); push constants
 //! are `var<immediate>`; no float atomics in workgroup memory; `sample_mask` as an output is

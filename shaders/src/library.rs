@@ -28,7 +28,7 @@ pub struct Library {
 struct State {
     /// Text by path relative to the `wgsl` folder, includes not expanded.
     files: BTreeMap<String, File>,
-    /// What was asked for so far.
+    /// The shaders that have been asked for so far.
     shaders: HashMap<ShaderId, Arc<Source>>,
 }
 
@@ -64,8 +64,7 @@ impl Library {
         Self::embedded()
     }
 
-    /// The files under `folder` (laid out as this crate's `wgsl`), and those built in for what
-    /// is missing there.
+    /// The files under `folder` (laid out as this crate's `wgsl`), and built-in ones for those that are missing there.
     pub fn watching_at(folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
         let mut library = Self::embedded();
@@ -102,7 +101,7 @@ impl Library {
         }
     }
 
-    /// The same library, compiling with `options`.
+    /// This library, compiling with `options` from now on.
     #[must_use]
     pub fn with_options(mut self, options: CompileOptions) -> Self {
         self.options = options;
@@ -200,15 +199,15 @@ impl Library {
         Ok(source)
     }
 
-    /// A panic elsewhere leaves the sources whole: each is replaced in one assignment.
+    /// Locks the sources. A panic elsewhere leaves them whole: each is replaced in one assignment.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl State {
-    /// Reads the files that are new or changed; whether any text differs. A file that cannot be
-    /// read now (an editor is replacing it) keeps its text until it can.
+    /// Reads the files that are new or changed; returns whether any text differs. A file that cannot be read now (an editor is replacing
+    /// it) keeps its text until it can.
     fn read_changed(&mut self, folder: &Path) -> bool {
         let mut changed = false;
         for (path, full) in files::list(folder).unwrap_or_default() {

@@ -1,4 +1,4 @@
-//! What an entry point really uses, read from the validated module.
+//! The resources that an entry point really uses, read from the validated module.
 
 use naga::valid::ModuleInfo;
 use naga::{AddressSpace, ArraySize, ImageClass, Module, Scalar, StorageAccess, TypeInner};
@@ -25,7 +25,7 @@ pub struct Binding {
     pub binding: u32,
     /// The variable's name in WGSL.
     pub name: String,
-    /// What is to be bound.
+    /// The kind of resource that is to be bound.
     pub kind: BindingKind,
     /// The format in which its elements can be read, where it is an array that is only read;
     /// see [`crate::Compiled::with_texels`].
@@ -41,8 +41,7 @@ pub enum BindingKind {
         /// whether a write is reached).
         writable: bool,
     },
-    /// A storage texel buffer: what [`crate::Compiled::with_texels`] makes of a
-    /// read-only storage buffer.
+    /// A storage texel buffer, to which [`crate::Compiled::with_texels`] changes a read-only storage buffer.
     Texels(TexelFormat),
     /// A uniform buffer.
     Uniform {
@@ -80,7 +79,7 @@ pub enum BindingKind {
     },
 }
 
-/// What a texel of a texel buffer is.
+/// Format of a texel of a texel buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TexelFormat {
     /// Its scalars.

@@ -39,7 +39,7 @@ pub fn fits(path: &str, old: &Module, new: &Module) -> Result<(), ShaderError> {
     }
 }
 
-/// What the program gives a shader of `module`: buffers, images, samplers and immediates.
+/// Resources that the program gives a shader of `module`: buffers, images, samplers and immediates.
 fn bound(module: &Module) -> impl Iterator<Item = &GlobalVariable> {
     module
         .global_variables

@@ -1,4 +1,4 @@
-//! What is changed in the SPIR-V that naga writes, one file a change.
+//! Changes to the SPIR-V that naga writes, one file a change.
 
 mod chains;
 mod exact;
@@ -11,7 +11,7 @@ use rspirv::dr::{Module, load_words};
 use crate::ShaderError;
 use crate::reflect::Stage;
 
-/// The module of shader `label`, as naga wrote it for `stage`, with what every device needs.
+/// The module of shader `label`, as naga wrote it for `stage`, with the changes that every device needs.
 ///
 /// # Errors
 /// [`ShaderError::Spirv`] where it is no module.

@@ -181,16 +181,6 @@ pub fn in_scene(frame: &PoseFrame, stage_from_scene: &Pose) -> PoseFrame {
     frame
 }
 
-/// `frame` in the frame of a scene's file, whose vessels stand around `origin` (real m).
-pub fn shifted(mut frame: PoseFrame, origin: Vec3) -> PoseFrame {
-    frame.stage_from_view.position += origin;
-    for hand in &mut frame.hands {
-        hand.stage_from_grip.position += origin;
-        hand.stage_from_aim.position += origin;
-    }
-    frame
-}
-
 /// See [`Action::Leap`].
 fn as_text(stage_from_scene: &Pose) -> String {
     let Vec3 { x, y, z } = stage_from_scene.position;

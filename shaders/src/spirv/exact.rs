@@ -8,7 +8,7 @@
 use rspirv::dr::{Function, Instruction, Module, Operand};
 use rspirv::spirv::{Decoration, Op};
 
-/// What the decoration `NoContraction` may stand on.
+/// Instructions that the decoration `NoContraction` may stand on.
 const ARITHMETIC: [Op; 11] = [
     Op::FNegate,
     Op::FAdd,
@@ -23,8 +23,8 @@ const ARITHMETIC: [Op; 11] = [
     Op::Dot,
 ];
 
-/// Forbids contraction of any result of the module's arithmetic. What the extended instructions
-/// make (`mix`, `length`, `fma`) is the driver's own.
+/// Forbids contraction of any result of the module's arithmetic. Results of the extended instructions (`mix`, `length`, `fma`) are the
+/// driver's own.
 pub fn forbid_contraction(module: &mut Module) {
     let arithmetic = module
         .functions

@@ -13,12 +13,12 @@ use rspirv::spirv::{ExecutionMode, Op};
 use super::read;
 use crate::{Compiled, ShaderError};
 
-/// Its extension of SPIR-V.
+/// Name of the extension of SPIR-V.
 const EXTENSION: &str = "SPV_KHR_maximal_reconvergence";
 
 impl Compiled {
-    /// The same shader with maximal reconvergence, which a device must have switched on
-    /// (`shaderMaximalReconvergence`). Without an operation of subgroups it stays as it is.
+    /// This shader with maximal reconvergence, which a device must have switched on (`shaderMaximalReconvergence`); unchanged where it has
+    /// no operation of subgroups.
     ///
     /// # Errors
     /// [`ShaderError::Spirv`] where `spirv` is no module.
@@ -33,7 +33,7 @@ impl Compiled {
     }
 }
 
-/// Whether any invocation looks at others of its subgroup.
+/// Whether any invocation reads others of its subgroup.
 fn uses_subgroups(module: &Module) -> bool {
     let mut instructions = module.functions.iter().flat_map(Function::all_inst_iter);
     instructions.any(|instruction| {
@@ -42,7 +42,7 @@ fn uses_subgroups(module: &Module) -> bool {
     })
 }
 
-/// Asks for it at each entry point.
+/// Requires maximal reconvergence at each entry point.
 fn reconverge(module: &mut Module) {
     let name = Operand::LiteralString(EXTENSION.to_owned());
     let extension = Instruction::new(Op::Extension, None, None, vec![name]);

@@ -23,9 +23,8 @@ use crate::reflect::{BindingKind, TexelKind};
 use crate::{Compiled, ShaderError, TexelFormat};
 
 impl Compiled {
-    /// The same shader with each read-only storage buffer of group 0 that is an array of scalars
-    /// or vectors of 32 bits, or of structures of them, as a storage texel buffer. What is used
-    /// in another way than by loading elements or their members stays.
+    /// This shader with each read-only storage buffer of group 0 that is an array of scalars or vectors of 32 bits, or of structures of
+    /// them, as a storage texel buffer. Buffers that are used in another way than by loading elements or their members stay.
     ///
     /// # Errors
     /// [`ShaderError::Spirv`] where `spirv` is no module.
@@ -62,27 +61,27 @@ impl Compiled {
     }
 }
 
-/// An array that can be read so.
+/// An array that can be read as texels.
 struct Array {
-    /// Place in [`Compiled::bindings`].
+    /// Index in [`Compiled::bindings`].
     binding: usize,
     format: TexelFormat,
     elements: Elements,
 }
 
-/// What an access chain points to.
+/// Target of an access chain.
 struct Chain {
     variable: Word,
     /// The element's number; `None` for the array as a whole, which naga begins with and
     /// [`super::chains`] leaves without a use.
     index: Option<Word>,
-    /// The element's member, where it is a structure and not meant as a whole.
+    /// The element's member, where it is a structure and not loaded as a whole.
     member: Option<u32>,
     /// A component's number, of a vector.
     component: Option<Word>,
 }
 
-/// The variables that `wanted` gives a number, and that.
+/// The variables to which `wanted` gives a number, and the number.
 fn decorations(module: &Module, wanted: Decoration) -> impl Iterator<Item = (Word, u32)> {
     let decorations = module.annotations.iter();
     decorations.filter_map(move |decoration| match decoration.operands[..] {
@@ -93,8 +92,7 @@ fn decorations(module: &Module, wanted: Decoration) -> impl Iterator<Item = (Wor
     })
 }
 
-/// The access chains into `arrays`, by result; takes out of `arrays` what anything else than a
-/// load of an element or a member names.
+/// The access chains into `arrays`, by result; removes from `arrays` those that anything else than a load of an element or a member names.
 fn chains(module: &Module, arrays: &mut BTreeMap<Word, Array>) -> HashMap<Word, Chain> {
     let mut chains: HashMap<Word, Chain> = HashMap::new();
     for instruction in module.functions.iter().flat_map(Function::all_inst_iter) {
@@ -227,7 +225,7 @@ impl<'a> Reads<'a> {
         *known.or_insert_with(|| builder.constant_bit32(uint, number))
     }
 
-    /// What `load` gives, read by `chain`.
+    /// The value of `load`, read by `chain`.
     fn read(&mut self, chain: &Chain, load: &Instruction) {
         let Some(index) = chain.index else { return };
         let arrays = self.arrays;

@@ -1,4 +1,4 @@
-//! Specialisation: what is left of a shader when its override constants are given.
+//! Specialisation: the code that is left of a shader when its override constants are given.
 
 use std::collections::BTreeSet;
 
@@ -24,8 +24,8 @@ fn names(compiled: &Compiled) -> Vec<&str> {
     compiled.bindings.iter().map(|b| b.name.as_str()).collect()
 }
 
-/// Every way to write a condition: alone, negated, joined, joined with what is known only at run
-/// time, compared, stored in a `let`, in a called function, in a loop, as an early return.
+/// Every way to write a condition: alone, negated, joined, joined with a value that is known only at run time, compared, stored in a
+/// `let`, in a called function, in a loop, as an early return.
 const CONDITIONS: &str = "
 override A: bool = false;
 override B: bool = false;
@@ -281,7 +281,7 @@ fn the_projects_shaders_are_valid_spirv() {
     }
 }
 
-/// Every shader that shuffles, where the device lets lanes meet again for certain.
+/// Every shader that shuffles, where the device guarantees that lanes meet again.
 #[test]
 fn shaders_that_shuffle_are_valid_where_lanes_meet_again() {
     let library = Library::embedded();
@@ -302,7 +302,7 @@ fn shaders_that_shuffle_are_valid_where_lanes_meet_again() {
         }
         shuffling += 1;
         match spirv_val(&reconverging.spirv) {
-            // SPIRV-Tools knows it since 2024; Debian 12's are of 2023.
+            // SPIRV-Tools supports it since 2024; Debian 12's are of 2023.
             Some(Err(message)) if message.contains("execution mode operand: 6023") => {
                 eprintln!("this spirv-val does not know maximal reconvergence");
                 return;

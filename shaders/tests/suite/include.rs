@@ -1,4 +1,4 @@
-//! Includes: what is expanded, and that errors point at the file that a person wrote.
+//! Includes: their expansion, and errors that point at the file that a person wrote.
 
 use vitriol_shaders::{Library, ShaderError, ShaderId};
 
@@ -61,8 +61,8 @@ fn errors_keep_their_file_and_line() {
     let (file, line, column, _) = place(&library(&outer, "const B = 2.0;"));
     assert_eq!((file.as_str(), line, column), (MAIN.path(), 4, 15));
 
-    // What parses but does not validate: a barrier that not all invocations reach is an error of
-    // the validator's. Line 3 of b holds the statement.
+    // It parses but does not validate: a barrier that not all invocations reach is an error of the validator's. Line 3 of b holds the
+    // statement.
     let b = "const B = 2.0;\n\
              @compute @workgroup_size(1) fn main(@builtin(subgroup_size) n: u32) {\n\
              var x = 1.0; if n > 1u { x = f32(n); } else { discard; }\n\

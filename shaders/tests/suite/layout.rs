@@ -1,6 +1,6 @@
 //! The generator of Rust structs, held against the offsets that the WGSL specification states.
 //!
-//! `fixtures/spec.rs` is what it makes of `fixtures/spec.wgsl`, and is compiled here.
+//! `fixtures/spec.rs` is its output for `fixtures/spec.wgsl`, and is compiled here.
 
 #[path = "../../build/comments.rs"]
 mod comments;

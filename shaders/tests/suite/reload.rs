@@ -100,7 +100,7 @@ fn a_broken_file_keeps_the_old() {
         ONE_TEXT.replace("n: u32", "m: u32"),
         ONE_TEXT.replace("n: u32", "n: i32"),
         ONE_TEXT.replace("n: u32, @align(8) k", "@align(8) n: u32, k"),
-        // What the program does not give, and what it gives in vain.
+        // Resources that the program does not give, and resources that it gives in vain.
         format!("{ONE_TEXT}@group(0) @binding(0) var<storage, read> more: array<u32>;"),
         ONE_TEXT.replace(
             "var<immediate> step: Step;",

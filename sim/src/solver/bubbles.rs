@@ -1,8 +1,6 @@
 //! Line 26, of vapour: bubbles, and their part of the state.
 
-use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS, Buffers};
-use super::spray::SprayState;
-use super::transfer::write;
+use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS};
 use super::{Solver, SolverError};
 use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::table::steam_enthalpy;
@@ -10,7 +8,7 @@ use crate::chemistry::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
 use crate::parameters::Parameters;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::{Gpu, GpuError, Recorder};
+use vitriol_gpu::Recorder;
 use vitriol_shaders::layout::{Bubble, Step};
 
 /// As in `common/liquid/step.wgsl`.
@@ -136,23 +134,6 @@ impl BubbleState {
         }
         account
     }
-
-    pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {
-        // A place that is empty is not copied from one set of records to the other.
-        write(
-            gpu,
-            &b.bubbles,
-            &[&self.bubbles[..], &self.bubbles].concat(),
-        )?;
-        write(gpu, &b.bubbled, &self.bubbled)?;
-        write(gpu, &b.gas, &self.gas)?;
-        // What joins bubbles of the second set of records is none at a frame's end.
-        let mut merging = self.merging.clone();
-        merging.resize(2 * self.merging.len(), [0; 3]);
-        write(gpu, &b.merging, &merging)?;
-        write(gpu, &b.falls, &self.falls)?;
-        write(gpu, &b.cell_starts, &self.cell_starts)
-    }
 }
 
 impl Solver {
@@ -192,15 +173,5 @@ impl Solver {
                 .indirect(args, first + DROPS_ARGS)?;
         }
         Ok(())
-    }
-
-    /// What a state of this solver has of bubbles before the first frame.
-    pub(super) fn bubbles_at_start(&self) -> BubbleState {
-        BubbleState::start(&self.parameters, self.count as usize, self.grid.cells())
-    }
-
-    /// The same of drops.
-    pub(super) fn spray_at_start(&self) -> SprayState {
-        SprayState::start(&self.parameters, self.count as usize, self.flasks)
     }
 }

@@ -1,30 +1,28 @@
-//! The particles' state and the solver's scratch memory. A particle's place in
-//! every array is the same; it changes when the list is rebuilt.
+//! The particles' state and the solver's scratch memory: one table of all buffers. A particle's place in every array is the same; it
+//! changes when the list is rebuilt. Which of them a state has, and what of it is hashed, is the table in `snapshot.rs`.
 
 use super::colour::{self, Colour};
 use super::counters::Counters;
 use super::glass;
 use super::grid::Grid;
 use super::spec::SolverSpec;
-use super::transfer::upload;
-use super::vapour::dew_places;
+use super::transfer::write;
+use super::vapour::{COUNTS, PUFFS, dew_places, dew_rows, with_steam};
 use super::vessels::Vessels;
 use crate::chemistry::Chemistry;
 use crate::chemistry::dew::AROUND;
 use crate::chemistry::segregation::Lamellae;
 use crate::chemistry::table::SolutionTable;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
+use vitriol_shaders::layout::{Dew, Puff};
 
 /// Threads of the load pass's workgroups.
 pub(super) const LOAD_GROUP: u32 = 256;
 
-/// How many of [`Buffers::all`] grow with the number of particles.
-pub(super) const OF_PARTICLES: usize = 45;
-
 /// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
 pub(super) const BUBBLED_WORDS: usize = 8;
-/// The same of drops.
+/// Words of the drops of a bubble's jet or film, and of what drops do to a particle, likewise.
 pub(super) const DROPS_WORDS: usize = 16;
 pub(super) const SPRAYED_WORDS: usize = 4;
 
@@ -33,295 +31,304 @@ pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
     4 * 8 * (u64::from(substeps) + 1) * flasks
 }
 
-/// Device memory, named and labelled as in the shaders.
-pub(super) struct Buffers {
-    // State: what a snapshot holds.
-    pub(super) position: Buffer,
-    /// w: the carried multiplier.
-    pub(super) velocity: Buffer,
-    /// (membership, identity).
-    pub(super) tags: Buffer,
-    pub(super) list_origin: Buffer,
-    pub(super) list_counts: Buffer,
-    pub(super) list: Buffer,
-    /// Where in the list those are that are longer than a particle's place; a snapshot has them in the particles' order.
-    pub(super) long_lists: Buffer,
-    pub(super) counters: Buffer,
-    // Scratch of one substep.
-    pub(super) trial: Buffer,
-    pub(super) solved: Buffer,
-    pub(super) boundary: Buffer,
-    pub(super) multiplier: Buffer,
-    pub(super) new_velocity: Buffer,
-    pub(super) vorticity: Buffer,
-    // Scratch of a rebuild. The sorted copies of what is dead at that moment
-    // share its memory: `solved` and `new_velocity` are written only later. The
-    // particles of cells lie in `list` until it is made.
-    pub(super) sorted_position: Buffer,
-    pub(super) sorted_tags: Buffer,
-    pub(super) sorted_push: Buffer,
-    pub(super) cell_counts: Buffer,
-    pub(super) cell_starts: Buffer,
-    pub(super) block_counts: Buffer,
-    pub(super) list_args: Buffer,
-    // Chemistry; state, and scratch of one substep and of a rebuild.
-    pub(super) heat: Buffer,
-    pub(super) diffused: Buffer,
-    pub(super) mixing: Buffer,
-    pub(super) sorted_heat: Buffer,
-    /// The physical chemistry's: what particles hold, and by identity what
-    /// they took and gave.
-    pub(super) matter: Buffer,
-    pub(super) sorted_matter: Buffer,
-    pub(super) ledger: Buffer,
-    /// Volume, density and vapour.
-    pub(super) bulk: Buffer,
-    pub(super) sorted_bulk: Buffer,
-    /// What the flow leaves unresolved.
-    pub(super) eddies: Buffer,
-    pub(super) sorted_eddies: Buffer,
-    pub(super) solution: Buffer,
-    pub(super) lamellae: Buffer,
-    /// Bubbles: their records before and after a step, what they do to particles and what these have of it by identity, what
-    /// particles are to them by slot, and by bubble where one is to be born and what joins it.
-    pub(super) bubbles: Buffer,
-    pub(super) bubbled: Buffer,
-    pub(super) gas: Buffer,
-    pub(super) boils: Buffer,
-    pub(super) claims: Buffer,
-    pub(super) merging: Buffer,
-    /// Places that have a bubble or drops, and the sizes of the dispatches over them, by set of records.
-    pub(super) live: Buffer,
-    pub(super) live_args: Buffer,
-    /// How particles fell, by identity.
-    pub(super) falls: Buffer,
-    /// Drops that bubbles threw up, what they do to particles by identity, and what of them left each flask.
-    pub(super) drops: Buffer,
-    pub(super) sprayed: Buffer,
-    pub(super) spray_left: Buffer,
-    /// By flask and ring: T and what it lacks, and heat taken from it in this frame.
-    pub(super) glass: Buffer,
-    pub(super) glass_taken: Buffer,
-    /// By flask and row of its wall: places that liquid touched in this frame, a bit each.
-    pub(super) wetted: Buffer,
-    // Surface tension's nodes.
-    pub(super) colour_keys: Buffer,
-    pub(super) colour_used: Buffer,
-    pub(super) colour_blocks: Buffer,
-    pub(super) colour_args: Buffer,
-    pub(super) colour_around: Buffer,
-    pub(super) colour: Buffer,
-    pub(super) colour_solid: Buffer,
-    pub(super) interface_stress: Buffer,
-    pub(super) smooth_colour: Buffer,
-    pub(super) curvature: Buffer,
-    /// What walls hold the surface's line with, by cell and by identity.
-    pub(super) line_hold: Buffer,
-    pub(super) held: Buffer,
-    // Coupling with the rigid bodies.
-    pub(super) poses: Buffer,
-    pub(super) wall_push: Buffer,
-    pub(super) loads: Buffer,
-    // Reports.
-    pub(super) density: Buffer,
+/// What shaders call by another name: memory that is dead at that moment is lent.
+pub(super) const LENT: [(&str, &str); 7] = [
+    // During a rebuild. `solved` and `new_velocity` are written only later; the particles of cells lie in `list` until it is made.
+    ("cell_items", "list"),
+    ("sorted_trial", "solved"),
+    ("sorted_velocity", "new_velocity"),
+    // Once x* is committed.
+    ("kept", "solved"),
+    // While x* is sought.
+    ("volumes", "mixing"),
+    // Once the colour is filtered.
+    ("unfiltered", "colour_solid"),
+    // What is of reports alone.
+    ("wall_before", "density"),
+];
+
+/// Makes [`Buffers`] of a table: label, and words by the [`Sizes`] `$s`. Those of particles come first.
+macro_rules! buffers {
+    (
+        |$s:ident|
+        of particles { $($(#[$doc:meta])* $name:ident: $words:expr,)* }
+        others { $($(#[$other_doc:meta])* $other:ident: $other_words:expr,)* }
+    ) => {
+        /// Device memory, labelled as in the shaders.
+        pub(super) struct Buffers {
+            $($(#[$doc])* pub(super) $name: Buffer,)*
+            $($(#[$other_doc])* pub(super) $other: Buffer,)*
+        }
+
+        /// How many of [`Buffers::all`] grow with the number of particles.
+        pub(super) const OF_PARTICLES: usize = [$(stringify!($name)),*].len();
+        const ALL: usize = OF_PARTICLES + [$(stringify!($other)),*].len() + 9;
+
+        impl Buffers {
+            fn sized(gpu: &Gpu, $s: &Sizes) -> Result<Self, GpuError> {
+                Ok(Self {
+                    $($name: Buffer::storage(gpu, stringify!($name), 4 * ($words))?,)*
+                    $($other: Buffer::storage(gpu, stringify!($other), 4 * ($other_words))?,)*
+                })
+            }
+
+            /// All that passes bind, those first that grow with the number of particles.
+            pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; ALL] {
+                [
+                    $(&self.$name,)*
+                    $(&self.$other,)*
+                    &vessels.flasks,
+                    &vessels.radii,
+                    &vessels.maps,
+                    &vessels.distances,
+                    &vessels.glass_rings,
+                    &vessels.plane,
+                    &vessels.solids.cells,
+                    &vessels.solids.starts,
+                    &vessels.solids.solids,
+                ]
+            }
+        }
+    };
+}
+
+buffers! {
+    |s|
+    of particles {
+        position: 4 * s.n,
+        /// w: the carried multiplier.
+        velocity: 4 * s.n,
+        /// (membership, identity).
+        tags: 2 * s.n,
+        list_origin: 4 * s.n,
+        list_counts: s.n,
+        list: s.listed,
+        /// Where in the list those are that are longer than a particle's place; a snapshot has them in the particles' order.
+        long_lists: s.n + 1,
+        // Scratch of one substep.
+        trial: 4 * s.n,
+        solved: 4 * s.n,
+        boundary: 4 * s.n,
+        multiplier: s.n,
+        new_velocity: 4 * s.n,
+        vorticity: 4 * s.confined,
+        // Scratch of a rebuild.
+        sorted_position: 4 * s.n,
+        sorted_tags: 2 * s.n,
+        sorted_push: 4 * s.pushed,
+        // Chemistry: state, and scratch of one substep and of a rebuild.
+        heat: 4 * s.heated,
+        diffused: 2 * s.diffused,
+        mixing: 4 * s.heated,
+        sorted_heat: 4 * s.heated,
+        /// What particles hold.
+        matter: 4 * s.physical,
+        sorted_matter: 4 * s.physical,
+        /// What particles took and gave, by identity.
+        ledger: 4 * s.physical,
+        /// Volume, density and vapour.
+        bulk: 4 * s.physical,
+        sorted_bulk: 4 * s.physical,
+        /// What the flow leaves unresolved.
+        eddies: 2 * s.physical,
+        sorted_eddies: 2 * s.physical,
+        // Coupling with the rigid bodies.
+        wall_push: 4 * s.pushed,
+        // Reports.
+        density: s.n,
+        // Surface tension's nodes.
+        colour_keys: 2 * s.slots,
+        colour_used: s.slots,
+        colour_blocks: 4 * s.slots,
+        colour_around: colour::AROUND * s.slots,
+        colour: s.nodes,
+        colour_solid: 2 * s.nodes,
+        interface_stress: 4 * s.nodes,
+        smooth_colour: 4 * s.nodes,
+        curvature: s.nodes,
+        /// What walls hold the surface's line with, by cell.
+        line_hold: 4 * s.held_nodes,
+        /// The same by identity.
+        held: 4 * s.held,
+        /// What bubbles do to particles, by identity.
+        bubbled: BUBBLED_WORDS as u64 * s.bubbly,
+        /// What particles have of bubbles, by identity.
+        gas: 4 * s.bubbly,
+        /// What particles are to bubbles, by slot.
+        boils: 4 * s.bubbly,
+        /// What drops do to particles, by identity.
+        sprayed: SPRAYED_WORDS as u64 * s.sprayed,
+        /// How particles fell, by identity.
+        falls: 2 * s.falling,
+        /// Steam that left particles and is in no puff yet, by identity.
+        vented: 2 * s.steaming,
+    }
+    others {
+        colour_args: 8,
+        counters: size_of::<Counters>() as u64 / 4,
+        cell_counts: s.cells,
+        cell_starts: s.cells,
+        block_counts: s.blocks,
+        list_args: 12,
+        solution: words_of(&s.solution),
+        lamellae: words_of(&s.lamellae),
+        /// Records of bubbles before and after a step.
+        bubbles: 2 * BUBBLE_WORDS as u64 * s.bubbles,
+        /// By bubble, where one is to be born.
+        claims: s.bubbles,
+        /// By bubble, what joins it.
+        merging: 6 * s.bubbles,
+        /// Places that have a bubble or drops, by set of records.
+        live: s.live,
+        /// Sizes of the dispatches over them.
+        live_args: 16,
+        /// Drops that bubbles threw up.
+        drops: DROPS_WORDS as u64 * s.drops,
+        /// What of them left each flask.
+        spray_left: s.sprayed_flasks,
+        /// By flask and ring: T and what it lacks.
+        glass: 2 * s.rings,
+        /// Heat taken from it in this frame.
+        glass_taken: s.rings,
+        /// By flask and row of its wall: places that liquid touched in this frame, a bit each.
+        wetted: s.dew / AROUND as u64,
+        /// Water on the flasks' inner walls.
+        dew: s.dew * size_of::<Dew>() as u64 / 4,
+        dew_rows: words_of(&s.dew_rows),
+        puffs: s.puffs * size_of::<Puff>() as u64 / 4,
+        /// What walls take of each puff.
+        taken: s.puffs,
+        /// Counts of puffs made, and of water that was washed off glass.
+        made: s.made,
+        poses: bytes_of_poses(s.substeps, s.flasks) / 4,
+        loads: s.loads,
+    }
+}
+
+/// How many of everything a scene has; 0 where it has no use for it.
+struct Sizes {
+    /// Particles, and those of them that have heat, contents, and so on.
+    n: u64,
+    pushed: u64,
+    heated: u64,
+    physical: u64,
+    diffused: u64,
+    bubbly: u64,
+    falling: u64,
+    sprayed: u64,
+    steaming: u64,
+    confined: u64,
+    held: u64,
+    listed: u64,
+    cells: u64,
+    blocks: u64,
+    /// Blocks of surface tension's nodes, and the nodes.
+    slots: u64,
+    nodes: u64,
+    held_nodes: u64,
+    bubbles: u64,
+    live: u64,
+    drops: u64,
+    sprayed_flasks: u64,
+    rings: u64,
+    dew: u64,
+    puffs: u64,
+    made: u64,
+    flasks: u64,
+    substeps: u32,
+    loads: u64,
+    solution: Vec<u8>,
+    lamellae: Vec<u8>,
+    dew_rows: Vec<u8>,
+}
+
+fn words_of(bytes: &[u8]) -> u64 {
+    bytes.len() as u64 / 4
+}
+
+impl Sizes {
+    fn new(spec: &SolverSpec<'_>, count: u32, grid: &Grid) -> Self {
+        let parameters = &spec.parameters;
+        let n = u64::from(count);
+        let flasks = spec.flasks.len() as u64;
+        let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
+        let groups = u64::from(count.div_ceil(LOAD_GROUP));
+        let chemistry = parameters.chemistry.as_ref();
+        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
+        let lamella = match chemistry {
+            Some(Chemistry::Physical(physical)) => physical.lamella.is_some(),
+            _ => false,
+        };
+        let bubbles = parameters.bubbles();
+        let places = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
+        let drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
+        let slots = where_asked(
+            parameters.surface.is_some(),
+            Colour::new(parameters, count).slots.into(),
+        );
+        let nodes = colour::BLOCK_NODES * slots;
+        let sticks = parameters.sticks();
+        let steams = with_steam(parameters).is_some();
+        let dew = dew_places(parameters, spec.flasks.len());
+        let solution = physical.then(|| SolutionTable::new().rows());
+        let lamellae = lamella.then(|| Lamellae::get().rows());
+        let dew_rows = (dew > 0).then(|| dew_rows(spec.flasks));
+        Self {
+            n,
+            pushed: where_asked(spec.loads, n),
+            heated: where_asked(chemistry.is_some(), n),
+            physical: where_asked(physical, n),
+            diffused: where_asked(matches!(chemistry, Some(Chemistry::Paper(_))), n),
+            bubbly: where_asked(bubbles.is_some(), n),
+            falling: where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n),
+            sprayed: where_asked(drops > 0, n),
+            steaming: where_asked(steams, n),
+            confined: where_asked(parameters.vorticity > 0.0, n),
+            held: where_asked(sticks, n),
+            listed: grid.places(count) + grid.long(count),
+            cells: grid.cells().into(),
+            blocks: grid.blocks().into(),
+            slots,
+            nodes,
+            held_nodes: where_asked(sticks, nodes),
+            bubbles: places,
+            live: where_asked(bubbles.is_some(), places + 2),
+            drops,
+            sprayed_flasks: where_asked(drops > 0, flasks),
+            rings: glass::ring_count(chemistry, spec.flasks.len()) as u64,
+            dew: dew as u64,
+            puffs: where_asked(steams, PUFFS.into()),
+            made: where_asked(steams, COUNTS as u64),
+            flasks,
+            substeps: parameters.substeps,
+            loads: where_asked(spec.loads, 12 * groups * flasks),
+            solution: bytes_of(solution),
+            lamellae: bytes_of(lamellae),
+            dew_rows: bytes_of(dew_rows),
+        }
+    }
+}
+
+fn bytes_of<T: bytemuck::NoUninit>(rows: Option<Vec<T>>) -> Vec<u8> {
+    rows.map_or(Vec::new(), |rows| bytemuck::cast_slice(&rows).to_vec())
 }
 
 /// `live_args` where no place of a bubble has anything: of each set of records two dispatches of no workgroups, and padding.
 pub(super) const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 impl Buffers {
+    /// Those of a scene, its tables filled in.
     pub(super) fn new(
         gpu: &Gpu,
         spec: &SolverSpec<'_>,
         count: u32,
         grid: &Grid,
     ) -> Result<Self, GpuError> {
-        let n = u64::from(count);
-        let flasks = spec.flasks.len() as u64;
-        let words = |label, number: u64| Buffer::storage(gpu, label, 4 * number);
-        let where_asked = |asked: bool, number: u64| if asked { number } else { 0 };
-        let pushed = where_asked(spec.loads, n);
-        let groups = u64::from(count.div_ceil(LOAD_GROUP));
-        let chemistry = spec.parameters.chemistry.as_ref();
-        let heated = where_asked(chemistry.is_some(), n);
-        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
-        let held = where_asked(physical, n);
-        let diffused = where_asked(matches!(chemistry, Some(Chemistry::Paper(_))), n);
-        let table = if physical {
-            SolutionTable::new().rows()
-        } else {
-            Vec::new()
-        };
-        let lamellae = match chemistry {
-            Some(Chemistry::Physical(physical)) if physical.lamella.is_some() => {
-                Lamellae::get().rows()
-            }
-            _ => Vec::new(),
-        };
-        let rings = glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) as u64;
-        let dew_rows = (dew_places(&spec.parameters, spec.flasks.len()) / AROUND) as u64;
-        let bubbles = spec.parameters.bubbles();
-        let slots_of_bubbles = bubbles.map_or(0, |bubbles| u64::from(bubbles.slots()));
-        let bubbly = where_asked(bubbles.is_some(), n);
-        let falling = where_asked(bubbles.is_some_and(|bubbles| bubbles.air), n);
-        let places_of_drops = bubbles.map_or(0, |bubbles| u64::from(bubbles.places_of_drops()));
-        let sprayed = where_asked(places_of_drops > 0, n);
-        let confined = spec.parameters.vorticity > 0.0;
-        let colour = Colour::new(&spec.parameters, count);
-        let slots = where_asked(spec.parameters.surface.is_some(), colour.slots.into());
-        let nodes = colour::BLOCK_NODES * slots;
-        let sticks = spec.parameters.sticks();
-        Ok(Self {
-            position: words("position", 4 * n)?,
-            velocity: words("velocity", 4 * n)?,
-            tags: words("tags", 2 * n)?,
-            list_origin: words("list_origin", 4 * n)?,
-            list_counts: words("list_counts", n)?,
-            list: words("list", grid.places(count) + grid.long(count))?,
-            long_lists: words("long_lists", n + 1)?,
-            counters: words("counters", size_of::<Counters>() as u64 / 4)?,
-            trial: words("trial", 4 * n)?,
-            solved: words("solved", 4 * n)?,
-            boundary: words("boundary", 4 * n)?,
-            multiplier: words("multiplier", n)?,
-            new_velocity: words("new_velocity", 4 * n)?,
-            vorticity: words("vorticity", where_asked(confined, 4 * n))?,
-            sorted_position: words("sorted_position", 4 * n)?,
-            sorted_tags: words("sorted_tags", 2 * n)?,
-            sorted_push: words("sorted_push", 4 * pushed)?,
-            cell_counts: words("cell_counts", u64::from(grid.cells()))?,
-            cell_starts: words("cell_starts", u64::from(grid.cells()))?,
-            block_counts: words("block_counts", u64::from(grid.blocks()))?,
-            list_args: words("list_args", 12)?,
-            heat: words("heat", 4 * heated)?,
-            diffused: words("diffused", 2 * diffused)?,
-            mixing: words("mixing", 4 * heated)?,
-            sorted_heat: words("sorted_heat", 4 * heated)?,
-            matter: words("matter", 4 * held)?,
-            sorted_matter: words("sorted_matter", 4 * held)?,
-            ledger: words("ledger", 4 * held)?,
-            bulk: words("bulk", 4 * held)?,
-            sorted_bulk: words("sorted_bulk", 4 * held)?,
-            eddies: words("eddies", 2 * held)?,
-            sorted_eddies: words("sorted_eddies", 2 * held)?,
-            solution: upload(gpu, "solution", &table)?,
-            lamellae: upload(gpu, "lamellae", &lamellae)?,
-            bubbles: words("bubbles", 2 * BUBBLE_WORDS as u64 * slots_of_bubbles)?,
-            bubbled: words("bubbled", BUBBLED_WORDS as u64 * bubbly)?,
-            gas: words("gas", 4 * bubbly)?,
-            boils: words("boils", 4 * bubbly)?,
-            claims: words("claims", slots_of_bubbles)?,
-            merging: words("merging", 6 * slots_of_bubbles)?,
-            live: words("live", where_asked(bubbles.is_some(), slots_of_bubbles + 2))?,
-            live_args: words("live_args", 16)?,
-            falls: words("falls", 2 * falling)?,
-            drops: words("drops", DROPS_WORDS as u64 * places_of_drops)?,
-            sprayed: words("sprayed", SPRAYED_WORDS as u64 * sprayed)?,
-            spray_left: words("spray_left", where_asked(places_of_drops > 0, flasks))?,
-            glass: words("glass", 2 * rings)?,
-            glass_taken: words("glass_taken", rings)?,
-            wetted: words("wetted", dew_rows)?,
-            colour_keys: words("colour_keys", 2 * slots)?,
-            colour_used: words("colour_used", slots)?,
-            colour_blocks: words("colour_blocks", 4 * slots)?,
-            colour_around: words("colour_around", colour::AROUND * slots)?,
-            colour_args: words("colour_args", 8)?,
-            colour: words("colour", nodes)?,
-            colour_solid: words("colour_solid", 2 * nodes)?,
-            interface_stress: words("interface_stress", 4 * nodes)?,
-            smooth_colour: words("smooth_colour", 4 * nodes)?,
-            curvature: words("curvature", nodes)?,
-            line_hold: words("line_hold", where_asked(sticks, 4 * nodes))?,
-            held: words("held", where_asked(sticks, 4 * n))?,
-            poses: Buffer::storage(
-                gpu,
-                "poses",
-                bytes_of_poses(spec.parameters.substeps, flasks),
-            )?,
-            wall_push: words("wall_push", 4 * pushed)?,
-            loads: words("loads", where_asked(spec.loads, 12 * groups * flasks))?,
-            density: words("density", n)?,
-        })
-    }
-
-    /// All that passes bind, those first that grow with the number of particles; a buffer's label
-    /// is the name that shaders give it.
-    pub(super) fn all<'a>(&'a self, vessels: &'a Vessels) -> [&'a Buffer; OF_PARTICLES + 29] {
-        [
-            &self.position,
-            &self.velocity,
-            &self.tags,
-            &self.list_origin,
-            &self.list_counts,
-            &self.list,
-            &self.long_lists,
-            &self.trial,
-            &self.solved,
-            &self.boundary,
-            &self.multiplier,
-            &self.new_velocity,
-            &self.vorticity,
-            &self.sorted_position,
-            &self.sorted_tags,
-            &self.sorted_push,
-            &self.heat,
-            &self.diffused,
-            &self.mixing,
-            &self.sorted_heat,
-            &self.matter,
-            &self.sorted_matter,
-            &self.ledger,
-            &self.bulk,
-            &self.sorted_bulk,
-            &self.eddies,
-            &self.sorted_eddies,
-            &self.wall_push,
-            &self.density,
-            &self.colour_keys,
-            &self.colour_used,
-            &self.colour_blocks,
-            &self.colour_around,
-            &self.colour,
-            &self.colour_solid,
-            &self.interface_stress,
-            &self.smooth_colour,
-            &self.curvature,
-            &self.line_hold,
-            &self.held,
-            &self.bubbled,
-            &self.gas,
-            &self.boils,
-            &self.sprayed,
-            &self.falls,
-            &self.colour_args,
-            &self.counters,
-            &self.cell_counts,
-            &self.cell_starts,
-            &self.block_counts,
-            &self.list_args,
-            &self.solution,
-            &self.lamellae,
-            &self.bubbles,
-            &self.claims,
-            &self.merging,
-            &self.live,
-            &self.live_args,
-            &self.drops,
-            &self.spray_left,
-            &self.glass,
-            &self.glass_taken,
-            &self.wetted,
-            &self.poses,
-            &self.loads,
-            &vessels.flasks,
-            &vessels.radii,
-            &vessels.maps,
-            &vessels.distances,
-            &vessels.glass_rings,
-            &vessels.plane,
-            &vessels.solids.cells,
-            &vessels.solids.starts,
-            &vessels.solids.solids,
-        ]
+        let sizes = Sizes::new(spec, count, grid);
+        let buffers = Self::sized(gpu, &sizes)?;
+        write(gpu, &buffers.solution, &sizes.solution)?;
+        write(gpu, &buffers.lamellae, &sizes.lamellae)?;
+        write(gpu, &buffers.dew_rows, &sizes.dew_rows)?;
+        Ok(buffers)
     }
 }

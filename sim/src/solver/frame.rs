@@ -112,7 +112,7 @@ impl Solver {
         }
         if let Some(steam) = &self.steam {
             let step = self.step(substeps - 1);
-            steam.record(rec, (&self.buffers, &self.vessels), &step)?;
+            steam.record(rec, &self.buffers.all(&self.vessels), &step)?;
         }
         self.load(rec)
     }

@@ -17,7 +17,6 @@ mod carry;
 mod census;
 mod colour;
 mod counters;
-mod dew;
 mod error;
 mod frame;
 mod glass;
@@ -78,6 +77,8 @@ pub struct Solver {
     loads: bool,
     /// Whether a frame has been recorded, which makes the neighbour list.
     listed: AtomicBool,
+    /// Elements of each array of a state, in the order of their table.
+    lengths: Vec<usize>,
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
@@ -106,7 +107,7 @@ impl Solver {
         let constants = Constants::new(spec, count, &grid, [lanes, list_lanes, group]);
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
-        let steam = Steam::new(gpu, library, spec, count, &constants, (&buffers, &vessels))?;
+        let steam = Steam::new(gpu, library, spec, &constants, &all)?;
         let sizes = [count as usize, spec.flasks.len()];
         let looks = Looks::new(
             gpu,
@@ -116,7 +117,9 @@ impl Solver {
             (spec.ground.scale, spec.tools),
             (&constants, &buffers),
         )?;
+        let start = SolverState::start(spec.particles, &grid, &spec.parameters, spec.flasks.len());
         let solver = Self {
+            lengths: snapshot::lengths(&start),
             gpu: gpu.clone(),
             coefficients: spec
                 .parameters
@@ -136,12 +139,7 @@ impl Solver {
             looks,
             bundles: Bundles::default(),
         };
-        solver.restore(&SolverState::start(
-            spec.particles,
-            &solver.grid,
-            &spec.parameters,
-            spec.flasks.len(),
-        ))?;
+        solver.restore(&start)?;
         Ok(solver)
     }
 
@@ -237,13 +235,14 @@ impl Solver {
     /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
     /// those of radius 0 are none. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
-        self.steam.as_ref().map(Steam::puffs)
+        self.steam.as_ref().map(|_| &self.buffers.puffs)
     }
 
     /// Water on the flasks' inner walls, `array<Dew>` of `common/chemistry/dew.wgsl`: by flask, from the inner floor up, and around
     /// from +X towards +Z. `None` where none condenses.
     pub fn dew(&self) -> Option<&Buffer> {
-        self.steam.as_ref().and_then(Steam::dew)
+        let steam = self.steam.as_ref().filter(|steam| steam.condenses());
+        steam.map(|_| &self.buffers.dew)
     }
 
     /// Bubbles, `array<Bubble>` of `common/chemistry/bubble.wgsl`, and how many places of them there are: those without steam and

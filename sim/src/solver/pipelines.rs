@@ -1,5 +1,6 @@
 //! The passes, specialised for what the scene asks for.
 
+use super::buffers::LENT;
 use super::colour::Colour;
 use super::glass;
 use super::grid::Grid;
@@ -405,24 +406,11 @@ impl Constants {
         own.extend(extra);
         let compiled = library.compile(&shader, "main", &own)?;
         let place_of = |binding: &Binding| {
-            let label = match binding.name.as_str() {
-                // What is dead during a rebuild lends its memory.
-                "cell_items" => "list",
-                "sorted_trial" => "solved",
-                "sorted_velocity" => "new_velocity",
-                // What is dead once x* is committed.
-                "kept" => "solved",
-                // What is dead while x* is sought.
-                "volumes" => "mixing",
-                // What is dead once the colour is filtered.
-                "unfiltered" => "colour_solid",
-                // What is of reports alone.
-                "wall_before" => "density",
-                name => {
-                    let other = names.iter().find(|(own, _)| *own == name);
-                    other.map_or(name, |(_, label)| label)
-                }
-            };
+            let name = binding.name.as_str();
+            let mut lent = names.iter().chain(&LENT);
+            let label = lent
+                .find(|(own, _)| *own == name)
+                .map_or(name, |(_, label)| label);
             let place = buffers.iter().position(|buffer| buffer.label() == label);
             let place = place.ok_or_else(|| GpuError::Binding {
                 pass: compiled.label.clone(),

@@ -1,20 +1,154 @@
-//! The solver's state, taken from a device and put on one again.
+//! The solver's state, taken from a device and put on one again: one table of its arrays, by which it is read, checked, written and
+//! hashed.
 
-use super::buffers::NO_PLACES;
-use super::glass;
-use super::steam::Steam;
+use super::buffers::{Buffers, NO_PLACES};
 use super::transfer::{read, write};
 use super::{Counters, Solver, SolverError, SolverState};
-use crate::chemistry::Chemistry;
-use bytemuck::AnyBitPattern;
+use bytemuck::Pod;
 use std::sync::atomic::Ordering;
-use vitriol_gpu::{Buffer, GpuError, QueueKind, Recorder};
+use vitriol_gpu::{Buffer, GpuError, QueueKind, Readback, Recorder};
+use xxhash_rust::xxh3::Xxh3;
 
-/// Puts the first elements of a buffer's copy into the state.
-type Fill = Box<dyn FnOnce(&mut SolverState) -> Result<(), GpuError> + Send>;
+/// An array of a state.
+struct Array {
+    /// Its name in messages.
+    what: &'static str,
+    /// Where it is on the device.
+    buffer: fn(&Buffers) -> &Buffer,
+    get: fn(&SolverState) -> &dyn Elements,
+    get_mut: fn(&mut SolverState) -> &mut dyn Elements,
+    hashed: Hashed,
+    second: SecondHalf,
+}
+
+/// How a state's hash has an array.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hashed {
+    No,
+    /// Particle by particle in the order of their identities: their slots are no matter of a replay.
+    ByIdentity,
+    /// As it is, after all particles.
+    Whole,
+}
+
+/// What a buffer has behind its array, at a frame's end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum SecondHalf {
+    /// Nothing.
+    None,
+    /// The array again: a place that is empty is not copied from one set of records to the other.
+    Same,
+    /// As many zeros: nothing joins bubbles of the second set of records.
+    Zeros,
+}
+
+macro_rules! array {
+    ($buffer:ident, $($field:ident).+, $what:literal, $hashed:ident) => {
+        array!($buffer, $($field).+, $what, $hashed, None)
+    };
+    ($buffer:ident, $($field:ident).+, $what:literal, $hashed:ident, $second:ident) => {
+        Array {
+            what: $what,
+            buffer: |buffers| &buffers.$buffer,
+            get: |state| &state.$($field).+,
+            get_mut: |state| &mut state.$($field).+,
+            hashed: Hashed::$hashed,
+            second: SecondHalf::$second,
+        }
+    };
+}
+
+/// All arrays of a state but the neighbour list's; the hash has them in this order.
+const ARRAYS: [Array; 26] = [
+    array!(position, positions, "positions", ByIdentity),
+    array!(velocity, velocities, "velocities", ByIdentity),
+    array!(tags, tags, "tags", ByIdentity),
+    array!(heat, heat, "heat", ByIdentity),
+    array!(matter, matter, "contents", ByIdentity),
+    array!(ledger, ledger, "ledger", No),
+    array!(bulk, bulk, "bulk", No),
+    array!(eddies, eddies, "eddies", No),
+    array!(held, held, "held lines", No),
+    array!(list_origin, list_origin, "list origins", No),
+    array!(list_counts, list_counts, "list counts", No),
+    array!(glass, glass, "glass", Whole),
+    array!(puffs, steam.puffs, "puffs", No),
+    array!(vented, steam.vented, "vented steam", No),
+    array!(made, steam.made, "counts of steam", No),
+    array!(dew, steam.dew, "dew", No),
+    array!(bubbles, bubbles.bubbles, "bubbles", Whole, Same),
+    array!(bubbled, bubbles.bubbled, "bubbled particles", No),
+    array!(gas, bubbles.gas, "gas", No),
+    array!(merging, bubbles.merging, "joining bubbles", No, Zeros),
+    array!(falls, bubbles.falls, "falls", No),
+    array!(cell_starts, bubbles.cell_starts, "cells", No),
+    array!(drops, spray.drops, "drops", Whole),
+    array!(sprayed, spray.sprayed, "sprayed particles", No),
+    array!(spray_left, spray.left, "flasks that spray left", No),
+    array!(counters, counters, "counters", No),
+];
+
+/// Elements of whatever type.
+trait Elements {
+    fn count(&self) -> usize;
+    fn bytes(&self) -> &[u8];
+    /// Takes the first `count` elements; buffers are a few bytes longer where a scene is empty.
+    fn take(&mut self, readback: &Readback, count: usize) -> Result<(), GpuError>;
+}
+
+impl<T: Pod> Elements for Vec<T> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn bytes(&self) -> &[u8] {
+        bytemuck::cast_slice(self)
+    }
+
+    fn take(&mut self, readback: &Readback, count: usize) -> Result<(), GpuError> {
+        *self = readback.get()?;
+        self.truncate(count);
+        Ok(())
+    }
+}
+
+/// Elements of each array of that state, in the order of the table.
+pub(super) fn lengths(state: &SolverState) -> Vec<usize> {
+    ARRAYS.iter().map(|it| (it.get)(state).count()).collect()
+}
+
+impl SolverState {
+    /// Hash of what a replay must repeat: every particle's bits of position, velocity, membership, heat and content, in the order of
+    /// their identities, and of the glass's heat, bubbles and drops.
+    pub fn hash(&self) -> u64 {
+        let mut order: Vec<usize> = (0..self.tags.len()).collect();
+        order.sort_by_key(|&slot| self.tags[slot][1]);
+        let of = |hashed| {
+            let arrays = ARRAYS.iter().filter(move |it| it.hashed == hashed);
+            arrays.map(|it| (it.get)(self)).filter(|it| it.count() > 0)
+        };
+        let of_particles: Vec<_> = of(Hashed::ByIdentity)
+            .map(|it| (it.bytes(), it.bytes().len() / it.count()))
+            .collect();
+        let mut hash = Xxh3::new();
+        for slot in order {
+            for (bytes, size) in &of_particles {
+                hash.update(&bytes[slot * size..(slot + 1) * size]);
+            }
+        }
+        of(Hashed::Whole).for_each(|it| hash.update(it.bytes()));
+        hash.digest()
+    }
+}
 
 /// A state on its way to the host.
-pub(crate) struct SolverStateRecord(Vec<Fill>);
+pub(crate) struct SolverStateRecord {
+    /// By array; `None` where the scene has none.
+    arrays: Vec<Option<(Readback, usize)>>,
+    list: Option<(Readback, usize)>,
+    long_lists: Readback,
+    grid: super::grid::Grid,
+}
 
 impl SolverStateRecord {
     /// The state.
@@ -23,29 +157,18 @@ impl SolverStateRecord {
     /// [`GpuError::NotDone`] before the submission has finished.
     pub(crate) fn get(self) -> Result<SolverState, GpuError> {
         let mut state = SolverState::default();
-        for fill in self.0 {
-            fill(&mut state)?;
+        for (array, copy) in ARRAYS.iter().zip(&self.arrays) {
+            if let Some((readback, count)) = copy {
+                (array.get_mut)(&mut state).take(readback, *count)?;
+            }
         }
+        if let Some((readback, count)) = &self.list {
+            state.list.take(readback, *count)?;
+        }
+        let long_lists = self.long_lists.get()?;
+        self.grid
+            .settle(&state.list_counts, &long_lists, &mut state.list);
         Ok(state)
-    }
-
-    /// Copies the first `count` elements of `buffer` into `field`; buffers are a few bytes longer where a scene is empty.
-    fn copy<T: AnyBitPattern>(
-        &mut self,
-        rec: &mut Recorder,
-        (buffer, count): (&Buffer, usize),
-        field: fn(&mut SolverState) -> &mut Vec<T>,
-    ) -> Result<(), GpuError> {
-        if count > 0 {
-            let readback = rec.read_back(buffer)?;
-            self.0.push(Box::new(move |state| {
-                let mut all = readback.get()?;
-                all.truncate(count);
-                *field(state) = all;
-                Ok(())
-            }));
-        }
-        Ok(())
     }
 }
 
@@ -64,61 +187,21 @@ impl Solver {
     /// Records the copies of which a state is made, behind a frame.
     pub(crate) fn record_state(&self, rec: &mut Recorder) -> Result<SolverStateRecord, GpuError> {
         let b = &self.buffers;
-        let n = self.count as usize;
-        let [heat, matter] = self.lengths();
-        let (bubbles, spray) = (self.bubbles_at_start(), self.spray_at_start());
-        let mut to = SolverStateRecord(Vec::new());
-        to.copy(rec, (&b.position, n), |it| &mut it.positions)?;
-        to.copy(rec, (&b.velocity, n), |it| &mut it.velocities)?;
-        to.copy(rec, (&b.tags, n), |it| &mut it.tags)?;
-        to.copy(rec, (&b.heat, heat), |it| &mut it.heat)?;
-        to.copy(rec, (&b.matter, matter), |it| &mut it.matter)?;
-        to.copy(rec, (&b.ledger, matter), |it| &mut it.ledger)?;
-        to.copy(rec, (&b.bulk, matter), |it| &mut it.bulk)?;
-        to.copy(rec, (&b.eddies, matter), |it| &mut it.eddies)?;
-        to.copy(rec, (&b.glass, self.rings()), |it| &mut it.glass)?;
-        if let Some(steam) = &self.steam {
-            let [puffs, vented, made] = steam.state(n);
-            to.copy(rec, puffs, |it| &mut it.steam.puffs)?;
-            to.copy(rec, vented, |it| &mut it.steam.vented)?;
-            to.copy(rec, made, |it| &mut it.steam.made)?;
-            if let Some(dew) = steam.state_of_dew() {
-                to.copy(rec, dew, |it| &mut it.steam.dew)?;
-            }
-        }
-        let count = (&b.bubbles, bubbles.bubbles.len());
-        to.copy(rec, count, |it| &mut it.bubbles.bubbles)?;
-        let count = (&b.bubbled, bubbles.bubbled.len());
-        to.copy(rec, count, |it| &mut it.bubbles.bubbled)?;
-        to.copy(rec, (&b.gas, bubbles.gas.len()), |it| &mut it.bubbles.gas)?;
-        let count = (&b.merging, bubbles.merging.len());
-        to.copy(rec, count, |it| &mut it.bubbles.merging)?;
-        to.copy(rec, (&b.falls, bubbles.falls.len()), |it| {
-            &mut it.bubbles.falls
-        })?;
-        let count = (&b.cell_starts, bubbles.cell_starts.len());
-        to.copy(rec, count, |it| &mut it.bubbles.cell_starts)?;
-        to.copy(rec, (&b.drops, spray.drops.len()), |it| &mut it.spray.drops)?;
-        to.copy(rec, (&b.sprayed, spray.sprayed.len()), |it| {
-            &mut it.spray.sprayed
-        })?;
-        to.copy(rec, (&b.spray_left, spray.left.len()), |it| {
-            &mut it.spray.left
-        })?;
-        to.copy(rec, (&b.held, self.sticking()), |it| &mut it.held)?;
-        to.copy(rec, (&b.list_origin, n), |it| &mut it.list_origin)?;
-        to.copy(rec, (&b.list_counts, n), |it| &mut it.list_counts)?;
-        let grid = self.grid;
-        let words = grid.places(self.count) + grid.long(self.count);
-        to.copy(rec, (&b.list, words as usize), |it| &mut it.list)?;
-        let long_lists = rec.read_back(&b.long_lists)?;
-        to.0.push(Box::new(move |state| {
-            grid.settle(&state.list_counts, &long_lists.get()?, &mut state.list);
-            Ok(())
-        }));
-        let words = size_of::<Counters>() / 4;
-        to.copy(rec, (&b.counters, words), |it| &mut it.counters)?;
-        Ok(to)
+        let mut copy = |buffer: &Buffer, count: usize| {
+            let readback = (count > 0).then(|| rec.read_back(buffer)).transpose()?;
+            Ok(readback.map(|readback| (readback, count)))
+        };
+        let arrays = ARRAYS.iter().zip(&self.lengths);
+        let arrays: Result<_, GpuError> = arrays
+            .map(|(array, count)| copy((array.buffer)(b), *count))
+            .collect();
+        let words = self.grid.places(self.count) + self.grid.long(self.count);
+        Ok(SolverStateRecord {
+            arrays: arrays?,
+            list: copy(&b.list, words as usize)?,
+            long_lists: rec.read_back(&b.long_lists)?,
+            grid: self.grid,
+        })
     }
 
     /// Puts a state on this device, a new one perhaps; what follows has the
@@ -127,7 +210,6 @@ impl Solver {
     /// # Errors
     /// [`SolverError::OtherState`], or [`SolverError::Gpu`].
     pub fn restore(&self, state: &SolverState) -> Result<(), SolverError> {
-        let n = self.count as usize;
         let long_lists = self.grid.long_lists(&state.list_counts);
         let long = if self.grid.fit(long_lists[0], self.count) {
             4 * long_lists[0] as usize
@@ -135,51 +217,9 @@ impl Solver {
             0
         };
         let listed = self.grid.places(self.count) as usize + long;
-        let [heat, matter] = self.lengths();
-        let (steam, start) = (&state.steam, Steam::start(&self.parameters, n, self.flasks));
-        let (bubbles, none) = (&state.bubbles, self.bubbles_at_start());
-        let (spray, no_spray) = (&state.spray, self.spray_at_start());
-        for (what, found, expected) in [
-            ("positions", state.positions.len(), n),
-            ("velocities", state.velocities.len(), n),
-            ("tags", state.tags.len(), n),
-            ("heat", state.heat.len(), heat),
-            ("contents", state.matter.len(), matter),
-            ("ledger", state.ledger.len(), matter),
-            ("bulk", state.bulk.len(), matter),
-            ("held lines", state.held.len(), self.sticking()),
-            ("list origins", state.list_origin.len(), n),
-            ("list counts", state.list_counts.len(), n),
-            ("list", state.list.len(), listed),
-            ("eddies", state.eddies.len(), matter),
-            ("glass", state.glass.len(), self.rings()),
-            ("puffs", steam.puffs.len(), start.puffs.len()),
-            ("vented steam", steam.vented.len(), start.vented.len()),
-            ("counts of steam", steam.made.len(), start.made.len()),
-            ("dew", steam.dew.len(), start.dew.len()),
-            ("bubbles", bubbles.bubbles.len(), none.bubbles.len()),
-            (
-                "bubbled particles",
-                bubbles.bubbled.len(),
-                none.bubbled.len(),
-            ),
-            ("gas", bubbles.gas.len(), none.gas.len()),
-            ("joining bubbles", bubbles.merging.len(), none.merging.len()),
-            ("falls", bubbles.falls.len(), none.falls.len()),
-            ("cells", bubbles.cell_starts.len(), none.cell_starts.len()),
-            ("drops", spray.drops.len(), no_spray.drops.len()),
-            (
-                "sprayed particles",
-                spray.sprayed.len(),
-                no_spray.sprayed.len(),
-            ),
-            (
-                "flasks that spray left",
-                spray.left.len(),
-                no_spray.left.len(),
-            ),
-            ("counters", state.counters.len(), size_of::<Counters>() / 4),
-        ] {
+        let arrays = ARRAYS.iter().zip(&self.lengths);
+        let sizes = arrays.map(|(it, expected)| (it.what, (it.get)(state).count(), *expected));
+        for (what, found, expected) in sizes.chain([("list", state.list.len(), listed)]) {
             if found != expected {
                 return Err(SolverError::OtherState {
                     what,
@@ -192,26 +232,16 @@ impl Solver {
         self.listed.store(any, Ordering::Relaxed);
         self.looks.begin_anew();
         let (b, gpu) = (&self.buffers, &self.gpu);
-        write(gpu, &b.position, &state.positions)?;
-        write(gpu, &b.velocity, &state.velocities)?;
-        write(gpu, &b.tags, &state.tags)?;
-        write(gpu, &b.heat, &state.heat)?;
-        write(gpu, &b.matter, &state.matter)?;
-        write(gpu, &b.ledger, &state.ledger)?;
-        write(gpu, &b.bulk, &state.bulk)?;
-        write(gpu, &b.eddies, &state.eddies)?;
-        write(gpu, &b.glass, &state.glass)?;
-        if let Some(steam) = &self.steam {
-            steam.restore(gpu, &state.steam)?;
+        for array in &ARRAYS {
+            let (buffer, bytes) = ((array.buffer)(b), (array.get)(state).bytes());
+            match array.second {
+                SecondHalf::None => write(gpu, buffer, bytes)?,
+                SecondHalf::Same => write(gpu, buffer, &[bytes, bytes].concat())?,
+                SecondHalf::Zeros => write(gpu, buffer, &[bytes, &vec![0; bytes.len()]].concat())?,
+            }
         }
-        state.bubbles.write(gpu, b)?;
-        state.spray.write(gpu, b)?;
-        write(gpu, &b.held, &state.held)?;
-        write(gpu, &b.list_origin, &state.list_origin)?;
-        write(gpu, &b.list_counts, &state.list_counts)?;
         write(gpu, &b.list, &state.list)?;
         write(gpu, &b.long_lists, &long_lists)?;
-        write(gpu, &b.counters, &state.counters)?;
         let mut rec = gpu.recorder(QueueKind::Main)?;
         rec.fill(&b.cell_counts, 0)?;
         rec.fill(&b.block_counts, 0)?;
@@ -220,6 +250,9 @@ impl Solver {
             rec.fill(&b.claims, 0)?;
             rec.fill(&b.live, 0)?;
             rec.upload(&b.live_args, &NO_PLACES)?;
+        }
+        if self.steam.is_some() {
+            rec.fill(&b.taken, 0)?;
         }
         rec.fill(&b.glass_taken, 0)?;
         rec.fill(&b.wetted, 0)?;
@@ -231,27 +264,6 @@ impl Solver {
         rec.upload(&b.list_args, &[[0u32, 1, 1, 0]; 3])?;
         gpu.submit(rec)?.wait()?;
         Ok(())
-    }
-
-    /// How long the arrays are that only some scenes have: `heat`, and those of `matter`.
-    fn lengths(&self) -> [usize; 2] {
-        let of = |asked: bool| if asked { self.count as usize } else { 0 };
-        let chemistry = self.parameters.chemistry.as_ref();
-        let physical = matches!(chemistry, Some(Chemistry::Physical(_)));
-        [of(chemistry.is_some()), of(physical)]
-    }
-
-    /// Particles that walls can hold.
-    fn sticking(&self) -> usize {
-        if self.parameters.sticks() {
-            self.count as usize
-        } else {
-            0
-        }
-    }
-
-    fn rings(&self) -> usize {
-        glass::ring_count(self.parameters.chemistry.as_ref(), self.flasks)
     }
 
     /// Reads the counters; waits for the device.

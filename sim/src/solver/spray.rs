@@ -1,10 +1,8 @@
 //! Drops that bubbles throw up when they burst: their part of the state.
 
-use super::buffers::{Buffers, DROPS_WORDS, SPRAYED_WORDS};
-use super::transfer::write;
+use super::buffers::{DROPS_WORDS, SPRAYED_WORDS};
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::{Gpu, GpuError};
 use vitriol_shaders::layout::Drops;
 
 /// What the next frame depends on; empty where a scene has no spray.
@@ -86,11 +84,5 @@ impl SprayState {
     /// Mass that came to rest elsewhere than in the flask that it came from, over V0·ρ0.
     pub(super) fn left(&self, flask: usize) -> f64 {
         spray_left(self.left.get(flask))
-    }
-
-    pub(super) fn write(&self, gpu: &Gpu, b: &Buffers) -> Result<(), GpuError> {
-        write(gpu, &b.drops, &self.drops)?;
-        write(gpu, &b.sprayed, &self.sprayed)?;
-        write(gpu, &b.spray_left, &self.left)
     }
 }

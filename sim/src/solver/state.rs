@@ -14,7 +14,6 @@ use crate::chemistry::table::SolutionTable;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_shaders::layout::{Bubble, Dew, Drops};
-use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that the next frame depends on. The neighbour list is part of
 /// it: rebuilt at another step, it would hold the same pairs in another order,
@@ -120,29 +119,6 @@ impl SolverState {
             }
         }
         state
-    }
-
-    /// Hash of what a replay must repeat: every particle's bits of position,
-    /// velocity, membership, heat and content, in the order of their identities, and of the glass's heat.
-    pub fn hash(&self) -> u64 {
-        let mut order: Vec<usize> = (0..self.tags.len()).collect();
-        order.sort_by_key(|&slot| self.tags[slot][1]);
-        let mut hash = Xxh3::new();
-        for slot in order {
-            hash.update(bytemuck::bytes_of(&self.positions[slot]));
-            hash.update(bytemuck::bytes_of(&self.velocities[slot]));
-            hash.update(bytemuck::bytes_of(&self.tags[slot]));
-            if let Some(heat) = self.heat.get(slot) {
-                hash.update(bytemuck::bytes_of(heat));
-            }
-            if let Some(matter) = self.matter.get(slot) {
-                hash.update(bytemuck::bytes_of(matter));
-            }
-        }
-        hash.update(bytemuck::cast_slice(&self.glass));
-        hash.update(bytemuck::cast_slice(&self.bubbles.bubbles));
-        hash.update(bytemuck::cast_slice(&self.spray.drops));
-        hash.digest()
     }
 
     /// Bubbles in the liquid: those without steam and air are none. Masses are over V0·ρ0; empty where a scene has no bubbles.

@@ -1,23 +1,23 @@
 //! Steam in the room's air, as passes after a frame's substeps.
 
-use super::buffers::Buffers;
-use super::dew::Dew;
 use super::error::SolverError;
 use super::pipelines::{Constants, SolverPass};
 use super::spec::SolverSpec;
-use super::transfer::write;
-use super::vapour::{PUFFS, VENTS, dew_places, with_steam};
-use super::vessels::Vessels;
+use super::vapour::{COUNTS, PUFFS, VENTS, dew_places, with_steam};
+use crate::chemistry::dew;
+use crate::chemistry::glass::RINGS;
 use crate::chemistry::puff::Room;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
-use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder, bytes_of_elements};
-use vitriol_shaders::layout::{self, Puff, Step};
+use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
+use vitriol_shaders::layout::{self, Step};
 use vitriol_shaders::{Library, sim};
 
-/// Counts that are kept: puffs of each workgroup that makes them, and quanta of water that were washed off glass, as
-/// low and high word.
-const COUNTS: usize = VENTS as usize + 2;
+/// What `sim/dew.wgsl` takes for granted: room for all puffs in a workgroup's memory, and two rings of the glass a row.
+const _: () = assert!(PUFFS <= 1024 && RINGS == 2 * dew::UP);
+
+/// Threads of a workgroup of `sim/dew.wgsl`.
+const DEW_THREADS: usize = 256;
 
 /// Least steam of a puff, kg: 0.5 mg is a sphere of 12 mm across.
 const LEAST_PUFF: f64 = 5e-7;
@@ -29,14 +29,12 @@ const STEPS: u32 = 4;
 /// Temperature of a room whose scene names none, °C.
 const ROOM_TEMPERATURE: f64 = 20.0;
 
-/// Puffs and what makes them.
+/// Passes of puffs, of what makes them, and of the water that condenses on glass.
 pub(super) struct Steam {
-    /// `puffs`, `vented`, `made`, and `taken`: what walls take of each puff.
-    own: [Buffer; 4],
-    /// Where it condenses on glass.
-    dew: Option<Dew>,
     rise: SolverPass,
     vent: SolverPass,
+    /// With its workgroups; `None` where none condenses.
+    dew: Option<(SolverPass, u32)>,
 }
 
 /// What the next frame depends on; empty where no steam leaves.
@@ -76,9 +74,8 @@ impl Steam {
         gpu: &Gpu,
         library: &Library,
         spec: &SolverSpec<'_>,
-        count: u32,
         constants: &Constants,
-        of_solver: (&Buffers, &Vessels),
+        buffers: &[&Buffer],
     ) -> Result<Option<Self>, SolverError> {
         let parameters = &spec.parameters;
         let Some(physical) = with_steam(parameters) else {
@@ -97,23 +94,25 @@ impl Steam {
             ("ROOM_ENTHALPY", room.enthalpy),
             ("ROOM_DENSITY", room.density),
         ]);
-        let buffer = |label, bytes| Buffer::storage(gpu, label, bytes);
-        let own = [
-            buffer("puffs", bytes_of_elements::<Puff>(PUFFS as usize))?,
-            buffer("vented", bytes_of_elements::<[f32; 2]>(count as usize))?,
-            buffer("made", bytes_of_elements::<u32>(COUNTS))?,
-            buffer("taken", bytes_of_elements::<u32>(PUFFS as usize))?,
-        ];
-        let [puffs, _, made, taken] = &own;
-        let of_steam = [puffs, taken, made];
-        let dew = Dew::new(gpu, library, spec, &constants, of_solver, of_steam)?;
-        let bound = bound(&own, of_solver.0);
-        let make = |shader| constants.pass(gpu, library, &bound, shader, &[]);
+        let make = |shader| constants.pass(gpu, library, buffers, shader, &[]);
+        let places = dew_places(parameters, spec.flasks.len());
+        let losses = physical.losses.filter(|_| places > 0);
+        let dew = losses.map(|losses| {
+            let room = Room::at(losses.ambient);
+            let constants = constants.and(&[
+                ("ROOM_VAPOUR", dew::vapour_of(&room)),
+                ("STILL", dew::still()),
+                ("SWEPT", dew::swept()),
+                ("DEW_LOSS", losses.glass),
+                ("LATENT", dew::latent_heat(losses.ambient)),
+            ]);
+            let pass = constants.pass(gpu, library, buffers, sim::DEW, &[])?;
+            Ok::<_, SolverError>((pass, (places / DEW_THREADS) as u32))
+        });
         Ok(Some(Self {
             rise: make(sim::RISE)?,
             vent: make(sim::VENT)?,
-            dew,
-            own,
+            dew: dew.transpose()?,
         }))
     }
 
@@ -130,35 +129,9 @@ impl Steam {
         }
     }
 
-    pub(super) fn puffs(&self) -> &Buffer {
-        &self.own[0]
-    }
-
-    /// Its water on glass, where any condenses there.
-    pub(super) fn dew(&self) -> Option<&Buffer> {
-        self.dew.as_ref().map(|dew| dew.places().0)
-    }
-
-    /// What a state has of it, with `count` particles: buffers and their elements.
-    pub(super) fn state(&self, count: usize) -> [(&Buffer, usize); 3] {
-        let [puffs, vented, made, _] = &self.own;
-        [(puffs, PUFFS as usize), (vented, count), (made, COUNTS)]
-    }
-
-    pub(super) fn restore(&self, gpu: &Gpu, state: &SteamState) -> Result<(), GpuError> {
-        let [puffs, vented, made, taken] = &self.own;
-        write(gpu, taken, &[0_u32; PUFFS as usize])?;
-        if let Some(dew) = self.dew() {
-            write(gpu, dew, &state.dew)?;
-        }
-        write(gpu, puffs, &state.puffs)?;
-        write(gpu, vented, &state.vented)?;
-        write(gpu, made, &state.made)
-    }
-
-    /// What of the state is on glass: the buffer and its elements.
-    pub(super) fn state_of_dew(&self) -> Option<(&Buffer, usize)> {
-        self.dew.as_ref().map(Dew::places)
+    /// Whether any of it condenses on glass.
+    pub(super) fn condenses(&self) -> bool {
+        self.dew.is_some()
     }
 
     /// Records what condenses of the puffs, their rise, and new ones of what left the liquid; `step` is that of the
@@ -166,29 +139,14 @@ impl Steam {
     pub(super) fn record(
         &self,
         rec: &mut Recorder,
-        of_solver: (&Buffers, &Vessels),
+        buffers: &[&Buffer],
         step: &Step,
     ) -> Result<(), GpuError> {
-        let [puffs, _, made, taken] = &self.own;
-        if let Some(dew) = &self.dew {
-            dew.record(rec, of_solver, [puffs, taken, made], step)?;
+        if let Some((pass, workgroups)) = &self.dew {
+            let pass = pass.begin(rec, buffers).constants(step);
+            pass.workgroups([*workgroups, 1, 1])?;
         }
-        let all = bound(&self.own, of_solver.0);
-        self.rise.begin(rec, &all).invocations(PUFFS)?;
-        self.vent.begin(rec, &all).workgroups([VENTS, 1, 1])
+        self.rise.begin(rec, buffers).invocations(PUFFS)?;
+        self.vent.begin(rec, buffers).workgroups([VENTS, 1, 1])
     }
-}
-
-/// What the two passes bind.
-fn bound<'a>([puffs, vented, made, taken]: &'a [Buffer; 4], b: &'a Buffers) -> [&'a Buffer; 8] {
-    [
-        taken,
-        puffs,
-        vented,
-        made,
-        &b.position,
-        &b.tags,
-        &b.ledger,
-        &b.bubbles,
-    ]
 }

@@ -3,8 +3,7 @@
 
 use glam::DVec3;
 use vitriol_experiment::glassware::Glassware;
-use vitriol_experiment::stage::grip;
-use vitriol_experiment::{Blame, Failure, Liquid, Span, track};
+use vitriol_experiment::{Blame, Failure, Liquid, Span, stage, track};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
@@ -84,14 +83,14 @@ pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, F
         let seed = track.metadata.seed;
         let mut source = TrackSource::new(track);
         let mut world = World::new(gpu, library, &scene, seed).other()?;
-        let length_scale = scene.scale.length_scale;
         let span = Span::covering(spec.seconds, scene.scale.frame_time);
         for step in 0..span.steps {
             let time = step as f64 * span.frame_time;
             let Some(frame) = source.next(step, time).other()? else {
                 break;
             };
-            let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
+            let near = stage::near_from_stage(&frame, &scene);
+            let hands = stage::input(&near, &scene).hands;
             world.step(&StepInput::of_hands(hands)).other()?;
         }
         State::new(spec, world)

@@ -2,8 +2,7 @@
 //! quartiles, never by trajectories.
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::stage::grip;
-use vitriol_experiment::{Blame, Failure};
+use vitriol_experiment::{Blame, Failure, stage};
 use vitriol_gpu::Gpu;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
@@ -110,7 +109,7 @@ pub fn boil(
 ) -> Result<(Boiled, Cost), Failure> {
     let mut world = World::new(gpu, &Library::embedded(), scene, seed).other()?;
     let mut source = TrackSource::new(track.clone());
-    let (dt, length_scale) = (scene.scale.frame_time, scene.scale.length_scale);
+    let dt = scene.scale.frame_time;
     let steps = (seconds / dt).ceil() as u64;
     let between = (1.0 / LOOKS / dt).round().max(1.0) as u64;
     let mut boiled = Boiled {
@@ -128,7 +127,8 @@ pub fn boil(
         let Some(frame) = &held else {
             return Err("the track has no pose at its start; record it again").input();
         };
-        let hands = frame.hands.each_ref().map(|hand| grip(hand, length_scale));
+        let near = stage::near_from_stage(frame, scene);
+        let hands = stage::input(&near, scene).hands;
         let begin = std::time::Instant::now();
         world.step(&StepInput::of_hands(hands)).other()?;
         if let Some(ticket) = world.last_step() {

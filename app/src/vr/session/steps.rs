@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use vitriol_experiment::{Blame, Failure, Run};
+use vitriol_experiment::{Blame, Failure, Run, stage};
 use vitriol_gpu::{QueueKind, Ticket};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::PoseFrame;
@@ -42,7 +42,6 @@ impl Steps {
     /// Finds the steps that are due between the last frame and `now`, each with poses between the two frames'
     /// at its own end. In the first frame and after a [`StepClock::pause`] there are none.
     pub fn plan(&mut self, now: &PoseFrame, placement: &Placement, scene: &Scene) {
-        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
         let due = self.clock.advance(now.info.xr_time, scene.scale.frame_time);
         let (Some(last), true) = (&placement.last, placement.is_known()) else {
             return;
@@ -50,7 +49,7 @@ impl Steps {
         let passed = (now.info.xr_time - last.info.xr_time) as f64;
         for s in due.ends {
             let poses = placement::in_scene(&last.between(now, s), &placement.stage_from_scene());
-            let mut poses = placement::shifted(poses, origin);
+            let mut poses = stage::stage_from_near(&poses, scene);
             poses.info.xr_time = last.info.xr_time + (f64::from(s) * passed).round() as i64;
             self.due.push_back(poses);
         }
@@ -62,9 +61,8 @@ impl Steps {
 
     /// One more step is due, in which the hands are as in `now`.
     pub fn once_more(&mut self, now: &PoseFrame, placement: &Placement, scene: &Scene) {
-        let origin = (scene.origin * scene.scale.length_scale).as_vec3();
         let poses = placement::in_scene(now, &placement.stage_from_scene());
-        self.due.push_back(placement::shifted(poses, origin));
+        self.due.push_back(stage::stage_from_near(&poses, scene));
     }
 
     /// Takes the steps that are due as far as the device has got: a step needs the push on the flasks of two

@@ -31,10 +31,11 @@ fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol
     let mut looks = Looks::of(&scene.name, scene);
     let mut t = 0.0;
     for frame in &track.frames {
-        let input = stage::input(frame, scene);
+        let near = stage::near_from_stage(frame, scene);
+        let input = stage::input(&near, scene);
         world.step(&input).unwrap();
         t += scene.scale.frame_time;
-        looks.look(&mut world, QueueKind::Main, frame, t).unwrap();
+        looks.look(&mut world, QueueKind::Main, &near, t).unwrap();
         while let Some(looked) = looks.wait().unwrap() {
             each(&looked.sight, &looked.events);
         }

@@ -1,4 +1,4 @@
-//! What the elements of a storage buffer's array are, as its module declares them.
+//! Elements of a storage buffer's array, as its module declares them.
 
 use rspirv::dr::Operand::{IdRef, LiteralBit32};
 use rspirv::dr::{Builder, Instruction, Module, Operand};
@@ -8,9 +8,9 @@ use crate::reflect::TexelKind;
 
 /// The elements of an array.
 pub struct Elements {
-    /// From one to the next, 32-bit words.
+    /// Distance from one element to the next, 32-bit words.
     pub words: u32,
-    /// Their scalars and vectors: the members of a structure, or what they are themselves.
+    /// Their scalars and vectors: the members of a structure, or the element itself.
     pub members: Vec<Member>,
     pub is_structure: bool,
 }
@@ -21,13 +21,13 @@ pub struct Member {
     pub of: Word,
     pub kind: TexelKind,
     pub components: u32,
-    /// The word of its element with which it begins.
+    /// Index of its first word within the element.
     pub word: u32,
 }
 
 impl Elements {
-    /// Those of `variable`, which naga wraps into a structure of one array. `None` where they are
-    /// anything else than scalars, vectors, or structures of them.
+    /// The elements of `variable`, which naga wraps into a structure of one array. `None` where they are anything else than scalars,
+    /// vectors, or structures of them.
     pub fn of(module: &Module, variable: Word) -> Option<Self> {
         let pointer = defined(module, variable)?.result_type?;
         let [_, IdRef(wrapper)] = defined(module, pointer)?.operands[..] else {
@@ -62,7 +62,7 @@ impl Elements {
         })
     }
 
-    /// Whether a chain of so many numbers ends within an element, or at the array.
+    /// Whether a chain of `path` numbers ends within an element, or at the array.
     pub fn follows(&self, path: usize) -> bool {
         path <= 2 + usize::from(self.is_structure)
     }
@@ -91,7 +91,7 @@ fn member(module: &Module, of: Word, word: u32) -> Option<Member> {
     })
 }
 
-/// The declared type of such a scalar.
+/// The declared type of a scalar of that kind.
 pub fn scalar_type(builder: &mut Builder, kind: TexelKind) -> Word {
     match kind {
         TexelKind::Float => builder.type_float(32, None),
@@ -114,7 +114,7 @@ fn defined(module: &Module, id: Word) -> Option<&Instruction> {
     globals.find(|global| global.result_id == Some(id))
 }
 
-/// The number that `wanted` gives a type, or a member of it.
+/// The number that the decoration `wanted` gives a type, or a member of it.
 fn decoration(module: &Module, of: Word, member: Option<u32>, wanted: Decoration) -> Option<u32> {
     let mut found = module.annotations.iter().filter_map(|annotation| {
         match (member, &annotation.operands[..]) {

@@ -1,4 +1,4 @@
-//! What the tests look at in SPIR-V, and `spirv-val`.
+//! Queries of SPIR-V for the tests, and `spirv-val`.
 
 #![allow(
     dead_code,
@@ -55,7 +55,7 @@ pub fn stored_constants(spirv: &[u32]) -> BTreeSet<u32> {
         .collect()
 }
 
-/// What the Khronos validator says against a module; `None` where it is not installed.
+/// The verdict of the Khronos validator on a module; `None` where it is not installed.
 pub fn spirv_val(spirv: &[u32]) -> Option<Result<(), String>> {
     let child = Command::new("spirv-val")
         .args(["--target-env", "vulkan1.2", "-"])
