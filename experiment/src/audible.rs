@@ -277,7 +277,7 @@ fn vessel(flask: &Flask, scale: f64) -> Vessel {
 #[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use super::*;
-    use vitriol_sim::solver::{Bubbles as Number, Came};
+    use vitriol_sim::solver::{BubbleCount as Number, Came};
 
     const FRAME: f64 = 1.0 / 90.0;
 

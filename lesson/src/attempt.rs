@@ -1,4 +1,4 @@
-//! What the events of an attempt add up to.
+//! An attempt, collected from its events.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,20 +10,20 @@ use crate::event::{Contents, Ending, Event, Incident, Pour};
 pub struct Attempt {
     /// When it began, simulated time of the run, s.
     pub begun_s: f64,
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
     /// What each flask held at the start.
     pub contents: Contents,
-    /// What was poured, in the order of its arrival.
+    /// Pours, in order of the time at which their first liquid arrived.
     pub pours: Vec<Pour>,
-    /// What went wrong, in the order of its beginning.
+    /// Incidents, in order of the time at which they began.
     pub incidents: Vec<Incident>,
-    /// How it ended; `None` of an attempt whose recording breaks off.
+    /// How it ended; `None` where the recording breaks off before the end.
     pub ending: Option<Ending>,
 }
 
 impl Attempt {
-    /// The attempts that these events are of, in their order. What comes before the first beginning is of none.
+    /// Groups `events` into attempts, in order. Each [`Event::Begun`] starts one; events before the first are dropped.
     pub fn all(events: impl IntoIterator<Item = Event>) -> Vec<Self> {
         let mut attempts: Vec<Self> = Vec::new();
         for event in events {
@@ -54,7 +54,7 @@ impl Attempt {
             }
         }
         for attempt in &mut attempts {
-            // Each is said when it is over, so a long one comes after a short one that began later.
+            // An event is emitted when it is over, so a long one comes after a short one that began later.
             attempt.pours.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
             attempt.incidents.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
         }

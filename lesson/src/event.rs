@@ -1,4 +1,4 @@
-//! What happens in an attempt. Field names are the keys of a recording's `/events` and of `report.json`: SI units, temperatures in °C, real size
+//! Events of an attempt. Field names are the keys of a recording's `/events` and of `report.json`: SI units, temperatures in °C, real size
 //! whatever the scene's scale.
 
 use std::collections::BTreeMap;
@@ -6,17 +6,17 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Something that a look at the particles found, said once it is over.
+/// An event of an attempt, found in the census of particles and emitted once it is over.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "kebab-case")]
 pub enum Event {
-    /// A scene was brought up: an attempt begins.
+    /// A scene was started: an attempt begins.
     Begun {
         /// Simulated time of the run, s.
         t_s: f64,
-        /// The scene.
+        /// Name of the scene.
         scene: String,
-        /// What each flask holds then.
+        /// Contents of each flask at the start.
         contents: Contents,
     },
     /// Liquid was poured.
@@ -28,42 +28,42 @@ pub enum Event {
 }
 
 impl Event {
-    /// JSON schema of what a recording keeps.
+    /// JSON schema of an event as a recording stores it.
     pub fn schema() -> String {
         schemars::schema_for!(Self).to_value().to_string()
     }
 }
 
-/// Liquid of one flask that came to another place in one go, as its user tilted it.
+/// A pour: liquid that left one tilted flask and arrived at one other place, without a pause of more than a second.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Pour {
-    /// When the first of it arrived, simulated time of the run, s: the film's time.
+    /// When its first liquid arrived, simulated time of the run, s: the film's time.
     pub t_s: f64,
-    /// When the last did, s.
+    /// When its last liquid arrived, s.
     pub until_s: f64,
     /// The flask that it came from.
     pub from: String,
-    /// The flask that it came to; `None` beside all of them.
+    /// The flask that it came to; `None` where it came to bench or floor.
     pub into: Option<String>,
-    /// How much, m³.
+    /// Volume, m³.
     pub volume_m3: f64,
-    /// The most that arrived in any half second, m³/s.
+    /// Highest flow rate over any half second, m³/s.
     pub fastest_m3_s: f64,
     /// Its mean acid mass fraction.
     pub acid: f64,
-    /// What was in the flask before: `None` where nothing was, or where it came to none.
+    /// Contents of the target flask before it; `None` where the flask was empty, or where the liquid came to no flask.
     pub met: Option<Content>,
 }
 
 impl Pour {
-    /// How long it took, s.
+    /// Duration, s.
     pub fn lasted_s(&self) -> f64 {
         self.until_s - self.t_s
     }
 
-    /// Volume over time, m³/s.
+    /// Mean flow rate, m³/s.
     pub fn mean_m3_s(&self) -> f64 {
-        // A single drop arrives in no time: as in half a second.
+        // A single drop arrives in no time; its rate is taken over half a second.
         self.volume_m3 / (self.until_s - self.t_s).max(0.5)
     }
 }
@@ -71,7 +71,7 @@ impl Pour {
 /// Liquid in a flask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Content {
-    /// m³.
+    /// Volume, m³.
     pub volume_m3: f64,
     /// Acid mass fraction.
     pub acid: f64,
@@ -79,103 +79,103 @@ pub struct Content {
     pub temperature_c: Option<f64>,
 }
 
-/// By flask, of those that hold something.
+/// Contents by flask name, without empty flasks.
 pub type Contents = BTreeMap<String, Content>;
 
-/// Something that went wrong.
+/// An incident: something that went wrong.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Incident {
     /// When it began, simulated time of the run, s: the film's time, to which a report jumps.
     pub t_s: f64,
-    /// When it ended, s: where the last liquid of it arrived.
+    /// When it was last observed, s; of liquid, when the last of it arrived.
     pub until_s: f64,
-    /// What.
+    /// What went wrong.
     pub what: What,
-    /// Why.
+    /// Why it went wrong.
     pub cause: Cause,
-    /// Where, in the frame of the scene's file: the mean of the places of its particles, m, real size.
+    /// Where, m at real size in the frame of the scene's file: mean position of its liquid or glass.
     pub place_m: [f64; 3],
 }
 
 impl Incident {
-    /// How long it took, s.
+    /// Duration, s.
     pub fn lasted_s(&self) -> f64 {
         self.until_s - self.t_s
     }
 }
 
-/// What went wrong.
+/// What went wrong, with the measured values.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum What {
-    /// Liquid that is mostly water was poured into concentrated acid: the incorrect order.
+    /// Liquid that is not concentrated acid was poured into concentrated acid: the incorrect order.
     WaterIntoAcid {
-        /// The acid's flask.
+        /// The flask that holds the acid.
         flask: String,
-        /// Acid mass fraction that the first of it met.
+        /// Acid mass fraction that the first of the liquid met.
         met_acid: f64,
-        /// How much came while it was so, m³.
+        /// Volume that arrived while the acid was concentrated, m³.
         volume_m3: f64,
     },
     /// Acid and water came together faster than is safe.
     PouredTooFast {
-        /// The flask that it came to.
+        /// The flask that the liquid came to.
         flask: String,
-        /// The most in any half second, m³/s.
+        /// Highest flow rate over any half second, m³/s.
         rate_m3_s: f64,
-        /// What is safe, m³/s.
+        /// Highest safe flow rate, m³/s.
         limit_m3_s: f64,
     },
     /// Liquid left an upright flask over its rim while it boiled, as drops or as a whole.
     BoiledOver {
-        /// The flask.
+        /// The flask that it left.
         flask: String,
-        /// How much, m³.
+        /// Volume, m³.
         volume_m3: f64,
         /// Its mean acid mass fraction.
         acid: f64,
     },
     /// Liquid became so hot that it burns skin.
     Hot {
-        /// Its flask.
+        /// The flask that holds it.
         flask: String,
-        /// The hottest until it cooled below again, °C.
+        /// Highest mean temperature until it cooled below the limit again, °C.
         temperature_c: f64,
     },
     /// Liquid came to lie beside the flasks.
     Spilt {
-        /// On what.
+        /// The surface that it lies on.
         surface: Surface,
-        /// How much, m³.
+        /// Volume, m³.
         volume_m3: f64,
         /// Its mean acid mass fraction.
         acid: f64,
     },
-    /// Acid, or hot liquid, came to the user.
+    /// Acid, or hot liquid, touched the user.
     OnSkin {
-        /// To what part.
+        /// The part of the body.
         skin: Skin,
-        /// How much, m³.
+        /// Volume, m³.
         volume_m3: f64,
         /// Its mean acid mass fraction.
         acid: f64,
         /// Its mean temperature, °C; `None` where no heat is modelled.
         temperature_c: Option<f64>,
-        /// Whether what is worn there, gloves or goggles, kept it from the skin.
+        /// Whether gloves or goggles kept all of it off the skin.
         protected: bool,
     },
     /// A flask that nobody held struck bench or floor hard.
     Dropped {
         /// The flask.
         flask: String,
-        /// How fast it struck, m/s.
+        /// Highest speed of impact, m/s at real size.
         speed_m_s: f64,
         /// Whether it broke.
         broke: bool,
     },
 }
 
-/// On what liquid lies.
+/// A surface that spilt liquid lies on.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
 )]
@@ -187,7 +187,7 @@ pub enum Surface {
     Floor,
 }
 
-/// A part of the user.
+/// A part of the user's body that liquid can touch.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
 )]
@@ -201,7 +201,7 @@ pub enum Skin {
     Face,
 }
 
-/// Why something went wrong: what was under way where its liquid came from.
+/// Why something went wrong: the process at the flask that the liquid or heat came from.
 #[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "cause", rename_all = "kebab-case")]
 pub enum Cause {
@@ -210,7 +210,7 @@ pub enum Cause {
         /// The flask.
         from: String,
     },
-    /// What that flask held boiled.
+    /// The liquid in that flask boiled.
     Boiling {
         /// The flask.
         flask: String,
@@ -225,12 +225,12 @@ pub enum Cause {
         /// The flask.
         flask: String,
     },
-    /// What that flask held was thrown out as it moved, or splashed out as something fell into it.
+    /// Liquid was thrown out of that flask by its motion, or splashed out as something fell in.
     Splashing {
         /// The flask.
         flask: String,
     },
-    /// Acid and water came together there and gave off their heat.
+    /// Acid and water mixed in that flask and gave off heat.
     Mixing {
         /// The flask.
         flask: String,
@@ -240,7 +240,7 @@ pub enum Cause {
         /// The flask.
         flask: String,
     },
-    /// Not known, such as of liquid that had never been in a flask.
+    /// Not known, as for liquid that was never in a flask.
     Unknown,
 }
 
@@ -249,23 +249,23 @@ pub enum Cause {
 pub struct Ending {
     /// Simulated time of the run, s.
     pub t_s: f64,
-    /// What each flask holds.
+    /// Contents of each flask.
     pub contents: Contents,
-    /// The hottest liquid of the attempt, where heat is modelled.
+    /// The hottest particle of the attempt; `None` where no heat is modelled.
     pub hottest: Option<Hottest>,
-    /// What lies on the bench, m³.
+    /// Volume on the bench, m³.
     pub bench_m3: f64,
-    /// What lies on the floor, m³.
+    /// Volume on the floor, m³.
     pub floor_m3: f64,
 }
 
-/// The hottest liquid of an attempt.
+/// The hottest particle of an attempt.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Hottest {
-    /// When, s.
+    /// When, simulated time of the run, s.
     pub t_s: f64,
-    /// In which flask; `None` outside.
+    /// The flask that held it; `None` outside all flasks.
     pub flask: Option<String>,
-    /// °C, of a single particle.
+    /// Its temperature, °C.
     pub temperature_c: f64,
 }

@@ -1,4 +1,4 @@
-//! The languages that there is a string table for.
+//! The languages that have a string table.
 
 use std::fmt;
 use std::str::FromStr;
@@ -38,15 +38,15 @@ pub enum Language {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("language {name:?}: not known; take one of {}", Language::codes())]
 pub struct LanguageError {
-    /// What was asked for.
+    /// The name that was asked for.
     pub name: String,
 }
 
 impl Language {
-    /// All of them, English first.
+    /// All languages, English first.
     pub const ALL: [Self; 4] = [Self::En, Self::De, Self::Es, Self::Zh];
 
-    /// Its code (ISO 639-1), which is its table's name.
+    /// Its code (ISO 639-1), which is the file name of its table.
     pub fn code(self) -> &'static str {
         match self {
             Self::En => "en",
@@ -67,7 +67,7 @@ impl fmt::Display for Language {
     }
 }
 
-/// Of a code, or of a system's name of a locale, of which region and encoding do not matter: `de`, `de-AT`, `zh_CN.UTF-8`.
+/// Parses a code, or a system's name of a locale, of which region and encoding are ignored: `de`, `de-AT`, `zh_CN.UTF-8`.
 impl FromStr for Language {
     type Err = LanguageError;
 

@@ -1,7 +1,7 @@
-//! The lesson: what a student did in an attempt, and what went wrong in it, found in the particles.
+//! The lesson: finds in the particles what a student did in an attempt, and what went wrong.
 //!
-//! A [`Finder`] looks at the simulation and says [`Event`]s, which a session records as they come; a replay finds the same ones
-//! again. An [`Attempt`] is what they add up to: report, summary, table and score are made of it. A [`Lesson`] says what is to be done, and a
+//! A [`Finder`] observes the simulation and emits [`Event`]s, which a session records as they come; a replay finds the same events again.
+//! An [`Attempt`] collects them: report, summary, table and score are made from it. A [`Lesson`] states what is to be done, and a
 //! [`Procedure`] judges whether it was.
 
 mod attempt;

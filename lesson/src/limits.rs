@@ -1,9 +1,9 @@
-//! From where on something is an incident.
+//! Limits from which on something is an incident.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// See the module.
+/// Limits of rate, concentration, temperature, volume and speed from which on an observation is a pour or an incident.
 #[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
@@ -13,21 +13,21 @@ pub struct Limits {
     pub rate_m3_s: f64,
     /// Acid mass fraction from which on acid is concentrated: where UN 1830 (more than 51 % acid) begins and UN 2796 ends.
     pub concentrated: f64,
-    /// Mean temperature of a flask's liquid from which on it is an incident, °C: it burns through skin in six seconds (US Consumer
-    /// Product Safety Commission, document 5098). Colder liquid is one where it comes to skin
+    /// Mean temperature of a flask's liquid from which on it is an incident, °C: it burns through skin in six seconds (US Consumer Product
+    /// Safety Commission, document 5098). Colder liquid is an incident only where it touches skin
     /// ([`SCALDS`](vitriol_sim::solver::SCALDS)).
     pub hot_c: f64,
     /// Least liquid of a pour, m³: less is drops that cling to a rim. Our choice.
     pub least_pour_m3: f64,
     /// Least liquid that is spilt, m³: two drops of 0.05 mL. Our choice.
     pub least_spill_m3: f64,
-    /// Least liquid that is thrown out as it boils, m³, where the flask's mean [scalds](vitriol_sim::solver::SCALDS): a fifth of a drop, as spray, which an
-    /// eye does not bear. Our choice.
+    /// Least volume that boiling throws out where the flask's mean temperature [scalds](vitriol_sim::solver::SCALDS), m³: a fifth of a
+    /// drop, as spray, which an eye does not bear. Our choice.
     pub least_thrown_m3: f64,
-    /// Where it does not, least acid in it, m³: as in a drop of 0.05 mL of battery acid (37 %), against which goggles are worn. Our choice.
-    /// Drops of 10 % acid that a correct pour throws up have less (docs/measurements/lesson.md).
+    /// Least acid that boiling throws out where it does not scald, m³: as in a drop of 0.05 mL of battery acid (37 %), against which
+    /// goggles are worn. Our choice. Drops of 10 % acid that a correct pour throws up have less (docs/measurements/lesson.md).
     pub least_thrown_acid_m3: f64,
-    /// Least speed with which glass that is dropped strikes, m/s: a fall of 5 cm. Our choice.
+    /// Least speed of impact of glass that is dropped, m/s: a fall of 5 cm. Our choice.
     pub least_blow_m_s: f64,
 }
 

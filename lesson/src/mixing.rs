@@ -1,14 +1,14 @@
-//! What of an attempt was a dilution.
+//! Which pours of an attempt mixed acid and water.
 
 use std::collections::BTreeSet;
 
 use crate::skin::CORROSIVE;
 use crate::{Attempt, Incident, Pour, What};
 
-/// Acid mass fractions that differ by less are of the same liquid. Our choice.
+/// Liquids whose acid mass fractions differ by less are the same liquid. Our choice.
 const DIFFERENCE: f64 = 0.1;
 
-/// Whether one of two acid mass fractions is acid, and the other thinner.
+/// Whether liquid of mass fraction `acid` is acid, and liquid of mass fraction `water` is thinner.
 fn dilutes(acid: f64, water: f64) -> bool {
     acid >= CORROSIVE && acid >= water + DIFFERENCE
 }
@@ -31,7 +31,7 @@ impl Attempt {
         self.pours.iter().filter(|pour| pour.mixes())
     }
 
-    /// Whether the scene has acid and something thinner, in two flasks, or both came together anyhow.
+    /// Whether acid and water can be mixed: two flasks hold acid and something thinner at the start, or a pour mixed them anyhow.
     pub(crate) fn can_mix(&self) -> bool {
         let acids = || self.contents.values().map(|content| content.acid);
         let most = acids().fold(0.0, f64::max);
@@ -39,13 +39,13 @@ impl Attempt {
         dilutes(most, least) || self.mixing().next().is_some()
     }
 
-    /// How much was poured, m³.
+    /// Volume of all pours, m³.
     pub(crate) fn poured_m3(&self) -> f64 {
         self.pours.iter().map(|pour| pour.volume_m3).sum()
     }
 
-    /// The highest mean temperature of what was mixed, as far as it is known: before each pour that came to it, where it was hot, and at
-    /// the end. (s, °C).
+    /// Highest known mean temperature of the mixed liquid, as (time s, °C): before each later pour into it, in its heat incidents, and at
+    /// the end.
     pub(crate) fn warmest(&self) -> Option<(f64, f64)> {
         let into = |pour: &Pour| pour.into.clone();
         let mixed: BTreeSet<String> = self.mixing().filter_map(into).collect();
@@ -74,7 +74,7 @@ impl Attempt {
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
-    /// The pour by which water came to acid in that incident.
+    /// The pour that brought water to acid in that incident.
     pub(crate) fn pour_of(&self, incident: &Incident) -> Option<&Pour> {
         let What::WaterIntoAcid { flask, .. } = &incident.what else {
             return None;

@@ -1,20 +1,20 @@
-//! What points are given for: weights and limits, as data.
+//! Weights and limits by which points are given.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::skin::IRRITANT;
 
-/// How many points a criterion has, and for what: all up to a limit, none from another, and in between in a straight line, rounded
-/// down. Its limits are in the criterion's unit.
+/// Points of a criterion: all up to a limit, none from another, and in between in a straight line, rounded down. The limits are in the
+/// criterion's unit.
 #[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ramp {
-    /// Points.
+    /// Most points.
     pub points: u32,
-    /// All up to here.
+    /// Value up to which all points are given.
     pub full_to: f64,
-    /// None from here on.
+    /// Value from which on no points are given.
     pub none_from: f64,
 }
 
@@ -27,7 +27,7 @@ impl Ramp {
         }
     }
 
-    /// Those for a value; none for one that is not a number.
+    /// Points for `value`; none for NaN.
     pub fn points(&self, value: f64) -> u32 {
         if value <= self.full_to {
             return self.points;
@@ -43,27 +43,27 @@ impl Ramp {
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rubric {
-    /// Acid into water: m³ of water that came to acid.
+    /// Acid into water: volume of water that came to acid, m³.
     pub right_order: Ramp,
-    /// Poured slowly: the most that came in any half second, m³/s.
+    /// Poured slowly: highest flow rate over any half second, m³/s.
     pub poured_slowly: Ramp,
-    /// Stayed cool: mean temperature of what was mixed, °C.
+    /// Stayed cool: mean temperature of the mixed liquid, °C.
     pub stayed_cool: Ramp,
-    /// Nothing boiled over: m³.
+    /// Nothing boiled over: volume, m³.
     pub nothing_thrown_out: Ramp,
-    /// Nothing spilt: m³.
+    /// Nothing spilt: volume, m³.
     pub nothing_spilt: Ramp,
-    /// Nothing on hands and face: m³.
+    /// Nothing on hands and face: volume, m³.
     pub nothing_on_skin: Ramp,
-    /// Glass handled well: flasks.
+    /// Glass handled well: number of flasks.
     pub glass_whole: Ramp,
-    /// What a volume of liquid counts whose acid does not even irritate, of one: 0 to 1.
+    /// Weight of a volume whose acid does not even irritate, 0 to 1.
     pub harmless_share: f64,
-    /// What a volume on glove or goggles counts, of one on skin: 0 to 1.
+    /// Weight of a volume on glove or goggles against one on skin, 0 to 1.
     pub protected_share: f64,
-    /// What a flask counts that is dropped and stays whole, of one that breaks: 0 to 1.
+    /// Weight of a flask that is dropped and stays whole against one that breaks, 0 to 1.
     pub whole_share: f64,
-    /// What must be poured so that pouring is judged, m³.
+    /// Least volume that must be poured for the pouring to be judged, m³.
     pub least_m3: f64,
 }
 
@@ -72,7 +72,7 @@ impl Default for Rubric {
     /// 20 mL of 98 % acid in 160 mL of water become 55 °C.
     fn default() -> Self {
         Self {
-            // 1 mL: what is left in a rinsed measuring glass is no wrong order.
+            // 1 mL: the rest in a rinsed measuring glass is no wrong order.
             right_order: Ramp::new(25, 0.0, 1e-6),
             // mL/s: a thin stream, and a gush.
             poured_slowly: Ramp::new(15, 5e-6, 20e-6),
@@ -94,22 +94,22 @@ impl Default for Rubric {
 /// Why a rubric is refused.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum RubricError {
-    /// A criterion's limits are no numbers, or in the wrong order.
+    /// A criterion's limits or points are out of range, or its limits are in the wrong order.
     #[error("{0}: full_to must be at least 0 and less than none_from, and points at most 1000")]
     Limits(&'static str),
-    /// A share is none.
+    /// A share is not between 0 and 1.
     #[error("{0}: must lie between 0 and 1")]
     Share(&'static str),
-    /// What must be poured is no volume.
+    /// The least volume is negative or not finite.
     #[error("least_m3: must be a volume, 0 or more")]
     Least,
 }
 
 impl Rubric {
-    /// Whether its numbers make sense, which come from a lesson's file.
+    /// Checks its numbers, which come from a lesson's file.
     ///
     /// # Errors
-    /// What does not, and what would.
+    /// [`RubricError`] for the first number that is out of range, with the range.
     pub fn check(&self) -> Result<(), RubricError> {
         let ramps = [
             ("right_order", self.right_order),
@@ -143,7 +143,7 @@ impl Rubric {
         }
     }
 
-    /// How much a volume counts by its acid, m³.
+    /// A volume weighted by its acid, m³.
     pub(crate) fn counted(&self, volume_m3: f64, acid: f64) -> f64 {
         if acid < IRRITANT {
             volume_m3 * self.harmless_share
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(ramp.points(f64::NAN), 0);
     }
 
-    /// So a score is a percentage, too.
+    /// The points add up to 100, so a score is a percentage.
     #[test]
     fn the_default_makes_sense_and_has_a_hundred_points() {
         let rubric = Rubric::default();
@@ -175,7 +175,7 @@ mod tests {
         let points = json.as_object().unwrap().values();
         let points: u64 = points.filter_map(|it| it["points"].as_u64()).sum();
         assert_eq!(points, 100);
-        // A lesson names only what it has otherwise.
+        // A lesson names only the values that differ from the default.
         assert_eq!(toml::from_str::<Rubric>("").unwrap(), rubric);
         assert!(toml::from_str::<Rubric>("right_ordre = 1").is_err());
     }

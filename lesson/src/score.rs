@@ -1,4 +1,4 @@
-//! What an attempt scores, and for what.
+//! Points of an attempt, with the evidence for them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::rubric::{Ramp, Rubric};
 use crate::texts::Texts;
 use crate::{Attempt, Incident, Pour, What};
 
-/// What is scored.
+/// A criterion of the score.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
 )]
@@ -17,7 +17,7 @@ pub enum Criterion {
     RightOrder,
     /// Acid and water came together slowly.
     PouredSlowly,
-    /// What was mixed stayed below a temperature.
+    /// The mixed liquid stayed below a temperature.
     StayedCool,
     /// Nothing boiled over.
     NothingThrownOut,
@@ -30,7 +30,7 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// All of them, in the order of a score's lines.
+    /// All criteria, in the order of a score's lines.
     pub const ALL: [Self; 7] = [
         Self::RightOrder,
         Self::PouredSlowly,
@@ -41,7 +41,7 @@ impl Criterion {
         Self::GlassWhole,
     ];
 
-    /// In a few words.
+    /// Its name, in a few words.
     pub fn name(self, texts: &Texts) -> String {
         let names = &texts.criterion;
         let name = match self {
@@ -68,7 +68,7 @@ impl Criterion {
         }
     }
 
-    /// A value of its limits, with unit.
+    /// Formats a value in the unit of its limits.
     fn value(self, value: f64, texts: &Texts) -> String {
         match self {
             Self::PouredSlowly => texts.rate(value),
@@ -77,7 +77,7 @@ impl Criterion {
         }
     }
 
-    /// How its points are given.
+    /// A sentence that states how its points are given.
     fn rule(self, rubric: &Rubric, texts: &Texts) -> String {
         let (ramp, rule) = (self.ramp(rubric), &texts.rule);
         let (template, share) = match self {
@@ -95,34 +95,34 @@ impl Criterion {
     }
 }
 
-/// What points are given or withheld for.
+/// Evidence for points that are given or withheld.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Evidence {
     /// The moment, simulated time of the run, s; `None` of the whole attempt.
     pub t_s: Option<f64>,
-    /// In a sentence.
+    /// The evidence, in a sentence.
     pub text: String,
 }
 
 /// The points of one criterion.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ScoreLine {
-    /// Of what.
+    /// The criterion.
     pub criterion: Criterion,
     /// Points given.
     pub points: u32,
-    /// Of how many.
+    /// Points that can be given.
     pub of: u32,
-    /// How they are given, in a sentence.
+    /// How points are given, in a sentence.
     pub rule: String,
-    /// For what; never empty.
+    /// Evidence for the points; never empty.
     pub evidence: Vec<Evidence>,
 }
 
 /// A criterion that is not judged.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct LeftOut {
-    /// Which.
+    /// The criterion.
     pub criterion: Criterion,
     /// Why, in a sentence.
     pub why: String,
@@ -133,26 +133,26 @@ pub struct LeftOut {
 pub struct Score {
     /// Points given.
     pub points: u32,
-    /// Of how many: of what could be judged. 0 of an attempt in which nothing was done.
+    /// Points that can be given by the criteria that are judged; 0 of an attempt in which nothing was done.
     pub of: u32,
-    /// By criterion.
+    /// A line for each criterion that is judged.
     pub lines: Vec<ScoreLine>,
-    /// What could not be judged, and counts neither way.
+    /// Criteria that cannot be judged, and count neither way.
     pub left_out: Vec<LeftOut>,
 }
 
-/// What was found of a criterion.
+/// Finding for a criterion.
 enum Found {
-    /// A value in the unit of its limits, and what shows it.
+    /// A value in the unit of its limits, and its evidence.
     Value(f64, Vec<Evidence>),
     /// No points, whatever the limits.
     None(Vec<Evidence>),
-    /// Nothing to judge.
+    /// Nothing to judge, and the reason.
     LeftOut(String),
 }
 
 impl Score {
-    /// That of an attempt.
+    /// Scores an attempt by `rubric`, in the language of `texts`.
     pub fn of(attempt: &Attempt, rubric: &Rubric, texts: &Texts) -> Self {
         let mut score = Self {
             points: 0,
@@ -215,7 +215,7 @@ impl Judge<'_> {
                 _ => None,
             }),
             Criterion::NothingOnSkin => self.mishaps(&well.skin.text(), |what| match what {
-                // Hot water alone is why it is an incident, so its acid does not matter.
+                // Hot water alone makes an incident, so its acid does not matter.
                 What::OnSkin {
                     volume_m3,
                     protected,
@@ -232,7 +232,7 @@ impl Judge<'_> {
         }
     }
 
-    /// The sum of what incidents count, or `well` where none does.
+    /// Sum of `counts` over the incidents; where none counts, 0 with the sentence `well` as its evidence.
     fn mishaps(&self, well: &str, counts: impl Fn(&What) -> Option<f64>) -> Found {
         let incidents = self.attempt.incidents.iter();
         let counted: Vec<_> = incidents
@@ -242,7 +242,7 @@ impl Judge<'_> {
         let value = counted.iter().map(|(_, value)| value).sum();
         match (self.nothing_poured(), counted.is_empty()) {
             (true, true) => Found::LeftOut(self.texts.left_out.nothing_poured.text()),
-            // Else a drop that is spilt would score more than none.
+            // Otherwise a spilt drop would score more than an attempt in which nothing was poured.
             (true, false) => Found::None(evidence),
             (false, true) => Found::Value(0.0, vec![whole(well.to_owned())]),
             (false, false) => Found::Value(value, evidence),
@@ -325,7 +325,7 @@ impl Judge<'_> {
         Found::Value(warmest_c, vec![evidence])
     }
 
-    /// Why no dilution is judged, if none is.
+    /// Why no dilution can be judged, if that is so.
     fn no_dilution(&self) -> Option<Found> {
         let why = &self.texts.left_out;
         if !self.attempt.can_mix() {
@@ -335,7 +335,7 @@ impl Judge<'_> {
             .then(|| Found::LeftOut(why.nothing_poured.text()))
     }
 
-    /// That acid and water did not come together, where there was occasion.
+    /// No points, with the reason, where acid and water were not mixed although they could have been.
     fn too_little(&self) -> Option<Found> {
         let mixed: f64 = self.attempt.mixing().map(|pour| pour.volume_m3).sum();
         let least = self.texts.volume(self.rubric.least_m3);

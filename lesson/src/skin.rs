@@ -1,4 +1,4 @@
-//! What heat and acid do to skin.
+//! Effects of heat and acid on skin.
 //!
 //! Heat: how long bare skin lies in hot water until it is burnt through (third degree). The rows from 120 °F on are of the US Consumer
 //! Product Safety Commission, "Avoiding Tap Water Scalds", document 5098. The first is of A. R. Moritz and F. C. Henriques, "Studies
@@ -12,7 +12,7 @@ const fn celsius(fahrenheit: f64) -> f64 {
     (fahrenheit - 32.0) / 1.8
 }
 
-/// (°C, s): how hot water burns skin through in what time.
+/// (°C, s): time in which water of that temperature burns through skin.
 pub const SCALDS: [(f64, f64); 5] = [
     (44.0, 6.0 * 3600.0),
     (celsius(120.0), 300.0),
@@ -21,18 +21,18 @@ pub const SCALDS: [(f64, f64); 5] = [
     (celsius(150.0), 2.0),
 ];
 
-/// Nobody takes a hand away in less, s: a simple reaction alone takes 0.2 s. Our choice.
+/// Shortest time in which somebody takes a hand away, s: a simple reaction alone takes 0.2 s. Our choice.
 const AT_ONCE_S: f64 = 1.0;
 
 /// Mass fraction from which sulfuric acid is Skin Corr. 1A: H314, causes severe skin burns and eye damage.
 pub const CORROSIVE: f64 = 0.15;
-/// From which it is Skin Irrit. 2 and Eye Irrit. 2: H315, H319.
+/// Mass fraction from which it is Skin Irrit. 2 and Eye Irrit. 2: H315, H319.
 pub const IRRITANT: f64 = 0.05;
 
-/// What liquid of a temperature does to bare skin.
+/// Effect of hot liquid on bare skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Heat {
-    /// Nothing, in hours.
+    /// None, in hours.
     Harmless,
     /// Burns it through.
     Within {
@@ -43,7 +43,7 @@ pub enum Heat {
     AtOnce,
 }
 
-/// What liquid of `temperature_c` (°C) does to bare skin.
+/// Effect of liquid of `temperature_c` (°C) on bare skin.
 pub fn heat(temperature_c: f64) -> Heat {
     match burn_time_s(temperature_c) {
         None => Heat::Harmless,
@@ -66,7 +66,7 @@ pub fn burn_time_s(temperature_c: f64) -> Option<f64> {
     Some(long * (short / long).powf(share))
 }
 
-/// What acid does to skin.
+/// Effect of acid on skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Acid {
     /// Not classified.
@@ -77,7 +77,7 @@ pub enum Acid {
     Corrosive,
 }
 
-/// What sulfuric acid of a mass fraction does to skin.
+/// Effect of sulfuric acid of a mass fraction on skin.
 pub fn acid(fraction: f64) -> Acid {
     if fraction >= CORROSIVE {
         Acid::Corrosive

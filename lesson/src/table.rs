@@ -36,7 +36,7 @@ pub struct TableError(#[from] csv::Error);
 /// A row for each incident, attempts and incidents in their order. `attempt` counts from 1.
 ///
 /// # Errors
-/// What the writer of CSV says.
+/// [`TableError`] if the CSV writer fails.
 pub fn incidents_csv(attempts: &[Attempt]) -> Result<Vec<u8>, TableError> {
     let mut bytes = Vec::new();
     let mut writer = WriterBuilder::new()
@@ -95,8 +95,8 @@ fn rounded(value: f64) -> String {
     ((value * 1e6).round() / 1e6).to_string()
 }
 
-/// A cell of a text that others chose, such as a name from a scene's file. A spreadsheet takes a cell that begins so for a formula and runs it; behind an apostrophe it is text.
-/// (OWASP, "CSV Injection".)
+/// A cell with a text that others chose, such as a name from a scene's file. A spreadsheet takes a cell that begins like a formula for one
+/// and runs it; behind an apostrophe it is text. (OWASP, "CSV Injection".)
 pub fn spreadsheet_text(name: &str) -> String {
     let formula = name.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
     let sign = if formula { "'" } else { "" };
@@ -121,7 +121,7 @@ impl What {
     }
 }
 
-/// What a row has of an incident.
+/// Cells of a row that depend on the kind of incident.
 #[derive(Default)]
 struct Cells<'a> {
     kind: &'static str,

@@ -1,4 +1,4 @@
-//! The string table: what is said of an attempt and in a lesson, in one language.
+//! The string table: sentences about an attempt and in a lesson, in one language.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,7 +25,7 @@ pub enum TextsError {
     Alone {
         /// The sentence's key.
         key: String,
-        /// Where it is.
+        /// The table that has it.
         only: &'static str,
     },
     /// A sentence has other holes than the English one.
@@ -33,9 +33,9 @@ pub enum TextsError {
     Holes {
         /// The sentence's key.
         key: String,
-        /// Those that it has.
+        /// Holes that it has.
         found: Vec<String>,
-        /// Those that it needs.
+        /// Holes that it needs.
         needed: Vec<String>,
     },
 }
@@ -46,7 +46,7 @@ pub enum TextsError {
 pub(crate) struct Template(String);
 
 impl Template {
-    /// With its holes filled. A hole that is filled with braces stays as it is: names come from scene files.
+    /// The sentence with its holes filled. Braces in a filled-in value stay as they are: names come from scene files.
     pub(crate) fn fill(&self, holes: &[(&str, &str)]) -> String {
         let mut text = String::new();
         for part in parts(&self.0) {
@@ -61,7 +61,7 @@ impl Template {
         text
     }
 
-    /// As it stands, of one that has no holes.
+    /// The sentence as it stands, if it has no holes.
     pub(crate) fn text(&self) -> String {
         self.fill(&[])
     }
@@ -83,7 +83,7 @@ fn parts(template: &str) -> impl Iterator<Item = Part<'_>> {
     })
 }
 
-/// Declares a section of the table: each of its keys is a sentence, and no other is read.
+/// Declares a section of the table: each of its keys is a sentence; other keys are refused.
 macro_rules! section {
     ($name:ident: $($key:ident)+) => {
         #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -134,12 +134,12 @@ pub struct Texts {
     pub(crate) why: WhyTexts,
     pub(crate) mode: ModeNames,
     pub(crate) panel: PanelTexts,
-    /// By lesson: of those that come with the program.
+    /// Texts of the built-in lessons, by name.
     pub(crate) lesson: BTreeMap<String, LessonTexts>,
 }
 
 impl Texts {
-    /// Those of English, which the program carries.
+    /// The English texts, which the program carries.
     ///
     /// # Errors
     /// As for [`Texts::parse`], which a test rules out.
@@ -147,7 +147,7 @@ impl Texts {
         Self::of(Language::En)
     }
 
-    /// Those of a language, which the program carries.
+    /// The texts of a language, which the program carries.
     ///
     /// # Errors
     /// As for [`Texts::parse`], which a test rules out.
@@ -155,11 +155,11 @@ impl Texts {
         Self::parse(table(language))
     }
 
-    /// Those of a file's text.
+    /// Parses the text of a file.
     ///
     /// # Errors
-    /// A key is missing or unknown, or a sentence's holes are not those of the English one: it would lose a number then, or say a
-    /// hole's name.
+    /// [`TextsError`] if a key is missing or unknown, or a sentence's holes are not those of the English one: it would lose a number then,
+    /// or show a hole's name.
     pub fn parse(text: &str) -> Result<Self, TextsError> {
         let (found, needed) = (holes(text)?, holes(ENGLISH)?);
         let texts = toml::from_str(text)?;
@@ -182,7 +182,7 @@ impl Texts {
     }
 }
 
-/// Text of the table of a language.
+/// Text of the string table of a language.
 fn table(language: Language) -> &'static str {
     match language {
         Language::En => ENGLISH,
@@ -223,7 +223,7 @@ fn gather(path: &str, table: toml::Table, found: &mut BTreeMap<String, String>) 
         match value {
             toml::Value::Table(table) => gather(&path, table, found),
             toml::Value::String(text) => _ = found.insert(path, text),
-            // Refused where the table is read into its type.
+            // Other values are refused where the table is read into its type.
             _ => {}
         }
     }
@@ -255,7 +255,7 @@ mod tests {
         }
     }
 
-    /// What the program carries, in each language: no sentence is missing, empty or left in English.
+    /// The built-in texts, in each language: no sentence is missing, empty or left in English.
     #[test]
     fn each_language_is_complete() {
         let english = sentences(ENGLISH).unwrap();
@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn each_table_is_of_its_language() {
         let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
-        // Traditional forms of what is said here, which simplified Chinese writes otherwise.
+        // Traditional forms of the signs here, which simplified Chinese writes otherwise.
         let traditional = "傾實驗臺濃於後體氣熱時間燒灑濺單護鏡這樣應";
         for language in Language::ALL {
             for (key, sentence) in sentences(table(language)).unwrap() {
@@ -333,7 +333,7 @@ mod tests {
         }
     }
 
-    /// A scene's author may name a flask as a hole.
+    /// A scene's author may give a flask the name of a hole.
     #[test]
     fn what_fills_a_hole_is_not_filled_again() {
         let template = Template("“{from}” into “{into}”: {rate}".into());

@@ -2,7 +2,7 @@
 
 use crate::texts::{Template, Texts};
 
-/// Below this mass fraction liquid is called water: it would be said as 0 %. Our choice.
+/// Below this mass fraction liquid is called water: it would be given as 0 %. Our choice.
 const WATER: f64 = 0.005;
 
 impl Texts {
@@ -31,7 +31,7 @@ impl Texts {
         }
     }
 
-    /// Whole °C: 134 °C is not 130 °C to who reads a thermometer.
+    /// Whole °C: 134 °C is not 130 °C to a reader of a thermometer.
     pub(crate) fn temperature(&self, celsius: f64) -> String {
         // Without the sign of -0.
         let whole = format!("{:.0}", celsius.round() + 0.0);
@@ -54,7 +54,7 @@ impl Texts {
         self.unit.centimetres.fill(&[("number", &whole)])
     }
 
-    /// How much of what.
+    /// A volume and the name of its liquid.
     pub(crate) fn amount(&self, m3: f64, acid: f64) -> String {
         let volume = self.volume(m3);
         if acid < WATER {

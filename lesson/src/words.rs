@@ -8,32 +8,32 @@ use crate::{
     Attempt, Cause, Content, Criterion, Ending, Incident, Pour, Score, Skin, Surface, What,
 };
 
-/// How a sentence is meant.
+/// Tone of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tone {
     /// It went well.
     Good,
     /// It went wrong.
     Bad,
-    /// It is said for itself.
+    /// Neutral.
     Plain,
 }
 
-/// What is said of a moment, or of the whole.
+/// A sentence about a moment, or about the whole attempt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sentence {
-    /// The moment, simulated time of the run, s: the film's time. `None` of the whole.
+    /// The moment, simulated time of the run, s: the film's time. `None`: the whole attempt.
     pub t_s: Option<f64>,
-    /// How it is meant.
+    /// Its tone.
     pub tone: Tone,
-    /// The fact, in a sentence.
+    /// The fact.
     pub text: String,
-    /// Why, why it matters, and what to do: sentences for who has room for them.
+    /// Cause, danger and remedy: sentences for a page that has room for them.
     pub more: Option<String>,
 }
 
-/// An attempt in sentences: what has a moment in the order of time, then the whole. `score` is the attempt's own: what it gives
-/// all points for is said to have gone well.
+/// An attempt in sentences: those of a moment in the order of time, then those of the whole. `score` is the attempt's own: a criterion
+/// with all points gives a sentence that it went well.
 pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentence> {
     let mut said = Vec::new();
     let mut say = |t_s, tone, text, more| {
@@ -59,7 +59,7 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
         say(Some(incident.t_s), Tone::Bad, text, more);
     }
     for line in &score.lines {
-        // The right order is said by the pours themselves.
+        // The sentences of the pours state the right order themselves.
         if line.points == line.of && line.criterion != Criterion::RightOrder {
             for evidence in &line.evidence {
                 say(evidence.t_s, Tone::Good, evidence.text.clone(), None);
@@ -75,13 +75,13 @@ pub fn sentences(attempt: &Attempt, score: &Score, texts: &Texts) -> Vec<Sentenc
         }
     }
     let moment = |sentence: &Sentence| sentence.t_s.unwrap_or(f64::INFINITY);
-    // Stable: what is of one moment stays in the order of above.
+    // Stable: sentences of one moment stay in the order of above.
     said.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
     said
 }
 
 impl Attempt {
-    /// Whether an incident says what that pour is.
+    /// Whether the sentence of an incident already describes that pour.
     fn says(&self, pour: &Pour) -> bool {
         self.incidents.iter().any(|incident| match &incident.what {
             What::WaterIntoAcid { .. } => self.pour_of(incident) == Some(pour),
@@ -92,7 +92,7 @@ impl Attempt {
 }
 
 impl Cause {
-    /// The flask that it is of.
+    /// The flask that it names.
     pub(crate) fn flask(&self) -> Option<&String> {
         match self {
             Self::Pouring { from: flask }
@@ -108,7 +108,7 @@ impl Cause {
 }
 
 impl Texts {
-    /// What was poured.
+    /// A sentence about a pour.
     pub(crate) fn pour(&self, pour: &Pour) -> String {
         let amount = self.amount(pour.volume_m3, pour.acid);
         let (duration, rate) = (self.duration(pour.lasted_s()), self.rate(pour.fastest_m3_s));
@@ -126,7 +126,7 @@ impl Texts {
         ])
     }
 
-    /// What went wrong, without why and why it matters.
+    /// A sentence about an incident, without cause and danger.
     pub fn wrong(&self, attempt: &Attempt, incident: &Incident) -> String {
         let wrong = &self.wrong;
         let with = |template: &Template, holes: &[(&str, &str)]| template.fill(holes);
@@ -218,7 +218,7 @@ impl Texts {
         }
     }
 
-    /// Why, why it matters, and what to do. A danger that is in `dangers` was said before, and is not said again.
+    /// Cause, danger and remedy of an incident. A danger that is in `dangers` was named before, and is not repeated.
     fn more(&self, incident: &Incident, dangers: &mut BTreeSet<String>) -> Option<String> {
         let news = self.dangers(&incident.what).into_iter();
         let news = news.filter(|danger| dangers.insert(danger.clone()));
@@ -230,7 +230,7 @@ impl Texts {
             })
     }
 
-    /// Why; `None` where what it is says it.
+    /// The cause; `None` where the kind of incident names it already.
     fn cause(&self, incident: &Incident) -> Option<String> {
         let causes = &self.cause;
         let template = match (&incident.what, &incident.cause) {
@@ -250,7 +250,7 @@ impl Texts {
         Some(template.fill(&[("flask", flask)]))
     }
 
-    /// Why it matters.
+    /// Sentences about its dangers.
     fn dangers(&self, what: &What) -> Vec<String> {
         let effect = &self.effect;
         let dangers = match what {
@@ -274,7 +274,7 @@ impl Texts {
         dangers.into_iter().flatten().collect()
     }
 
-    /// What to do.
+    /// The remedy.
     fn remedy(&self, what: &What) -> Option<String> {
         let effect = &self.effect;
         let remedy = match what {
@@ -307,7 +307,7 @@ impl Texts {
         }
     }
 
-    /// The hottest, where no incident says it, and what the flasks hold that were poured from or into.
+    /// Sentences about the hottest particle, where no incident names it, and the contents of flasks that were poured from or into.
     fn ending(&self, attempt: &Attempt, ending: &Ending) -> Vec<(Option<f64>, String)> {
         let mut said = Vec::new();
         let hot = |incident: &Incident| matches!(incident.what, What::Hot { .. });

@@ -3,6 +3,10 @@
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
+/// How far a quaternion's length may be from 1: above what rounding to f32 and a runtime's own filter leave, below what would visibly
+/// scale a mesh.
+const UNIT_TOLERANCE: f32 = 1e-3;
+
 /// A rigid transform, named `target_from_source` where it is stored: a point of
 /// `source`'s frame goes through [`Pose::transform_point`] into `target`'s.
 ///
@@ -83,12 +87,12 @@ impl Pose {
         }
     }
 
-    /// Whether every component is finite and the orientation's length is
-    /// within 1 % of one: what a tracker's pose must fulfil to be used.
+    /// Whether every component is finite and the orientation's length is within 1e-3 of one: what a tracker's pose must fulfil to be
+    /// used, and what a track may hold (`xr/src/pose.rs`).
     pub fn is_valid(self) -> bool {
         self.position.is_finite()
             && self.orientation.is_finite()
-            && (self.orientation.length() - 1.0).abs() < 0.01
+            && (self.orientation.length() - 1.0).abs() <= UNIT_TOLERANCE
     }
 }
 
@@ -140,6 +144,8 @@ mod tests {
     fn rejects_what_no_tracker_may_deliver() {
         let (a, _) = sample();
         assert!(a.is_valid());
+        let of_length = |length: f32| Pose::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, length));
+        assert!(of_length(0.9991).is_valid() && !of_length(1.002).is_valid());
         assert!(!Pose::from_position(Vec3::new(f32::NAN, 0.0, 0.0)).is_valid());
         assert!(!Pose::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0)).is_valid());
         assert!(!Pose::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, f32::INFINITY)).is_valid());

@@ -1,10 +1,8 @@
-//! A closed, insulated vessel that is shaken until what is in it is even, by the
-//! particle solver on the device.
+//! A closed, insulated vessel that is shaken until its contents are even, by the particle solver on the device.
 //!
-//! Nothing here mixes by a formula: the particles' masses, acid and enthalpies
-//! are set at the start, the solver moves and exchanges them, and the end is
-//! what they then hold. Everything scales with the vessel, so that a millilitre
-//! and a barrel take the same number of substeps.
+//! Nothing here mixes by a formula: the particles' masses, acid and enthalpies are set at the start, the solver moves and exchanges them,
+//! and the result is measured of them at the end. Everything scales with the vessel, so that a millilitre and a barrel take the same
+//! number of substeps.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -41,15 +39,15 @@ const WAVE: f64 = 2.0;
 const SUBSTEP: f64 = 0.7;
 /// Width of the filter for eddies over the particles' spacing: that of real size, 6 and 2.5 mm.
 const EDDIES: f64 = 2.4;
-/// Substeps between two looks at the liquid.
+/// Substeps between two observations of the liquid.
 const SUBSTEPS: u32 = 4;
-/// The longest that is waited, turns.
+/// Longest time to wait, turns of the shaker.
 const MOST_TURNS: f64 = 60.0;
 /// Even: standard deviation of the temperature, K, and of the acid fraction.
 pub const EVEN: [f64; 2] = [0.3, 0.002];
-/// What a ratio of particle numbers may be off from that of the volumes.
+/// Accepted relative error of the ratio of particle numbers against that of the volumes.
 const RATIO_ERROR: f64 = 5e-4;
-/// m/s², Earth's.
+/// Earth's gravity, m/s².
 const GRAVITY: f64 = 9.81;
 
 /// A liquid that is filled in.
@@ -63,24 +61,23 @@ pub struct Feed {
     pub acid: f64,
 }
 
-/// How finely it is computed.
+/// Resolution of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
-    /// Particles, at least; up to twice as many give the ratio of the volumes.
+    /// Least number of particles; up to twice as many are taken for the ratio of the volumes.
     pub particles: usize,
     /// Iterations a substep.
     pub iterations: u32,
 }
 
-/// What came of a mixing.
+/// Result of a mixing.
 #[derive(Clone, Debug)]
 pub struct Mixed {
     /// Particles.
     pub particles: u32,
     /// Particle spacing, m.
     pub spacing: f64,
-    /// By how much the ratio of the liquids' particle numbers is off from that
-    /// of their volumes, relative.
+    /// Relative error of the ratio of the liquids' particle numbers against that of their volumes.
     pub ratio_error: f64,
     /// Before the first step.
     pub start: HeatMeasurement,
@@ -88,12 +85,12 @@ pub struct Mixed {
     pub end: HeatMeasurement,
     /// Simulated time, s.
     pub seconds: f64,
-    /// Whether it was even then.
+    /// Whether it was even at the end.
     pub even: bool,
-    /// Largest superheat at any look, K.
+    /// Largest superheat at any observation, K.
     pub peak_superheat: f64,
-    /// Largest differences from the start at any look: of mass and of acid
-    /// over what there was, of enthalpy as [`vitriol_sim::measure::Ledger::closure`].
+    /// Largest differences from the start at any observation: of mass and of acid over the initial amounts, of enthalpy as
+    /// [`vitriol_sim::measure::Ledger::closure`].
     pub drifts: [f64; 3],
     /// Particles that left the vessel or were taken out.
     pub lost: u64,
@@ -131,7 +128,7 @@ pub fn mix(
     let scene = vessel.scene(feeds, counts, resolution.iterations);
     let profiles = [vessel.profile.clone()];
     let particles = world::particles(&scene, seed).other()?;
-    // Without rigid bodies: nobody holds the vessel.
+    // Without rigid bodies: no hand holds the vessel.
     let spec = SolverSpec {
         flasks: &profiles,
         ground: world::ground(&scene),
@@ -179,7 +176,7 @@ pub fn mix(
 }
 
 impl Mixed {
-    /// Takes what `end` says into the extremes.
+    /// Updates the extremes with the measurement `end`.
     fn note(&mut self) {
         let end = &self.end;
         self.even = end.temperature_spread <= EVEN[0] && end.acid_spread <= EVEN[1];
@@ -206,8 +203,8 @@ impl Mixed {
     }
 }
 
-/// Numbers of particles whose ratio is that of the volumes: the fewest from
-/// `least` to twice that whose error is small, else those of the smallest.
+/// Numbers of particles whose ratio is that of the volumes: the fewest from `least` to twice that whose error is small, else those with
+/// the smallest error.
 fn portions(volumes: [f64; 2], least: usize) -> [usize; 2] {
     if let Some(only) = volumes.iter().position(|&volume| volume == 0.0) {
         let mut counts = [least; 2];
@@ -233,8 +230,8 @@ fn portions(volumes: [f64; 2], least: usize) -> [usize; 2] {
     best
 }
 
-/// How far the ratio of whole particles may be from that of the volumes: 2 %
-/// of the lesser one is at most some tenths of a kelvin.
+/// Greatest accepted error of the ratio of whole particles against that of the volumes: 2 % of the lesser one is at most some tenths of a
+/// kelvin.
 const MOST_RATIO_ERROR: f64 = 0.02;
 
 fn ratio_error(volumes: [f64; 2], counts: [usize; 2]) -> f64 {
@@ -254,7 +251,7 @@ struct Vessel {
 }
 
 impl Vessel {
-    /// For `volume` m³ of liquid in `particles` particles.
+    /// A vessel for `volume` m³ of liquid in `particles` particles.
     fn new(volume: f64, particles: usize) -> Result<Self, Failure> {
         let radius = (volume / (DEPTH * PI)).cbrt();
         let height = HEIGHT * radius;
@@ -272,8 +269,7 @@ impl Vessel {
         TAU / (FROUDE * GRAVITY / self.radius).sqrt()
     }
 
-    /// Where it is at a time: upright on a circle, as on an orbital shaker. The
-    /// circle widens over the first turn.
+    /// Its pose at a time: upright on a circle, as on an orbital shaker. The circle widens over the first turn.
     fn pose(&self, time: f64) -> Pose {
         let turns = time / self.turn();
         let reach = REACH * self.radius * turns.min(1.0);
@@ -305,7 +301,7 @@ impl Vessel {
                 relaxation: RelaxationKind::Chebyshev,
                 omega: 0.33,
                 carry_rate: 2.25,
-                // Ten times what a fall through the vessel gives.
+                // Ten times the speed of a fall through the vessel.
                 v_max: 10.0 * (2.0 * GRAVITY * self.height).sqrt(),
                 boundary: Boundary::Map,
                 viscosity: 0.05,

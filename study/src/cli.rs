@@ -257,7 +257,7 @@ pub struct ExtremesArgs {
 /// Cases from one number on and up to another one, such as `100..200`; or so many from the first on.
 ///
 /// # Errors
-/// What would be right.
+/// A message with the valid form.
 fn cases(text: &str) -> Result<Range<usize>, String> {
     let range = match text.split_once("..") {
         Some((from, to)) => from.parse().ok().zip(to.parse().ok()),

@@ -1,10 +1,8 @@
 //! A column of liquid that collapses on the floor, with nothing around it.
 //!
-//! There are no rectangular vessels, so Martin and Moyce's wall is the plane of
-//! symmetry of a block of twice their column's base, and their flume's side
-//! walls are far ends of the block: what happens there comes in as a wave of
-//! speed √(gH), and has not reached the middle, where the front is read, before
-//! T = [`Column::LAST_TIME`].
+//! There are no rectangular vessels, so Martin and Moyce's wall is the plane of symmetry of a block of twice their column's base, and
+//! their flume's side walls are far ends of the block: the collapse of the ends comes in as a wave of speed √(gH), and has not reached the
+//! middle, where the front is read, before T = [`Column::LAST_TIME`].
 
 use glam::DVec3;
 use vitriol_experiment::{Blame, Failure};
@@ -26,7 +24,7 @@ pub struct Column {
     pub resolution: u32,
 }
 
-/// How far the front had come at a time, both dimensionless.
+/// Distance of the front at a time, both dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Front {
     /// T = t √(n² g / a).
@@ -50,7 +48,7 @@ impl Column {
     /// are those of `scene` (its preset applied), but for the spacing.
     ///
     /// # Errors
-    /// What device or shaders say.
+    /// The error of the device or of a shader.
     pub fn collapse(&self, gpu: &Gpu, scene: &Scene, last: f64) -> Result<Vec<Front>, Failure> {
         let spacing = self.base / f64::from(self.resolution);
         let parameters = halved(Parameters {
@@ -131,8 +129,8 @@ impl Column {
     }
 }
 
-/// The same substeps in frames of half the length, so that the front is seen
-/// more often.
+/// Parameters with the same substeps in frames of half the length, so that the front is observed more often; unchanged for an odd number
+/// of substeps.
 fn halved(parameters: Parameters) -> Parameters {
     if !parameters.substeps.is_multiple_of(2) {
         return parameters;

@@ -1,4 +1,4 @@
-//! The study: what measures solver and renderer, as subcommands.
+//! The study: measurements of solver and renderer, as subcommands.
 
 pub mod bench;
 pub mod calorimeter;

@@ -39,7 +39,7 @@ pub fn alone(parameters: Parameters, particles: &[Particle]) -> SolverSpec<'_> {
     }
 }
 
-/// The solver of such liquid.
+/// A solver of such liquid.
 pub fn solver(gpu: &Gpu, spec: &SolverSpec<'_>) -> Result<Solver, Failure> {
     Solver::new(gpu, &Library::embedded(), spec).other()
 }

@@ -1,4 +1,4 @@
-//! A report in parts: each process runs a range of cases, and what they found becomes one report.
+//! A report in parts: each process runs a range of cases, and their results become one report.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,53 +10,53 @@ use vitriol_experiment::track::blame;
 use vitriol_experiment::{Blame, DeviceStatement, Failure};
 use vitriol_xr::files;
 
-/// A name that a report was made with, or that was read in one.
+/// A name that was written in the program, or read from a report.
 pub type Name = Cow<'static, str>;
 
 /// Longest report that is read, B: two thousand failed cases have some 2 MB.
 const LONGEST: u64 = 64 << 20;
 
-/// What can be wrong with parts.
+/// Errors of parts of a report.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum MergeError {
-    /// Not of one call.
+    /// A part differs from the first one in a setting of the call.
     #[error(
         "{path}: is of {what} {found}, and the first part is of {expected}; merge what belongs together"
     )]
     Other {
         /// The file.
         path: PathBuf,
-        /// Of what.
+        /// The setting.
         what: &'static str,
-        /// In it.
+        /// Its value in this part.
         found: String,
-        /// In the first.
+        /// Its value in the first part.
         expected: String,
     },
-    /// Nobody ran these.
+    /// No part has these cases.
     #[error("cases {from}..{to} are in none of the parts; run them, then merge again")]
     Missing {
-        /// The first.
+        /// The first case.
         from: usize,
-        /// Behind the last.
+        /// The case behind the last.
         to: usize,
     },
-    /// Several ran these.
+    /// Several parts have these cases.
     #[error("{path}: has cases {from}..{to} that another part has; leave one of them out")]
     Twice {
         /// The file.
         path: PathBuf,
-        /// The first.
+        /// The first case.
         from: usize,
-        /// Behind the last.
+        /// The case behind the last.
         to: usize,
     },
-    /// Not such a report.
+    /// The file is no such report.
     #[error("{path}: is no such report: {cause}; name the JSON files that parts were written to")]
     NoReport {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The parser's error.
         cause: String,
     },
 }
@@ -64,7 +64,7 @@ pub enum MergeError {
 /// Reads the parts.
 ///
 /// # Errors
-/// [`Failure::Input`] for a file that is no report, [`Failure::Other`] where the system refuses.
+/// [`Failure::Input`] for a file that is no report, [`Failure::Other`] for an error of the system.
 pub fn read<T: DeserializeOwned>(paths: &[PathBuf]) -> Result<Vec<(PathBuf, T)>, Failure> {
     let one = |path: &PathBuf| {
         if !path.exists() {
@@ -84,8 +84,8 @@ pub fn read<T: DeserializeOwned>(paths: &[PathBuf]) -> Result<Vec<(PathBuf, T)>,
     paths.iter().map(one).collect()
 }
 
-/// Puts parts in the order of their cases, of which each has to be in one of them: from that of the first on, and up to `end` where
-/// that is known.
+/// Puts parts in the order of their cases, of which each has to be in exactly one part: from the first part's first case on, and up to
+/// `end` where that is known.
 ///
 /// # Errors
 /// [`MergeError::Missing`] and [`MergeError::Twice`].
@@ -127,7 +127,7 @@ pub fn in_order<T>(
     }
 }
 
-/// Whether all parts say the same as the first of something.
+/// Checks that all parts have the first one's value of a setting.
 ///
 /// # Errors
 /// [`MergeError::Other`].
@@ -151,7 +151,7 @@ pub fn alike<T>(
     })
 }
 
-/// The device of several parts: all that there are, one after the other.
+/// The devices of several parts: all different ones, one after the other.
 pub fn devices<'a>(all: impl Iterator<Item = &'a DeviceStatement>) -> DeviceStatement {
     let mut different: Vec<&DeviceStatement> = Vec::new();
     for device in all {
@@ -170,18 +170,18 @@ pub fn devices<'a>(all: impl Iterator<Item = &'a DeviceStatement>) -> DeviceStat
     }
 }
 
-/// A number that JSON does not have: read as not a number.
+/// Reads a number that JSON may not have: null is NaN.
 ///
 /// # Errors
-/// What the reader says.
+/// The deserializer's error.
 pub fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// The same of several.
+/// Reads an array of `N` numbers, each as [`number`] does: null is NaN.
 ///
 /// # Errors
-/// What the reader says.
+/// The deserializer's error.
 pub fn numbers<'de, D: Deserializer<'de>, const N: usize>(from: D) -> Result<[f64; N], D::Error>
 where
     [Option<f64>; N]: Deserialize<'de>,
@@ -190,10 +190,10 @@ where
     Ok(all.map(|value| value.unwrap_or(f64::NAN)))
 }
 
-/// The largest of several, which is never not a number: without bounds.
+/// Reads a maximum, which is never NaN: null is infinity.
 ///
 /// # Errors
-/// What the reader says.
+/// The deserializer's error.
 pub fn largest<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
@@ -235,7 +235,7 @@ mod tests {
                 to: 5
             })
         );
-        // Of what nobody knows the ends, there are no holes between them.
+        // Where the ends are not known, there are no holes between them.
         assert_eq!(ordered(&[7..9, 3..7], None..None), Ok(vec![3, 7]));
     }
 

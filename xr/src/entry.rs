@@ -9,7 +9,7 @@ use openxr::Entry;
 /// program; elsewhere the system's is loaded, as distributions patch its search paths.
 ///
 /// # Errors
-/// A sentence on what is missing, with its remedy.
+/// A sentence that names what is missing, with its remedy.
 pub(crate) fn entry() -> Result<Entry, String> {
     #[cfg(windows)]
     {

@@ -11,22 +11,22 @@ pub enum FileError {
     /// A folder, pipe, socket or device: the last three may never end.
     #[error("{file}: is {kind} and no file; name a file", file = file.display())]
     NotAFile {
-        /// What was named.
+        /// Its path.
         file: PathBuf,
-        /// What it is.
+        /// Its kind, such as "a folder".
         kind: &'static str,
     },
-    /// More than its kind of file ever holds.
+    /// The file is longer than any of its kind.
     #[error("{file}: is longer than {limit} bytes, which no {what} is; name another file", file = file.display())]
     TooLong {
         /// The file.
         file: PathBuf,
         /// The limit, B.
         limit: u64,
-        /// What was looked for.
+        /// The kind of file that was expected.
         what: &'static str,
     },
-    /// It holds what is no UTF-8.
+    /// The file is not UTF-8.
     #[error("{file}: is no text in UTF-8; name another file", file = file.display())]
     NotText {
         /// The file.
@@ -37,18 +37,18 @@ pub enum FileError {
     Io {
         /// The file.
         file: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// What `file` holds, which is to be a `what` of at most `limit` bytes.
+/// The contents of `file`, which is to be a `what` of at most `limit` bytes.
 ///
 /// Its kind is asked for before it is opened: opening a pipe waits for a writer, and a device may be endless. A user
 /// who puts a pipe in the file's place between the two waits for it; what is endless is read up to the limit.
 ///
 /// # Errors
-/// [`FileError`].
+/// [`FileError`] where `file` is no file, longer than `limit`, or cannot be read.
 pub fn read(file: &Path, what: &'static str, limit: u64) -> Result<Vec<u8>, FileError> {
     let refused = |source| FileError::Io {
         file: file.into(),
@@ -85,10 +85,10 @@ pub fn read(file: &Path, what: &'static str, limit: u64) -> Result<Vec<u8>, File
     Ok(bytes)
 }
 
-/// The same of text.
+/// The contents of `file` as UTF-8 text; [`read`] gives its bytes.
 ///
 /// # Errors
-/// [`FileError`].
+/// As for [`read`], and [`FileError::NotText`].
 pub fn read_text(file: &Path, what: &'static str, limit: u64) -> Result<String, FileError> {
     let bytes = read(file, what, limit)?;
     String::from_utf8(bytes).map_err(|_| FileError::NotText { file: file.into() })

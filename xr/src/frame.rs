@@ -1,4 +1,4 @@
-//! What one simulation step learns of head, hands and instructor.
+//! Input of one simulation step: head, hands and the instructor's switches.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub struct PoseFrame {
     pub stage_from_view: Pose,
     /// Left hand, right hand; [`Side`] is the index.
     pub hands: [Hand; 2],
-    /// What an instructor or the student switched for this step, in order.
+    /// Switches of an instructor or the student for this step, in order.
     pub scenario: Vec<Switch>,
     /// The display frame that the poses were predicted for.
     pub info: FrameInfo,
@@ -27,16 +27,16 @@ impl PoseFrame {
         &self.hands[side as usize]
     }
 
-    /// Poses and analogue values at `s` in 0..=1 of the way to `later`, whose own they are at 1,
-    /// bit for bit; the rest is of the earlier frame.
+    /// Poses and analogue values interpolated at `s` in 0..=1 on the way to `later`, whose values they are at 1, bit for bit; everything
+    /// else is that of the earlier frame.
     #[must_use]
     pub fn between(&self, later: &Self, s: f32) -> Self {
         let value = |a: f32, b: f32| if s >= 1.0 { b } else { a + (b - a) * s };
         let mut frame = self.clone();
         frame.stage_from_view = self.stage_from_view.interpolate(&later.stage_from_view, s);
         for (hand, later) in frame.hands.iter_mut().zip(&later.hands) {
-            // Towards a controller that sleeps there is no way: its squeeze of 0 would open a
-            // hand that nobody opened, and let a flask fall.
+            // A controller that sleeps is no target of interpolation: its squeeze of 0 would open a hand that nobody opened, and let a
+            // flask fall.
             let is_known = |hand: &Hand| hand.active && hand.valid;
             if !(is_known(hand) && is_known(later)) {
                 continue;
@@ -66,7 +66,7 @@ impl Side {
     /// Both sides, in the order of [`PoseFrame::hands`].
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// `left` or `right`.
+    /// The side as text: `left` or `right`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -75,15 +75,15 @@ impl Side {
     }
 }
 
-/// One hand with its controller; by default one of which nothing is known.
+/// One hand with its controller; by default inactive, with nothing known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hand {
-    /// The runtime binds this hand to a device, and its inputs count.
+    /// Whether the runtime binds this hand to a device, so that its inputs count.
     pub active: bool,
-    /// The poses are known. Where they are not, they are the last ones that were: a flask
-    /// that follows a hand must not jump to the origin when a controller falls asleep.
+    /// Whether the poses are known. Where they are not, they are the last known ones: a flask that follows a hand must not jump to the
+    /// origin when a controller falls asleep.
     pub valid: bool,
-    /// The poses are measured now; valid without tracked is the runtime's own guess.
+    /// Whether the poses are measured now; valid without tracked is the runtime's own guess.
     pub tracked: bool,
     /// The grip pose, which a flask follows. OpenXR: -Z runs along the tube that the curled
     /// fingers form, from the little finger to the thumb; +X leaves the left palm and enters
@@ -182,13 +182,12 @@ pub enum SessionState {
     Exiting = 8,
 }
 
-/// Something that an instructor or the student switched, as text, because only what acts on
-/// it knows which keys and values there are.
+/// A switch that an instructor or the student set, as text, because keys and values are defined by the code that acts on them.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Switch {
-    /// What was switched, such as `scenario`. Not empty.
+    /// Its key, such as `scenario`. Not empty.
     pub key: String,
-    /// What it was set to.
+    /// The value that it was set to.
     pub value: String,
 }
 

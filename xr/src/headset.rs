@@ -1,4 +1,4 @@
-//! What the frame loop asks of a headset, whether it is an OpenXR session or a stand-in of the same size.
+//! The frame loop's interface to a headset, whether it is an OpenXR session or a stand-in of the same size.
 //!
 //! One frame, in this order: [`next`](Headset::next) (wait, begin, sync actions, locate),
 //! the simulation's steps, [`acquire`](Headset::acquire), [`locate_views`](Headset::locate_views) as
@@ -31,24 +31,24 @@ pub trait Headset {
     /// Takes the runtime's events, waits for the next frame and begins it.
     ///
     /// # Errors
-    /// What cannot be mended by asking again; a lost runtime or session is a [`Turn`].
+    /// [`HeadsetError`] for failures that another try does not mend; a lost runtime or session is a [`Turn`].
     fn next(&mut self) -> Result<Turn, HeadsetError>;
 
-    /// Where the frame's pictures are to be copied to, the panel's only if it is to change; `end` hands them over. `None` where
+    /// The images to which the frame's pictures are to be copied, the panel's only if it is to change; `end` hands them over. `None` where
     /// the runtime gives no images, which it may do at any time: the frame is then ended without a picture.
     ///
     /// # Errors
     /// As for [`Headset::next`].
     fn acquire(&mut self, panel: bool) -> Result<Option<Targets>, HeadsetError>;
 
-    /// The eyes at the frame's display time, located anew, and with them those of [`Headset::inset`].
+    /// Locates the eyes anew at the frame's display time, and with them those of [`Headset::inset`].
     ///
     /// # Errors
     /// As for [`Headset::next`].
     fn locate_views(&mut self) -> Result<[View; 2], HeadsetError>;
 
-    /// Where the user looks, as it was when the eyes were located last: from between them along -Z, in the stage. `None` where
-    /// that is not known, or not asked for.
+    /// The user's gaze at the time for which the eyes were located last: from between them along -Z, in the stage. `None` where it is not
+    /// known, or not asked for.
     fn gaze(&self) -> Option<Pose>;
 
     /// Ends the frame; without `shown` nothing is shown.
@@ -58,22 +58,21 @@ pub trait Headset {
     /// nothing.
     fn end(&mut self, shown: Option<&Shown>) -> Result<(), HeadsetError>;
 
-    /// What the hand feels until the next call: 0 nothing, 1 the strongest. It is to be said in
-    /// each frame: after 200 ms it ends by itself, so that a program that hangs does not go on
-    /// shaking a hand.
+    /// Vibrates the hand's controller until the next call: 0 not at all, 1 the strongest. It must be called in each frame: after 200 ms
+    /// the vibration ends by itself, so that a program that hangs does not go on shaking a hand.
     ///
     /// # Errors
     /// As for [`Headset::next`].
     fn vibrate(&mut self, side: Side, amplitude: f32) -> Result<(), HeadsetError>;
 
-    /// The device is lost ([`Gpu::is_lost`]), and with it all images; a frame that is open is not ended. The next turns are
+    /// Call it when the device is lost ([`Gpu::is_lost`]), and with it all images; a frame that is open is not ended. The next turns are
     /// [`Turn::Lost`], and [`Turn::Renewed`] once there is another device.
     fn lose_device(&mut self);
 
     /// Display rates that can be asked for, Hz; empty where there is no choice.
     fn rates(&self) -> &[f32];
 
-    /// Asks for one of them. The frames' periods tell when it has come.
+    /// Asks for one of them. The frames' periods show when it has come into effect.
     ///
     /// # Errors
     /// As for [`Headset::next`].
@@ -86,7 +85,7 @@ pub trait Headset {
     fn request_exit(&mut self) -> Result<(), HeadsetError>;
 }
 
-/// What comes next.
+/// The result of [`Headset::next`].
 #[derive(Debug)]
 pub enum Turn {
     /// A frame has begun.
@@ -96,12 +95,12 @@ pub enum Turn {
         /// Why.
         cause: Pause,
     },
-    /// The runtime or its session is gone, and is sought again. It has waited a little.
+    /// The runtime or its session is gone, and the headset looks for it. It has waited a little.
     Lost {
-        /// What was lost.
+        /// The loss, in words.
         cause: String,
     },
-    /// The session is new, and so are device, images and sizes: what lived on the old device moves over.
+    /// The session is new, and so are device, images and sizes: resources of the old device move over.
     Renewed,
     /// The runtime or the student asked to end.
     Ended,
@@ -112,14 +111,14 @@ pub enum Turn {
 pub enum Pause {
     /// The headset is off, or shows something else.
     Off,
-    /// The runtime does not know yet where it is.
+    /// The runtime has not located the headset yet.
     Unseen,
 }
 
 /// A frame that has begun.
 #[derive(Clone, Debug)]
 pub struct HeadsetFrame {
-    /// Counted from 0, over losses too.
+    /// Number of the frame, counted from 0, over losses too.
     pub index: u64,
     /// Head and hands at the display time ([`FrameInfo::xr_time`](crate::FrameInfo)); `step` and
     /// `time_ns` are the simulation's, and zero here; `scenario` is empty. A hand that is not valid holds its last pose.
@@ -128,15 +127,14 @@ pub struct HeadsetFrame {
     pub should_render: bool,
     /// The runtime moved the stage (the student recentred).
     pub recentred: bool,
-    /// The head's place was known before and is not now: it is the last one that was, and the orientation goes on.
+    /// The head's position was known before and is not now: it is the last known one, while the orientation is current.
     pub lost: bool,
-    /// Of the left and the right hand, if it is seen and holds no controller. They are in no recording: what simulation steps
-    /// consume of them is in [`Hand`](crate::Hand).
+    /// Joints of the left and the right hand, if it is seen and holds no controller. They are in no recording: simulation steps consume
+    /// only the [`Hand`](crate::Hand)s.
     pub joints: [Option<Joints>; 2],
 }
 
-/// Joints of a hand that is seen, in the order of OpenXR's XrHandJointEXT: where each is in the stage, m, and how far the skin
-/// is from it, m.
+/// Joints of a hand that is seen, in the order of OpenXR's XrHandJointEXT: position in the stage, m, and distance of the skin from it, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joints(pub [(Vec3, f32); 26]);
 
@@ -156,11 +154,11 @@ pub struct View {
     pub fov: Fov,
 }
 
-/// A second pair of pictures of the same eyes, finer and of less: the runtime shows it over the first pair where the user looks, or
-/// ahead where it does not know (quad views).
+/// A second pair of pictures of the same eyes, of a smaller field of view and finer: the runtime shows it over the first pair where the
+/// user looks, or ahead where it has no gaze (quad views).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inset {
-    /// Width and height of each, pixels.
+    /// Width and height of each picture, pixels.
     pub extent: [u32; 2],
     /// The left and the right eye; their fields of view may change with each frame.
     pub views: [View; 2],
@@ -179,7 +177,7 @@ pub struct Targets {
     pub colour: Image,
     /// Two layers of reversed depth, where the runtime takes it, of [`depth_extent`].
     pub depth: Option<Image>,
-    /// Those of the second pair, where there is one.
+    /// Images of the second pair, where there is one.
     pub inset: Option<InsetTargets>,
     /// The panel, one layer, 8 bits a channel, sRGB; `None` where it stays as it was shown last.
     pub panel: Option<Image>,
@@ -194,20 +192,20 @@ pub struct InsetTargets {
     pub depth: Option<Image>,
 }
 
-/// What a frame shows.
+/// The content of a frame that is shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown {
-    /// With which the picture was drawn, as [`Headset::locate_views`] gave them.
+    /// The eyes with which the picture was drawn, as [`Headset::locate_views`] gave them.
     pub views: [View; 2],
     /// Width and height of each eye's picture, pixels: all of its image, or less, in the upper left
     /// corner. The runtime scales it to the same field of view.
     pub extent: [u32; 2],
-    /// The second pair, with views and extent as they were drawn; wanted where the headset has one.
+    /// The second pair, with views and extent as they were drawn; required where the headset has one.
     pub inset: Option<Inset>,
-    /// Distance of the near plane, m, where depth is 1; it is 0 at infinity.
+    /// Distance of the near plane, m, at which depth is 1; it is 0 at infinity.
     pub near: f32,
-    /// Where the panel stands (its middle; +Z is its face's normal), and its width, m; its height follows from
-    /// its pixels. It is shown under the picture; `None` where the picture's own panel is to be seen.
+    /// Pose of the panel (its middle; +Z is its face's normal), and its width, m; its height follows from its pixels. It is shown under
+    /// the picture; `None` where the picture's own panel is to be seen.
     pub panel: Option<(Pose, f32)>,
 }
 
@@ -215,7 +213,7 @@ pub struct Shown {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum HeadsetError {
-    /// Nothing to talk to.
+    /// There is no runtime to connect to.
     #[error("{remedy}")]
     NoRuntime {
         /// What is missing, and what to install or start.
@@ -232,7 +230,7 @@ pub enum HeadsetError {
     Refused {
         /// OpenXR's name of the call.
         call: &'static str,
-        /// What it answered.
+        /// The runtime's answer.
         cause: String,
     },
     /// The program ended a frame without a picture for the inset that its session has.

@@ -1,9 +1,8 @@
-//! Where poses of head and hands come from.
+//! Sources of poses of head and hands.
 //!
-//! A pose track replayed from a file ([`track`]) is a [`PoseSource`]: a simulation step asks it
-//! where the head and the hands are, and what the hands squeeze, at that step's own simulation
-//! time. A live OpenXR session ([`OpenXr`]) is a [`Headset`]: its display frames come at times of
-//! their own, and the loop above makes the steps' frames from them. Nothing here knows what the
+//! A pose track replayed from a file ([`track`]) is a [`PoseSource`]: for each simulation step, at that step's own simulation time, it
+//! returns the poses of the head and the hands, and how far the hands squeeze. A live OpenXR session ([`OpenXr`]) is a [`Headset`]: its
+//! display frames come at times of their own, and the loop above makes the steps' frames from them. This crate does not depend on what the
 //! poses act on.
 //!
 //! Poses are in the stage frame: Y up, metres, -Z ahead; OpenXR's STAGE reference space with

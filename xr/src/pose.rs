@@ -18,7 +18,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The child frame lies on the parent frame.
+    /// The transform of a child frame that coincides with the parent frame.
     pub const IDENTITY: Self = Self {
         position: Vec3::ZERO,
         orientation: Quat::IDENTITY,

@@ -1,5 +1,4 @@
-//! What of OpenXR is there: loader, runtime, extensions; and what is missing,
-//! with the remedy.
+//! Which parts of OpenXR are installed: loader, runtime, extensions; and what is missing, with the remedy.
 
 use std::path::PathBuf;
 
@@ -7,12 +6,12 @@ use openxr::{ApplicationInfo, Entry, ExtensionSet, Version};
 
 use crate::entry::entry;
 
-/// What a look at OpenXR found.
+/// Result of [`probe`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Probe {
-    /// The loader could be loaded.
+    /// Whether the loader could be loaded.
     pub loader: bool,
-    /// The file that names the runtime, where the loader is told by one.
+    /// The file that names the runtime, where the loader uses one.
     pub manifest: Option<PathBuf>,
     /// Name and version of the runtime that answered.
     pub runtime: Option<String>,
@@ -66,7 +65,7 @@ fn name_of(entry: &Entry) -> Result<String, openxr::sys::Result> {
     ))
 }
 
-/// What the program tells a runtime of itself.
+/// The application's name and version, as a runtime gets them.
 pub(crate) fn application() -> ApplicationInfo<'static> {
     ApplicationInfo {
         application_name: "vitriol",
@@ -78,7 +77,7 @@ pub(crate) fn application() -> ApplicationInfo<'static> {
     }
 }
 
-/// A runtime without the extension that everything is built on, such as Microsoft's own: which other to choose.
+/// Message for a runtime without the extension that everything is built on, such as Microsoft's own: which other to choose.
 pub(crate) fn no_vulkan(entry: &Entry) -> String {
     let name = name_of(entry).unwrap_or_else(|_| "of no name".to_owned());
     let others = others();
@@ -102,7 +101,7 @@ const RUNTIMES: &str = "SteamVR or Meta Quest Link, and make it the active one i
 #[cfg(not(windows))]
 const RUNTIMES: &str = "SteamVR, WiVRn or Monado";
 
-/// A loader without a runtime that answers.
+/// Message for a loader without a runtime that answers.
 pub(crate) fn no_runtime(error: openxr::sys::Result) -> String {
     match manifest() {
         Some(manifest) => format!(

@@ -1,12 +1,11 @@
-//! The one face that a live session and a recorded track share.
+//! The interface that a live session and a recorded track share.
 
 use crate::PoseFrame;
 
-/// Where a simulation step gets its poses from.
+/// Source of a simulation step's poses.
 pub trait PoseSource: Send {
-    /// What the user does at simulation time `time` (s, the step's own time, not decreasing
-    /// from call to call), for the step with index `step`. `None`: the source has ended, and
-    /// stays ended.
+    /// The user's input at simulation time `time` (s, the step's own time, not decreasing from call to call), for the step with index
+    /// `step`. `None`: the source has ended, and stays ended.
     ///
     /// The frame carries `step`; its [`scenario`](PoseFrame::scenario) holds each switch
     /// once, in the first frame at or after the switch. A hand that is not valid, and any
@@ -21,7 +20,7 @@ pub trait PoseSource: Send {
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// The time asked for is no time.
+    /// The time asked for is not finite, or negative.
     #[error(
         "simulation step {step} asked for poses at {time} s; a simulation time is finite and \
          not negative"
@@ -29,7 +28,7 @@ pub enum SourceError {
     Time {
         /// The step that asked.
         step: u64,
-        /// What it asked for, s.
+        /// The time that it asked for, s.
         time: f64,
     },
 }

@@ -17,7 +17,7 @@ use vitriol_xr::files;
 use vitriol_xr::track::{TrackMetadata, TrackSource};
 
 use crate::cli::ExportArgs;
-use crate::command::plan::{Ask, Plan};
+use crate::command::plan::{Ask, ReplayPlan};
 use crate::command::stem;
 use crate::report::{LAYOUT, Report};
 
@@ -155,7 +155,7 @@ fn simulated(
         breakable: made.breakable,
         accept_truncated: args.accept_truncated || made.accept_truncated,
     };
-    let plan = Plan::new(&ask)?;
+    let plan = ReplayPlan::new(&ask)?;
     let times = times(args, &plan, made.seconds)?;
     let gpu = device::open(args.device.as_deref())?;
     let films = formats.contains(&Exported::Mcap);
@@ -271,7 +271,7 @@ impl<'a> Made<'a> {
 }
 
 /// When moments are exported.
-fn times(args: &ExportArgs, plan: &Plan, whole: Option<f64>) -> Result<Times, Failure> {
+fn times(args: &ExportArgs, plan: &ReplayPlan, whole: Option<f64>) -> Result<Times, Failure> {
     let from = args.at.or(args.from).unwrap_or(0.0);
     // With --at the span is as long as that.
     let end = match args.at {
@@ -291,7 +291,7 @@ fn times(args: &ExportArgs, plan: &Plan, whole: Option<f64>) -> Result<Times, Fa
 }
 
 /// What an exported recording says of itself: it replays like one that was recorded.
-fn metadata(plan: &Plan, device: &vitriol_experiment::DeviceStatement) -> TrackMetadata {
+fn metadata(plan: &ReplayPlan, device: &vitriol_experiment::DeviceStatement) -> TrackMetadata {
     let mut metadata = TrackMetadata {
         scene: plan.name.clone(),
         seed: plan.seed,

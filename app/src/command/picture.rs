@@ -12,7 +12,7 @@ use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
 
 use crate::cli::PictureArgs;
-use crate::command::plan::{Ask, Plan};
+use crate::command::plan::{Ask, ReplayPlan};
 use crate::command::recorded::head;
 
 /// What `vitriol picture` prints.
@@ -50,7 +50,7 @@ pub fn run(
         }
         output::new_dir(dir)?;
     }
-    let Plan {
+    let ReplayPlan {
         track,
         scenes,
         name,
@@ -58,7 +58,7 @@ pub fn run(
         preset,
         seed,
         ..
-    } = Plan::new(&Ask {
+    } = ReplayPlan::new(&Ask {
         track: &args.track,
         scene: args.scene.as_deref(),
         preset: args.preset,

@@ -79,7 +79,7 @@ fn is_of_glass(switch: &Switch) -> bool {
 
 /// What is to run.
 #[derive(Debug)]
-pub struct Plan {
+pub struct ReplayPlan {
     /// The track, without what is replaced.
     pub track: Track,
     /// Scenes that it may bring up.
@@ -98,7 +98,7 @@ pub struct Plan {
     pub span: Span,
 }
 
-impl Plan {
+impl ReplayPlan {
     /// Loads and checks what is asked for, and says where its bits may differ from what was recorded.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl Plan {
     /// The same of a track that is loaded.
     ///
     /// # Errors
-    /// As for [`Plan::new`].
+    /// As for [`ReplayPlan::new`].
     pub fn of(ask: &Ask<'_>, track: Track) -> Result<Self, Failure> {
         let mut track = whole(ask.track, track, ask.accept_truncated)?;
         let mut scenes = Scenes::default();
@@ -191,7 +191,7 @@ mod tests {
                 breakable,
                 ..Ask::default()
             };
-            let plan = Plan::new(&ask).unwrap();
+            let plan = ReplayPlan::new(&ask).unwrap();
             let switches = plan.track.frames.iter().enumerate().flat_map(|(n, frame)| {
                 let glass = frame.scenario.iter().filter(|it| is_of_glass(it));
                 glass.map(move |it| (n, it.value.clone()))

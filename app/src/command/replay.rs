@@ -29,7 +29,7 @@ use crate::cli::ReplayArgs;
 use crate::command::course::{self, AskedLesson};
 #[cfg(feature = "class")]
 use crate::command::keeping::Kept;
-use crate::command::plan::{Ask, Plan};
+use crate::command::plan::{Ask, ReplayPlan};
 use crate::command::recorded::{
     differences, head, is_recording, recorded_events, recorded_progress,
 };
@@ -82,7 +82,7 @@ pub fn run(
     let bars = Runs::new(format);
     #[cfg(feature = "class")]
     let prepare = {
-        let console = class::Console::begin(args, format)?;
+        let console = class::ReplayConsole::begin(args, format)?;
         move |setup: &Setup<'_>| console.show(prepare(setup)?, setup.scene_name)
     };
     if let [track] = &args.tracks[..] {
@@ -139,7 +139,7 @@ fn replay(
     prepare: &impl Fn(&Setup<'_>) -> Result<Box<dyn Experiment>, Failure>,
 ) -> Result<Replayed, Failure> {
     let ask = ask(args, name);
-    let Plan {
+    let ReplayPlan {
         track,
         scenes,
         name: name_of_start,
@@ -148,7 +148,7 @@ fn replay(
         chosen,
         seed,
         span,
-    } = Plan::new(&ask)?;
+    } = ReplayPlan::new(&ask)?;
     let head = head(args.camera, name, &track)?;
     let lesson = args.judge.chosen()?;
     let judging = lesson.as_ref().map(|(lesson, mode)| {

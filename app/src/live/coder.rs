@@ -16,7 +16,7 @@ pub const VIEW_SIDE: u32 = 720;
 pub const VIEW_FPS: u32 = 30;
 
 /// A picture to be coded.
-pub enum Picture {
+pub enum RawPicture {
     /// As the device has left it.
     #[cfg(feature = "session")]
     Shrunk(Shrunk),
@@ -28,7 +28,7 @@ pub enum Picture {
 pub struct Coder {
     port: Port,
     /// One waits at most: what is older than that is not live.
-    pictures: Option<SyncSender<(Picture, u64)>>,
+    pictures: Option<SyncSender<(RawPicture, u64)>>,
     thread: Option<std::thread::JoinHandle<()>>,
 }
 
@@ -58,7 +58,7 @@ impl Coder {
     }
 
     /// Hands in the picture of that time (µs) since the view began; one that comes too soon after another is left out. Does not wait.
-    pub fn give(&self, picture: Picture, time_us: u64) {
+    pub fn give(&self, picture: RawPicture, time_us: u64) {
         if let Some(pictures) = &self.pictures {
             let _ = pictures.try_send((picture, time_us));
         }
@@ -75,7 +75,7 @@ impl Drop for Coder {
     }
 }
 
-fn code_all(port: &Port, queue: &Receiver<(Picture, u64)>) {
+fn code_all(port: &Port, queue: &Receiver<(RawPicture, u64)>) {
     let mut coding = Coding::default();
     let mut told = false;
     for (picture, time_us) in queue {
@@ -95,7 +95,7 @@ struct Coding {
 }
 
 impl Coding {
-    fn code(&mut self, port: &Port, picture: &Picture, time_us: u64) -> Result<(), Failure> {
+    fn code(&mut self, port: &Port, picture: &RawPicture, time_us: u64) -> Result<(), Failure> {
         let wanted = port.wanted();
         if !wanted.h264 && !wanted.jpeg {
             return Ok(());
@@ -131,11 +131,11 @@ impl Coding {
     }
 
     /// Its pixels as RGBA, and width and height, which H.264 wants even; `None` of one that is too small for it.
-    fn unpack(&mut self, picture: &Picture) -> Result<Option<[u32; 2]>, Failure> {
+    fn unpack(&mut self, picture: &RawPicture) -> Result<Option<[u32; 2]>, Failure> {
         let extent = match picture {
             #[cfg(feature = "session")]
-            Picture::Shrunk(shrunk) => shrunk.extent,
-            Picture::Rgba(_, extent) => *extent,
+            RawPicture::Shrunk(shrunk) => shrunk.extent,
+            RawPicture::Rgba(_, extent) => *extent,
         };
         let size = extent.map(|side| side & !1);
         if size.iter().any(|side| *side < 16) {
@@ -145,7 +145,7 @@ impl Coding {
         self.rgba.clear();
         match picture {
             #[cfg(feature = "session")]
-            Picture::Shrunk(shrunk) => {
+            RawPicture::Shrunk(shrunk) => {
                 let pixels = shrunk.pixels().other()?;
                 for row in pixels.chunks_exact(wide).take(height) {
                     let bytes = row[..width].iter().flat_map(|pixel| {
@@ -156,7 +156,7 @@ impl Coding {
                     self.rgba.extend(bytes);
                 }
             }
-            Picture::Rgba(bytes, _) => {
+            RawPicture::Rgba(bytes, _) => {
                 for row in bytes.chunks_exact(4 * wide).take(height) {
                     self.rgba.extend(&row[..4 * width]);
                 }

@@ -7,7 +7,7 @@ mod told;
 #[cfg(feature = "session")]
 mod watchers;
 
-pub use coder::{Coder, Picture, VIEW_FPS, VIEW_SIDE};
+pub use coder::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
 pub use replayed::Live;
 pub use serve::{Console, Serving, hub_address, invitation, start, student};
 #[cfg(feature = "session")]

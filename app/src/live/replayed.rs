@@ -11,7 +11,7 @@ use vitriol_lesson::Texts;
 use vitriol_render::PassPicture;
 use vitriol_xr::PoseFrame;
 
-use super::coder::{Coder, Picture};
+use super::coder::{Coder, RawPicture};
 use super::serve::Console;
 use super::told::{incidents, readings};
 use crate::choices::CHOICES;
@@ -175,7 +175,7 @@ impl Experiment for Live {
         let picture = self.inner.picture(film)?;
         if wanted {
             let [width, height] = FILM_SIZE;
-            let whole = Picture::Rgba(picture.to_vec(), [width, height]);
+            let whole = RawPicture::Rgba(picture.to_vec(), [width, height]);
             self.coder.give(whole, time_us);
         }
         Ok(picture)

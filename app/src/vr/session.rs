@@ -2,6 +2,7 @@
 //! the parts that it goes through, each in a file of its own.
 
 mod benches;
+mod checkpoints;
 mod choices;
 mod counts;
 mod ended;
@@ -9,7 +10,6 @@ mod frame;
 mod guide;
 mod hints;
 mod instructor;
-mod keeper;
 mod losses;
 mod metadata;
 mod pacing;
@@ -54,13 +54,13 @@ use super::workbench::{Plan, Workbench};
 use crate::texts::Texts;
 
 use benches::Benches;
+use checkpoints::Checkpoints;
 use choices::Choices;
 use counts::Counts;
 use ended::NoFrameOpen;
 use guide::Guide;
 use hints::Hints;
 use instructor::Instructor;
-use keeper::Keeper;
 use losses::Losses;
 use metadata::metadata;
 use pacing::Pacing;
@@ -176,7 +176,7 @@ pub struct Session {
     /// What the panel says of the flasks.
     readings: Readings,
     /// What the bench is brought back from where the device is lost.
-    keeper: Keeper,
+    checkpoints: Checkpoints,
     /// What was spilt, and on whom.
     spills: Spills,
     /// What the user hears.
@@ -262,7 +262,7 @@ impl Session {
             sounds,
             hints,
             summary: Summary::new(options.language)?,
-            keeper: Keeper::default(),
+            checkpoints: Checkpoints::default(),
             spills: Spills::default(),
             gloves: [const { Vec::new() }; 2],
             panel,
@@ -375,7 +375,7 @@ impl Session {
         if self.benches.move_to(headset, &mut self.run)? {
             self.losses.brought_back(self.counts.frames);
         }
-        self.keeper.forget();
+        self.checkpoints.forget();
         let (library, eyes) = (&self.benches.library, &self.benches.eyes);
         self.panel = Panel::new(gpu, library)?.in_words(&self.texts.panel);
         self.hints.move_to(gpu, library)?;

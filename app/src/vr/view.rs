@@ -8,7 +8,7 @@ use vitriol_gpu::{Gpu, Image};
 use vitriol_shaders::Library;
 
 use super::mirror::Shrink;
-use crate::live::{Coder, Picture, VIEW_FPS, VIEW_SIDE};
+use crate::live::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
 
 /// Display time between two pictures, ns.
 const EVERY: i64 = 1_000_000_000 / VIEW_FPS as i64;
@@ -68,7 +68,7 @@ impl View {
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         while let Some(shrunk) = self.shrink.done()? {
             let time_us = u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX);
-            self.coder.give(Picture::Shrunk(shrunk), time_us);
+            self.coder.give(RawPicture::Shrunk(shrunk), time_us);
         }
         Ok(())
     }

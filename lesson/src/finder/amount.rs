@@ -1,35 +1,35 @@
-//! Liquid that comes bit by bit: how much in all, of what, where, and from when to when.
+//! Sums over liquid that arrives in portions: volume, acid, position, temperature, first and last arrival.
 
 use glam::DVec3;
 
-/// See the module. Means are by volume.
+/// Sums over liquid that arrives in portions. Its means are weighted by volume.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Amount {
     pub begun: f64,
     pub last: f64,
-    /// Real m³.
+    /// Volume at real size, m³.
     pub volume: f64,
     acid: f64,
     place: DVec3,
     warmth: f64,
-    /// Of what the temperature is known, real m³.
+    /// Volume of the portions whose temperature is known, at real size, m³.
     warm: f64,
 }
 
-/// A bit of it.
+/// A portion of liquid, as one observation has it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bit {
-    /// Real m³.
+    /// Volume at real size, m³.
     pub volume: f64,
     pub acid: f64,
-    /// In the world, m of the scene.
+    /// Mean position in the world, m of the scene.
     pub place: DVec3,
-    /// °C.
+    /// Mean temperature, °C.
     pub temperature: Option<f64>,
 }
 
 impl Amount {
-    /// None yet, at `t`.
+    /// Empty sums that begin at time `t`, s.
     pub fn at(t: f64) -> Self {
         Self {
             begun: t,
@@ -61,7 +61,7 @@ impl Amount {
         (self.warm > 0.0).then(|| self.warmth / self.warm)
     }
 
-    /// Whether a while has passed at `now` without more of it.
+    /// Whether nothing has been added in the `pause` seconds before `now`.
     pub fn is_over(&self, now: f64, pause: f64) -> bool {
         now - self.last > pause
     }

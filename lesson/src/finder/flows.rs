@@ -1,44 +1,44 @@
-//! What is poured from where to where, how fast, and whether acid and water meet in the wrong order or too fast.
+//! Pours from flask to flask or beside: how fast, and whether acid and water meet in the wrong order or too fast.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use vitriol_sim::solver::{Moved, Place};
 
 use super::amount::{Amount, Bit};
-use super::leaving::{Leavings, Mode};
+use super::leaving::{LeavingCause, Leavings};
 use super::{Bench, PAUSE, Seen};
 use crate::event::{Cause, Content, Event, Incident, Pour, What};
 
-/// Over what time a rate is taken, s: a stream of particles is uneven, and a tenth of a second would hold some dozen.
+/// Duration over which a flow rate is averaged, s: a stream of particles is uneven, and a tenth of a second would hold some dozen.
 const WINDOW: f64 = 0.5;
-/// Acid fractions that differ by less do not mix: no heat to speak of. Our choice.
+/// Liquids whose acid mass fractions differ by less give off no heat to speak of when mixed. Our choice.
 const ALIKE: f64 = 0.1;
-/// After a pour that long ago heat is still of it, s. Our choice.
+/// Time after a pour during which heat is still caused by it, s. Our choice.
 const WARMS: f64 = 10.0;
 
-/// What comes from one flask to one place.
+/// A flow under way from one flask to one place.
 #[derive(Clone, Debug)]
 struct Flow {
     amount: Amount,
     met: Option<Content>,
     window: VecDeque<(f64, f64)>,
     fastest: f64,
-    /// What came while it was mostly water into concentrated acid, and the fraction that the first of it met.
+    /// Portions below `concentrated` that met acid above it, and the acid fraction that the first of them met.
     wrong: Option<(Amount, f64)>,
-    /// From when to when acid and water came together too fast, s, and the fastest then, m³/s.
+    /// Begin and end of the time in which acid and water came together too fast, s, and the highest rate then, m³/s.
     too_fast: Option<[f64; 3]>,
 }
 
-/// From which flask to which, `None` beside all.
+/// Source and target flask of a flow; the target is `None` for bench and floor.
 type Way = (usize, Option<usize>);
 
-/// See the module.
+/// Flows under way and what they met. Finished flows become [`Pour`]s and incidents.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flows {
     open: BTreeMap<Way, Flow>,
-    /// By way, when the last of it came that mixed, s.
+    /// When liquid that mixes with its target last arrived, by source and target, s.
     last: BTreeMap<Way, f64>,
-    /// What each flask held at the look before.
+    /// Contents of each flask at the previous observation.
     before: Vec<Option<Content>>,
 }
 
@@ -74,9 +74,16 @@ impl Flows {
             .collect();
     }
 
-    fn come(&mut self, bench: &Bench, seen: &Seen<'_>, way: Way, moved: &[Moved], mode: Mode) {
+    fn come(
+        &mut self,
+        bench: &Bench,
+        seen: &Seen<'_>,
+        way: Way,
+        moved: &[Moved],
+        mode: LeavingCause,
+    ) {
         let came = moved.iter().any(|it| it.particles > 0);
-        if !came || (mode != Mode::Pouring && !self.open.contains_key(&way)) {
+        if !came || (mode != LeavingCause::Pouring && !self.open.contains_key(&way)) {
             return;
         }
         let t = seen.t;
@@ -86,7 +93,7 @@ impl Flows {
             .1
             .and_then(|into| self.before.get(into).copied().flatten());
         let flow = self.open.entry(way).or_insert_with(|| Flow {
-            // What came in the step before this look began in it.
+            // The liquid arrived during the step before this observation, so the flow began with that step.
             amount: Amount::at(t - seen.elapsed),
             met: before,
             window: VecDeque::new(),
@@ -114,7 +121,7 @@ impl Flows {
                 wrong.add(t, &bit);
             }
         }
-        // Half a step, since times are sums of steps and rounded.
+        // Half a step of tolerance, since times are sums of steps and rounded.
         let oldest = t - WINDOW + 0.5 * seen.elapsed;
         while flow.window.front().is_some_and(|(at, _)| *at < oldest) {
             flow.window.pop_front();
@@ -131,7 +138,7 @@ impl Flows {
         }
     }
 
-    /// Says what is over at `now`.
+    /// Emits the flows that are over at `now`.
     pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
         let (over, open) = std::mem::take(&mut self.open)
             .into_iter()
@@ -143,7 +150,7 @@ impl Flows {
         }
     }
 
-    /// From which flask something that mixes was poured into this one a while ago or less, at `now`.
+    /// The flask from which liquid that mixes was last poured into `into`, if that was within `WARMS` before `now`.
     pub fn mixed(&self, into: usize, now: f64) -> Option<usize> {
         let recent = self
             .last
@@ -154,7 +161,7 @@ impl Flows {
             .map(|((from, _), _)| *from)
     }
 
-    /// Why that flask's liquid is hot.
+    /// Cause of the heat of that flask's liquid.
     pub fn why_hot(&self, bench: &Bench, flask: usize, now: f64) -> Cause {
         let name = bench.name(flask);
         match self.mixed(flask, now) {

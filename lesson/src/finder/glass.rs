@@ -6,22 +6,22 @@ use crate::event::{Cause, Event, Incident, What};
 /// The last blow that a flask took.
 #[derive(Clone, Copy, Debug)]
 struct Blow {
-    /// m/s, as at real size.
+    /// Speed at real size, m/s.
     speed: f64,
-    /// Nobody held it, and it was no other flask.
+    /// Whether nobody held the flask, and what it struck was no other flask.
     falling: bool,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Fall {
-    /// A hand held it, and it has struck nothing since.
+    /// Whether a hand has held it since its last fall.
     let_go: bool,
     blow: Option<Blow>,
-    /// What is to be said once its bounces are over: they are of the same fall, and it breaks, if it does, as the next step begins.
+    /// Its incident, kept until the bounces are over: they belong to the same fall, and a break is reported as the next step begins.
     waits: Option<Incident>,
 }
 
-/// By flask.
+/// Falls of glass, one entry a flask.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GlassFalls(Vec<Fall>);
 
@@ -32,7 +32,7 @@ impl GlassFalls {
             if let Some(broken) = seen.breaks.iter().find(|it| it.flask == flask) {
                 let at = broken.stage_from_flask.position;
                 let speed = fall.blow.map_or(0.0, |blow| blow.speed);
-                // One that broke in a hand or at another flask was not let go of.
+                // A flask that broke in a hand or against another flask was not let go of.
                 let let_go = fall.let_go && fall.blow.is_some_and(|blow| blow.falling);
                 let made = || dropped(bench, seen.t, flask, let_go, speed, at);
                 let incident = fall.waits.get_or_insert_with(made);
@@ -59,7 +59,7 @@ impl GlassFalls {
             let (t, flask, at) = (seen.t, strike.flask, strike.position);
             let made = || dropped(bench, t, flask, let_go, speed, at);
             let incident = fall.waits.get_or_insert_with(made);
-            // Off the bench onto the floor it strikes harder.
+            // A flask that falls from the bench onto the floor strikes harder there.
             if let What::Dropped { speed_m_s, .. } = &mut incident.what {
                 *speed_m_s = speed_m_s.max(speed);
             }
@@ -67,7 +67,7 @@ impl GlassFalls {
         }
     }
 
-    /// Says what waits.
+    /// Emits the incidents that are kept back.
     pub fn close(&mut self, said: &mut Vec<Event>) {
         let waits = self.0.iter_mut().filter_map(|fall| fall.waits.take());
         said.extend(waits.map(Event::Incident));

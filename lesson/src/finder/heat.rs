@@ -1,4 +1,4 @@
-//! How hot it becomes.
+//! Liquid that becomes hot.
 
 use vitriol_sim::bodies;
 
@@ -6,7 +6,8 @@ use super::flows::Flows;
 use super::{Bench, Seen};
 use crate::event::{Cause, Event, Hottest, Incident, What};
 
-/// By how much it cools below the limit before it is over, K, so that what wavers about it is one. Our choice.
+/// How far below the limit a liquid must cool to end its incident, K: a temperature that wavers about the limit is one incident. Our
+/// choice.
 const COOLER: f64 = 2.0;
 
 #[derive(Clone, Debug)]
@@ -18,18 +19,18 @@ struct Hot {
     place: [f64; 3],
 }
 
-/// See the module.
+/// Flasks whose mean temperature is above the limit, and the hottest particle of the attempt.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Heat {
-    /// Of the attempt.
+pub(crate) struct HeatFinder {
+    /// The hottest particle of the attempt.
     pub hottest: Option<Hottest>,
-    /// By flask.
+    /// By flask, the incident under way.
     open: Vec<Option<Hot>>,
-    /// By flask, whether it has been colder: what a scene begins with is nobody's doing.
+    /// By flask, whether its liquid has been below the limit: a scene that begins hot is nobody's fault.
     colder: Vec<bool>,
 }
 
-impl Heat {
+impl HeatFinder {
     pub fn looked(&mut self, bench: &Bench, seen: &Seen<'_>, flows: &Flows, said: &mut Vec<Event>) {
         self.hottest_of(bench, seen);
         self.open.resize_with(bench.names.len(), || None);
@@ -37,7 +38,7 @@ impl Heat {
         for (flask, open) in self.open.iter_mut().enumerate() {
             let held = seen.census.flasks.get(flask);
             let Some(mean) = held.and_then(|it| it.temperature).map(f64::from) else {
-                // Poured out, or broken.
+                // The flask was emptied, or it broke.
                 say(bench, flask, open, said);
                 continue;
             };
@@ -87,7 +88,7 @@ impl Heat {
         }
     }
 
-    /// Says what goes on.
+    /// Emits the incidents under way.
     pub fn close(&mut self, bench: &Bench, said: &mut Vec<Event>) {
         for (flask, open) in self.open.iter_mut().enumerate() {
             say(bench, flask, open, said);

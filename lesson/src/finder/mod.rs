@@ -1,8 +1,8 @@
-//! Finds what happens in an attempt, look by look.
+//! Finds the events of an attempt, one observation at a time.
 //!
-//! It sees no particle, but the sums of a census: how much came where, of which flask it was, and how warm it is. Each thing that
-//! happens begins with the first look that shows it and is over once a while has passed without more of it; it is said then. What is
-//! said depends on the looks alone, so a replay that looks at the same steps says the same.
+//! It reads no particles but their sums, a census: how much liquid arrived where, from which flask, and how warm it is. An event begins
+//! with the first observation that shows it, is over after a pause without more of it, and is emitted then. Events depend on the
+//! observations alone, so a replay that observes the same steps emits the same events.
 
 mod amount;
 mod flows;
@@ -26,74 +26,74 @@ use crate::event::{Content, Contents, Ending, Event};
 use crate::limits::Limits;
 use flows::Flows;
 use glass::GlassFalls;
-use heat::Heat;
+use heat::HeatFinder;
 use leaving::Leavings;
 use skin::Touches;
 use spills::Spills;
 use thrown::Thrown;
 
-/// A while without more of it, after which something is over, s: longer than a stream that gurgles pauses, shorter than who pours
-/// twice takes between. Our choice.
+/// Pause after which an event is over, s: longer than a stream that gurgles pauses, shorter than a user who pours twice takes between. Our
+/// choice.
 pub(crate) const PAUSE: f64 = 1.0;
 
-/// Of a real laboratory, m/s².
+/// Gravity in a real laboratory, m/s².
 const GRAVITY: f64 = 9.81;
 
-/// What a look shows, and what was done in the step before it.
+/// An observation: the state after a step, and what happened in that step.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
     /// Simulated time of the run, s.
     pub t: f64,
-    /// Since the look before, s.
+    /// Simulated time since the previous observation, s.
     pub elapsed: f64,
-    /// Where the liquid is, and what went where.
+    /// Census of the liquid: where it is, and what moved where.
     pub census: &'a Census,
-    /// stage_from_flask, in the world.
+    /// Pose of each flask in the world, stage_from_flask.
     pub poses: &'a [Pose],
     /// By flask, whether a hand holds it.
     pub held: &'a [bool],
-    /// Blows of the glass.
+    /// Impacts of glass in the step.
     pub strikes: &'a [Strike],
-    /// Flasks that broke.
+    /// Flasks that broke in the step.
     pub breaks: &'a [Break],
     /// What the user wears.
     pub worn: Worn,
-    /// How far the hood's sash is open, m at real size.
+    /// How far the hood's sash is open, m at real size; `None` without a hood.
     pub sash_open: Option<f64>,
-    /// What is dipped.
+    /// Rod and thermometer.
     pub dipped: &'a [Dipped],
 }
 
 /// A rod or a thermometer after the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dipped {
-    /// What it is.
+    /// Rod or thermometer.
     pub kind: ToolKind,
-    /// Where its lower end is, in the world.
+    /// Position of its lower end in the world.
     pub tip: glam::Vec3,
-    /// How fast that moves, m/s of the scene.
+    /// Speed of that end, m/s of the scene.
     pub speed: f32,
 }
 
-/// What of a scene matters here.
+/// Properties of a scene that the finder needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Bench {
     pub names: Vec<String>,
-    /// Whether a hand can lift it.
+    /// By flask, whether a hand can lift it.
     pub lifted: Vec<bool>,
-    /// Whether it is heated.
+    /// By flask, whether it is heated.
     pub heated: Vec<bool>,
-    /// Height of the rim over the flask's origin, m of the scene.
+    /// By flask, height of the rim over its origin, m of the scene.
     pub rims: Vec<f64>,
     /// The flasks' shapes, m of the scene.
     pub profiles: Vec<Profile>,
-    /// Whether steam is in bubbles.
+    /// Whether steam is modelled as bubbles.
     pub bubbles: bool,
-    /// Real metres for one of the scene.
+    /// Real metres per metre of the scene.
     pub scale: f64,
-    /// Gravity, m of the scene/s².
+    /// Gravity, in m of the scene per s².
     gravity: f64,
-    /// Of the scene's file, in the world, m of the scene.
+    /// [`Scene::origin`], m of the scene.
     pub origin: glam::DVec3,
     /// The bench's top.
     pub table: Option<TableTop>,
@@ -122,17 +122,17 @@ impl Bench {
         self.names.get(flask).cloned().unwrap_or_default()
     }
 
-    /// Real m³ of a volume of the scene.
+    /// Converts a volume of the scene, m³ of the scene, to real size, m³.
     pub fn volume(&self, of_scene: f64) -> f64 {
         self.scale.powi(3) * of_scene
     }
 
-    /// A speed of the scene as it would be at real size, m/s: that of a fall from the same height of it.
+    /// Converts a speed of the scene to real size, m/s: falls from corresponding heights have corresponding speeds.
     pub fn speed(&self, of_scene: f64) -> f64 {
         of_scene * (GRAVITY * self.scale / self.gravity).sqrt()
     }
 
-    /// A place in the world in the frame of the scene's file, real m.
+    /// Converts a position in the world, m of the scene, to the frame of the scene's file, m at real size.
     pub fn place(&self, in_world: glam::DVec3) -> [f64; 3] {
         (self.scale * (in_world + self.origin)).to_array()
     }
@@ -160,7 +160,7 @@ impl Bench {
     }
 }
 
-/// See the module.
+/// Finds the [`Event`]s of an attempt from successive observations ([`Seen`]) of a simulation.
 #[derive(Clone, Debug)]
 pub struct Finder {
     bench: Bench,
@@ -171,13 +171,13 @@ pub struct Finder {
     thrown: Thrown,
     spills: Spills,
     touches: Touches,
-    heat: Heat,
+    heat: HeatFinder,
     falls: GlassFalls,
-    /// The last look's, for the end.
+    /// Contents of the flasks at the last observation.
     contents: Contents,
-    /// What lies on bench and floor, real m³.
+    /// Volume on bench and floor at the last observation, m³ at real size.
     lying: [f64; 2],
-    /// Water that came to the left and the right hand since the start, real m³.
+    /// Water that came to the left and the right hand since the start, m³ at real size.
     rinsed: [f64; 2],
     /// Whether hands can be rinsed.
     rinsing: bool,
@@ -185,7 +185,7 @@ pub struct Finder {
 }
 
 impl Finder {
-    /// For a scene at its start, which is called `name`.
+    /// A finder for `scene` at its start; `name` is the scene's name in events.
     pub fn new(name: &str, scene: &Scene, limits: Limits) -> Self {
         Self {
             bench: Bench::of(scene, limits),
@@ -196,7 +196,7 @@ impl Finder {
             thrown: Thrown::default(),
             spills: Spills::default(),
             touches: Touches::default(),
-            heat: Heat::default(),
+            heat: HeatFinder::default(),
             falls: GlassFalls::default(),
             contents: Contents::default(),
             lying: [0.0; 2],
@@ -206,7 +206,7 @@ impl Finder {
         }
     }
 
-    /// Takes in a look; what is over with it, in the order in which it ended.
+    /// Takes in an observation. Returns the events that are over with it, and [`Event::Begun`] at the first.
     pub fn looked(&mut self, seen: &Seen<'_>) -> Vec<Event> {
         let mut said = Vec::new();
         let bench = &self.bench;
@@ -235,7 +235,8 @@ impl Finder {
         said
     }
 
-    /// The attempt is over, at the time of the last look: what goes on is said, and how it ended. Nothing where it never began.
+    /// Ends the attempt at the time of the last observation. Returns the events under way and [`Event::Ended`]; nothing if no attempt has
+    /// begun.
     pub fn end(&mut self) -> Vec<Event> {
         let mut said = Vec::new();
         if !std::mem::replace(&mut self.begun, false) {

@@ -1,4 +1,4 @@
-//! What a look shows of the flasks, for the judge of a lesson.
+//! Reduces an observation to the [`Sight`] that the judge of a lesson takes in.
 
 use glam::Vec3;
 use vitriol_sim::bodies;
@@ -11,7 +11,7 @@ use crate::procedure::{Dip, FlaskSight, Sight};
 /// Tilt up to which a flask stands, as the cosine of its axis with the vertical: 5°, which rounding of the table's contact does not reach.
 /// Our choice.
 const UPRIGHT: f32 = 0.996;
-/// How far above or below the bench's top its base may be, m at real size. Our choice.
+/// How far above or below the bench's top the base of a standing flask may be, m at real size. Our choice.
 const CONTACT: f64 = 0.005;
 
 impl Bench {
@@ -28,7 +28,7 @@ impl Bench {
 }
 
 impl Bench {
-    /// Whether a place in the world is in the liquid of a flask that holds so much of it (m³ of the scene), as it would stand in the upright
+    /// Whether a place in the world is in the liquid of a flask that holds `volume` (m³ of the scene), as that would stand in the upright
     /// flask.
     fn is_in_liquid(&self, flask: usize, volume: f64, pose: &Pose, place: Vec3) -> bool {
         let Some(profile) = self.profiles.get(flask).filter(|_| volume > 0.0) else {
@@ -42,8 +42,8 @@ impl Bench {
 }
 
 impl Finder {
-    /// What a look shows, for [`Procedure::advance`](crate::Procedure::advance) with the events of the same look, which
-    /// [`Finder::looked`] has taken in. What a scene does not have is `None`.
+    /// The [`Sight`] of an observation that [`Finder::looked`] has taken in, for [`Procedure::advance`](crate::Procedure::advance) with
+    /// the events of the same observation. Equipment that the scene does not have is `None`.
     pub fn sight(&self, seen: &Seen<'_>) -> Sight {
         let bench = &self.bench;
         let flasks = bench.names.iter().enumerate().map(|(flask, name)| {
@@ -103,7 +103,7 @@ mod tests {
     use crate::Limits;
     use crate::finder::Dipped;
 
-    /// The first flask of a scene at its start, after `change`.
+    /// Sight of a scene at its start, after `change` of the first flask's pose.
     fn seen(scene: &str, held: bool, change: &dyn Fn(&mut Pose)) -> Sight {
         let scene = Scene::builtin(scene).unwrap();
         let finder = Finder::new("scene", &scene, Limits::default());
@@ -140,7 +140,7 @@ mod tests {
         })
     }
 
-    /// At real size, and in a scene that is drawn at a twentieth: 8 m³ of it are 1 L.
+    /// Volumes at real size, also in a scene whose metre is a twentieth of a real one: 8 m³ there are 1 L.
     #[test]
     fn a_sight_is_of_real_size() {
         for (scene, volume_m3) in [("acid-into-water", 8.0), ("vr-dilution", 1e-3)] {
@@ -155,7 +155,7 @@ mod tests {
             assert_eq!((flask.acid, flask.temperature_c), (0.5, Some(30.0)));
             assert_eq!((sight.t_s, sight.flasks.len()), (3.0, 2));
             assert_eq!(sight.flasks[1].temperature_c, None);
-            // The first has gloves to take off, the second has none.
+            // The first scene has gloves to take off, the second has none.
             let rinsed = (scene == "acid-into-water").then_some([0.0; 2]);
             assert_eq!((sight.goggles, sight.rinsed_m3), (None, rinsed));
             assert_eq!(sight.sash_m, Some(0.3));
@@ -182,7 +182,7 @@ mod tests {
             };
             assert!(tilt(4.0) && !tilt(6.0) && !tilt(180.0));
         }
-        // Nowhere once it is broken, and on no bench where there is none.
+        // A broken flask stands nowhere, and no flask stands on a bench that the scene does not have.
         let scene = Scene::builtin("acid-into-water").unwrap();
         let mut finder = Finder::new("scene", &scene, Limits::default());
         let pose = scene.flasks[0].stage_from_flask;

@@ -1,4 +1,4 @@
-//! Acid or hot liquid that comes to the user.
+//! Acid or hot liquid that touches the user.
 
 use vitriol_sim::bodies::Worn;
 use vitriol_sim::solver::{Place, Skin as Part};
@@ -8,16 +8,16 @@ use super::leaving::Leavings;
 use super::{Bench, PAUSE, Seen};
 use crate::event::{Cause, Event, Incident, Skin, What};
 
-/// What came to a part.
+/// Liquid that touches one part of the body.
 #[derive(Clone, Debug)]
 struct Touch {
     amount: Amount,
     cause: Cause,
-    /// Whether glove or goggles kept all of it off.
+    /// Whether gloves or goggles kept all of it off the skin.
     protected: bool,
 }
 
-/// By part.
+/// Contact with liquid, by part of the body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Touches {
     open: [Option<Touch>; 3],
@@ -31,7 +31,7 @@ fn part(skin: Part) -> Skin {
     }
 }
 
-/// Where a scene has neither gloves nor goggles to put on, everybody wears them.
+/// Whether gloves or goggles cover that part. In a scene that has none to put on, everybody counts as wearing them.
 fn is_protected(worn: Worn, skin: Part) -> bool {
     let of_hand = |hand: usize| worn.gloves.is_none_or(|on| on[hand]);
     match skin {
@@ -84,7 +84,7 @@ impl Touches {
         self.close(bench, seen.t, said);
     }
 
-    /// Says what is over at `now`. However little it is: a drop in an eye is enough.
+    /// Emits the contacts that are over at `now`, however little liquid: a drop in an eye is enough.
     pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
         for (skin, open) in Part::ALL.into_iter().zip(&mut self.open) {
             let Some(touch) = open.take_if(|it| it.amount.is_over(now, PAUSE)) else {

@@ -1,4 +1,4 @@
-//! What comes to lie beside the flasks.
+//! Liquid that comes to lie beside the flasks.
 
 use vitriol_sim::solver::{Held, Place};
 
@@ -7,7 +7,7 @@ use super::leaving::Leavings;
 use super::{Bench, PAUSE, Seen};
 use crate::event::{Cause, Event, Incident, Surface, What};
 
-/// By surface and flask: each flask's liquid is a spill of its own, since it has a cause of its own.
+/// Spills under way, by surface and flask: each flask's liquid is a spill of its own, since it has a cause of its own.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spills {
     open: [Vec<Option<(Amount, Cause)>>; 2],
@@ -51,11 +51,11 @@ impl Spills {
         self.close(bench, seen.t, said);
     }
 
-    /// Says what is over at `now`.
+    /// Emits the spills that are over at `now`.
     pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
         for (surface, open) in SURFACES.into_iter().zip(&mut self.open) {
             for open in open {
-                // What is too little for one goes on: a drip is a spill, however slow.
+                // A volume below the limit goes on being summed: a drip is a spill, however slow.
                 let least = bench.limits.least_spill_m3;
                 let over =
                     |(it, _): &mut (Amount, Cause)| it.is_over(now, PAUSE) && it.volume >= least;

@@ -1,4 +1,4 @@
-//! Against looks that are arranged by hand: real size, 100 a second.
+//! Tests with observations that are arranged by hand: real size, 100 a second.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use glam::{DVec3, Quat, Vec3};
@@ -6,7 +6,7 @@ use vitriol_sim::bodies::{Break, Strike, Worn};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{
-    Bubbles, Bubbling, Came, Census, Held, Moved, Place, Skin as Part, Touching,
+    BubbleCount, Bubbling, Came, Census, Held, Moved, Place, Skin as Part, Touching,
 };
 
 mod incidents;
@@ -15,7 +15,7 @@ use super::*;
 use crate::event::{Cause, Incident, Pour, Skin, Surface, What};
 
 const STEP: f64 = 0.01;
-/// What of a millilitre a look has, where 4 mL/s come.
+/// Volume that arrives in one observation of a pour of 4 mL/s, m³.
 const BIT: f64 = 0.04e-6;
 
 /// The two flasks of the scene: the source is held, the target stands. 20 mL in one, 160 mL in the other.
@@ -63,7 +63,7 @@ impl Arranged {
         self.poses[flask].orientation = Quat::from_rotation_z(-degrees.to_radians());
     }
 
-    /// So many looks with what `change` makes of them, and the step's blows and breaks in the first.
+    /// Takes `count` observations of the census that `change` makes, with the step's impacts and breaks in the first.
     fn looks_with(
         &mut self,
         count: usize,
@@ -96,7 +96,7 @@ impl Arranged {
         self.looks_with(count, (&[], &[]), change);
     }
 
-    /// So many looks in which `volume` (m³) leaves the source and comes to `place` each time.
+    /// Takes `count` observations, in each of which `volume` (m³) leaves the source and arrives at `to`.
     fn pours(&mut self, count: usize, volume: f64, acid: f64, to: Place) {
         self.looks(count, &|census| {
             let moved = moved(volume, acid);
@@ -106,7 +106,7 @@ impl Arranged {
         });
     }
 
-    /// A pause, and the end.
+    /// A pause, then the end of the attempt.
     fn end(&mut self) -> (Vec<Pour>, Vec<Incident>) {
         self.looks(150, &|census| census);
         let ended = self.finder.end();
@@ -135,7 +135,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-9)
 }
 
-/// 4 mL of water in a second, a pause too short to be one, and 4 mL more: one pour, which is the incorrect order and not too fast.
+/// 4 mL of water in a second, a pause too short to end a pour, and 4 mL more: one pour, which is the incorrect order and not too fast.
 /// Acid into water at six times the limit is in order, and too fast.
 #[test]
 fn a_pour_has_its_amount_its_rate_and_its_order() {
@@ -194,8 +194,8 @@ fn a_pour_has_its_amount_its_rate_and_its_order() {
     }
 }
 
-/// Acid that has been diluted below the limit is no concentrated acid any more: what comes then is not in the incorrect order. Water onto
-/// water is nothing, however fast, nor is acid onto acid.
+/// Acid that has been diluted below the limit is not concentrated any more: what arrives then is not in the incorrect order. Water onto
+/// water is no incident, however fast, nor is acid onto acid.
 #[test]
 fn the_order_is_judged_by_what_is_met() {
     let mut arranged = Arranged::new([0.0, 0.60]);
@@ -222,7 +222,7 @@ fn the_order_is_judged_by_what_is_met() {
     }
 }
 
-/// Two pours of a pause apart are two, drops that cling are none, and what comes from an upright flask was not poured.
+/// Two pours with a pause between are two; drops that cling are none, and what comes from an upright flask was not poured.
 #[test]
 fn what_is_no_pour() {
     let mut arranged = Arranged::new([0.0, 0.0]);

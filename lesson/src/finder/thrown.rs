@@ -1,20 +1,20 @@
-//! What leaves a flask as it boils: whole particles that come to lie or to fall into another flask, and drops of
-//! bubbles, which are none.
+//! Liquid that leaves a flask as it boils: whole particles that come to lie or fall into another flask, and drops of bubbles, which are
+//! not particles.
 
 use vitriol_sim::bodies;
 use vitriol_sim::solver::{Place, SCALDS};
 
 use super::amount::{Amount, Bit};
 use super::flows::Flows;
-use super::leaving::{Leavings, Mode};
+use super::leaving::{LeavingCause, Leavings};
 use super::{Bench, PAUSE, Seen};
 use crate::event::{Cause, Event, Incident, What};
 
-/// By flask.
+/// Liquid that boiling throws out, one entry a flask.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Thrown {
     open: Vec<Option<(Amount, Cause)>>,
-    /// What had sprayed out at the look before, m³ of the scene; `None` before the first.
+    /// By flask, volume that had sprayed out at the previous observation, m³ of the scene; `None` before the first.
     sprayed: Option<Vec<f64>>,
 }
 
@@ -37,9 +37,9 @@ impl Thrown {
             let held = seen.census.flasks.get(flask);
             let temperature = held.and_then(|held| bench.content(held).temperature_c);
             let mut bits = Vec::new();
-            if leavings.mode(flask, seen.t) == Mode::Boiling {
+            if leavings.mode(flask, seen.t) == LeavingCause::Boiling {
                 let others = (0..flasks).filter(|it| *it != flask).map(Place::Flask);
-                // What comes to somebody comes to lie as well.
+                // Liquid that touches the user comes to lie as well, so it is not counted here.
                 let all = [Place::Table, Place::Floor].into_iter().chain(others);
                 let moved = all.map(|place| seen.census.moved(place, flask));
                 bits.extend(moved.filter(|it| it.particles > 0).map(|moved| Bit {
@@ -72,7 +72,7 @@ impl Thrown {
         self.close(bench, seen.t, said);
     }
 
-    /// Says what is over at `now`.
+    /// Emits what is over at `now` and can harm.
     pub fn close(&mut self, bench: &Bench, now: f64, said: &mut Vec<Event>) {
         for (flask, open) in self.open.iter_mut().enumerate() {
             let Some((amount, cause)) = open.take_if(|(amount, _)| amount.is_over(now, PAUSE))

@@ -1,5 +1,5 @@
-//! What a step is done by, and what is kept meanwhile, as a lesson's file says it. Each unit is in its field's name; volumes are of
-//! real size. What fits a scene is checked in [`fits`](super::fits).
+//! Conditions that complete a step, and requirements that must hold meanwhile, as a lesson's file states them. Each unit is in its field's
+//! name; volumes are of real size. What fits a scene is checked in [`fits`](super::fits).
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,52 +8,52 @@ use super::error::{Problem, within};
 use crate::event::{Surface, What};
 use crate::skin::{CORROSIVE, IRRITANT};
 
-/// Conditions within conditions, at most: a step that needs more is two steps.
+/// Deepest nesting of conditions: a step that needs more is two steps.
 const DEEPEST: usize = 3;
-/// Parts of an `all` or `any`, at most.
+/// Most parts of an `all` or `any`.
 const MOST_PARTS: usize = 10;
 /// Least volume that a condition may ask for, mL: less is no pour.
 const LEAST_ML: f64 = 0.5;
-/// Most volume, mL.
+/// Greatest volume, mL.
 const MOST_ML: f64 = 100_000.0;
-/// What liquid's temperatures are looked at, °C.
+/// Range of temperatures that a condition may ask for, °C.
 const TEMPERATURES: [f64; 2] = [-50.0, 350.0];
 
-/// What a step is done by.
+/// What completes a step.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Condition {
-    /// All of these are so at one time.
+    /// All of these hold at one time.
     All(Vec<Condition>),
-    /// One of these is so.
+    /// One of these holds.
     Any(Vec<Condition>),
     /// A hand holds the flask.
     Lifted(OfFlask),
-    /// The flask was lifted since the scene's start, and stands on the bench since half a second, held by nobody.
+    /// The flask was lifted since the scene's start, and has stood on the bench for half a second, held by nobody.
     PutDown(OfFlask),
     /// Liquid was poured from one flask into another.
     Poured(Poured),
-    /// A flask holds so much, of a stated concentration.
+    /// A flask holds an amount of liquid of a stated concentration.
     Holds(Holds),
-    /// The mean of a flask's liquid is in a range.
+    /// The mean temperature of a flask's liquid is in a range.
     Temperature(TemperatureIs),
     /// Goggles are worn, or not.
     Goggles(Worn),
     /// Gloves are worn, or not.
     Gloves(GlovesAre),
-    /// The hood's sash is open so far.
+    /// The opening of the hood's sash is in a range.
     Sash(SashIs),
     /// A rod was moved in a flask's liquid.
     Stirred(Stirred),
-    /// The thermometer was in a flask's liquid without a break.
+    /// The thermometer was in a flask's liquid for a time without a break.
     Measured(Measured),
-    /// No more than this lies there.
+    /// No more than a stated volume lies on bench or floor.
     Wiped(Wiped),
-    /// Water came to a hand.
+    /// A stated volume of water came to a hand.
     Rinsed(Rinsed),
 }
 
-/// A flask alone.
+/// The flask of a condition.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfFlask {
@@ -61,21 +61,21 @@ pub struct OfFlask {
     pub flask: String,
 }
 
-/// Which liquid counts.
+/// The liquid that a pour counts for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Liquid {
-    /// Each.
+    /// Any liquid.
     #[default]
     Any,
     /// Acid that burns skin: 15 % and more (CLP).
     Acid,
-    /// What does not irritate skin: below 5 % acid (CLP).
+    /// Liquid that does not irritate skin: below 5 % acid (CLP).
     Water,
 }
 
 impl Liquid {
-    /// Whether liquid of that acid mass fraction is it.
+    /// Whether liquid of that acid mass fraction counts.
     pub(super) fn is(self, acid: f64) -> bool {
         match self {
             Self::Any => true,
@@ -85,39 +85,39 @@ impl Liquid {
     }
 }
 
-/// See [`Condition::Poured`]. Several pours add up. A pour is known a second after its last drop, and counts for the step in which that drop
-/// arrived.
+/// Parameters of [`Condition::Poured`]. Several pours add up. A pour is known a second after its last drop, and counts for the step in
+/// which that drop arrived.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Poured {
-    /// From that flask.
+    /// The flask that is poured from.
     pub from: String,
-    /// Into that.
+    /// The flask that is poured into.
     pub into: String,
-    /// Of which liquid; others do not count.
+    /// The liquid that counts; pours of other liquid are ignored.
     #[serde(default)]
     pub liquid: Liquid,
-    /// So much in all, mL.
+    /// Least volume in all, mL.
     pub at_least_ml: f64,
-    /// More is a failure, mL.
+    /// Volume above which the step fails, mL.
     pub at_most_ml: Option<f64>,
-    /// Faster over any half second is a failure, mL/s.
+    /// Flow rate over any half second above which the step fails, mL/s.
     pub at_most_ml_s: Option<f64>,
 }
 
-/// See [`Condition::Holds`].
+/// Parameters of [`Condition::Holds`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Holds {
     /// The flask.
     pub flask: String,
-    /// So much, mL.
+    /// Least volume, mL.
     pub at_least_ml: f64,
-    /// Acid mass fraction from here, %.
+    /// Least acid mass fraction, %.
     pub acid_from_percent: f64,
-    /// To here, %.
+    /// Greatest acid mass fraction, %.
     pub acid_to_percent: f64,
-    /// For so long without a break, s: else a pour that goes on would meet it as it passes.
+    /// Time without a break, s: else a pour that goes on would meet the condition in passing.
     #[serde(default = "two")]
     pub for_s: f64,
 }
@@ -126,83 +126,83 @@ fn two() -> f64 {
     2.0
 }
 
-/// See [`Condition::Temperature`].
+/// Parameters of [`Condition::Temperature`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TemperatureIs {
     /// The flask.
     pub flask: String,
-    /// This or more, °C.
+    /// Least mean temperature, °C.
     pub at_least_c: Option<f64>,
-    /// This or less, °C.
+    /// Greatest mean temperature, °C.
     pub at_most_c: Option<f64>,
 }
 
-/// Whether something is worn.
+/// Parameters of [`Condition::Goggles`].
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Worn {
-    /// It is; else it is taken off.
+    /// Whether they are worn; else they are taken off.
     pub on: bool,
 }
 
-/// See [`Condition::Gloves`].
+/// Parameters of [`Condition::Gloves`].
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GlovesAre {
-    /// They are on; else they are taken off.
+    /// Whether they are worn; else they are taken off.
     pub on: bool,
-    /// On that hand; on both without it.
+    /// The hand; both hands without it.
     pub hand: Option<HandName>,
 }
 
-/// See [`Condition::Sash`].
+/// Parameters of [`Condition::Sash`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SashIs {
-    /// This or more, m over the bench.
+    /// Least opening, m over the bench.
     pub at_least_m: Option<f64>,
-    /// This or less, m over the bench.
+    /// Greatest opening, m over the bench.
     pub at_most_m: Option<f64>,
 }
 
-/// See [`Condition::Stirred`].
+/// Parameters of [`Condition::Stirred`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stirred {
     /// The flask.
     pub flask: String,
-    /// So long in all, s, in which the rod's tip moves with 2 cm/s or more.
+    /// Time in all during which the rod's tip moves with 2 cm/s or more, s.
     pub at_least_s: f64,
 }
 
-/// See [`Condition::Measured`].
+/// Parameters of [`Condition::Measured`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
     /// The flask.
     pub flask: String,
-    /// So long, s.
+    /// Time without a break, s.
     pub for_s: f64,
 }
 
-/// See [`Condition::Wiped`].
+/// Parameters of [`Condition::Wiped`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wiped {
-    /// Where.
+    /// The surface.
     pub surface: Surface,
-    /// This or less, mL.
+    /// Greatest volume that may lie there, mL.
     pub at_most_ml: f64,
 }
 
-/// See [`Condition::Rinsed`].
+/// Parameters of [`Condition::Rinsed`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rinsed {
-    /// Which hand.
+    /// The hand.
     pub hand: HandName,
-    /// So much water since the step began, mL.
+    /// Least volume of water since the step began, mL.
     pub at_least_ml: f64,
 }
 
@@ -216,47 +216,47 @@ pub enum HandName {
     RightHand,
 }
 
-/// What goes on being so.
+/// A requirement that must hold throughout a step or a lesson.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Keep {
-    /// That does not happen.
+    /// No incident of that kind happens.
     Never(Kind),
-    /// No more than this is spilt, bench and floor together.
+    /// No more than a stated volume is spilt, bench and floor together.
     Spilt(SpiltAtMost),
-    /// The mean of a flask's liquid is below a temperature.
+    /// The mean temperature of a flask's liquid stays below a limit.
     Cool(Cool),
     /// Goggles are worn.
     Goggles,
     /// Gloves are worn.
     Gloves,
-    /// The hood's sash is open no further.
+    /// The hood's sash is open no further than a limit.
     Sash(SashAtMost),
 }
 
-/// See [`Keep::Spilt`].
+/// Parameters of [`Keep::Spilt`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpiltAtMost {
-    /// mL.
+    /// Greatest volume, mL.
     pub at_most_ml: f64,
 }
 
-/// See [`Keep::Cool`].
+/// Parameters of [`Keep::Cool`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cool {
     /// The flask.
     pub flask: String,
-    /// °C.
+    /// Limit of the mean temperature, °C.
     pub below_c: f64,
 }
 
-/// See [`Keep::Sash`].
+/// Parameters of [`Keep::Sash`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SashAtMost {
-    /// m over the bench.
+    /// Greatest opening, m over the bench.
     pub at_most_m: f64,
 }
 
@@ -279,7 +279,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether an incident is of it.
+    /// Whether the incident `what` is of this kind.
     pub(super) fn is(self, what: &What) -> bool {
         match what {
             What::WaterIntoAcid { .. } => self == Self::WaterIntoAcid,
@@ -294,7 +294,7 @@ impl Kind {
 }
 
 impl HandName {
-    /// Its place in [`Sight::rinsed_m3`](super::Sight::rinsed_m3).
+    /// The hand's index in [`Sight::rinsed_m3`](super::Sight::rinsed_m3).
     pub(super) fn index(self) -> usize {
         match self {
             Self::LeftHand => 0,
@@ -303,7 +303,7 @@ impl HandName {
     }
 }
 
-/// Ends of a range of which one may be missing.
+/// Checks the ends of a range, of which one may be missing.
 fn range(
     field: &str,
     unit: &str,
@@ -328,7 +328,7 @@ fn range(
 }
 
 impl Condition {
-    /// Whether its numbers make sense.
+    /// Checks that its numbers make sense; `field` is its path in messages.
     pub(super) fn check(&self, field: &str) -> Result<(), Problem> {
         self.check_at(field, 0)
     }
@@ -377,7 +377,7 @@ impl Condition {
         }
     }
 
-    /// The path of its own table, in `field`.
+    /// Path of its own table inside `field`.
     pub(super) fn field(&self, field: &str) -> String {
         let name = match self {
             Self::All(_) => "all",
@@ -400,7 +400,7 @@ impl Condition {
 }
 
 impl Keep {
-    /// Whether its numbers make sense.
+    /// Checks that its numbers make sense; `field` is its path in messages.
     pub(super) fn check(&self, field: &str) -> Result<(), Problem> {
         match self {
             Self::Never(_) | Self::Goggles | Self::Gloves => Ok(()),

@@ -9,7 +9,7 @@ pub enum LessonError {
     /// No built-in lesson has this name.
     #[error("lesson {name:?}: not built in; take a file, or one of {known}")]
     NotFound {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// The built-in names.
         known: String,
@@ -40,12 +40,12 @@ pub enum LessonError {
         /// What is wrong with it and what would be right.
         problem: String,
     },
-    /// A string table that the program carries is not as it should be, which a test rules out.
+    /// A string table that the program carries is damaged, which a test rules out.
     #[error(transparent)]
     Texts(#[from] TextsError),
 }
 
-/// A problem in a field, before the file's name is known to it.
+/// A problem in a field, before the file's name is added to it.
 #[derive(Debug)]
 pub(super) struct Problem {
     field: String,
@@ -69,7 +69,7 @@ impl Problem {
     }
 }
 
-/// Refuses a value that is not a number from `least` to `most`.
+/// Refuses a value that is not a number from `least` to `most`; `field` is its path in the message.
 pub(super) fn within(field: &str, value: f64, least: f64, most: f64) -> Result<(), Problem> {
     if value.is_finite() && (least..=most).contains(&value) {
         return Ok(());
@@ -78,7 +78,7 @@ pub(super) fn within(field: &str, value: f64, least: f64, most: f64) -> Result<(
     Err(Problem::new(field, problem))
 }
 
-/// Names as a message lists them.
+/// Formats names as a list in a message.
 pub(super) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<String> = names.into_iter().map(|name| format!("{name:?}")).collect();
     if names.is_empty() {

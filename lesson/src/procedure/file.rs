@@ -15,17 +15,17 @@ use super::words::LessonTexts;
 use crate::language::Language;
 use crate::texts::Texts;
 
-/// The format of lesson files that is read here.
+/// Version of the file format that is read here.
 const VERSION: u32 = 1;
-/// Longest file that is read, bytes: a hundred times what a lesson has.
+/// Longest file that is read, bytes: a hundred times the length of a lesson.
 const LONGEST: u64 = 1 << 20;
-/// Steps that a lesson has at most, and rules.
+/// Most steps of a lesson, and most rules.
 const MOST: usize = 50;
-/// Points of a step or rule at most.
+/// Most points of a step or rule.
 const MOST_POINTS: u32 = 1000;
 /// Longest id or name, characters.
 const LONGEST_ID: usize = 40;
-/// Longest time of a step, s.
+/// Longest time that a step may state, s.
 const LONGEST_TIME: f64 = 3600.0;
 
 /// The lessons that come with the program: name and text.
@@ -61,48 +61,48 @@ struct LessonFile {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// Its id, which its texts are under.
+    /// Its id, which is the key of its texts.
     pub id: String,
-    /// What it is done by.
+    /// The condition that completes it.
     pub condition: Condition,
-    /// What goes on being so from its beginning until it is done.
+    /// Requirements that must hold from its beginning until it is done.
     #[serde(default)]
     pub keep: Vec<Keep>,
-    /// Earlier steps that are decided, done or missed, before it begins, where several are open at a time.
+    /// Ids of earlier steps that must be done or missed before it begins, where several steps are open at a time.
     #[serde(default)]
     pub after: Vec<String>,
     /// Points for it.
     pub points: u32,
-    /// After what time a hint comes, simulated time from its beginning or its last failure, s; `None` by itself never.
+    /// Simulated time from its beginning or its last failure until its hint is shown, s; `None`: only on request.
     pub hint_after_s: Option<f64>,
-    /// After what time it is missed, simulated time from its beginning, s.
+    /// Simulated time from its beginning until it is missed, s; `None`: no limit.
     pub time_limit_s: Option<f64>,
 }
 
-/// What is kept from the beginning of a lesson to its end.
+/// A requirement that must hold from the beginning of a lesson to its end.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rule {
-    /// Its id, which its text is under.
+    /// Its id, which is the key of its text.
     pub id: String,
-    /// What is kept.
+    /// The requirement.
     pub keep: Keep,
     /// Points for it.
     pub points: u32,
 }
 
-/// A lesson, validated but for its scene: [`Lesson::check`].
+/// A lesson, validated except against its scene, for which there is [`Lesson::check`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
     /// Its name.
     pub name: String,
-    /// The scene that it is of: a built-in one's name, or a file.
+    /// Its scene: a built-in one's name, or a file.
     pub scene: String,
-    /// Modes that it allows; the first is taken where none is named.
+    /// Modes that it allows; the first is the default.
     pub modes: Vec<Mode>,
     /// Its steps in their order.
     pub steps: Vec<Step>,
-    /// What is kept throughout.
+    /// Its rules, which hold throughout.
     pub rules: Vec<Rule>,
     file: String,
     hash: String,
@@ -116,7 +116,7 @@ impl Lesson {
         BUILTIN.iter().map(|(name, _)| *name).collect()
     }
 
-    /// Text of the built-in lesson of that name, to begin an own one with.
+    /// Text of the built-in lesson of that name, as a template for others.
     pub fn builtin_text(name: &str) -> Option<&'static str> {
         let found = BUILTIN.iter().find(|(known, _)| *known == name);
         found.map(|(_, text)| *text)
@@ -125,7 +125,7 @@ impl Lesson {
     /// The built-in lesson of that name, with the texts of `lesson/texts`.
     ///
     /// # Errors
-    /// [`LessonError::NotFound`], and what a test rules out.
+    /// [`LessonError::NotFound`] for an unknown name. A test rules out the other errors.
     pub fn builtin(name: &str) -> Result<Self, LessonError> {
         let Some(text) = Self::builtin_text(name) else {
             return Err(LessonError::NotFound {
@@ -136,7 +136,7 @@ impl Lesson {
         Self::parse(text, &format!("{name}.toml"))
     }
 
-    /// The lesson of a file.
+    /// Reads a lesson from a file.
     ///
     /// # Errors
     /// [`LessonError::Read`], or as for [`Lesson::parse`].
@@ -164,8 +164,8 @@ impl Lesson {
         Self::parse(&text, &file)
     }
 
-    /// A lesson from its TOML `text`; `file` is its name in messages. One without texts that has the name of a built-in one has the texts
-    /// of that.
+    /// Parses a lesson from its TOML `text`; `file` is its name in messages. A lesson without texts that has the name of a built-in one
+    /// gets that one's texts.
     ///
     /// # Errors
     /// [`LessonError`] where the text is not TOML, a key is missing or unknown, a value is out of its range, or a language is not
@@ -208,10 +208,10 @@ impl Lesson {
         })
     }
 
-    /// Whether `facts`, which are those of its scene, have all that it asks for.
+    /// Checks that the scene with these `facts` has everything that the lesson asks for.
     ///
     /// # Errors
-    /// [`LessonError::Invalid`] for the first thing that they lack.
+    /// [`LessonError::Invalid`] for the first thing that the scene lacks.
     pub fn check(&self, facts: &SceneFacts) -> Result<(), LessonError> {
         let fits = || {
             for (index, step) in self.steps.iter().enumerate() {
@@ -229,29 +229,29 @@ impl Lesson {
         fits().map_err(|problem: Problem| problem.in_file(&self.file))
     }
 
-    /// Hash of its file's text, XXH3 of 128 bits in hexadecimal: lessons of one name and hash ask for the same.
+    /// Hash of its file's text, XXH3 of 128 bits in hexadecimal: lessons of one name and hash are the same.
     pub fn hash(&self) -> &str {
         &self.hash
     }
 
-    /// Its texts: those of English where it has none of that language.
+    /// Its texts in that language, or in English if it has none.
     pub fn texts(&self, language: Language) -> &LessonTexts {
         self.others.get(&language).unwrap_or(&self.english)
     }
 
-    /// The languages that it has texts of.
+    /// The languages of its texts.
     pub fn languages(&self) -> Vec<Language> {
         let others = self.others.keys().copied();
         std::iter::once(Language::En).chain(others).collect()
     }
 
-    /// The mode that is taken where none is named.
+    /// The mode that is used where none is named.
     pub fn default_mode(&self) -> Mode {
         self.modes.first().copied().unwrap_or(Mode::Guided)
     }
 }
 
-/// Whether the values of the file make sense, but for its texts.
+/// Checks the values of the file, except its texts.
 fn check(raw: &LessonFile) -> Result<(), Problem> {
     if raw.version != VERSION {
         let problem = format!(

@@ -1,10 +1,10 @@
-//! Whether a lesson asks for nothing that its scene does not have.
+//! Checks that a lesson asks for nothing that its scene does not have.
 
 use super::condition::{Condition, Keep};
 use super::error::{Problem, listed};
 use super::sight::SceneFacts;
 
-/// mL of m³.
+/// mL per m³.
 const ML: f64 = 1e6;
 
 impl SceneFacts {
@@ -51,11 +51,11 @@ impl SceneFacts {
     }
 }
 
-/// What the scene's model must have for temperatures.
+/// What a scene needs for temperatures, as messages name it.
 const HEAT: &str = "heat in its `model`";
 
 impl Condition {
-    /// Whether the scene has what it needs.
+    /// Checks that the scene has what this condition needs.
     pub(super) fn fits(&self, field: &str, facts: &SceneFacts) -> Result<(), Problem> {
         let named = |name: &str| format!("{field}.{name}");
         let flask = |flask: &str| facts.flask(&named("flask"), flask);
@@ -102,7 +102,7 @@ impl Condition {
 }
 
 impl Keep {
-    /// Whether the scene has what it needs.
+    /// Checks that the scene has what this requirement needs.
     pub(super) fn fits(&self, field: &str, facts: &SceneFacts) -> Result<(), Problem> {
         match self {
             Self::Never(super::Kind::Hot) => facts.has(field, facts.heat, HEAT),

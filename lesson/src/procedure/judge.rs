@@ -1,18 +1,18 @@
-//! Judges a lesson, look by look.
+//! Judges a lesson, one observation at a time.
 //!
-//! All is in simulated time and depends on looks and events alone, so a replay is judged as its session was. What it lags behind, since
-//! events are said when they are over:
+//! All times are simulated, and the judgement depends on observations and events alone, so a replay is judged as its session was. Events
+//! come only when they are over, which has consequences:
 //!
-//! - A pour counts for the step that is open when it is said, if its last drop came after that step began. The next step begins
-//!   where the evidence of this one lies, not where it was said: who pours on into the next flask loses nothing.
-//! - What goes wrong counts for the step in whose time it began, and is looked at before pours: a pour that went wrong is no success.
-//!   A step that is done fails still where it is known only later; it is missed then.
-//! - Rules are judged after the last step as well, for what began before its end.
+//! - A pour counts for the step that is open when its event comes, if its last drop arrived after that step began. The next step begins at
+//!   the time of this one's evidence, not when the event comes: a student who pours on into the next flask loses nothing.
+//! - An incident counts for the step in whose time it began, and is judged before pours: a pour that went wrong is no success. A step that
+//!   is done still fails if its incident is known only later; it is missed then.
+//! - Rules are judged after the last step as well, for incidents that began before its end.
 //!
-//! A step that fails in `guided` or `free` is tried again, with a pour that begins after the failure; done then, it has half its
-//! points, our choice. In an `examination` it is missed. What is poured cannot be taken back, so a step may have become
-//! impossible: bringing up the scene again begins the lesson again, and [`Procedure::skip`] leaves a step out. A step whose time is up is
-//! missed in each mode.
+//! A step that fails in `guided` or `free` is tried again, with a pour that begins after the failure; a step that is done then has half
+//! its points, our choice. In an `examination` it is missed. What is poured cannot be taken back, so a step may have become impossible:
+//! starting the scene again begins the lesson again, and [`Procedure::skip`] leaves a step out. A step whose time is up is missed in each
+//! mode.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ use super::sight::Sight;
 use super::watch::Watch;
 use crate::event::{Event, Incident, Pour};
 
-/// See the module.
+/// Judges a lesson: takes in [`Sight`]s and [`Event`]s, returns [`Progress`].
 #[derive(Clone, Debug)]
 pub struct Procedure {
     pub(super) lesson: Lesson,
@@ -34,17 +34,17 @@ pub struct Procedure {
     pub(super) rules: Vec<RuleRecord>,
     /// Flasks that a hand has held.
     lifted: BTreeSet<String>,
-    /// When it began, s; `None` before.
+    /// When the lesson began, s; `None` before.
     begun: Option<f64>,
-    /// When no step was left, s.
+    /// When the last step was decided, s; `None` before.
     over: Option<f64>,
-    /// The attempt is over: nothing is judged until it begins again.
+    /// Whether the attempt is over: nothing is judged until it begins again.
     ended: bool,
     said: Vec<Progress>,
 }
 
 impl Procedure {
-    /// That lesson from its beginning, whether or not it allows the mode: an instructor may choose.
+    /// A lesson from its beginning, even in a mode that it does not allow: an instructor may choose.
     pub fn new(lesson: Lesson, mode: Mode) -> Self {
         Self {
             steps: vec![StepRecord::default(); lesson.steps.len()],
@@ -64,7 +64,7 @@ impl Procedure {
         &self.lesson
     }
 
-    /// Takes in a look, and the events that were said with it or since the look before, each once. An [`Event::Begun`] begins the lesson
+    /// Takes in an observation and the events since the one before, each once. Returns what changed. An [`Event::Begun`] begins the lesson
     /// again, an [`Event::Ended`] ends it.
     pub fn advance(&mut self, sight: &Sight, events: &[Event]) -> Vec<Progress> {
         let t = sight.t_s;
@@ -86,7 +86,7 @@ impl Procedure {
             self.begin(t);
         }
         self.hear_incidents(rest, t);
-        // What is so now is known before a pour is heard of: both are so at one time, or not.
+        // The state is judged before and after the pours: an `all` of a pour and a state is met only where both hold at one time.
         self.see(sight);
         self.hear_pours(rest, t);
         self.see(sight);
@@ -95,13 +95,13 @@ impl Procedure {
         std::mem::take(&mut self.said)
     }
 
-    /// The user says at `t_s` that he is done: what is open is missed, and no more is judged.
+    /// Ends the lesson at `t_s`, s, on the user's word: open and waiting steps are missed, and nothing is judged any more.
     pub fn finish(&mut self, t_s: f64) -> Vec<Progress> {
         self.end(t_s);
         std::mem::take(&mut self.said)
     }
 
-    /// The user asks at `t_s` for a step's hint. Nothing where the step is not open or the mode gives none.
+    /// Gives a step's hint at `t_s`, s, at the user's request. `None` where the step is not open or the mode gives no hints.
     pub fn ask_hint(&mut self, id: &str, t_s: f64) -> Option<Progress> {
         let at = self.open(id)?;
         if !self.mode.hints_are_given() {
@@ -111,7 +111,7 @@ impl Procedure {
         self.said.pop()
     }
 
-    /// A step that is open is left out at `t_s`: it is missed. Nothing where it is not open.
+    /// Leaves out an open step at `t_s`, s: it is missed. Returns nothing where the step is not open.
     pub fn skip(&mut self, id: &str, t_s: f64) -> Vec<Progress> {
         if let Some(at) = self.open(id) {
             self.fail(at, t_s, (t_s, Why::Skipped), true);
@@ -120,7 +120,7 @@ impl Procedure {
         std::mem::take(&mut self.said)
     }
 
-    /// How it stands.
+    /// Status of the lesson and of each step.
     pub fn state(&self) -> State {
         let open = |it: &StepRecord| it.status == Status::Open;
         let pairs = self.lesson.steps.iter().zip(&self.steps);
@@ -140,7 +140,7 @@ impl Procedure {
         }
     }
 
-    /// What it comes to by now; at the end after the finder's last events.
+    /// Points by now; call it after the finder's last events for the final ones.
     pub fn verdict(&self) -> Verdict {
         super::verdict::of(&self.lesson, self.mode, &self.steps, &self.rules)
     }
@@ -163,7 +163,7 @@ impl Procedure {
         self.settle(t);
     }
 
-    /// All of these, which were said before a new beginning.
+    /// Judges events that were emitted before a new beginning.
     fn hear(&mut self, events: &[Event], t: f64) {
         self.hear_incidents(events, t);
         self.hear_pours(events, t);
@@ -225,7 +225,7 @@ impl Procedure {
             }
             let keeps = step.keep.iter().zip(&mut tried.keeping);
             let failed = keeps.filter_map(|(keep, it)| it.hear(keep, incident));
-            // Each hears it, though one failure is said.
+            // Each requirement takes in the incident, though one failure is reported.
             if let Some(why) = failed.reduce(|first, _| first) {
                 self.fail(at, t, (at_s, why), false);
             }
@@ -264,7 +264,7 @@ impl Procedure {
                 }
             }
         }
-        // What is seen may open a step, which sees the same.
+        // An observation may complete a step and open the next, which takes in the same observation.
         loop {
             for at in 0..self.steps.len() {
                 self.see_step(at, sight);
@@ -287,12 +287,12 @@ impl Procedure {
         } else if tried.keeps() {
             tried.watch.see(&step.condition, sight, &self.lifted);
         } else {
-            // A new try begins once all is kept again.
+            // A new try begins once all requirements hold again.
             tried.again = Some(sight.t_s);
         }
     }
 
-    /// Says what is done, opens what comes next, and ends where nothing does; whether it opened any.
+    /// Reports steps that are done, opens the next ones, and ends the lesson where none is left. Returns whether it opened any.
     fn settle(&mut self, t: f64) -> bool {
         for (step, tried) in self.lesson.steps.iter().zip(&mut self.steps) {
             if tried.status != Status::Open {
@@ -335,7 +335,7 @@ impl Procedure {
         !next.is_empty()
     }
 
-    /// From when on what happens is of a step that waits, if nothing is before it, s.
+    /// Time from which on events count for a waiting step, s; `None` while a step before it is undecided.
     fn opens(&self, at: usize) -> Option<f64> {
         let begun = self.begun?;
         let before = match self.mode.one_at_a_time() {
@@ -352,7 +352,7 @@ impl Procedure {
         decided.try_fold(begun, |latest, evidence| Some(latest.max(evidence?)))
     }
 
-    /// A step fails: it is tried again, or missed. One that is done is tried no more.
+    /// Fails a step: it is tried again, or missed. A step that was done is not tried again.
     fn fail(&mut self, at: usize, t: f64, (evidence_s, why): (f64, Why), finally: bool) {
         let tried = &mut self.steps[at];
         let missed = finally || tried.status == Status::Done || !self.mode.tries_again();
@@ -390,7 +390,7 @@ impl Procedure {
         });
     }
 
-    /// Hints that are due, and steps whose time is up.
+    /// Gives hints that are due, and misses steps whose time is up.
     fn mind_time(&mut self, t: f64) {
         for at in 0..self.steps.len() {
             let (step, tried) = (&self.lesson.steps[at], &self.steps[at]);
@@ -430,7 +430,7 @@ impl Procedure {
 }
 
 impl Lesson {
-    /// The steps before which that one does not begin where several are open.
+    /// Indices of the steps that must be decided before step `at` begins, where several are open.
     fn before(&self, at: usize) -> Vec<usize> {
         let of = |id: &String| self.steps.iter().position(|step| step.id == *id);
         let after = self.steps.get(at).map(|step| step.after.as_slice());

@@ -1,4 +1,4 @@
-//! Whether what is to be kept is.
+//! Whether a requirement of a step or a rule holds.
 
 use super::condition::Keep;
 use super::progress::{Gear, Why};
@@ -6,17 +6,17 @@ use super::sight::Sight;
 use super::watch::m3;
 use crate::event::{Incident, What};
 
-/// See the module.
+/// State of one requirement ([`Keep`]) while it must hold.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Keeping {
-    /// What was spilt, m³.
+    /// Volume spilt so far, m³.
     spilt: f64,
-    /// Whether it is not so now: one failure is said once.
+    /// Whether it is breached now, so that one breach is reported once.
     pub breached: bool,
 }
 
 impl Keeping {
-    /// Something went wrong in its span. Why it is not kept then.
+    /// Takes in an incident of its span. Returns why the requirement is breached, if the incident breaches it.
     pub fn hear(&mut self, keep: &Keep, incident: &Incident) -> Option<Why> {
         match (keep, &incident.what) {
             (Keep::Never(kind), what) if kind.is(what) => Some(Why::Incident { kind: *kind }),
@@ -32,12 +32,12 @@ impl Keeping {
         }
     }
 
-    /// A new try begins: what was spilt before is not of it. What is not so now stays so.
+    /// Begins a new try: earlier spills do not count. A present breach remains.
     pub fn forget(&mut self) {
         self.spilt = 0.0;
     }
 
-    /// What is so at an instant. Why it ceases to be kept, at the first instant at which it is not.
+    /// Takes in an observation. Returns why the requirement is breached, at the first observation that breaches it.
     pub fn see(&mut self, keep: &Keep, sight: &Sight) -> Option<Why> {
         let why = is_breached(keep, sight);
         let before = std::mem::replace(&mut self.breached, why.is_some());

@@ -1,7 +1,7 @@
 //! Guided procedures: lessons of steps that the simulation judges.
 //!
-//! A [`Lesson`] is read from a TOML file (`lesson/lessons`) and checked against what its scene has ([`SceneFacts`]). A [`Procedure`] goes
-//! through it: it takes in [`Sight`]s and the finder's events, and says [`Progress`].
+//! A [`Lesson`] is read from a TOML file (`lesson/lessons`) and checked against the properties of its scene ([`SceneFacts`]). A
+//! [`Procedure`] goes through it: it takes in [`Sight`]s and the finder's events, and returns [`Progress`].
 
 mod condition;
 mod error;

@@ -12,11 +12,11 @@ use serde::{Deserialize, Serialize};
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Mode {
-    /// Steps are shown one at a time, with hints that come by themselves; what fails is tried again.
+    /// Steps are shown one at a time, with hints that come by themselves; a step that fails is tried again.
     Guided,
-    /// All steps are shown and done in any order that their `after` allows; hints are asked for; what fails is tried again.
+    /// All steps are shown and done in any order that their `after` allows; hints are asked for; a step that fails is tried again.
     Free,
-    /// As `free`, without hints; what fails is missed, and nothing is said before the end.
+    /// As `free`, without hints; a step that fails is missed, and no result is shown before the end.
     Examination,
 }
 
@@ -24,15 +24,15 @@ pub enum Mode {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("mode {name:?}: not known; take one of guided, free, examination")]
 pub struct ModeError {
-    /// What was asked for.
+    /// The name that was asked for.
     pub name: String,
 }
 
 impl Mode {
-    /// All of them.
+    /// All modes.
     pub const ALL: [Self; 3] = [Self::Guided, Self::Free, Self::Examination];
 
-    /// The name as it is given and reported.
+    /// Its name in options and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Guided => "guided",
@@ -61,7 +61,7 @@ impl Mode {
         self != Self::Examination
     }
 
-    /// Whether the user is told what is done and what failed before the end.
+    /// Whether the user sees before the end what is done and what failed.
     pub fn tells(self) -> bool {
         self != Self::Examination
     }

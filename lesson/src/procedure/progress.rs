@@ -1,4 +1,5 @@
-//! What a judge says, as it goes and at the end. Names of fields are the keys of recordings and reports: SI units, temperatures in °C.
+//! Reports of the judge, during a lesson and at its end. Names of fields are the keys of recordings and reports: SI units, temperatures in
+//! °C.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,21 +8,21 @@ use super::condition::Kind;
 use super::mode::Mode;
 use crate::texts::Texts;
 
-/// Something that changed in a lesson. `t_s` is when it was said, `evidence_s` when it was so: a pour is known a second after its last
-/// drop. Both are simulated time of the run, s.
+/// A change in a lesson. `t_s` is when it was reported, `evidence_s` when it came about: a pour is known a second after its last drop.
+/// Both are simulated time of the run, s.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "progress", rename_all = "kebab-case")]
 pub enum Progress {
-    /// It begins, or begins again with its scene.
+    /// The lesson begins, or begins again with its scene.
     Begun {
         /// When.
         t_s: f64,
-        /// The lesson.
+        /// Name of the lesson.
         lesson: String,
-        /// How it is gone through.
+        /// Its mode.
         mode: Mode,
     },
-    /// A step is to be done now.
+    /// A step was opened.
     StepBegun {
         /// When.
         t_s: f64,
@@ -30,33 +31,33 @@ pub enum Progress {
     },
     /// A step was done.
     StepDone {
-        /// When it was said.
+        /// When it was reported.
         t_s: f64,
         /// The step.
         id: String,
-        /// When it was so.
+        /// When it came about.
         evidence_s: f64,
     },
-    /// A step failed. One that was done before can, by something that is known only later.
+    /// A step failed. A step that was done can fail too, by an incident that is known only later.
     StepFailed {
-        /// When it was said.
+        /// When it was reported.
         t_s: f64,
         /// The step.
         id: String,
-        /// When it was so.
+        /// When it came about.
         evidence_s: f64,
         /// Why.
         why: Why,
         /// Whether it is missed; else it is tried again.
         missed: bool,
     },
-    /// A rule was broken. Each is once at most.
+    /// A rule was broken. It is reported once at most.
     RuleBroken {
-        /// When it was said.
+        /// When it was reported.
         t_s: f64,
         /// The rule.
         id: String,
-        /// When it was so.
+        /// When it came about.
         evidence_s: f64,
         /// Why.
         why: Why,
@@ -78,13 +79,13 @@ pub enum Progress {
 }
 
 impl Progress {
-    /// JSON schema of what a recording keeps.
+    /// JSON schema of a change as a recording stores it.
     pub fn schema() -> String {
         schemars::schema_for!(Self).to_value().to_string()
     }
 }
 
-/// What is worn.
+/// Something that is worn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Gear {
@@ -98,30 +99,30 @@ pub enum Gear {
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(tag = "why", rename_all = "kebab-case")]
 pub enum Why {
-    /// It was poured too fast.
+    /// Liquid was poured too fast.
     TooFast {
-        /// The most in any half second, m³/s.
+        /// Highest flow rate over any half second, m³/s.
         rate_m3_s: f64,
-        /// What is allowed, m³/s.
+        /// Highest allowed rate, m³/s.
         limit_m3_s: f64,
     },
-    /// Too much was poured.
+    /// Too much liquid was poured.
     TooMuch {
-        /// How much in all, m³.
+        /// Volume in all, m³.
         volume_m3: f64,
-        /// What is allowed, m³.
+        /// Greatest allowed volume, m³.
         limit_m3: f64,
     },
-    /// Something happened that must not.
+    /// An incident that must not happen.
     Incident {
-        /// What.
+        /// Its kind.
         kind: Kind,
     },
     /// Too much was spilt.
     Spilt {
-        /// How much in all, m³.
+        /// Volume in all, m³.
         volume_m3: f64,
-        /// What is allowed, m³.
+        /// Greatest allowed volume, m³.
         limit_m3: f64,
     },
     /// A flask's liquid became too hot.
@@ -130,37 +131,37 @@ pub enum Why {
         flask: String,
         /// Its mean temperature, °C.
         temperature_c: f64,
-        /// It was to be below, °C.
+        /// Limit that it had to stay below, °C.
         limit_c: f64,
     },
-    /// Something was not worn.
+    /// Goggles or gloves were not worn.
     NotWorn {
-        /// What.
+        /// Which.
         gear: Gear,
     },
     /// The hood was open too far.
     SashOpen {
-        /// How far, m.
+        /// Its opening, m.
         height_m: f64,
-        /// What is allowed, m.
+        /// Greatest allowed opening, m.
         limit_m: f64,
     },
     /// It took too long.
     TimeUp {
-        /// What is allowed, s.
+        /// Allowed time, s.
         limit_s: f64,
     },
-    /// It was left out.
+    /// The step was left out.
     Skipped,
-    /// The lesson ended before it was done.
+    /// The lesson ended before the step was done.
     NotDone,
 }
 
-/// How a step stands.
+/// Status of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// Others come first.
+    /// Earlier steps come first.
     #[default]
     Waiting,
     /// It is to be done.
@@ -171,14 +172,14 @@ pub enum Status {
     Missed,
 }
 
-/// How a lesson stands, for panel and console alike. In an examination the user is not told: [`Mode::tells`].
+/// Status of a lesson, for panel and console alike. In an examination the user does not see it: [`Mode::tells`].
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct State {
-    /// The lesson.
+    /// Name of the lesson.
     pub lesson: String,
-    /// How it is gone through.
+    /// Its mode.
     pub mode: Mode,
-    /// The first step that is to be done, counted from 1; `None` where none is.
+    /// Number of the first open step, counted from 1; `None` where none is open.
     pub number: Option<usize>,
     /// Whether no step is left to do.
     pub over: bool,
@@ -186,12 +187,12 @@ pub struct State {
     pub steps: Vec<StepState>,
 }
 
-/// How a step of it stands.
+/// Status of one step of a lesson.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct StepState {
-    /// Its id, under which the lesson has its texts.
+    /// Its id, which is the key of its texts.
     pub id: String,
-    /// How it stands.
+    /// Its status.
     pub status: Status,
     /// Whether its hint is to be shown.
     pub hint: bool,
@@ -201,22 +202,22 @@ pub struct StepState {
     pub failures: u32,
 }
 
-/// What a lesson comes to.
+/// Result of a lesson.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The lesson.
+    /// Name of the lesson.
     pub lesson: String,
-    /// How it was gone through.
+    /// Its mode.
     pub mode: Mode,
-    /// Points in all.
+    /// Points earned in all.
     pub points: u32,
-    /// Of so many.
+    /// Points that can be earned in all.
     pub of: u32,
-    /// By step, then by rule, in the order of the lesson's file.
+    /// A line for each step, then for each rule, in the order of the lesson's file.
     pub lines: Vec<VerdictLine>,
 }
 
-/// What is said of a step or a rule.
+/// Result of a step or a rule.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct VerdictLine {
     /// Its id.
@@ -225,22 +226,23 @@ pub struct VerdictLine {
     pub rule: bool,
     /// Whether it was done, or kept.
     pub met: bool,
-    /// When it was done, missed or broken, simulated time of the run, s; `None` of a rule that was kept, and of what did not come about.
+    /// When it was done, missed or broken, simulated time of the run, s; `None` of a rule that was kept, and of a step that was not
+    /// decided.
     pub evidence_s: Option<f64>,
-    /// Why it failed last.
+    /// Why it failed or was broken last.
     pub why: Option<Why>,
     /// How often it failed.
     pub failures: u32,
     /// How often its hint was given.
     pub hints: u32,
-    /// Points.
+    /// Points earned.
     pub points: u32,
-    /// Of so many.
+    /// Points that can be earned.
     pub of: u32,
 }
 
 impl Texts {
-    /// Why something failed, in a sentence.
+    /// A sentence that gives the reason of a failure.
     pub fn why(&self, why: &Why) -> String {
         let texts = &self.why;
         match why {
@@ -299,7 +301,7 @@ impl Texts {
         }
     }
 
-    /// What a mode is called.
+    /// Name of a mode in this language.
     pub fn mode(&self, mode: Mode) -> String {
         let name = match mode {
             Mode::Guided => &self.mode.guided,

@@ -1,20 +1,20 @@
-//! How each step and each rule of a lesson stands.
+//! State of each step and each rule of a lesson.
 
 use super::keeping::Keeping;
 use super::progress::{Status, Why};
 use super::watch::Watch;
 
-/// A step as it stands.
+/// State of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct StepRecord {
     pub status: Status,
-    /// From when on what happens is of it, s.
+    /// Time from which on events count for it, s.
     pub began: f64,
-    /// From when on it was shown, s.
+    /// Time at which it was shown, s.
     pub shown: f64,
-    /// From when on the time until the hint runs, s.
+    /// Time from which on the delay of its hint runs, s.
     pub waits: f64,
-    /// From when on a pour may begin, s: after a failure.
+    /// After a failure, earliest time at which a pour may begin, s.
     pub again: Option<f64>,
     pub watch: Watch,
     pub keeping: Vec<Keeping>,
@@ -25,7 +25,7 @@ pub(super) struct StepRecord {
     pub why: Option<Why>,
 }
 
-/// A rule as it stands.
+/// State of a rule.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RuleRecord {
     pub keeping: Keeping,
@@ -33,7 +33,7 @@ pub(super) struct RuleRecord {
 }
 
 impl StepRecord {
-    /// Whether what it asks to be kept is so now.
+    /// Whether all its requirements hold now.
     pub fn keeps(&self) -> bool {
         !self.keeping.iter().any(|it| it.breached)
     }

@@ -1,4 +1,4 @@
-//! What a lesson comes to by what was said of it, as a recording keeps that.
+//! Verdicts of a lesson from the [`Progress`] that a recording stores.
 
 use super::file::Lesson;
 use super::judge::Procedure;
@@ -7,8 +7,8 @@ use super::progress::{Progress, Status, Verdict, VerdictLine, Why};
 use super::record::StepRecord;
 
 impl Verdict {
-    /// What each time comes to that the lesson was begun, in their order: the same as who judged it said, [`Procedure::verdict`]. What is
-    /// said of steps that the lesson does not have counts for nothing.
+    /// One verdict for each time that the lesson was begun, in order. Each equals the [`Procedure::verdict`] of the session. Progress of
+    /// steps that the lesson does not have is ignored.
     pub fn retold(lesson: &Lesson, mode: Mode, said: &[Progress]) -> Vec<Self> {
         let begins = |it: &Progress| matches!(it, Progress::Begun { .. });
         let first = said.iter().position(begins).unwrap_or(said.len());
@@ -77,14 +77,14 @@ impl Procedure {
     }
 }
 
-/// What became of a step or a rule, in a word.
+/// Outcome of a step or a rule, in a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Became {
     /// A step was done.
     Done,
-    /// Something went wrong in a step, and it was not done after that.
+    /// Something went wrong in a step, and it was not done afterwards.
     Failed,
-    /// A step was not done: left out, out of time, or not come to.
+    /// A step was not done: left out, out of time, or never reached.
     Missed,
     /// A rule was kept.
     Kept,
@@ -106,9 +106,9 @@ impl Became {
 }
 
 impl VerdictLine {
-    /// What became of it.
+    /// Outcome of the step or rule.
     pub fn became(&self) -> Became {
-        // The last failure of a step that is left out, out of time or not done before the end is that.
+        // Leaving out a step, running out of time and ending the lesson are stored as the step's last failure.
         let given_up = |why: &Why| matches!(why, Why::Skipped | Why::NotDone | Why::TimeUp { .. });
         let given_up = u32::from(self.why.as_ref().is_some_and(given_up));
         match (self.rule, self.met) {

@@ -1,17 +1,17 @@
-//! What the judge sees, and what a scene has that can be seen.
+//! The observation that the judge of a lesson takes in, and the properties of a scene that a lesson is checked against.
 
 use vitriol_sim::scene::{Feature, Scene, ToolKind};
 
-/// Liquid in a flask, and where the flask is.
+/// A flask and its liquid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlaskSight {
     /// Its name.
     pub name: String,
-    /// What it holds, m³, real size.
+    /// Volume of its liquid, m³, real size.
     pub volume_m3: f64,
-    /// Acid mass fraction of that.
+    /// Acid mass fraction of its liquid.
     pub acid: f64,
-    /// Mean temperature of that, °C; `None` of an empty flask, and where no heat is modelled.
+    /// Mean temperature of its liquid, °C; `None` of an empty flask, and where no heat is modelled.
     pub temperature_c: Option<f64>,
     /// Whether a hand holds it.
     pub held: bool,
@@ -22,22 +22,22 @@ pub struct FlaskSight {
 /// A rod or a thermometer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dip {
-    /// In whose liquid its tip is: a flask's name.
+    /// Name of the flask in whose liquid its tip is; `None` in none.
     pub flask: Option<String>,
-    /// How fast its tip moves, m/s, as at real size.
+    /// Speed of its tip at real size, m/s.
     pub speed_m_s: f64,
 }
 
-/// What is seen at an instant. What a scene does not have is `None`.
+/// An observation of the bench. Equipment that the scene does not have is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sight {
     /// Simulated time of the run, s.
     pub t_s: f64,
     /// The flasks.
     pub flasks: Vec<FlaskSight>,
-    /// What lies on the bench, m³, real size.
+    /// Volume on the bench, m³, real size.
     pub bench_m3: f64,
-    /// What lies on the floor, m³, real size.
+    /// Volume on the floor, m³, real size.
     pub floor_m3: f64,
     /// Whether goggles are worn.
     pub goggles: Option<bool>,
@@ -60,7 +60,7 @@ impl Sight {
     }
 }
 
-/// What a scene has of a flask.
+/// Properties of a flask in a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlaskFacts {
     /// Its name.
@@ -69,35 +69,35 @@ pub struct FlaskFacts {
     pub lifted: bool,
 }
 
-/// What a scene has, against which a lesson is checked: [`Lesson::check`](super::Lesson::check).
+/// Properties of a scene, against which a lesson is checked: [`Lesson::check`](super::Lesson::check).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneFacts {
     /// The scene's name.
     pub name: String,
     /// Its flasks.
     pub flasks: Vec<FlaskFacts>,
-    /// How much liquid it has in all, m³, real size.
+    /// Volume of its liquid in all, m³, real size.
     pub liquid_m3: f64,
     /// Whether it models heat.
     pub heat: bool,
-    /// Goggles that can be put on and taken off.
+    /// Whether there are goggles that can be put on and taken off.
     pub goggles: bool,
-    /// Gloves, likewise.
+    /// Whether there are such gloves.
     pub gloves: bool,
-    /// A hood with a sash.
+    /// Whether there is a hood with a sash.
     pub sash: bool,
-    /// A stirring rod.
+    /// Whether there is a stirring rod.
     pub rod: bool,
-    /// A thermometer.
+    /// Whether there is a thermometer.
     pub thermometer: bool,
-    /// A cloth that takes up what is spilt.
+    /// Whether there is a cloth that takes up spilt liquid.
     pub cloth: bool,
-    /// Whether water that comes to a hand is seen, as of a wash bottle.
+    /// Whether water that comes to a hand is measured, as from a wash bottle.
     pub rinsing: bool,
 }
 
 impl SceneFacts {
-    /// Those of a scene that is called `name`.
+    /// Properties of `scene`, which is called `name`.
     pub fn of(name: &str, scene: &Scene) -> Self {
         let flasks = scene.flasks.iter().map(|flask| FlaskFacts {
             name: flask.name.clone(),
@@ -116,7 +116,7 @@ impl SceneFacts {
             rod: has(ToolKind::Rod),
             thermometer: has(ToolKind::Thermometer),
             cloth: has(ToolKind::Cloth),
-            // Bare hands are rinsed as gloves are; where there are none to take off, nobody looks.
+            // Bare hands are rinsed as gloves are; where there are no gloves to take off, it is not measured.
             rinsing: has(ToolKind::Gloves),
         }
     }

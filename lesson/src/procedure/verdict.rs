@@ -1,13 +1,13 @@
-//! What a lesson comes to.
+//! Points of a lesson.
 
 use super::file::Lesson;
 use super::mode::Mode;
 use super::progress::{Status, Verdict, VerdictLine};
 use super::record::{RuleRecord, StepRecord};
 
-/// A step has its points where it was done at the first try, half of them, rounded down, where it was done later. A rule that was kept has
-/// as much of its own as the steps have of theirs, rounded down: clean work on a third of a lesson is a third of clean work, and who
-/// does nothing has kept nothing.
+/// A step earns its points if it was done at the first try, half of them, rounded down, if it was done later. A rule that was kept earns
+/// the same share of its points as the steps earned of theirs, rounded down: clean work on a third of a lesson is a third of clean work,
+/// and a student who does nothing has kept nothing.
 pub(super) fn of(
     lesson: &Lesson,
     mode: Mode,

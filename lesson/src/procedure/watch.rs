@@ -1,4 +1,4 @@
-//! Whether what a step is done by has come about.
+//! Whether the condition of a step is met.
 
 use std::collections::BTreeSet;
 
@@ -12,28 +12,28 @@ pub(super) fn m3(ml: f64) -> f64 {
     ml / 1e6
 }
 
-/// How long a flask that was put down stands, s: else one that slips from a hand onto the bench and falls would count. Our choice.
+/// How long a flask that was put down must stand, s: else one that slips from a hand onto the bench and falls would count. Our choice.
 const SETTLED: f64 = 0.5;
-/// Least speed of a rod that stirs, m/s. Our choice: slower it is held, by a hand that trembles.
+/// Least speed of a rod that stirs, m/s: a slower rod is held by a hand that trembles. Our choice.
 const STIRS: f64 = 0.02;
-/// Times are sums of steps and rounded, s.
+/// Tolerance of times, which are sums of steps and rounded, s.
 const ROUNDING: f64 = 1e-9;
 
-/// What is known of one condition that is neither `all` nor `any`.
+/// State of one condition that is neither `all` nor `any`.
 #[derive(Clone, Debug, Default)]
 struct Leaf {
-    /// When it came about; of one that is so only now, when it was seen.
+    /// When it was met, s; of a condition on the present state, when that was observed.
     met: Option<f64>,
-    /// Since when it is so, s.
+    /// Time since when it holds, s.
     since: Option<f64>,
-    /// What has come together: m³ or s.
+    /// Sum so far: m³ or s.
     sum: f64,
-    /// What was there when it was seen first, m³.
+    /// Volume at the first observation, which does not count, m³.
     base: Option<f64>,
 }
 
 impl Leaf {
-    /// It is so now, or not, and must be for so long, s.
+    /// Takes in whether the condition holds at `t`; it is met once it has held for `long`, s.
     fn lasts(&mut self, so: bool, t: f64, long: f64) {
         if !so {
             (self.since, self.met) = (None, None);
@@ -45,7 +45,7 @@ impl Leaf {
         }
     }
 
-    /// So much has come together, where so much is needed.
+    /// Meets the condition at `t` if the sum has reached `needed`.
     fn gathers(&mut self, t: f64, needed: f64) {
         if self.sum >= needed - ROUNDING * needed {
             self.met.get_or_insert(t);
@@ -53,11 +53,11 @@ impl Leaf {
     }
 }
 
-/// See the module: what is known of a condition's leaves, in the order of the file.
+/// State of a condition's leaves, in the order of the file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     leaves: Vec<Leaf>,
-    /// When it saw last, s.
+    /// Time of the last observation, s.
     seen: Option<f64>,
 }
 
@@ -81,7 +81,7 @@ impl Watch {
         self.leaves.iter_mut().zip(found)
     }
 
-    /// A pour that counts. The first failure of it, in any part of the condition.
+    /// Takes in a pour that counts for the step. Returns the first failure by it, in any part of the condition.
     pub fn pour(&mut self, condition: &Condition, pour: &Pour) -> Option<Why> {
         let mut failed = None;
         for (leaf, condition) in self.pairs(condition) {
@@ -94,7 +94,7 @@ impl Watch {
         failed
     }
 
-    /// What is so at an instant. `lifted`: flasks that a hand has held.
+    /// Takes in an observation. `lifted`: flasks that a hand has held.
     pub fn see(&mut self, condition: &Condition, sight: &Sight, lifted: &BTreeSet<String>) {
         let t = sight.t_s;
         let before = self.seen.replace(t);
@@ -104,7 +104,7 @@ impl Watch {
         }
     }
 
-    /// When it came about, if it is so now.
+    /// When the condition was met, s, if it still holds.
     pub fn met(&self, condition: &Condition) -> Option<f64> {
         met(condition, &mut self.leaves.iter())
     }
@@ -163,7 +163,7 @@ fn sees(
             .is_some_and(|it| it.flask.as_deref() == Some(flask))
     };
     match condition {
-        // Those are looked into part by part, and pours are heard of.
+        // `all` and `any` are judged by their parts, and pours by their events.
         Condition::All(_) | Condition::Any(_) | Condition::Poured(_) => {}
         Condition::Lifted(it) => {
             let held = sight.flask(&it.flask).is_some_and(|flask| flask.held);

@@ -1,4 +1,4 @@
-//! What is said of a lesson, in one language.
+//! Texts of a lesson, in one language.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,10 +22,10 @@ pub struct LessonTexts {
     pub title: String,
     /// What it is about, and what is to be done.
     pub summary: String,
-    /// By step.
+    /// Texts of each step, by its id.
     #[serde(default)]
     pub step: BTreeMap<String, StepTexts>,
-    /// By rule: what is to be kept.
+    /// Text of each rule, by its id: what must hold.
     #[serde(default)]
     pub rule: BTreeMap<String, String>,
 }
@@ -36,12 +36,12 @@ pub struct LessonTexts {
 pub struct StepTexts {
     /// What to do.
     pub text: String,
-    /// How, for who does not get on.
+    /// How to do it, for a student who does not get on.
     pub hint: String,
 }
 
 impl LessonTexts {
-    /// Whether there is one for each of these steps and rules and no other, and each fits the panel.
+    /// Checks that each of these steps and rules has texts, that no other has, and that each text fits the panel.
     pub(super) fn check(
         &self,
         language: Language,

@@ -36,7 +36,7 @@ fn points(score: &Score, criterion: Criterion) -> Option<(u32, u32)> {
     line.map(|it| (it.points, it.of))
 }
 
-/// An attempt in which a flask of acid and one of water stood, and nobody came.
+/// An attempt with a flask of acid and one of water, in which nobody did anything.
 fn untouched() -> Attempt {
     let [_, mut attempt] = attempts();
     attempt.pours.clear();
@@ -90,8 +90,7 @@ fn the_wrong_order_is_told_with_its_causes() {
             ("“source” struck at 3.8 m/s and broke.", ""),
         ]
     );
-    // Each danger is said once: at the first that has it.
-    // In the order of the film, and the pour is not said twice.
+    // Each danger is named once: at the first incident that has it. In the order of the film, and the pour is not described twice.
     let times: Vec<f64> = said.iter().filter_map(|it| it.t_s).collect();
     assert!(times.is_sorted(), "{times:?}");
     assert_eq!(
@@ -163,7 +162,7 @@ fn points_are_what_the_rubric_says() {
             "{line:?}"
         );
     }
-    // Points that are withheld for something that happened name its moment.
+    // Evidence for points that are withheld for an incident has its moment.
     for line in &wrong.lines {
         assert!(line.evidence.iter().any(|it| it.t_s.is_some()), "{line:?}");
     }
@@ -177,7 +176,7 @@ fn who_does_nothing_has_no_score() {
     let said = said(&untouched());
     assert_eq!(said.len(), 1);
     assert_eq!(said[0].text, "Nothing was poured.");
-    // Nor who touches nothing and lets a flask fall.
+    // Nor does a student who touches nothing and lets a flask fall.
     let [wrong, _] = attempts();
     let mut attempt = untouched();
     attempt
@@ -208,7 +207,7 @@ fn who_dilutes_nothing_has_no_points_for_it() {
         assert_eq!(points(&with_acid, *criterion).unwrap().0, 0);
     }
     assert!(with_acid.points < with_acid.of);
-    // Where there is no acid, none of it is asked for.
+    // Where there is no acid, none is asked for.
     attempt.contents.remove("source");
     let without = score(&attempt);
     assert_eq!((without.points, without.of), (45, 45));
@@ -253,7 +252,7 @@ fn a_recording_that_breaks_off_says_so() {
     );
 }
 
-/// Of the table of the Consumer Product Safety Commission: 140 °F, six seconds.
+/// From the table of the Consumer Product Safety Commission: 140 °F, six seconds.
 #[test]
 fn hot_liquid_on_skin_says_how_long_it_takes() {
     let [_, mut right] = attempts();
@@ -335,7 +334,7 @@ fn what() -> impl Strategy<Value = What> {
     ]
 }
 
-/// The same, worse.
+/// A worse incident of the same kind: larger volume, higher rate or temperature, or broken glass.
 fn worse(what: &What) -> What {
     let mut what = what.clone();
     match &mut what {
@@ -353,7 +352,7 @@ fn worse(what: &What) -> What {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
-    /// Of any attempt, done or not: another mishap, or a worse one, never gives points, nor a better share.
+    /// In any attempt, done or not: another incident, or a worse one, never gives points, nor a better share.
     #[test]
     fn more_that_goes_wrong_never_scores_more(whats in prop::collection::vec(what(), 1..5), which in 0..3) {
         let [wrong, right] = attempts();

@@ -1,4 +1,4 @@
-//! The table of incidents, read again by another reader than its writer: Python's own module.
+//! The table of incidents, read by another reader than its writer: Python's own module.
 
 use std::io::Write;
 use std::process::{Command, Stdio};

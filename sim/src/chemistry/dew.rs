@@ -87,7 +87,7 @@ pub fn flux(wall: f64, air: &Air) -> f64 {
 
 /// The places of one height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct WallRow {
     /// Height of their middles in the flask's frame, m.
     pub height: f64,
     /// Radius of the wall there, m.
@@ -99,7 +99,7 @@ pub struct Row {
 }
 
 /// A flask's rows, from the inner floor up.
-pub fn rows(profile: &Profile) -> Vec<Row> {
+pub fn rows(profile: &Profile) -> Vec<WallRow> {
     let (floor, rim) = (profile.floor_height(), profile.rim_height());
     let step = (rim - floor) / UP as f64;
     let row = |j: usize| {
@@ -108,7 +108,7 @@ pub fn rows(profile: &Profile) -> Vec<Row> {
         let [low, high] = [-0.5, 0.5].map(|way| profile.inner_radius(height + 0.999 * way * step));
         let slant = (high - low).hypot(step);
         let radius = profile.inner_radius(height);
-        Row {
+        WallRow {
             height,
             radius,
             area: TAU * radius * slant / AROUND as f64,

@@ -1,7 +1,7 @@
 //! What a scene's chemistry keeps per particle, and its part of a substep.
 
 use super::dilution::{self, Pairs, Weight};
-use super::glass::{Glass, Touch};
+use super::glass::{GlassTouch, ReferenceRings};
 use super::surroundings::WallSum;
 use crate::chemistry::eddies::SCHMIDT;
 use crate::chemistry::evaporation::{StillAir, evaporated};
@@ -28,14 +28,14 @@ pub struct Coefficients {
 
 /// What is modelled beyond a fluid with viscosity.
 #[derive(Clone, Debug)]
-pub enum Chemistry {
+pub enum ReferenceChemistry {
     /// Sections 4.1 to 4.3.
-    Paper(Paper),
+    Paper(ReferencePaper),
     /// What section 8 misses.
-    Physical(Box<Physical>),
+    Physical(Box<ReferencePhysical>),
 }
 
-impl Chemistry {
+impl ReferenceChemistry {
     /// T (°C) and acid mass fraction of particle `i`'s liquid.
     pub(super) fn state(&self, i: usize) -> (f64, f64) {
         match self {
@@ -81,7 +81,7 @@ pub struct DilutionLaw {
 
 /// The paper's chemistry.
 #[derive(Clone, Debug)]
-pub struct Paper {
+pub struct ReferencePaper {
     /// Line 26, if it is modelled.
     pub dilution: Option<DilutionLaw>,
     /// Line 27, if it is modelled.
@@ -94,7 +94,7 @@ pub struct Paper {
     pub agitation: Vec<f64>,
 }
 
-impl Paper {
+impl ReferencePaper {
     /// Particles of `(temperature in °C, acid fraction)`, at rest.
     ///
     /// # Errors
@@ -166,7 +166,7 @@ impl Paper {
 
 /// Where enthalpy and mass went, J and kg since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
+pub struct ReferenceLedger {
     /// Enthalpy taken up from around the liquid.
     pub exchanged: f64,
     /// Steam that has left, and its enthalpy.
@@ -175,7 +175,7 @@ pub struct Ledger {
 
 /// The physical chemistry.
 #[derive(Clone, Debug)]
-pub struct Physical {
+pub struct ReferencePhysical {
     /// Its constants.
     pub law: Law,
     /// Properties of the liquid.
@@ -187,12 +187,12 @@ pub struct Physical {
     /// K of the eddies that the flow of the frame before leaves unresolved, m²/s.
     pub eddies: Vec<f64>,
     /// Balance since the start.
-    pub ledger: Ledger,
+    pub ledger: ReferenceLedger,
     /// The flasks' glass, from the first substep on, where heat is lost to it.
-    pub glass: Option<Glass>,
+    pub glass: Option<ReferenceRings>,
 }
 
-impl Physical {
+impl ReferencePhysical {
     /// Particles of volume `volume` (m³) and `(temperature in °C, acid
     /// fraction)`, at rest.
     ///
@@ -214,13 +214,13 @@ impl Physical {
             eddies: vec![0.0; contents.len()],
             contents,
             table,
-            ledger: Ledger::default(),
+            ledger: ReferenceLedger::default(),
             glass: None,
         })
     }
 
     /// Line 26: acid and enthalpy between particles, heat to what is around, boiling.
-    pub fn dilute(&mut self, pairs: &Pairs, parameters: &Parameters, touches: &[Touch]) {
+    pub fn dilute(&mut self, pairs: &Pairs, parameters: &Parameters, touches: &[GlassTouch]) {
         let time = parameters.substep_time();
         let potentials: Vec<_> = self
             .contents
@@ -285,7 +285,7 @@ impl Physical {
     }
 
     /// Heat that a particle takes through glass and surface in `time` seconds, J.
-    fn heat_from_around(&mut self, own: &Potential, touch: &Touch, time: f64) -> f64 {
+    fn heat_from_around(&mut self, own: &Potential, touch: &GlassTouch, time: f64) -> f64 {
         let Some(losses) = self.law.losses else {
             return 0.0;
         };

@@ -1,6 +1,6 @@
 //! Eddies that are not resolved, by the filtered flow at a frame's end.
 
-use super::chemistry::Chemistry;
+use super::chemistry::ReferenceChemistry;
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use crate::chemistry::eddies::Mixing;
@@ -33,13 +33,13 @@ impl Reference {
 
     /// The end of a frame: what mixes in the next one.
     pub(super) fn find_eddies(&mut self) {
-        let Some(Chemistry::Physical(physical)) = &self.chemistry else {
+        let Some(ReferenceChemistry::Physical(physical)) = &self.chemistry else {
             return;
         };
         let mixing = physical.law.mixing;
         let neighbours = self.neighbours(&self.positions);
         let eddies = self.eddies(&mixing, &neighbours);
-        if let Some(Chemistry::Physical(physical)) = &mut self.chemistry {
+        if let Some(ReferenceChemistry::Physical(physical)) = &mut self.chemistry {
             physical.eddies = eddies;
         }
     }

@@ -7,7 +7,7 @@ use crate::parameters::Parameters;
 
 /// Where a particle touches glass or air.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct GlassTouch {
     /// Area of glass, m².
     pub glass: f64,
     /// Area of free surface, m².
@@ -18,7 +18,7 @@ pub struct Touch {
 
 /// The rings of all flasks.
 #[derive(Clone, Debug, Default)]
-pub struct Glass {
+pub struct ReferenceRings {
     rings: Vec<Vec<Ring>>,
     /// T of each flask's rings, °C.
     pub temperatures: Vec<Vec<f64>>,
@@ -26,7 +26,7 @@ pub struct Glass {
     pub(super) taken: Vec<Vec<f64>>,
 }
 
-impl Glass {
+impl ReferenceRings {
     /// Glass of the temperature of the air, over the plates of `parameters`.
     pub(super) fn new(vessels: &[Vessel], losses: &Losses, parameters: &Parameters) -> Self {
         let heaters = parameters

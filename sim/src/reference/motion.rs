@@ -2,12 +2,12 @@
 
 use super::placement::Motion;
 use super::state::Reference;
-use super::surroundings::{Surroundings, Table};
+use super::surroundings::{Slab, Surroundings};
 use crate::flask::project_from;
 use glam::DVec3;
 
 /// A particle's position and the flask that it is in.
-pub type Place = (DVec3, Option<usize>);
+pub type Placed = (DVec3, Option<usize>);
 
 impl Reference {
     /// Lines 15–17: x* = x + Δt·v + Δt²·g of all particles, and the flask constraint
@@ -63,7 +63,7 @@ impl Reference {
     }
 
     /// [`constrain`] of particle `i`.
-    fn constrained(&self, i: usize, predicted: DVec3) -> Place {
+    fn constrained(&self, i: usize, predicted: DVec3) -> Placed {
         let place = (self.positions[i], self.membership[i]);
         let margin = self.parameters.margin;
         constrain(&self.surroundings, &self.motion, margin, place, predicted)
@@ -81,9 +81,9 @@ pub fn constrain(
     surroundings: &Surroundings,
     motion: &[Motion],
     margin: f64,
-    (position, member_of): Place,
+    (position, member_of): Placed,
     predicted: DVec3,
-) -> Place {
+) -> Placed {
     if !is_finite(predicted - position) {
         return (predicted, member_of);
     }
@@ -122,7 +122,7 @@ fn is_finite(way: DVec3) -> bool {
 
 /// What was above the table stays above it, below it below, beside it beside.
 /// Where a flask has put a particle into the table, it rises.
-fn out_of_table(table: &Table, margin: f64, position: DVec3, at: DVec3) -> DVec3 {
+fn out_of_table(table: &Slab, margin: f64, position: DVec3, at: DVec3) -> DVec3 {
     if at.y <= table.under - margin || at.y >= table.top + margin || !table.covers(at) {
         at
     } else if position.y <= table.under {

@@ -1,8 +1,8 @@
 //! Lines 26 and 27 of a liquid with a chemistry.
 
-use super::chemistry::Chemistry;
+use super::chemistry::ReferenceChemistry;
 use super::dilution::Pairs;
-use super::glass::{Glass, Touch};
+use super::glass::{GlassTouch, ReferenceRings};
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use super::surroundings::WallSum;
@@ -31,11 +31,11 @@ impl Reference {
             .surroundings
             .sums(&self.positions, &self.membership, &self.motion);
         match &mut chemistry {
-            Chemistry::Paper(paper) => {
+            ReferenceChemistry::Paper(paper) => {
                 let densities = self.densities(&self.positions, neighbours);
                 paper.dilute(&pairs, &walls, &densities);
             }
-            Chemistry::Physical(physical) => {
+            ReferenceChemistry::Physical(physical) => {
                 let kernel = self.kernel();
                 let (volumes, _) = physical.bulk_of(&self.parameters);
                 let slopes = pairs.sums(|i, j| {
@@ -44,7 +44,7 @@ impl Reference {
                 });
                 let touch = |(i, (wall, &liquid)): (usize, (&WallSum, &DVec3))| {
                     let open = (wall.gradient + liquid).length();
-                    Touch {
+                    GlassTouch {
                         glass: contact_area(volumes[i], wall.gradient.length()),
                         surface: surface_area(volumes[i], open),
                         ring: self.ring_of(i, wall),
@@ -53,7 +53,7 @@ impl Reference {
                 let touches: Vec<_> = walls.iter().zip(&slopes).enumerate().map(touch).collect();
                 if let (Some(losses), None) = (&physical.law.losses, &physical.glass) {
                     let vessels = &self.surroundings.vessels;
-                    let glass = Glass::new(vessels, losses, &self.parameters);
+                    let glass = ReferenceRings::new(vessels, losses, &self.parameters);
                     physical.glass = Some(glass);
                 }
                 physical.dilute(&pairs, &self.parameters, &touches);
@@ -73,7 +73,7 @@ impl Reference {
 
     /// The end of a frame: the glass takes what the liquid gave it.
     pub(super) fn warm_glass(&mut self) {
-        if let Some(Chemistry::Physical(physical)) = &mut self.chemistry
+        if let Some(ReferenceChemistry::Physical(physical)) = &mut self.chemistry
             && let (Some(glass), Some(losses)) = (&mut physical.glass, &physical.law.losses)
         {
             glass.advance(losses.ambient, self.parameters.frame_time);
@@ -81,15 +81,15 @@ impl Reference {
     }
 
     /// Line 27 with a coefficient per particle.
-    pub(super) fn stir(&mut self, chemistry: &mut Chemistry, neighbours: &Neighbours) {
+    pub(super) fn stir(&mut self, chemistry: &mut ReferenceChemistry, neighbours: &Neighbours) {
         let parameters = &self.parameters;
         let coefficients = match chemistry {
-            Chemistry::Paper(paper) => paper.coefficients(parameters),
-            Chemistry::Physical(physical) => physical.coefficients(parameters),
+            ReferenceChemistry::Paper(paper) => paper.coefficients(parameters),
+            ReferenceChemistry::Physical(physical) => physical.coefficients(parameters),
         };
         let stirred = self.stirred(neighbours, &coefficients);
         self.velocities = stirred.velocities;
-        if let Chemistry::Paper(paper) = chemistry {
+        if let ReferenceChemistry::Paper(paper) = chemistry {
             paper.agitation = stirred.agitation;
         }
     }

@@ -1,8 +1,8 @@
 //! The reference solver of a scene.
 
-use super::chemistry::{DilutionLaw, Paper};
+use super::chemistry::{DilutionLaw, ReferencePaper};
 use super::state::Reference;
-use super::surroundings::{Surroundings, Table, Vessel};
+use super::surroundings::{Slab, Surroundings, Vessel};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
 use crate::chemistry::{Chemistry, OutOfRange};
 use crate::fill::FillError;
@@ -25,7 +25,7 @@ impl Surroundings {
                 .collect(),
         };
         let thickness = TableTop::THICKNESS / scene.scale.length_scale;
-        let table = scene.table.map(|table| Table {
+        let table = scene.table.map(|table| Slab {
             top: table.top,
             under: table.top - thickness,
             centre: table.centre.into(),
@@ -75,7 +75,7 @@ pub enum ChemistryError {
     OutOfRange(#[from] OutOfRange),
 }
 
-impl Paper {
+impl ReferencePaper {
     /// What `scene` models of the paper's chemistry, by the `scheme` of Eq. 5
     /// and the kind of `boiling`; `None` without the feature `heat`. The
     /// particles are those of [`Reference::of_scene`] with the same seed.

@@ -1,6 +1,6 @@
 //! What Algorithm 1 works on, and what is known of it without a neighbour.
 
-use super::chemistry::Chemistry;
+use super::chemistry::ReferenceChemistry;
 use super::measure::Masses;
 use super::placement::{Motion, Placement};
 use super::surroundings::{Contact, Surroundings};
@@ -31,7 +31,7 @@ pub struct Reference {
     /// Particles that turned non-finite and were taken out.
     pub removed: usize,
     /// Heat, acid and boiling, where they are modelled.
-    pub chemistry: Option<Chemistry>,
+    pub chemistry: Option<ReferenceChemistry>,
     pub(super) motion: Vec<Motion>,
     /// Accelerations (m/s²) with which walls hold back the line of a surface, along their directions, and which.
     pub(super) held: Vec<Hold>,
@@ -83,7 +83,7 @@ impl Reference {
     /// follow composition.
     pub(super) fn bulk(&self) -> (Vec<f64>, Vec<f64>) {
         match &self.chemistry {
-            Some(Chemistry::Physical(physical)) => physical.bulk_of(&self.parameters),
+            Some(ReferenceChemistry::Physical(physical)) => physical.bulk_of(&self.parameters),
             _ => {
                 let count = self.positions.len();
                 (

@@ -56,7 +56,7 @@ impl Vessel {
 
 /// The table top, a level slab.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Table {
+pub struct Slab {
     /// Height of its upper surface, metres.
     pub top: f64,
     /// Height of its lower surface, metres.
@@ -67,7 +67,7 @@ pub struct Table {
     pub size: DVec2,
 }
 
-impl Table {
+impl Slab {
     /// Whether `point` (stage, metres) is above, in or below it, and not
     /// beside it.
     pub fn covers(&self, point: DVec3) -> bool {
@@ -82,7 +82,7 @@ pub struct Surroundings {
     /// Flasks; membership counts them.
     pub vessels: Vec<Vessel>,
     /// The table, if there is one.
-    pub table: Option<Table>,
+    pub table: Option<Slab>,
     /// Height of the floor, metres, if there is one.
     pub floor: Option<f64>,
     kernel: Kernel,
@@ -115,7 +115,7 @@ impl Surroundings {
     /// Surroundings for support radius `support`; metres.
     pub fn new(
         vessels: Vec<Vessel>,
-        table: Option<Table>,
+        table: Option<Slab>,
         floor: Option<f64>,
         support: f64,
     ) -> Self {

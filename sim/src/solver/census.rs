@@ -19,7 +19,7 @@ use vitriol_shaders::{Library, sim};
 use crate::chemistry::Chemistry;
 use crate::parameters::Parameters;
 
-pub use seen::{Bubbles, Bubbling, Came, Census, Held, Moved, Place, Skin, SkinPart, Touching};
+pub use seen::{BubbleCount, Bubbling, Came, Census, Held, Moved, Place, Skin, SkinPart, Touching};
 
 /// Parts of skin that a look has at most: two hands of 28 bones, and a face.
 pub const MOST_LIMBS: usize = 64;
@@ -384,7 +384,7 @@ impl Units {
         let share = [0.0, 1.0];
         let sides = [-self.reach, self.reach];
         let radius = [0.0, BUBBLE_RADII * self.reach];
-        let number = |count: u32, radii: u32| Bubbles {
+        let number = |count: u32, radii: u32| BubbleCount {
             count,
             radius: mean(radii, count, radius),
         };

@@ -39,8 +39,8 @@ mod vessels;
 
 pub(crate) use census::LooksMemoryRecord;
 pub use census::{
-    Bubbles, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, LooksMemory, MOST_LIMBS,
-    Moved, Place, SCALDS, Skin, SkinPart, Touching,
+    BubbleCount, Bubbling, Came, Census, CensusRecord, HARMFUL, Held, LYING, LooksMemory,
+    MOST_LIMBS, Moved, Place, SCALDS, Skin, SkinPart, Touching,
 };
 pub use counters::Counters;
 pub use error::SolverError;
@@ -60,7 +60,7 @@ use census::Looks;
 use grid::Grid;
 use pipelines::{Constants, Pipelines};
 use std::sync::atomic::{AtomicBool, Ordering};
-use steam::Steam;
+use steam::SteamPasses;
 use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::Library;
@@ -82,7 +82,7 @@ pub struct Solver {
     buffers: Buffers,
     vessels: Vessels,
     pipelines: Pipelines,
-    steam: Option<Steam>,
+    steam: Option<SteamPasses>,
     looks: Looks,
     bundles: Bundles,
 }
@@ -107,7 +107,7 @@ impl Solver {
         let constants = Constants::new(spec, count, &grid, [lanes, list_lanes, group]);
         let all = buffers.all(&vessels);
         let pipelines = Pipelines::new(gpu, library, spec, &constants, &all)?;
-        let steam = Steam::new(gpu, library, spec, &constants, &all)?;
+        let steam = SteamPasses::new(gpu, library, spec, &constants, &all)?;
         let sizes = [count as usize, spec.flasks.len()];
         let looks = Looks::new(
             gpu,

@@ -21,17 +21,17 @@ const QUANTA: [f64; 3] = [1.0 / 16_777_216.0, 1.0 / 16_777_216.0, 1.0 / 16.0];
 const LEFT_QUANTUM: f64 = 1.0 / 65_536.0;
 
 /// Mass and acid over V0·ρ0, and enthalpy, J per V0·ρ0.
-pub(crate) type Liquid = [f64; 3];
+pub(crate) type SprayedLiquid = [f64; 3];
 
 /// Where the liquid of drops is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SprayAccount {
     /// In drops that fly.
-    pub(crate) flying: Liquid,
+    pub(crate) flying: SprayedLiquid,
     /// On glass, table and floor.
-    pub(crate) fallen: Liquid,
+    pub(crate) fallen: SprayedLiquid,
     /// On its way to particles; negative where it is on its way from them.
-    pub(crate) pending: Liquid,
+    pub(crate) pending: SprayedLiquid,
 }
 
 /// A flask's quanta as mass over V0·ρ0.
@@ -62,7 +62,7 @@ impl SprayState {
     /// Where all of it is.
     pub(super) fn account(&self) -> SprayAccount {
         let mut account = SprayAccount::default();
-        let add = |sum: &mut Liquid, parts: [f64; 3]| {
+        let add = |sum: &mut SprayedLiquid, parts: [f64; 3]| {
             for (sum, part) in sum.iter_mut().zip(parts) {
                 *sum += part;
             }

@@ -7,7 +7,7 @@ use super::grid::Grid;
 use super::matter::Start;
 use super::spec::Particle;
 use super::spray::{SprayAccount, SprayState};
-use super::steam::{Steam, SteamState};
+use super::steam::{SteamPasses, SteamState};
 use crate::chemistry::Chemistry;
 use crate::chemistry::dew::QUANTUM;
 use crate::chemistry::table::SolutionTable;
@@ -89,7 +89,7 @@ impl SolverState {
             bulk: Vec::new(),
             eddies: Vec::new(),
             glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
-            steam: Steam::start(parameters, n, flasks),
+            steam: SteamPasses::start(parameters, n, flasks),
             bubbles: BubbleState::start(parameters, n, grid.cells()),
             spray: SprayState::start(parameters, n, flasks),
             held: vec![[0.0; 4]; if parameters.sticks() { n } else { 0 }],

@@ -30,7 +30,7 @@ const STEPS: u32 = 4;
 const ROOM_TEMPERATURE: f64 = 20.0;
 
 /// Passes of puffs, of what makes them, and of the water that condenses on glass.
-pub(super) struct Steam {
+pub(super) struct SteamPasses {
     rise: SolverPass,
     vent: SolverPass,
     /// With its workgroups; `None` where none condenses.
@@ -68,7 +68,7 @@ impl SteamState {
     }
 }
 
-impl Steam {
+impl SteamPasses {
     /// `None` where no steam leaves the liquid.
     pub(super) fn new(
         gpu: &Gpu,

@@ -39,7 +39,7 @@ pub(super) fn dew_places(parameters: &Parameters, flasks: usize) -> usize {
 /// Rows of the flasks' inner walls, as `sim/dew.wgsl` reads them.
 pub(super) fn dew_rows(flasks: &[Profile]) -> Vec<DewRow> {
     let rows = flasks.iter().flat_map(dew::rows);
-    let row = |row: dew::Row| DewRow {
+    let row = |row: dew::WallRow| DewRow {
         height: row.height as f32,
         radius: row.radius as f32,
         area: row.area as f32,

@@ -12,7 +12,7 @@ use vitriol_gpu::Gpu;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::Reference;
-use vitriol_sim::reference::surroundings::{Surroundings, Table, Vessel};
+use vitriol_sim::reference::surroundings::{Slab, Surroundings, Vessel};
 use vitriol_sim::solver::{Ground, Solver};
 
 /// Rounding of a place in the scene after a substep: some ten operations.
@@ -75,7 +75,7 @@ pub fn reference(setup: &Setup, poses: &[Pose]) -> Reference {
         None => Vessel::with_maps(profile, H),
         Some(solids) => Vessel::with_particles(profile, Vec::clone(&solids[k]), H),
     });
-    let table = setup.ground.table.map(|(top, centre, size)| Table {
+    let table = setup.ground.table.map(|(top, centre, size)| Slab {
         top,
         under: setup.ground.table_under(top),
         centre,

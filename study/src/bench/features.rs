@@ -1,4 +1,4 @@
-//! What each feature of a scene costs.
+//! The cost of each feature of a scene.
 
 use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
@@ -9,14 +9,13 @@ use super::frame::{QUEUED, passes, queued, settled};
 use super::report::FeatureRow;
 use crate::cli::BenchArgs;
 
-/// Rounds in which a scene with and one without a feature take turns, so that
-/// what else the machine does falls on both alike.
+/// Rounds in which a scene with and one without a feature take turns, so that other work of the machine affects both alike.
 const ROUNDS: usize = 9;
 
 /// The cost of each feature of the scene `name`.
 ///
 /// # Errors
-/// [`Failure::Input`] for a scene that is not there; what the device says.
+/// [`Failure::Input`] for a scene that does not exist; otherwise the device's error.
 pub fn costs(
     timed: &Gpu,
     plain: &Gpu,

@@ -9,8 +9,8 @@ use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 
-/// Simulated time before the first measured frame, seconds: the filling
-/// lattice has settled, and the driver has compiled what it compiles late.
+/// Simulated time before the first measured frame, seconds: by then the filling lattice has settled, and the driver has compiled the last
+/// pipelines.
 const WARM_UP: f64 = 1.0;
 
 /// Frames that are submitted before the device is waited for: as in the loop,

@@ -1,5 +1,5 @@
 //! `vitriol bench --against`: another program that solves as many particles at rest, asked in turn with ours.
-//!
+//! A peer gets the compared quantities as arguments, and prints one JSON object as the last line of its standard output.
 //! A peer gets what is compared as arguments, and prints one JSON object as the last line of its standard output.
 
 use std::io;
@@ -10,14 +10,14 @@ use serde::Deserialize;
 use thiserror::Error;
 use vitriol_experiment::{Failure, in_a_line};
 
-/// Most of what a peer said that a message repeats, characters.
+/// Most characters of a peer's output that a message repeats.
 const LONGEST: usize = 300;
 
 /// Another program, or a script in Python.
 #[derive(Debug, Clone)]
 pub struct Peer(PathBuf);
 
-/// What a peer is to solve, SI units.
+/// The problem that a peer is to solve, SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asked {
     /// Fluid particles.
@@ -38,11 +38,11 @@ pub struct Asked {
     pub viscosity: f64,
     /// Frames to measure.
     pub frames: u32,
-    /// Whether on the processor, as ours is.
+    /// Whether to solve on the processor, as ours does.
     pub on_processor: bool,
 }
 
-/// What a peer prints. Other keys are for people.
+/// The result that a peer prints. Other keys are for people.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Answer {
     /// Its name.
@@ -53,25 +53,25 @@ pub struct Answer {
     pub device: String,
     /// Particles that it solved.
     pub particles: u64,
-    /// Frames' shares of several that are queued, ms.
+    /// A frame's share of several that are queued, for each measurement, ms.
     pub times_ms: Vec<f64>,
     /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_p99: f64,
 }
 
-/// Why a peer has no answer.
+/// Why a peer gave no result.
 #[derive(Debug, Error)]
 pub enum PeerError {
-    /// It cannot be started.
+    /// It could not be started.
     #[error(
         "{program} cannot be started: {cause}; give the path of a program, or of a .py file, which needs python3"
     )]
     NotThere {
         /// The program.
         program: String,
-        /// What the system says.
+        /// The system's error.
         cause: io::Error,
     },
     /// It ended with an error.
@@ -79,14 +79,14 @@ pub enum PeerError {
     Failed {
         /// The program.
         program: String,
-        /// How it ended.
+        /// Its exit status.
         status: ExitStatus,
-        /// The last that it said.
+        /// The last line of its output.
         said: String,
-        /// What it was called with.
+        /// Its command line.
         command: String,
     },
-    /// It ended well and printed nothing that could be read.
+    /// It ended without an error, and its output could not be parsed.
     #[error(
         "{program} printed no result: {cause}; its last line has to be a JSON object like that of study/peers/peer.py, and \
          was: {said}"
@@ -94,7 +94,7 @@ pub enum PeerError {
     NoResult {
         /// The program.
         program: String,
-        /// What is wrong.
+        /// The parser's error.
         cause: serde_json::Error,
         /// The last line.
         said: String,
@@ -104,7 +104,7 @@ pub enum PeerError {
     Incomparable {
         /// The program.
         program: String,
-        /// What it has.
+        /// The difference.
         what: String,
     },
 }
@@ -119,7 +119,7 @@ impl From<PeerError> for Failure {
 }
 
 impl Asked {
-    /// What a peer is called with.
+    /// The peer's command-line arguments.
     pub fn arguments(&self) -> Vec<String> {
         let arch = if self.on_processor { "cpu" } else { "gpu" };
         [
@@ -157,7 +157,7 @@ impl Peer {
             cause,
         };
         let mut command = if self.0.extension().is_some_and(|end| end == "py") {
-            // Python's own message names no remedy.
+            // Python's own message has no remedy.
             self.0.metadata().map_err(not_there)?;
             let mut python = Command::new("python3");
             python.arg(&self.0);
@@ -209,7 +209,7 @@ impl Answer {
     }
 }
 
-/// The last that a program said, in a line; of a long one the end.
+/// The last line of a program's output; of a long one the end.
 fn last_line(said: &str) -> String {
     let last = said.trim_end().lines().last().unwrap_or("nothing");
     let skipped = last.chars().count().saturating_sub(LONGEST);

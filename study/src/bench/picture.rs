@@ -1,5 +1,4 @@
-//! `vitriol bench --render`: what each pass of the picture takes, at a headset's
-//! resolutions and a screen's, of a scene in motion.
+//! `vitriol bench --render`: the time of each pass of the picture, at a headset's resolutions and a screen's, of a scene in motion.
 
 use std::f32::consts::FRAC_PI_2;
 use std::time::Instant;
@@ -19,7 +18,7 @@ use super::report::RenderRow;
 use crate::cli::BenchArgs;
 use vitriol_experiment::passes::{PassRow, Tally, Timing, solve};
 
-/// Views, and width and height of each.
+/// Number of views, and width and height of each.
 const SIZES: [(u32, [u32; 2]); 3] = [(2, [1440, 1584]), (2, [2064, 2208]), (1, [1920, 1080])];
 
 /// Simulated time before the first measured frame, seconds: funnels run.
@@ -35,7 +34,7 @@ const HANDS: [Vec3; 2] = [Vec3::new(-0.10, 0.87, -0.36), Vec3::new(0.10, 0.87, -
 /// The scene's picture at each size, or at the one that is asked for.
 ///
 /// # Errors
-/// [`Failure::Input`] for a scene that is not there; what the device says.
+/// [`Failure::Input`] for a scene that does not exist; otherwise the device's error.
 pub fn rows(
     timed: &Gpu,
     plain: &Gpu,
@@ -69,7 +68,7 @@ pub fn rows(
     }
 }
 
-/// A size and where its picture is sharp: a headset's everywhere, and foveated as in a session.
+/// (views, width and height, foveation): a headset's picture sharp everywhere, and foveated as in a session.
 type Case = (u32, [u32; 2], Option<Foveation>);
 
 fn cases() -> impl Iterator<Item = Case> {
@@ -123,7 +122,7 @@ fn ready(
     Ok((world, camera))
 }
 
-/// Each pass on the device's clock, and all of them.
+/// Times of each pass by the device's clock, and of all of them.
 fn passes(
     gpu: &Gpu,
     world: &World,
@@ -153,7 +152,7 @@ fn overlapped(gpu: &Gpu, world: &World, camera: &Camera, frames: u32) -> Result<
             let poses = world.poses();
             world.solver().record(&mut solved, poses, poses).other()?;
             camera.record_apart(&mut solved, &mut picture, world, n)?;
-            // The picture that had this slot before.
+            // The picture that used this slot before.
             let before: Vec<&Ticket> = n.checked_sub(2).map(|n| &drawn[n]).into_iter().collect();
             let solved = gpu.submit_after(solved, &before).other()?;
             drawn.push(gpu.submit_after(picture, &[&solved]).other()?);

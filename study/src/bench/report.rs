@@ -1,5 +1,5 @@
-//! What `vitriol bench` found: the time of each pass and in total, with the density
-//! error of the run beside it: a time without its error counts for nothing.
+//! Results of `vitriol bench`: the time of each pass and in total, with the density error of the run beside it: a time without its error
+//! counts for nothing.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use vitriol_experiment::DeviceStatement;
 use vitriol_experiment::passes::{PassRow, Timing};
 use vitriol_experiment::units::{grouped, percent};
 
-/// What `vitriol bench` measured.
+/// Results of `vitriol bench`.
 #[derive(Debug, Clone, Serialize)]
 pub struct Benchmark {
     /// The device.
@@ -20,10 +20,10 @@ pub struct Benchmark {
     /// Time over the number of particles, where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scaling: Option<Scaling>,
-    /// What each feature of the scene costs, where it was asked for.
+    /// Cost of each feature of the scene, where it was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<FeatureRow>,
-    /// What the picture takes, where it was asked for.
+    /// Times of the picture, where they were asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pictures: Vec<RenderRow>,
 }
@@ -51,27 +51,26 @@ pub struct RenderRow {
     /// A frame's share of several that are queued one behind the other, each
     /// solved and drawn, without timestamps.
     pub frame: Timing,
-    /// The same, where a frame is solved on a second queue while the one before
-    /// it is drawn.
+    /// A frame's share, where a frame is solved on a second queue while the one before it is drawn, without timestamps.
     pub overlapped: Timing,
-    /// The same of frames that are solved and not drawn.
+    /// A frame's share of several that are queued one behind the other, solved and not drawn, without timestamps.
     pub solver: Timing,
 }
 
-/// What a feature costs: the scene with it less the scene without it.
+/// Cost of a feature: the scene with it less the scene without it.
 #[derive(Debug, Clone, Serialize)]
 pub struct FeatureRow {
     /// The feature.
     pub feature: String,
-    /// What was off with it, being built upon it.
+    /// Features that were off with it, since they are built upon it.
     pub also_off: Vec<String>,
     /// Median over several rounds of the difference of two frames' times, ms.
     pub cost_ms: f64,
     /// Least and greatest difference of the rounds, ms.
     pub range_ms: [f64; 2],
-    /// Dispatches in a frame.
+    /// Dispatches of a frame that the feature adds.
     pub dispatches: i64,
-    /// Bytes of device memory for each particle.
+    /// Bytes of device memory for each particle that the feature adds.
     pub bytes_per_particle: i64,
 }
 
@@ -90,7 +89,7 @@ pub struct Row {
     pub iterations: u32,
     /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end of the run.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile over particles of max(0, ρ/ρ₀ − 1) at the end of the run.
     pub density_error_p99: f64,
     /// A frame's share of several that are queued one behind the other,
     /// measured without timestamps around their passes.
@@ -269,19 +268,19 @@ pub struct PeerRow {
     pub name: String,
     /// Its version.
     pub version: String,
-    /// The device that it names.
+    /// The device that it reports.
     pub device: String,
     /// A frame's share of several that are queued.
     pub total: Timing,
-    /// The least and the greatest of these, ms.
+    /// The least and the greatest frame's share, ms.
     pub range_ms: [f64; 2],
     /// Mean over particles of max(0, ρ/ρ₀ − 1) at its last run's end.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile over particles of max(0, ρ/ρ₀ − 1) at its last run's end.
     pub density_error_p99: f64,
-    /// Its median over ours: above 1 where ours is faster.
+    /// Its median time over ours: above 1 where ours is faster.
     pub ratio: f64,
-    /// The same of each round.
+    /// Its median time over ours, for each round.
     pub ratios: Vec<f64>,
 }
 
@@ -294,10 +293,10 @@ pub struct Scaling {
     pub iterations: u32,
     /// By ascending number of particles.
     pub rows: Vec<ScalingRow>,
-    /// What could not be measured.
+    /// Rows that could not be measured.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub skipped: Vec<Skipped>,
-    /// Where the figure is.
+    /// Path of the figure.
     pub figure: String,
 }
 
@@ -312,18 +311,18 @@ pub struct ScalingRow {
     pub particle_iteration_ns: f64,
     /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_p99: f64,
     /// Other programs that ran in turn with it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peers: Vec<PeerRow>,
 }
 
-/// A row that there is no room for.
+/// A row that does not fit the device's memory.
 #[derive(Debug, Clone, Serialize)]
 pub struct Skipped {
     /// Fluid particles.
     pub fluid_particles: u64,
-    /// Why.
+    /// The device's error.
     pub reason: String,
 }

@@ -10,7 +10,7 @@ use super::peer::{Answer, Asked, Peer};
 use super::report::PeerRow;
 use vitriol_experiment::passes::Timing;
 
-/// How often ours and the peers take turns, so that what else the machine does falls on all.
+/// Rounds in which ours and the peers take turns, so that other work of the machine affects all alike.
 const ROUNDS: usize = 2;
 
 /// A frame at rest.
@@ -23,7 +23,7 @@ pub struct AtRest {
     pub cpu: Timing,
     /// Mean over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile over particles of max(0, ρ/ρ₀ − 1) at the end.
     pub density_error_p99: f64,
     /// The peers that ran in turn with it.
     pub peers: Vec<PeerRow>,
@@ -32,7 +32,7 @@ pub struct AtRest {
 /// Measures `frames` frames of a scene at rest, in turn with the peers.
 ///
 /// # Errors
-/// What device or peers say.
+/// The error of the device or of a peer.
 pub fn at_rest(gpu: &Gpu, scene: &Scene, frames: u32, peers: &[Peer]) -> Result<AtRest, Failure> {
     let world = settled(gpu, scene)?;
     let asked = Asked {
@@ -88,7 +88,7 @@ fn depth(scene: &Scene) -> f64 {
 }
 
 impl PeerRow {
-    /// Of a peer's answers, one for each of our rounds; `None` of none.
+    /// A row from a peer's answers, one for each of our rounds; `None` without answers.
     pub fn of(ours: &[Vec<f64>], answers: &[Answer]) -> Option<Self> {
         let last = answers.last()?;
         let median = |times: &[f64]| Timing::of(times).median_ms;
@@ -113,7 +113,7 @@ impl PeerRow {
         })
     }
 
-    /// For people.
+    /// The row as text for people.
     pub fn describe(&self) -> String {
         let Timing { median_ms, p95_ms } = self.total;
         let ratios: Vec<String> = self.ratios.iter().map(|it| format!("{it:.2}")).collect();

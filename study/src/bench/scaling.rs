@@ -26,7 +26,7 @@ const LAYERS: f64 = 20.0;
 /// Measures blocks of up to `most` particles, and draws them into the file `figure`.
 ///
 /// # Errors
-/// [`Failure::Input`] where the file exists; what device or peers say.
+/// [`Failure::Input`] where the file exists; otherwise the error of the device or of a peer.
 pub fn measure(
     gpu: &Gpu,
     figure: &Path,
@@ -70,7 +70,7 @@ pub fn measure(
     })
 }
 
-/// So many particles at rest, as deep as a cube of them, but [`LAYERS`] at most.
+/// `count` particles at rest, as deep as a cube of them, but [`LAYERS`] at most.
 fn block(count: u64) -> Result<Scene, Failure> {
     let layers = (count as f64).cbrt().min(LAYERS);
     let radius = SPACING * (count as f64 / layers / std::f64::consts::PI).sqrt();
@@ -121,7 +121,7 @@ acid_fraction = 0.0
     Scene::parse(&text, "block.toml").other()
 }
 
-/// Whether the device had too little memory, or lends no shader as much at once.
+/// Whether the device had too little memory, or lets no shader bind as much at once.
 fn lacks_memory(failure: &Failure) -> bool {
     let (Failure::Input(cause) | Failure::NoDevice(cause) | Failure::Other(cause)) = failure;
     let mut next: Option<&(dyn Error + 'static)> = Some(cause.as_ref());

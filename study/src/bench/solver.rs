@@ -1,4 +1,4 @@
-//! What a frame's solution takes, of a scene at rest in its flasks.
+//! The time of a frame's solution, of a scene at rest in its flasks.
 
 use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
@@ -14,7 +14,7 @@ use crate::cli::BenchArgs;
 /// themselves on a software driver, in turn with peers; then each pass with timestamps.
 ///
 /// # Errors
-/// [`Failure::Input`] for a scene that is not there; what device or peers say.
+/// [`Failure::Input`] for a scene that does not exist; otherwise the error of the device or of a peer.
 pub fn row(
     timed: &Gpu,
     plain: &Gpu,

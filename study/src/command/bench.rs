@@ -11,8 +11,8 @@ use crate::cli::BenchArgs;
 /// Runs `vitriol bench`.
 ///
 /// # Errors
-/// [`Failure::NoDevice`], or [`Failure::Input`] for a scene or device that is
-/// not there, or a figure that is; [`Failure::Other`] where a peer fails or standard output cannot be written.
+/// [`Failure::NoDevice`]; [`Failure::Input`] for a scene or device that does not exist, or a figure that does; [`Failure::Other`] where a
+/// peer fails or standard output cannot be written.
 pub fn run(args: &BenchArgs, format: Format) -> Result<(), Failure> {
     let peers: Vec<Peer> = args.against.iter().map(|path| Peer::new(path)).collect();
     let timed = device::timed(args.device.as_deref(), Timestamps::Passes)?;

@@ -11,11 +11,11 @@ use vitriol_sim::scene::Preset;
 use crate::calorimeter::{self, EVEN, Feed, Resolution};
 use crate::cli::{CalorimeterArgs, OrderName};
 
-/// What both liquids together may have, mL: from a vessel of a millimetre, in
-/// which single precision still tells positions apart, to one of ten metres.
+/// Range of the volume of both liquids together, mL: from a vessel of a millimetre, in which single precision still tells positions apart,
+/// to one of ten metres.
 const VOLUMES_ML: [f64; 2] = [1e-3, 1e9];
 
-/// What `vitriol calorimeter` prints.
+/// Results of `vitriol calorimeter`.
 #[derive(Debug, Serialize)]
 pub struct Calorimeter {
     /// Mean temperature at the end, °C.
@@ -33,7 +33,7 @@ pub struct Calorimeter {
     pub mass_drift: f64,
     /// Largest change of the acid's mass, relative.
     pub acid_drift: f64,
-    /// Largest change of the enthalpy, over the sum of |h| that was there.
+    /// Largest change of the enthalpy, over the initial sum of |h|.
     pub enthalpy_drift: f64,
     /// Standard deviation of the temperature at the end, K.
     pub spread_k: f64,
@@ -41,8 +41,7 @@ pub struct Calorimeter {
     pub spread_percent: f64,
     /// Mass of liquid and vapour, g.
     pub mass_g: f64,
-    /// By how much the ratio of the two liquids is off, relative, since
-    /// particles are whole.
+    /// Relative error of the ratio of the two liquids, since particles are whole.
     pub ratio_error: f64,
     /// Particles.
     pub particles: u32,
@@ -50,15 +49,15 @@ pub struct Calorimeter {
     pub spacing_m: f64,
     /// Particles that left the vessel or were taken out.
     pub lost_particles: u64,
-    /// Particles and substeps in which diffusion was limited.
+    /// Number of times that a particle's diffusion was limited in a substep.
     pub diffusion_limited: u32,
     /// Simulated time, s.
     pub simulated_s: f64,
-    /// Time that it took, s, without opening the device.
+    /// Wall time, s, without opening the device.
     pub wall_s: f64,
     /// Preset.
     pub preset: &'static str,
-    /// Which liquid was below.
+    /// Order of filling: which liquid was below.
     pub order: OrderName,
     /// Seed.
     pub seed: u64,
@@ -69,8 +68,7 @@ pub struct Calorimeter {
 /// Runs `vitriol calorimeter`.
 ///
 /// # Errors
-/// [`Failure::Input`] for amounts that no liquid has, [`Failure::NoDevice`],
-/// [`Failure::Other`].
+/// [`Failure::Input`] for impossible amounts, [`Failure::NoDevice`], [`Failure::Other`].
 pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
     let feeds = feeds(args)?;
     let gpu = device::open(args.device.as_deref())?;
@@ -80,8 +78,7 @@ pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
     let end = mixed.end.ledger.unwrap_or_default();
     let table = SolutionTable::new();
     let mass_of = |feed: &Feed| feed.volume * table.at(feed.acid).density_at(feed.temperature);
-    // The particles' shares are of what was poured, whose mass they have but
-    // for rounding to whole particles.
+    // The particles' shares are of the poured mass, which they have but for rounding to whole particles.
     let mass_g = 1e3 * feeds.iter().map(mass_of).sum::<f64>();
     let [mass_drift, acid_drift, enthalpy_drift] = mixed.drifts;
     let result = Calorimeter {
@@ -111,7 +108,7 @@ pub fn run(args: &CalorimeterArgs, format: Format) -> Result<(), Failure> {
     emit(format, &result, describe)
 }
 
-/// Particles and iterations of a preset.
+/// Number of particles and iterations of a preset.
 pub fn resolution(preset: Preset) -> Resolution {
     let (particles, iterations) = match preset {
         Preset::Fast => (1_000, 2),

@@ -18,19 +18,19 @@ const BASE: f64 = 0.05715;
 /// The figure's name in the folder.
 const FIGURE: &str = "dam-break.svg";
 
-/// Longest delay that is looked at, hundredths of T.
+/// Longest delay that is tried, hundredths of T.
 const DELAYS: i32 = 50;
 
-/// What was measured, with its source.
+/// The measurements, with their source.
 const MEASURED: &str = include_str!("martin_moyce_1952.json");
 
-/// The data file.
+/// Contents of the data file.
 #[derive(Debug, Deserialize)]
 struct Measurements {
     columns: Vec<MeasuredColumn>,
 }
 
-/// One column of it.
+/// One column of the measurements.
 #[derive(Debug, Deserialize)]
 struct MeasuredColumn {
     /// Height over base.
@@ -39,7 +39,7 @@ struct MeasuredColumn {
     points: Vec<(f64, f64)>,
 }
 
-/// What `vitriol dam-break` prints.
+/// Results of `vitriol dam-break`.
 #[derive(Debug, Serialize)]
 pub struct DamBreak {
     /// The device.
@@ -53,7 +53,7 @@ pub struct DamBreak {
     iterations: u32,
     /// Each column.
     columns: Vec<Comparison>,
-    /// Where the figure is, if it was asked for.
+    /// Path of the figure, if it was asked for.
     figure: Option<String>,
 }
 
@@ -64,12 +64,11 @@ pub struct Comparison {
     pub n_squared: u32,
     /// Root mean square of Z − Z measured, at the measured times.
     pub rms_z: f64,
-    /// Mean of the same: positive where the simulated front leads.
+    /// Mean of Z − Z measured, at the measured times: positive where the simulated front leads.
     pub mean_z: f64,
-    /// By how much later in T the column would have to be let go for the least
-    /// `rms_z`: a gate takes time to leave.
+    /// Delay of the column's release in T that gives the least `rms_z`: a gate takes time to leave.
     pub delay: f64,
-    /// `rms_z` then.
+    /// `rms_z` with that delay.
     pub delayed_rms_z: f64,
     /// (T, Z) simulated.
     pub simulated: Vec<(f64, f64)>,
@@ -119,7 +118,7 @@ fn resolution(preset: Preset) -> u32 {
 /// T = `last`, and compares the fronts.
 ///
 /// # Errors
-/// What device or shaders say.
+/// The error of the device or of a shader.
 pub fn compare(
     gpu: &Gpu,
     scene: &Scene,

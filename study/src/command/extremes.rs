@@ -1,4 +1,4 @@
-//! `vitriol extremes`: many cases, each of something extreme.
+//! `vitriol extremes`: many cases, each with something extreme.
 
 use std::time::Instant;
 
@@ -16,8 +16,8 @@ const NUMBERS: &str = "extremes.json";
 /// Runs `vitriol extremes`.
 ///
 /// # Errors
-/// [`Failure::NoDevice`]; [`Failure::Input`] where the file exists already or there
-/// is no such case, or parts do not belong together; [`Failure::Other`] where device or folder fails, or a case does.
+/// [`Failure::NoDevice`]; [`Failure::Input`] where the file exists already or there is no such case, or parts do not belong together;
+/// [`Failure::Other`] where device or folder fails, or a case fails.
 pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
     let file = output::new_files(args.out.as_deref(), [NUMBERS])?;
     if !args.merge.is_empty() {
@@ -35,7 +35,7 @@ pub fn run(args: &ExtremesArgs, format: Format) -> Result<(), Failure> {
     let gpu = device::open(args.device.as_deref())?;
     let begin = Instant::now();
     let library = Library::embedded();
-    // Several at a time: most of a small case is the host's work.
+    // Several at a time: most of the time of a small case is the host's work.
     let found = at_a_time(args.jobs as usize, &wanted, |case| {
         let finding = judge(&gpu, &library, case);
         tracing::info!("{} {}", case.number, case.label());

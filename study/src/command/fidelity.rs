@@ -1,5 +1,4 @@
-//! `vitriol fidelity`: what the renderer draws against the surface of Yu and
-//! Turk of the same particles, marched on the CPU.
+//! `vitriol fidelity`: the renderer's surface against that of Yu and Turk of the same particles, marched on the CPU.
 
 use std::time::Instant;
 
@@ -14,15 +13,15 @@ use crate::fidelity::screen::{MANNERS, Screen};
 use crate::fidelity::sheet;
 use crate::fidelity::states::{self, State};
 
-/// The numbers' name in the folder.
+/// File name of the numbers in the folder.
 const NUMBERS: &str = "fidelity.json";
-/// The picture's.
+/// File name of the picture.
 const DIFFERENCE: &str = "fidelity.png";
 
 /// Width and height of an eye's picture, pixels. A particle spacing is 3 to 8
 /// pixels wide in the widest views; in a headset, half a metre away, about 5.
 const SIZES: [[u32; 2]; 4] = [[320, 240], [480, 360], [640, 480], [960, 720]];
-/// Which of these the picture of the difference has.
+/// Index in [`SIZES`] of the picture of the difference.
 const SHOWN: usize = 1;
 
 /// Runs `vitriol fidelity`.

@@ -30,23 +30,23 @@ const SWING: f32 = 0.25;
 /// Frames of one jerk and of the rest after it.
 const JERK: [u32; 2] = [2, 8];
 
-/// What `vitriol fig5` prints.
+/// Results of `vitriol fig5`.
 #[derive(Debug, Serialize)]
 pub struct Fig5 {
     /// Fluid particles.
     pub fluid_particles: u32,
-    /// Highest speed of the flask, particle spacings a frame.
+    /// Highest speed of the flask, particle spacings per frame.
     pub spacings_per_frame: f32,
-    /// Without the flask constraint.
+    /// Result without the flask constraint.
     pub without: Count,
-    /// With it.
+    /// Result with it.
     pub with: Count,
 }
 
-/// Where a run's particles went.
+/// Where a run's particles are at the end.
 #[derive(Debug, Serialize)]
 pub struct Count {
-    /// Particles that were seen to go through the glass.
+    /// Particles that went through the glass.
     pub through_glass: usize,
     /// Particles that left over the rim.
     pub over_rim: usize,
@@ -72,7 +72,7 @@ pub fn run(args: &Fig5Args, format: Format) -> Result<(), Failure> {
 /// takes a picture of each end where there are paths for them.
 ///
 /// # Errors
-/// What device or folder say.
+/// The error of the device or of the folder.
 pub fn compare(gpu: &Gpu, scene: &Scene, pictures: Option<&[PathBuf; 2]>) -> Result<Fig5, Failure> {
     let library = Library::embedded();
     let free = World::without_flask_constraint(gpu, &library, scene, 0).other()?;
@@ -89,8 +89,7 @@ pub fn compare(gpu: &Gpu, scene: &Scene, pictures: Option<&[PathBuf; 2]>) -> Res
     })
 }
 
-/// Runs the motion and classes what leaves the flask, frame by frame, by
-/// geometry alone: membership is the constraint's own.
+/// Runs the motion and classifies particles that leave the flask, frame by frame, by geometry alone: membership is the constraint's own.
 fn count(gpu: &Gpu, mut world: World, picture: Option<&Path>) -> Result<Count, Failure> {
     let scene = world.scene().clone();
     let flask = &scene.flasks[0];
@@ -131,7 +130,7 @@ fn count(gpu: &Gpu, mut world: World, picture: Option<&Path>) -> Result<Count, F
     })
 }
 
-/// Where the flask is at a frame's end: −1, 0 or 1, or on its way.
+/// The flask's displacement at a frame's end: −1, 0 or 1, or between.
 fn side(frame: u32) -> f32 {
     let Some(moving) = frame.checked_sub(FRAMES[0]).filter(|&n| n < FRAMES[1]) else {
         return 0.0;

@@ -15,7 +15,7 @@ use crate::cli::Command;
 /// Runs the subcommand that was asked for.
 ///
 /// # Errors
-/// What the subcommand fails with; nothing is on standard output then.
+/// The subcommand's error; nothing is on standard output then.
 pub fn run(command: &Command, format: Format) -> Result<(), Failure> {
     match command {
         Command::Bench(args) => bench::run(args, format),

@@ -1,4 +1,4 @@
-//! `vitriol trade`: what accuracy costs.
+//! `vitriol trade`: the cost of accuracy.
 
 use std::time::Instant;
 
@@ -19,17 +19,17 @@ use crate::trade::{
 };
 use vitriol_experiment::several::at_a_time;
 
-/// The files' names in the folder.
+/// File names in the folder.
 const NUMBERS: &str = "trade.json";
 const PAGE: &str = "trade.html";
 
-/// Whose liquid and presets the settings are.
+/// The scene with the liquid and the presets of the settings.
 const SCENE: &str = "beaker";
-/// What is poured into acid, by which track.
+/// Scene and track of water that is poured into acid.
 const BOILING: (&str, &str) = ("water-into-acid", "two-flasks");
-/// The same with acid poured into water.
+/// Scene of acid that is poured into water, by the track of [`BOILING`].
 const REVERSED: &str = "acid-into-water";
-/// What of the model is left out, one at a time, with what is built upon it.
+/// Features that are left out, one at a time, with those that are built upon it.
 const ABLATED: [Feature; 8] = [
     Feature::Air,
     Feature::Spray,
@@ -40,14 +40,14 @@ const ABLATED: [Feature; 8] = [
     Feature::Losses,
     Feature::Segregation,
 ];
-/// Seeds of chaotic runs; of those that leave a feature out.
+/// Number of seeds of chaotic runs, and of those that leave a feature out.
 const SEEDS: [u64; 2] = [10, 4];
 
-/// Seeds that run at once.
+/// Number of seeds that run at once.
 const AT_ONCE: usize = 3;
 
-/// 20 °C water and acid of 98 %, mL, and where they end, °C: enthalpies by Wagman et
-/// al. (1982), boiling by the boiling points of the composition.
+/// Water of 20 °C and acid of 98 %, mL, and the mixture's temperature, °C: enthalpies by Wagman et al. (1982), boiling by the boiling
+/// points of the composition.
 const MIXES: [([f64; 2], f64); 6] = [
     ([10.0, 100.0], 75.5),
     ([50.0, 100.0], 154.5),
@@ -124,7 +124,7 @@ impl Work<'_> {
         self.args.within.is_some_and(|within| spent > within)
     }
 
-    /// Counts a case; whether it is one of those that are asked for.
+    /// Counts a case; returns whether it is one of those that are asked for.
     fn takes_next(&mut self) -> bool {
         let number = self.found.of;
         self.found.of += 1;
@@ -137,7 +137,7 @@ impl Work<'_> {
         if let Some((_, poured)) = self.found.finest {
             return Ok(poured);
         }
-        // The device's clocks rise with the first work that it gets.
+        // The device's clocks rise with its first work.
         rest(self.gpu, scene, &Setting::of(scene, Preset::Fast), 0.5)?;
         let particles = if self.args.quick { 6e3 } else { 110e3 };
         let truth = finest(scene, particles);
@@ -225,7 +225,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Both orders of pouring, with each constant as it is, halved and doubled.
+    /// Both orders of pouring, with each constant as in the scene, halved and doubled.
     fn constants(&mut self) -> Result<(), Failure> {
         let track = track::load(BOILING.1)?;
         let (seeds, seconds, take) = if self.args.quick {
@@ -277,8 +277,7 @@ impl Work<'_> {
             self.found.skipped += 1;
             return Ok(());
         }
-        // The first alone, for its time; of the others, whose time nobody asks for,
-        // several at once.
+        // The first alone, for its time; the others, whose time is not used, several at once.
         let (first, cost) = boil(self.gpu, scene, track, seconds, 1)?;
         let others: Vec<u64> = (2..=count).collect();
         let boil = |&seed: &u64| Ok(boil(self.gpu, scene, track, seconds, seed)?.0);
@@ -309,8 +308,7 @@ impl Work<'_> {
         self.effects(&scene)
     }
 
-    /// Pours as the scene has it, with each effect that it leaves out, and with
-    /// none of what is numerics alone.
+    /// Pours as the scene has it, with each effect that it leaves out, and without all that is numerics alone.
     fn effects(&mut self, scene: &Scene) -> Result<(), Failure> {
         type Change = fn(&mut SolverSettings);
         let all: [(&'static str, Change); 4] = [

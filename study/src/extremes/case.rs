@@ -1,4 +1,4 @@
-//! Which cases there are.
+//! The list of cases.
 
 use vitriol_sim::fill::split_mix;
 
@@ -8,26 +8,25 @@ use super::recipe::{Base, Recipe};
 /// One case.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// Its number, which with the seed says all of it.
+    /// Its number, from which, with the seed, the case follows.
     pub number: usize,
-    /// What was extreme, one or two.
+    /// Its extremes, one or two.
     pub extremes: Vec<Extreme>,
-    /// The scene that comes of it.
+    /// The scene with these extremes.
     pub recipe: Recipe,
     /// Seed of the particles' initial jitter.
     pub seed: u64,
 }
 
 impl Case {
-    /// In words.
+    /// The case in words.
     pub fn label(&self) -> String {
         let names: Vec<String> = self.extremes.iter().map(Extreme::label).collect();
         format!("{}: {}", self.recipe.base.name(), names.join(" and "))
     }
 }
 
-/// The first `count` cases of a seed: those that were thought of one by one,
-/// then random ones, one in three single and the others in pairs.
+/// The first `count` cases of a seed: the directed ones, then random ones, one in three single and the others in pairs.
 pub fn cases(count: usize, seed: u64) -> Vec<Case> {
     let mut all: Vec<(Base, Vec<Extreme>)> = Vec::new();
     for extreme in directed() {

@@ -1,4 +1,4 @@
-//! Runs a case and keeps what is judged of it.
+//! Runs a case and collects the figures by which it is judged.
 
 use glam::{DVec3, Vec3};
 use vitriol_experiment::{Blame, Failure};
@@ -15,21 +15,20 @@ use super::motion::{BEFORE, LASTS, Motion};
 use super::recipe::{Base, Crowd};
 use super::surface::Surface;
 
-/// Time in which what moves has to come to rest, s.
+/// Time in which moving liquid has to come to rest, s.
 pub(super) const REST: f64 = 1.0;
-/// Steps that a case takes at most: one of a tenth of the time step ends earlier.
+/// Most steps of a case: one of a tenth of the time step ends earlier.
 const MOST_STEPS: u64 = 400;
-/// Energy that may appear over what was turned over: lattices settle, lists are cut.
+/// Energy that may appear, over the turnover: lattices settle, lists are cut.
 pub(super) const ENERGY: f64 = 0.05;
 /// Time at the end over which a speed is a mean, s.
 const LAST: f64 = 0.25;
-/// Steps between two looks at all particles.
+/// Steps between two observations of all particles.
 const BETWEEN: u64 = 3;
-/// P₀ of Eq. 17's stated power, W/kg, and what more it may inject (docs/chemistry.md:
-/// 11 % at one substep).
+/// P₀ of Eq. 17's stated power, W/kg, and factor by which the injected power may exceed it (docs/chemistry.md: 11 % at one substep).
 const POWER: (f64, f64) = (200.0, 1.15);
 
-/// What a case came to.
+/// Figures of a run.
 #[derive(Default)]
 pub(super) struct Run {
     /// Particles.
@@ -38,13 +37,13 @@ pub(super) struct Run {
     pub steps: u64,
     /// Whether a whole [`REST`] passed after the extreme.
     pub rested: bool,
-    /// Numbers that are none, of particles that are there, at any look.
+    /// NaN and infinite numbers of particles that are there, at any observation.
     pub not_finite: u64,
-    /// Most particles on the wrong side of a wall at any look.
+    /// Most particles on the wrong side of a wall at any observation.
     pub lost: u64,
-    /// Largest speed at any look, m/s.
+    /// Largest speed at any observation, m/s.
     pub speed: f64,
-    /// Most energy beyond what was there or declared, J, and what it is compared with.
+    /// Largest energy beyond the initial and the declared one, J, and the turnover that it is compared with.
     pub excess: f64,
     pub turnover: f64,
     /// Energy that the filling set free in the first [`BEFORE`], J.
@@ -53,21 +52,20 @@ pub(super) struct Run {
     pub end_speed: f64,
     /// Particles in the flask at the end.
     pub members: usize,
-    /// Particles above their boiling point in the second half of the rest; at least one where vapour
-    /// pushed the liquid then.
+    /// Particles above their boiling point in the second half of the rest; at least one where vapour pushed the liquid then.
     pub boiling: u64,
-    /// Σ c or Σ m c, relative change; mass with what left; the enthalpy's.
+    /// Relative changes of Σ c or Σ m c, of the mass including what left, and of the enthalpy.
     pub drifts: [f64; 3],
-    /// Lowest and highest temperature and acid fraction at any look.
+    /// Lowest and highest temperature and acid fraction at any observation.
     pub temperatures: [f64; 2],
     pub acids: [f64; 2],
-    /// What was limited.
+    /// Limiters that acted.
     pub counters: Counters,
-    /// Hash of the end.
+    /// Hash of the final state.
     pub hash: u64,
 }
 
-/// Runs `case` in `scene`, which its text made.
+/// Runs `case` in `scene`, which was made from its text.
 pub(super) fn drive(
     gpu: &Gpu,
     library: &Library,
@@ -107,7 +105,7 @@ fn hand(case: &Case, scene: &Scene, time: f64) -> Hand {
         .hand(time, grip, scene.scale.length_scale)
 }
 
-/// Puts particles where no filling puts them.
+/// Moves particles to places where no filling puts them.
 fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
     let recipe = &case.recipe;
     if recipe.crowd == Crowd::Filled {
@@ -123,7 +121,7 @@ fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
         Crowd::OnePlace(share) => (share, 0.0),
         Crowd::Ball(radius) => (1.0, radius * recipe.support()),
     };
-    // Within the glass: what is put beyond it is no fault of the solver.
+    // Within the glass: a particle that starts beyond it is no fault of the solver.
     let room = (recipe.radius - 1.0) * recipe.spacing;
     let radius = radius.min(room);
     let middle = (0.5 * recipe.depth()).max(radius + recipe.spacing);
@@ -142,7 +140,7 @@ fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
     world.restore(&state).other()
 }
 
-/// A particle's part of the energy, by identity.
+/// A particle's energies, by identity.
 #[derive(Clone, Copy, Default)]
 struct Held {
     member: bool,
@@ -154,11 +152,11 @@ struct Watch {
     moves: bool,
     late: bool,
     last_part: bool,
-    /// Σ v² and number of the members over looks in the last part.
+    /// Σ v² and number of the members over observations in the last part.
     squares: [f64; 2],
     gravity: f64,
     particle_mass: f64,
-    /// Height that potential energy counts from, m.
+    /// Height at which potential energy is 0, m.
     base: f64,
     frame_time: f64,
     surface: Option<Surface>,
@@ -167,12 +165,12 @@ struct Watch {
     last: Vec<Held>,
     last_step: u64,
     start_energy: f64,
-    /// Of the surface, J, when it was last asked for: it takes longer than the simulation.
+    /// Energy of the surface, J, when it was last computed: that takes longer than the simulation.
     surface_energy: f64,
     start: Amounts,
-    /// Work by glass, and all else that may become motion, J.
+    /// Work by glass, and all other energy that may become motion, J.
     declared: f64,
-    /// Vapour that there is and was, kg.
+    /// Vapour that exists or has existed, kg.
     steam: f64,
     run: Run,
 }
@@ -180,7 +178,7 @@ struct Watch {
 /// Work of steam that expands into the room at 100 °C, J/kg.
 const STEAM_WORK: f64 = 461.5 * 373.15;
 
-/// What is kept.
+/// Conserved amounts.
 #[derive(Clone, Copy, Default)]
 struct Amounts {
     acid: f64,
@@ -214,12 +212,12 @@ impl Watch {
         let start = watch.last.clone();
         watch.start_energy = watch.all_of(&start, &state, world, true);
         watch.start = watch.amounts(world, &state);
-        // A lattice that settles by a spacing, and what it is compared with at least.
+        // Least turnover: a lattice that settles by a spacing.
         watch.run.turnover = watch.least();
         Ok(watch)
     }
 
-    /// m g d over all particles, J, or that of 1 cm/s where there is no weight.
+    /// m g d over all particles, J, or the kinetic energy of 1 cm/s where there is no weight.
     fn least(&self) -> f64 {
         let d = (self.particle_mass / 1e3).cbrt();
         self.particle_mass * self.run.particles as f64 * (self.gravity * d).max(5e-5)
@@ -240,7 +238,7 @@ impl Watch {
         held
     }
 
-    /// Energy of motion, height and surface, J; the surface's as it was last asked for, unless that is too much or `anew`.
+    /// Energy of motion, height and surface, J; the surface's as it was computed last, unless that is too much or `anew`.
     fn all_of(&mut self, held: &[Held], state: &SolverState, world: &World, anew: bool) -> f64 {
         let bare: f64 = held.iter().map(|held| held.energy).sum();
         let excess = bare + self.surface_energy - self.start_energy - self.declared;
@@ -273,7 +271,7 @@ impl Watch {
         }
     }
 
-    /// What the glass did in the last step to what is in it.
+    /// Work of the glass on its contents in the last step.
     fn work(&mut self, world: &World, before: &[vitriol_sim::pose::Pose]) -> Result<(), Failure> {
         let loads = world.loads().other()?;
         for ((load, from), to) in loads.iter().zip(before).zip(world.poses()) {
@@ -281,7 +279,7 @@ impl Watch {
             let turn = (to.orientation * from.orientation.conjugate()).normalize();
             let turn = if turn.w < 0.0 { -turn } else { turn };
             let turned = turn.to_scaled_axis().as_dvec3();
-            // Force and path turn with the glass, so both are longer than what their vectors add up to.
+            // Force and path turn with the glass, so both are longer than the sums of their vectors.
             let half = 0.5 * turned.length();
             let bent = if half > 1e-3 {
                 (half / half.sin()).powi(2)
@@ -290,7 +288,7 @@ impl Watch {
             };
             let work = bent * load.impulse.as_dvec3().dot(moved)
                 + load.angular_impulse.as_dvec3().dot(turned);
-            // The load is the liquid's on the glass.
+            // The load is that of the liquid on the glass.
             self.declared -= work / self.frame_time;
             self.run.turnover += (work / self.frame_time).abs();
         }
@@ -306,8 +304,7 @@ impl Watch {
         self.run.lost = self.run.lost.max(measured.lost_particles);
         let now = self.energies(&state);
         if self.moves {
-            // The load is that of members: of who left, or is struck from outside, all
-            // that it gained counts as declared.
+            // The load is that of members: for particles that left, or that are struck from outside, all gained energy counts as declared.
             for (now, before) in now.iter().zip(&self.last) {
                 if !(now.member && before.member) {
                     self.declared += (now.energy - before.energy).max(0.0);
@@ -318,7 +315,7 @@ impl Watch {
         if let Some(ledger) = self.amounts(world, &state).ledger {
             // The work of expansion, R T/M.
             let steam = ledger.steam + ledger.vapour;
-            // What boils within milliseconds is above its boiling point at no look.
+            // Liquid that boils within milliseconds is above its boiling point at no observation.
             if self.late && steam > self.steam {
                 self.run.boiling = self.run.boiling.max(1);
             }
@@ -332,8 +329,8 @@ impl Watch {
         let excess = energy - self.start_energy - self.declared;
         self.run.excess = larger(self.run.excess, excess);
         if settles {
-            // A filling is no equilibrium: the lattice is too dense at the wall, and
-            // what is in one place is pushed apart. What that sets free counts as there.
+            // A filling is no equilibrium: the lattice is too dense at the wall, and particles in one place are pushed apart. The energy
+            // that this sets free counts as initial.
             self.run.settling += excess.max(0.0);
             self.start_energy += excess.max(0.0);
             self.run.excess = 0.0;
@@ -348,20 +345,20 @@ impl Watch {
         Ok(())
     }
 
-    /// Power of Eq. 17 over `time` as it is stated, J.
+    /// Energy injected over `time` by Eq. 17 as stated, J.
     fn boiled(&self, state: &SolverState, time: f64) -> f64 {
         let Some((point, intensity)) = self.boiling else {
             return 0.0;
         };
         let powers = state.heat.iter().map(|heat| {
             let excess = intensity * (f64::from(heat[0]) - point).max(0.0) / point;
-            // No more than brings all to v_max.
+            // No more than accelerates all particles to v_max.
             (POWER.1 * POWER.0 * excess * excess * time).min(self.literal_limit)
         });
         self.particle_mass * powers.sum::<f64>()
     }
 
-    /// Finite, how fast, how hot.
+    /// Updates the figures for finite numbers, speed and temperature.
     fn numbers(&mut self, state: &SolverState) {
         let run = &mut self.run;
         for slot in (0..state.tags.len()).filter(|&slot| state.is_present(slot)) {
@@ -422,7 +419,7 @@ impl Watch {
     }
 }
 
-/// The larger one; NaN of NaN, which `f64::max` would pass over.
+/// The larger one; NaN if one is NaN, which `f64::max` would ignore.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }

@@ -5,31 +5,31 @@ use vitriol_sim::surface_tension::WATER;
 use super::motion::{Broken, Motion};
 use super::recipe::{Base, Crowd, Recipe};
 
-/// One thing that is extreme.
+/// One extreme property of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extreme {
-    /// k_v times this.
+    /// Factor of k_v.
     Intensity(f64),
     /// T_B, °C, where the liquid has 20 °C.
     BoilingPoint(f64),
     /// Temperatures of the lower and the upper liquid, °C.
     Temperature([f64; 2]),
-    /// D_T so many times the limit of an explicit step, 0.086 h²/Δt_s.
+    /// D_T as a multiple of the limit of an explicit step, 0.086 h²/Δt_s.
     Diffusion(f64),
-    /// Δt_f times this.
+    /// Factor of Δt_f.
     FrameTime(f64),
-    /// A frame time of so many seconds.
+    /// Frame time, s.
     Frame(f64),
     Substeps(u32),
     Iterations(u32),
-    /// ω, by Jacobi's iteration or by Chebyshev's.
+    /// ω, and whether by Chebyshev's iteration; else by Jacobi's.
     Relaxation(f64, bool),
     /// h/d.
     Support(f64),
     Viscosity(f64),
     /// σ over water's, and the glass's contact angle, degrees.
     Tension(f64, f64),
-    /// 1/s.
+    /// Rate at which multipliers are carried on, 1/s.
     Carry(f64),
     Gravity(f64),
     Density(f64),
@@ -46,16 +46,16 @@ pub enum Extreme {
     Brim,
     UpsideDown,
     Moved(Motion),
-    /// The whole scene elsewhere, m.
+    /// Origin of the whole scene, m.
     Far([f64; 3]),
-    /// All of its places so far from its origin, m.
+    /// Distance of all of its places from its origin, m.
     Strayed([f64; 3]),
 }
 
 use Extreme as E;
 
 impl Extreme {
-    /// What kind it is; two of a kind are not paired.
+    /// Its kind; two of a kind are not paired.
     pub fn kind(&self) -> &'static str {
         match self {
             E::Intensity(_) => "boiling intensity",
@@ -91,7 +91,7 @@ impl Extreme {
         }
     }
 
-    /// Kinds of which a case has one only: all motions are of one hand.
+    /// Whether both cannot be in one case: all motions are of one hand.
     pub fn excludes(&self, other: &Self) -> bool {
         let motion = |e: &Self| matches!(e, E::Moved(_) | E::UpsideDown);
         let filled =
@@ -103,7 +103,7 @@ impl Extreme {
                 .any(|is| is(self) && is(other))
     }
 
-    /// Whether it changes anything of `base`.
+    /// Whether it changes anything in `base`.
     pub fn applies_to(&self, base: Base) -> bool {
         match self {
             E::BoilingPoint(_) => base == Base::Paper,
@@ -113,12 +113,12 @@ impl Extreme {
         }
     }
 
-    /// Changes the scene.
+    /// Applies it to the scene.
     pub fn apply(&self, r: &mut Recipe) {
         match *self {
             E::Intensity(times) => {
                 r.k_v *= times;
-                // Something has to boil for it.
+                // It needs something that boils.
                 r.temperatures[0] = r.temperatures[0].max(120.0);
             }
             E::BoilingPoint(point) => r.boiling_point = point,
@@ -156,7 +156,7 @@ impl Extreme {
         }
     }
 
-    /// In words, for reports.
+    /// The extreme in words, for reports.
     pub fn label(&self) -> String {
         match *self {
             E::Intensity(times) => format!("k_v × {times:.3}"),
@@ -221,7 +221,7 @@ fn label_of(motion: Motion) -> String {
     }
 }
 
-/// Those that are tried one by one in every base that they apply to.
+/// Extremes that are tried one by one in every base that they apply to.
 pub fn directed() -> Vec<Extreme> {
     let shaken = |speed, vertical| E::Moved(Motion::Shaken { speed, vertical });
     let spun = |rate, across| E::Moved(Motion::Spun { rate, across });
@@ -290,12 +290,12 @@ pub fn directed() -> Vec<Extreme> {
     all
 }
 
-/// One of any kind at a random level; `draw` gives numbers in [0, 1).
+/// An extreme of any kind at a random level; `draw` gives numbers in [0, 1).
 pub fn random(draw: &mut impl FnMut() -> f64) -> Extreme {
     let pick = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
     let between = |share: f64, low: f64, high: f64| low + share * (high - low);
     let log = |share: f64, low: f64, high: f64| low * (high / low).powf(share);
-    // Kinds alike, not levels: a kind with many levels is no more likely.
+    // Each kind is as likely as any other, however many levels it has.
     let all = directed();
     let mut kinds: Vec<&str> = all.iter().map(Extreme::kind).collect();
     kinds.dedup();

@@ -1,4 +1,4 @@
-//! Whether a case passed.
+//! The verdict on a case.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -13,19 +13,19 @@ use super::motion::Motion;
 use super::recipe::{Base, Crowd, Recipe};
 use crate::merge::{Name, number, numbers};
 
-/// What a case came to.
+/// Result of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// The case's number.
     pub case: usize,
-    /// What was extreme in it.
+    /// Its extremes in words.
     pub label: String,
-    /// Kinds of what was extreme.
+    /// Kinds of its extremes.
     pub kinds: Vec<Name>,
-    /// How it ended.
+    /// Its verdict.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// Limiters that acted, with how often.
+    /// Number of times that each limiter acted.
     pub limiters: BTreeMap<Name, u32>,
     /// Particles.
     pub particles: usize,
@@ -34,10 +34,10 @@ pub struct Finding {
     /// Largest speed over v_max.
     #[serde(deserialize_with = "number")]
     pub speed_over_max: f64,
-    /// Energy beyond what was there or declared, over what was turned over.
+    /// Energy beyond the initial and the declared one, over the turnover.
     #[serde(deserialize_with = "number")]
     pub energy_excess: f64,
-    /// Energy that the filling set free as it settled, likewise.
+    /// Energy that the filling set free as it settled, over the turnover.
     #[serde(deserialize_with = "number")]
     pub settling: f64,
     /// Largest relative changes of acid, mass and enthalpy.
@@ -49,7 +49,7 @@ pub struct Finding {
     pub end_speed: f64,
 }
 
-/// How a case ended.
+/// The verdict on a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 pub enum Verdict {
@@ -60,9 +60,9 @@ pub enum Verdict {
         /// The message.
         message: String,
     },
-    /// Some criterion does not hold.
+    /// At least one criterion does not hold.
     Failed {
-        /// Which, each with its figures.
+        /// These criteria, each with its figures.
         reasons: Vec<String>,
     },
 }
@@ -70,7 +70,7 @@ pub enum Verdict {
 /// Runs a case and judges it.
 ///
 /// # Errors
-/// What the device says; a case that fails is none.
+/// The device's error; a case that fails is no error.
 pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failure> {
     let recipe = &case.recipe;
     let finding = |verdict, run: Option<&Run>| Finding {
@@ -113,9 +113,9 @@ pub fn judge(gpu: &Gpu, library: &Library, case: &Case) -> Result<Finding, Failu
     Ok(finding(verdict, Some(&run)))
 }
 
-/// v_max may be passed by rounding.
+/// Relative excess over v_max by rounding.
 const SPEED_ROUNDING: f64 = 1e-5;
-/// Relative changes of acid, mass and enthalpy that rounding of f32 explains.
+/// Relative changes of acid, mass and enthalpy by rounding of f32.
 const KEPT: [f64; 3] = [1e-5, 1e-5, 1e-4];
 
 /// Every criterion that does not hold.
@@ -165,7 +165,7 @@ fn reasons(recipe: &Recipe, run: &Run) -> Vec<String> {
             format!("acid fractions from {least} to {most}"),
         );
         let coldest = recipe.temperatures[0].min(recipe.temperatures[1]).min(20.0);
-        // Rounding of f32 beside the hottest there was.
+        // Rounding of f32 against the highest initial temperature.
         let hottest = recipe.temperatures[0].max(recipe.temperatures[1]);
         hold(
             run.temperatures[0] >= coldest - 0.01 - 1e-4 * hottest.abs(),
@@ -184,30 +184,28 @@ fn reasons(recipe: &Recipe, run: &Run) -> Vec<String> {
     reasons
 }
 
-/// Particles of which no mean speed is told: in tubes less than four of them wide,
-/// single ones leap now and then.
+/// Number of particles below which no mean speed is judged: in tubes less than four of them wide, single ones leap now and then.
 const FEW: usize = 50;
 
-/// The rms speed that counts as rest where physics says that the liquid has come
-/// to rest; `None` where it says no such thing.
+/// Greatest rms speed at rest, where the liquid must have come to rest by physics; `None` where it need not.
 fn rest_limit(recipe: &Recipe, run: &Run) -> Option<f64> {
     let free = run.boiling > 0 || recipe.upside_down || recipe.gravity == 0.0;
-    // What is pushed apart out of one place, or shaken, sloshes on.
+    // Particles that are pushed apart out of one place, or shaken, slosh on.
     let sloshes = recipe.crowd != Crowd::Filled;
-    // So is what its own filling throws up, where little weight brings it down.
+    // So does liquid that its own filling throws up, where little weight brings it down.
     let mass = recipe.rest_density * recipe.spacing.powi(3) * run.particles as f64;
     let thrown = run.settling > 0.25 * mass * recipe.gravity * recipe.depth();
     if !run.rested || free || sloshes || thrown || run.members < FEW {
         return None;
     }
-    // In energy 2 % of what its depth and its surface hold.
+    // 2 % of the energy in its depth and its surface.
     let surface = recipe.surface().map_or(0.0, |[tension, _]| {
         tension / (recipe.rest_density * recipe.depth())
     });
     let jitter = 0.15 * (recipe.gravity * recipe.depth() + surface).sqrt();
     match recipe.motion {
         Motion::Still | Motion::NoPose(_) => Some(jitter),
-        // Waves in a glass ring on, and what turns turns on.
+        // Waves in a glass go on, and so does a rotation.
         _ => None,
     }
 }
@@ -263,7 +261,7 @@ mod tests {
         }
     }
 
-    /// Each criterion by a run that breaks it alone.
+    /// Each criterion, by a run that breaks it alone.
     #[test]
     fn every_criterion_tells() {
         let recipe = Recipe::of(Base::Physical);
@@ -338,7 +336,7 @@ mod tests {
                 "{word}: {found:?}"
             );
         }
-        // What boils or was shaken need not rest.
+        // Liquid that boils or was shaken need not rest.
         let boiling = Run {
             boiling: 3,
             end_speed: 0.2,

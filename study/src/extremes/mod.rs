@@ -1,9 +1,7 @@
-//! Cases at the extremes of scene, parameter and motion, and what each of them
-//! has to keep.
+//! Cases at the extremes of scene, parameter and motion, and the criteria that each of them has to meet.
 //!
-//! A case is a scene as text, since what cannot be simulated has to be refused
-//! where a scene is loaded; a script for one hand; and where scenes cannot say it, a
-//! changed state at the start. All of it follows from the case's number and the seed.
+//! A case is a scene as text, since a scene that cannot be simulated has to be refused when it is loaded; a script for one hand; and where
+//! a scene cannot express it, a changed state at the start. All of it follows from the case's number and the seed.
 
 mod case;
 mod drive;

@@ -1,12 +1,12 @@
-//! What the hand does in a case.
+//! The hand's motion in a case.
 
 use glam::{DQuat, DVec3, EulerRot, Quat, Vec3};
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::pose::Pose;
 
-/// Time for which a hand moves, s.
+/// Duration of a hand's motion, s.
 pub const LASTS: f64 = 0.3;
-/// Time that the liquid has before, s.
+/// Time before the motion, s.
 pub const BEFORE: f64 = 0.1;
 
 /// A hand's motion with the flask, at real size.
@@ -16,17 +16,17 @@ pub enum Motion {
     Still,
     /// To and fro along a direction at this speed, m/s.
     Shaken { speed: f64, vertical: bool },
-    /// Elsewhere from one step to the next, m.
+    /// Moved from one step to the next, m.
     Teleported([f64; 3]),
     /// Turned about its axis, or about one across it, rad/s.
     Spun { rate: f64, across: bool },
     /// The program stood still for this long, s, while the hand went on.
     Stalled(f64),
-    /// The tracker's pose is none.
+    /// The tracker's pose is invalid.
     NoPose(Broken),
 }
 
-/// What a tracker must not deliver.
+/// An invalid value that a tracker must not deliver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Broken {
     /// Position of NaN.

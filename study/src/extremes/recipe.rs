@@ -1,4 +1,4 @@
-//! The scenes that cases start from, and what of them an extreme changes.
+//! The scenes that cases start from, and their parameters that an extreme changes.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use vitriol_sim::surface_tension::WATER;
 
 use super::motion::Motion;
 
-/// Which scene a case changes.
+/// The scene that a case changes.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Base {
     /// Water in a glass, at real size.
@@ -19,7 +19,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// Those that cases are drawn from.
+    /// The bases from which cases are drawn.
     pub const ALL: [Self; 3] = [Self::Water, Self::Paper, Self::Physical];
 
     /// The name in reports.
@@ -32,10 +32,10 @@ impl Base {
     }
 }
 
-/// Where particles are at the start beside where the filling puts them.
+/// Initial places of particles, if not those of the filling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crowd {
-    /// Nowhere else.
+    /// The places of the filling.
     Filled,
     /// This share of them in one place.
     OnePlace(f64),
@@ -69,23 +69,23 @@ pub struct Recipe {
     pub height: f64,
     /// Particles; `None` to the brim.
     pub particles: Option<u32>,
-    /// Temperatures (°C) of the lower and the upper liquid; those of water the same.
+    /// Temperatures (°C) of the lower and the upper liquid; equal for water.
     pub temperatures: [f64; 2],
     pub k_v: f64,
     pub boiling_point: f64,
     /// Diffusivities over those of the base.
     pub diffusion: f64,
     pub upside_down: bool,
-    /// Where the scene is in the stage, metres.
+    /// Origin of the scene in the stage, metres.
     pub origin: [f64; 3],
-    /// How far its places are off from its origin, metres.
+    /// Distance of its places from its origin, metres.
     pub place: [f64; 3],
     pub crowd: Crowd,
     pub motion: Motion,
 }
 
 impl Recipe {
-    /// The scene as it is without any extreme.
+    /// The scene without any extreme.
     pub fn of(base: Base) -> Self {
         let real = Self {
             base,
@@ -146,7 +146,7 @@ impl Recipe {
         self.spacing * self.support_ratio
     }
 
-    /// Where the flask's base stands.
+    /// Position of the flask's base.
     pub fn flask_position(&self) -> [f64; 3] {
         let [x, y, z] = self.place;
         let up = if self.upside_down {
@@ -162,12 +162,12 @@ impl Recipe {
         [0.01, 0.007].map(|d| d * self.diffusion)
     }
 
-    /// Surface tension and contact angle, which boundary particles do not have.
+    /// Surface tension and contact angle; `None` with boundary particles, which do not have them.
     pub fn surface(&self) -> Option<[f64; 2]> {
         self.tension.filter(|_| !self.boundary_particles)
     }
 
-    /// Names of what is modelled.
+    /// Names of the modelled features.
     fn model(&self) -> Vec<&'static str> {
         let mut model = match self.base {
             Base::Water => Vec::new(),
@@ -189,7 +189,7 @@ impl Recipe {
         model
     }
 
-    /// The scene's file.
+    /// Text of the scene's file.
     pub fn text(&self) -> String {
         let mut t = String::new();
         let d = self.spacing;
@@ -233,7 +233,7 @@ impl Recipe {
                  D_c = {d_c:?}\n",
                 self.boiling_point, self.k_v
             ),
-            // What boils stronger has more nuclei.
+            // Liquid that boils more strongly has more nuclei.
             Base::Physical => write!(
                 t,
                 "[physical]\nambient = 20.0\nmixing = {:?}\neddy_width = 0.006\nlamella = 0.0003\n\

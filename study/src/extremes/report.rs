@@ -1,4 +1,4 @@
-//! What `vitriol extremes` says of all cases.
+//! The report of `vitriol extremes` over all cases.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use vitriol_experiment::DeviceStatement;
 use super::judge::{Finding, Verdict};
 use crate::merge::{MergeError, alike, devices, in_order, largest, numbers};
 
-/// What `vitriol extremes` prints and writes.
+/// Results of `vitriol extremes`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// The device.
@@ -25,13 +25,13 @@ pub struct Extremes {
     pub passed: usize,
     /// Those that were refused at load.
     pub refused: usize,
-    /// Those in which some criterion does not hold.
+    /// Those in which at least one criterion does not hold.
     pub failed: usize,
     /// By limiter: in how many cases it acted, and how often.
     pub limiters: BTreeMap<String, Acted>,
-    /// By kind of extreme.
+    /// Results by kind of extreme.
     pub kinds: BTreeMap<String, Kind>,
-    /// By what was refused, the message's beginning: cases.
+    /// Number of refused cases, by the beginning of the message.
     pub refusals: BTreeMap<String, usize>,
     /// Worst figures of the cases that ran.
     pub worst: Worst,
@@ -44,9 +44,9 @@ pub struct Extremes {
 /// How often a limiter acted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Acted {
-    /// Cases in which it did.
+    /// Cases in which it acted.
     pub cases: usize,
-    /// Times over all of these.
+    /// Number of times over all of these cases.
     pub times: u64,
 }
 
@@ -71,10 +71,10 @@ pub struct Worst {
     /// Speed over v_max.
     #[serde(deserialize_with = "largest")]
     pub speed_over_max: f64,
-    /// Energy beyond what was declared, over what was turned over.
+    /// Energy beyond the declared one, over the turnover.
     #[serde(deserialize_with = "largest")]
     pub energy_excess: f64,
-    /// Energy that a filling set free as it settled, likewise.
+    /// Energy that a filling set free as it settled, over the turnover.
     #[serde(deserialize_with = "largest")]
     pub settling: f64,
     /// Relative changes of acid, mass, enthalpy.
@@ -82,7 +82,7 @@ pub struct Worst {
     pub drifts: [f64; 3],
 }
 
-/// Sums findings up.
+/// Summarises findings.
 pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f64) -> Extremes {
     let mut all = Extremes {
         device,
@@ -132,7 +132,7 @@ pub fn summary(device: DeviceStatement, seed: u64, found: &[Finding], seconds: f
     all
 }
 
-/// The one report of parts.
+/// Merges the reports of parts.
 ///
 /// # Errors
 /// [`MergeError`] where they are of several seeds, or cases are missing or in two of them.
@@ -141,7 +141,7 @@ pub fn merge(mut parts: Vec<(PathBuf, Extremes)>) -> Result<Extremes, MergeError
     let range = |part: &Extremes| part.first..part.first + part.cases;
     in_order(&mut parts, range, None..None)?;
     let mut parts = parts.into_iter().map(|(_, part)| part).collect::<Vec<_>>();
-    // One without cases has no first one either.
+    // A part without cases has no first one either.
     parts.sort_by_key(|part| part.cases == 0);
     let mut all = Extremes {
         device: devices(parts.iter().map(|part| &part.device)),
@@ -189,7 +189,7 @@ fn field(message: &str) -> String {
     parts.get(1).copied().unwrap_or(message).to_owned()
 }
 
-/// The table for people.
+/// The table as text for people.
 pub fn describe(all: &Extremes) -> String {
     let mut text = format!(
         "{}, {}\n{} cases of seed {}: {} passed, {} refused at load, {} failed, in {:.0} s\n\n\

@@ -9,18 +9,18 @@ use vitriol_sim::reference::surroundings::Surroundings;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 
-/// Nodes of the longest piece that is looked at: a spray's can be metres long.
+/// Nodes of the longest piece that is integrated: a spray's can be metres long.
 const MOST_NODES: f64 = 1e6;
 
-/// The reference's integral, of a scene whose particles all count as V₀ of water: what density and composition change of it is
-/// a tenth.
+/// The reference's integral of the surface energy, for a scene whose particles all count as V₀ of water: density and composition change it
+/// by a tenth.
 pub(super) struct Surface {
     parameters: Parameters,
     surroundings: Surroundings,
 }
 
 impl Surface {
-    /// `None` where no surface tension is modelled.
+    /// The integral for `scene`; `None` where no surface tension is modelled.
     pub fn of(scene: &Scene, parameters: &Parameters) -> Option<Self> {
         parameters.surface.as_ref()?;
         Some(Self {
@@ -32,7 +32,7 @@ impl Surface {
         })
     }
 
-    /// J, with the flasks at `poses`. Pieces that are too long count nothing.
+    /// Surface energy, J, with the flasks at `poses`. Pieces that are too long count nothing.
     pub fn energy(&self, state: &SolverState, poses: &[Pose]) -> f64 {
         let present = (0..state.tags.len()).filter(|&slot| state.is_present(slot));
         let particles: Vec<_> = present
@@ -43,7 +43,7 @@ impl Surface {
             })
             .filter(|(at, _)| at.is_finite())
             .collect();
-        // Colours reach three nodes, h/2 apart, so pieces further apart have nothing of each other.
+        // Colours reach three nodes, h/2 apart, so pieces further apart do not affect each other.
         let reach = 2.0 * self.parameters.support_radius;
         let mut reference = Reference::new(
             self.parameters.clone(),

@@ -1,4 +1,4 @@
-//! Compares what a renderer draws with the reference surface.
+//! Compares the renderer's picture with the reference surface.
 
 use glam::DVec3;
 use vitriol_experiment::Failure;
@@ -9,11 +9,11 @@ use vitriol_render::reference::{
     silhouette_iou, volume,
 };
 
-use super::report::{self, Figures, Manner, Row};
+use super::report::{self, Figures, Manner, DrawnRow};
 use super::states::State;
 use super::views::{STANDS, Stand};
 
-/// What was drawn for an eye, by rows from the top, scene's unit.
+/// Drawn picture of an eye, by rows from the top, scene's unit.
 pub struct Drawn {
     /// View depths; not finite or not above 0 where there is no liquid.
     pub depth: Vec<f32>,
@@ -21,12 +21,12 @@ pub struct Drawn {
     pub ways: Vec<f32>,
 }
 
-/// Draws a state's liquid for two eyes in a manner.
+/// Draws a state's liquid for two eyes in a given manner.
 pub trait Draw {
     /// Draws and waits.
     ///
     /// # Errors
-    /// What the device says.
+    /// The device's error.
     fn draw(
         &mut self,
         state: &State,
@@ -42,8 +42,7 @@ pub fn shapes(state: &State) -> Vec<Shape> {
     parameters.shapes(&state.positions, &state.glassware)
 }
 
-/// True pictures from one stand: the left and the right eye's, and the left
-/// eye's a frame later.
+/// True pictures from one stand: the left and the right eye's, and the left eye's one frame later.
 struct Truth {
     pictures: [Picture; 3],
     interiors: [Interior; 3],
@@ -75,19 +74,19 @@ impl Truth {
     }
 }
 
-/// A left eye's picture, true and as each manner draws it.
+/// A left eye's picture, true and drawn.
 pub struct Sample {
     /// The liquid.
     pub state: &'static str,
     /// The true picture.
     pub truth: Picture,
-    /// What was drawn.
+    /// The drawn picture.
     pub drawn: Picture,
     /// Particle spacing, scene's unit.
     pub spacing: f64,
 }
 
-/// What is compared at one resolution.
+/// One comparison at one resolution.
 pub struct Task<'a> {
     /// The liquid.
     pub state: &'a State,
@@ -102,11 +101,10 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Judges every manner from every stand; `keep` is given the first stand's
-    /// left eye.
+    /// Judges every manner from every stand; `keep` takes the first stand's left eye.
     ///
     /// # Errors
-    /// What the device says.
+    /// The device's error.
     pub fn judge(
         &self,
         draw: &mut dyn Draw,
@@ -152,7 +150,7 @@ impl Task<'_> {
         Ok(pictures)
     }
 
-    /// The figures of what was drawn from a stand.
+    /// The figures of a picture drawn from a stand.
     fn picture(
         &self,
         stand: &Stand,
@@ -177,7 +175,7 @@ impl Task<'_> {
         report::Picture {
             state: self.state.spec.name,
             view: stand.name,
-            row: Row {
+            row: DrawnRow {
                 size: self.size,
                 margin_px: truth.interiors[0].margin,
                 manner,

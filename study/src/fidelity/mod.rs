@@ -1,5 +1,4 @@
-//! The picture against the truth: what the renderer draws in screen space
-//! compared with the surface of Yu and Turk, marched on the CPU.
+//! The picture against the truth: the renderer's picture in screen space compared with the surface of Yu and Turk, marched on the CPU.
 
 pub mod judge;
 pub mod report;

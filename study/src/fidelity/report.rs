@@ -1,4 +1,4 @@
-//! What `vitriol fidelity` found.
+//! Results of `vitriol fidelity`.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 use vitriol_experiment::DeviceStatement;
 use vitriol_experiment::units::grouped;
 
-/// What `vitriol fidelity` prints and writes.
+/// Results of `vitriol fidelity`.
 #[derive(Debug, Clone, Serialize)]
 pub struct Fidelity {
     /// The device that drew.
@@ -14,14 +14,14 @@ pub struct Fidelity {
     /// The liquids.
     pub states: Vec<StateRow>,
     /// Each way of drawing at each resolution, over all states and views.
-    pub rows: Vec<Row>,
-    /// The same one by one.
+    pub rows: Vec<DrawnRow>,
+    /// Each way of drawing at each resolution, for each state and view.
     pub pictures: Vec<Picture>,
     /// Wall time, s.
     pub seconds: f64,
 }
 
-/// A liquid that was looked at.
+/// A liquid that was compared.
 #[derive(Debug, Clone, Serialize)]
 pub struct StateRow {
     /// Its name.
@@ -58,7 +58,7 @@ impl Manner {
     }
 }
 
-/// What one picture or several are off by.
+/// Errors of one picture, or of several.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Figures {
     /// Intersection over union of the silhouettes; the least of several.
@@ -69,25 +69,23 @@ pub struct Figures {
     /// Root mean square of the depths' differences away from silhouettes,
     /// particle radii.
     pub depth_rms_radii: f64,
-    /// Their mean; above 0 where the drawn surface lies behind.
+    /// Mean of the depths' differences there, particle radii; above 0 where the drawn surface lies behind.
     pub depth_mean_radii: f64,
-    /// Mean angle between the normals there, degrees.
+    /// Mean angle between the normals away from silhouettes, degrees.
     pub normal_angle_deg: f64,
-    /// Root mean square of what one eye's depth is off from the other's on what
-    /// both see, particle radii.
+    /// Root mean square difference of one eye's depth from the other's where both see the liquid, particle radii.
     pub reprojection_rms_radii: f64,
-    /// The same between two successive places of a moving head.
+    /// Root mean square difference of the depths from two successive places of a moving head, particle radii.
     pub flicker_rms_radii: f64,
-    /// Mean angle between the normals at these, degrees.
+    /// Mean angle between the normals from these two places, degrees.
     pub flicker_normal_deg: f64,
-    /// Volume by the thickness over the particles' volume; of several the one
-    /// that is farthest from 1.
+    /// Volume by the thickness over the particles' volume; of several pictures the one farthest from 1.
     pub volume_ratio: f64,
 }
 
 /// A way of drawing at a resolution, of one picture or over all states and views.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Row {
+pub struct DrawnRow {
     /// Width and height of an eye's picture, pixels.
     pub size: [u32; 2],
     /// Pixels that were kept away from silhouettes, the most of the views.
@@ -95,26 +93,25 @@ pub struct Row {
     /// How it is drawn.
     #[serde(flatten)]
     pub manner: Manner,
-    /// What it is off by.
+    /// Its errors.
     #[serde(flatten)]
     pub figures: Figures,
 }
 
-/// A way of drawing in one place.
+/// A way of drawing, in one state and view.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Picture {
     /// The liquid.
     pub state: &'static str,
-    /// Where the head is.
+    /// The head's place.
     pub view: &'static str,
-    /// Resolution, way of drawing, and what it is off by.
+    /// Resolution, way of drawing, and errors.
     #[serde(flatten)]
-    pub row: Row,
+    pub row: DrawnRow,
 }
 
 impl Figures {
-    /// Over several pictures, each counting alike; NaN among them is one that
-    /// had nothing to compare, and is left out.
+    /// Figures of several pictures, each counting alike; NaN is of a picture without compared pixels, and is left out.
     fn of(each: &[Self]) -> Self {
         let values = |get: fn(&Self) -> f64| each.iter().map(get).filter(|value| !value.is_nan());
         let mean = |get: fn(&Self) -> f64| values(get).sum::<f64>() / values(get).count() as f64;
@@ -139,9 +136,9 @@ impl Figures {
     }
 }
 
-/// Sums pictures up by resolution and manner, in the order of their first.
-pub fn rows(pictures: &[Picture]) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
+/// Sums up pictures by resolution and manner, in the order of their first.
+pub fn rows(pictures: &[Picture]) -> Vec<DrawnRow> {
+    let mut rows: Vec<DrawnRow> = Vec::new();
     for picture in pictures {
         let (size, manner) = (picture.row.size, picture.row.manner);
         if rows
@@ -155,7 +152,7 @@ pub fn rows(pictures: &[Picture]) -> Vec<Row> {
             all.filter(|other| (other.size, other.manner) == (size, manner))
         };
         let figures: Vec<Figures> = same().map(|other| other.figures).collect();
-        rows.push(Row {
+        rows.push(DrawnRow {
             size,
             margin_px: same().map(|other| other.margin_px).max().unwrap_or(0),
             manner,
@@ -165,7 +162,7 @@ pub fn rows(pictures: &[Picture]) -> Vec<Row> {
     rows
 }
 
-/// The table for people.
+/// The table as text for people.
 pub fn describe(found: &Fidelity) -> String {
     let mut text = format!("{}, {}\n", found.device.name, found.device.driver);
     for state in &found.states {
@@ -224,7 +221,7 @@ mod tests {
         let picture = |manner, off: f64, volume_ratio| Picture {
             state: "still",
             view: "close",
-            row: Row {
+            row: DrawnRow {
                 size: [320, 240],
                 margin_px: 3,
                 manner,

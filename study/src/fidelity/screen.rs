@@ -14,7 +14,7 @@ use super::judge::{Draw, Drawn};
 use super::report::Manner;
 use super::states::State;
 
-/// What is compared, the renderer's default first.
+/// The manners that are compared, the renderer's default first.
 pub const MANNERS: [Manner; 5] = [
     Manner::new("narrow-range", true),
     Manner::new("curvature-flow", true),
@@ -32,7 +32,7 @@ impl Screen {
     /// Renderers for two eyes' pictures of `size` pixels of at most `particles`.
     ///
     /// # Errors
-    /// What the device says.
+    /// The device's error.
     pub fn new(
         gpu: &Gpu,
         library: &Library,
@@ -63,10 +63,10 @@ impl Screen {
         })
     }
 
-    /// Takes up the vessels of a state's scene.
+    /// Replaces the scene by the vessels of a state's scene.
     ///
     /// # Errors
-    /// What the device says.
+    /// The device's error.
     pub fn set_scene(&mut self, state: &State) -> Result<(), Failure> {
         let bare = SceneDesc {
             vessels: laboratory(state.world.scene()).vessels,
@@ -104,7 +104,7 @@ impl Draw for Screen {
             hands: [&[]; 2],
             tools: &[],
             liquid: Some(LiquidSource {
-                // Surfaces are compared, of which bubbles and drops are none.
+                // Surfaces are compared, without bubbles and drops.
                 bubbles: None,
                 ..liquid_of(&state.world)
             }),
@@ -134,7 +134,7 @@ impl Draw for Screen {
     }
 }
 
-/// A surface with a thickness for each of its pixels.
+/// A surface, with the thickness at each of its pixels.
 fn drawn(surface: Surface) -> Drawn {
     let [width, height] = surface.extent;
     let [across, down] = surface.thickness_extent;

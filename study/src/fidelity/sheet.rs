@@ -1,5 +1,4 @@
-//! The picture of the difference: for each state the true surface, the drawn
-//! one, and what lies between.
+//! The picture of the difference: for each state the true surface, the drawn one, and the difference.
 
 use glam::DVec3;
 use vitriol_render::reference::Picture;
@@ -8,16 +7,16 @@ use super::judge::Sample;
 
 /// Depth difference of the full colour, particle radii.
 const FULL: f64 = 1.0;
-/// Where there is nothing.
+/// Colour where there is no liquid.
 const NOTHING: [f64; 3] = [0.10, 0.10, 0.11];
-/// Liquid that was not drawn, and what was drawn where there is none.
+/// Colours of liquid that was not drawn, and of drawn liquid where there is none.
 const MISSING: [f64; 3] = [0.10, 0.75, 0.25];
 const TOO_MUCH: [f64; 3] = [0.85, 0.75, 0.10];
-/// Drawn before and behind the truth.
+/// Colours of a drawn surface before and behind the true one.
 const BEFORE: [f64; 3] = [0.15, 0.35, 0.95];
 const BEHIND: [f64; 3] = [0.95, 0.20, 0.15];
 
-/// RGB bytes, and width and height: a row a sample, of truth, drawn, difference.
+/// RGB bytes, and width and height: for each sample a row of the truth, the drawn picture and the difference.
 pub fn picture(samples: &[Sample]) -> (Vec<u8>, [u32; 2]) {
     let size = samples.first().map_or([1, 1], |one| one.truth.rays.size());
     let [width, height] = size;

@@ -1,5 +1,4 @@
-//! The liquids that are looked at: built-in scenes and tracks through the
-//! solver to stated times.
+//! The liquids that are compared: built-in scenes and tracks, run through the solver to stated times.
 
 use glam::DVec3;
 use vitriol_experiment::glassware::Glassware;
@@ -11,7 +10,7 @@ use vitriol_sim::world::{StepInput, World};
 use vitriol_xr::PoseSource;
 use vitriol_xr::track::TrackSource;
 
-/// What a state is made of.
+/// Description of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct StateSpec {
     /// Its name.
@@ -22,9 +21,9 @@ pub struct StateSpec {
     pub track: &'static str,
     /// Simulated time, s.
     pub seconds: f64,
-    /// What the views look at, stage, real metres.
+    /// The point that the views look at, stage, real metres.
     pub target: [f32; 3],
-    /// Half the height of what they show there, metres.
+    /// Half the height of the views there, metres.
     pub reach: f32,
 }
 
@@ -58,24 +57,24 @@ pub const STATES: [StateSpec; 3] = [
     },
 ];
 
-/// A liquid at one moment, on the device and here.
+/// A liquid at one moment, on the device and on the host.
 pub struct State {
-    /// What it was made of.
+    /// Its description.
     pub spec: StateSpec,
     /// The world; its device holds what the renderer draws.
     pub world: World,
-    /// The particles that are there, stage, scene's unit.
+    /// The particles' positions, stage, scene's unit.
     pub positions: Vec<DVec3>,
     /// Their volumes, scene's unit cubed.
     pub volumes: Vec<f64>,
-    /// What is solid around them.
+    /// The solids around them.
     pub glassware: Glassware,
 }
 
 /// Runs the states' scenes under `preset`.
 ///
 /// # Errors
-/// What scene, track or device say.
+/// The error of scene, track or device.
 pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, Failure> {
     let of = |&spec: &StateSpec| {
         let scene = Scene::builtin(spec.scene).input()?.with_preset(preset);
@@ -102,7 +101,7 @@ impl State {
     /// The liquid of a world as it is now; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// The device's error.
     pub fn new(spec: StateSpec, world: World) -> Result<Self, Failure> {
         let scene = world.scene();
         let state = world.solver().snapshot().other()?;

@@ -1,4 +1,4 @@
-//! Where the liquids are seen from.
+//! The views of the liquids.
 
 use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, View};
@@ -8,8 +8,8 @@ use super::states::StateSpec;
 /// Distance between the eyes, metres: the median of grown people (Dodgson 2004).
 const EYES_APART: f32 = 0.063;
 
-/// By how much a frustum's outer half is wider than its mean, and the inner
-/// half narrower; and the lower and upper one. A headset's are so.
+/// Part by which a frustum's outer half is wider than its mean, and the inner half narrower; and the lower and the upper one. A headset's
+/// are so.
 const ASYMMETRY: [f32; 2] = [0.15, 0.1];
 
 /// A head's way between two frames: 0.2 m/s at 90 Hz, metres.
@@ -24,7 +24,7 @@ pub struct Stand {
     offset: [f32; 3],
 }
 
-/// Four places around what is looked at.
+/// Four places around the liquid.
 pub const STANDS: [Stand; 4] = [
     Stand {
         name: "before the bench",
@@ -57,8 +57,7 @@ impl Stand {
         let right = up * size[0] as f32 / size[1] as f32;
         [-1.0, 1.0].map(|side: f32| {
             let eye = middle + Vec3::from(axes.x_axis) * (0.5 * side * EYES_APART);
-            // Eyes look ahead side by side; their frusta are shifted to where
-            // what they look at is.
+            // Eyes look ahead side by side; their frusta are shifted towards the target.
             let towards = -0.5 * side * EYES_APART / offset.length();
             let wider = |outer: f32| 1.0 + ASYMMETRY[0] * outer;
             View {

@@ -1,5 +1,4 @@
-//! Water poured into acid: chaotic, so seeds are told apart by medians and
-//! quartiles, never by trajectories.
+//! Water poured into acid: chaotic, so seeds are compared by medians and quartiles, never by trajectories.
 
 use serde::{Deserialize, Serialize};
 use vitriol_experiment::{Blame, Failure, stage};
@@ -13,19 +12,18 @@ use vitriol_xr::track::{Track, TrackSource};
 use super::tank::Cost;
 use crate::merge::{number, numbers};
 
-/// Looks a second.
+/// Observations per second.
 const LOOKS: f64 = 10.0;
-/// Particles above their boiling point from which on it boils, as a share of all.
+/// Share of particles above their boiling point from which on it boils.
 const BOILS: f64 = 1e-3;
 
-/// What one seed came to.
+/// Result of one seed.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Boiled {
     /// Highest superheat of any particle, K.
     #[serde(deserialize_with = "number")]
     pub superheat: f64,
-    /// When a thousandth of the liquid was above its boiling point, s; none where
-    /// it never was.
+    /// Time from which a thousandth of the liquid was above its boiling point, s; `None` where it never was.
     pub onset: Option<f64>,
     /// Mass outside of the flasks at the end, g: particles, and drops that came to rest outside of the flask that they came from.
     pub thrown: f64,
@@ -42,10 +40,10 @@ pub struct Boiled {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Quartiles(#[serde(deserialize_with = "numbers")] pub [f64; 3]);
 
-/// What several seeds came to.
+/// Results of several seeds.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Seeds {
-    /// What was run.
+    /// Name of the run.
     pub name: String,
     /// Each seed.
     pub seeds: Vec<Boiled>,
@@ -79,7 +77,7 @@ pub fn quartiles(values: &[f64]) -> Quartiles {
 }
 
 impl Seeds {
-    /// Of the seeds' figures.
+    /// Sums up the seeds' figures.
     pub fn of(name: String, seeds: Vec<Boiled>) -> Self {
         let by =
             |value: fn(&Boiled) -> f64| quartiles(&seeds.iter().map(value).collect::<Vec<_>>());
@@ -99,7 +97,7 @@ impl Seeds {
 /// Pours by `track` in `scene` for `seconds`; also the times of its frames.
 ///
 /// # Errors
-/// What device or track say.
+/// The error of device or track.
 pub fn boil(
     gpu: &Gpu,
     scene: &Scene,

@@ -1,5 +1,4 @@
-//! What the numbers of the physical chemistry that no table has come from, and
-//! what each changes when it is halved and doubled.
+//! The constants of the physical chemistry that come from no table, and the effect of halving and doubling each.
 
 use std::fmt::Write;
 
@@ -9,21 +8,20 @@ use vitriol_sim::scene::{PhysicalChemistry, Scene};
 
 use super::boil::Seeds;
 
-/// A number of `[physical]`, and where it comes from.
+/// A constant of `[physical]`, and its source.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Constant {
     /// Its key in scenes.
     pub key: &'static str,
     /// Its unit.
     pub unit: &'static str,
-    /// Its source, or what it was fitted to.
+    /// Its source, or the data that it was fitted to.
     pub source: &'static str,
     #[serde(skip)]
     value: fn(&mut PhysicalChemistry) -> &mut Option<f64>,
 }
 
-/// All of them but the room's temperature and the bound on bubbles. A scene has
-/// those of its features.
+/// All constants but the room's temperature and the bound on bubbles. A scene has those of its features.
 pub const CONSTANTS: [Constant; 7] = [
     Constant {
         key: "mixing",
@@ -76,7 +74,7 @@ impl Constant {
         *(self.value)(&mut physical)
     }
 
-    /// `scene` with `times` its value.
+    /// A copy of `scene` with `times` its value.
     pub fn times(&self, scene: &Scene, times: f64) -> Scene {
         let mut scene = scene.clone();
         if let Some(value) = scene.physical.as_mut().map(self.value)
@@ -89,7 +87,7 @@ impl Constant {
 }
 
 impl<'de> Deserialize<'de> for Constant {
-    /// By its key.
+    /// Reads a constant by its key.
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
         struct Key {
@@ -101,20 +99,20 @@ impl<'de> Deserialize<'de> for Constant {
     }
 }
 
-/// What a scene comes to with a constant changed.
+/// Result of a scene with a constant changed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Change {
-    /// The constant; none where all are as they are.
+    /// The constant; `None` where all are as in the scene.
     pub constant: Option<Constant>,
     /// Its value in the scene.
     pub value: f64,
-    /// Times that value.
+    /// Factor of that value.
     pub times: f64,
-    /// What came of it.
+    /// Results of several seeds.
     pub seeds: Seeds,
 }
 
-/// The table: medians, of each scene in a block.
+/// The table of medians, each scene in a block.
 pub fn describe(changes: &[Change]) -> String {
     let mut t = format!(
         "\n{:<16} {:>7} {:>9}  {:>9} {:>9} {:>9} {:>9}  scene; source\n",
@@ -154,7 +152,7 @@ mod tests {
             .as_object()
             .unwrap()
             .keys()
-            // The last is of scenes whose particles hold their vapour.
+            // The last is for scenes whose particles hold their vapour.
             .filter(|key| !["ambient", "most_bubbles", "superheat_time"].contains(&key.as_str()))
             .collect();
         assert_eq!(keys.len(), CONSTANTS.len(), "{keys:?}");

@@ -1,4 +1,4 @@
-//! What is known without the solver.
+//! Exact results, without the solver.
 
 use std::f64::consts::PI;
 
@@ -8,9 +8,8 @@ use vitriol_sim::flask::Profile;
 /// of the volume (the test has a cylinder).
 const ROWS: usize = 2000;
 
-/// Volume (m³) that stays in a vessel which is tilted by `angle` (radians, up to
-/// a right angle) from upright and was filled to the rim before: what lies below
-/// the level of the rim's lowest point.
+/// Volume (m³) that stays in a vessel which is tilted by `angle` (radians, up to a right angle) from upright and was filled to the rim
+/// before: the volume below the level of the rim's lowest point.
 pub fn retained(profile: &Profile, angle: f64) -> f64 {
     let (low, high) = (profile.floor_height(), profile.rim_height());
     let (sine, cosine) = angle.sin_cos();

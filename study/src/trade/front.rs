@@ -1,7 +1,6 @@
-//! The front of what is not beaten, and the order of what shrinks.
+//! The Pareto front of cost and error, and observed orders of convergence.
 
-/// Indices of the points (cost, error) that no other beats in both, by cost.
-/// Points that are not finite are none.
+/// Indices of the points (cost, error) that no other point beats in both, by cost. Points that are not finite are left out.
 pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|&i| points[i].0.is_finite() && points[i].1.is_finite())

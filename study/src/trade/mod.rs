@@ -1,5 +1,5 @@
-//! The trade of speed for accuracy: knobs, what each costs, and how far off what
-//! comes of it is from what is known without it.
+//! The trade of speed for accuracy: the solver's knobs, the cost of each, and the error of its result against results that do not depend
+//! on the solver.
 
 mod boil;
 pub mod constants;

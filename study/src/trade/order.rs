@@ -1,4 +1,4 @@
-//! How errors shrink with h and Δt, where the truth is a formula.
+//! Convergence of errors with h and Δt, where the truth is a formula.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -15,13 +15,13 @@ use crate::merge::{Name, number};
 /// An error at several resolutions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Convergence {
-    /// What is wrong, and against what.
+    /// The quantity whose error it is, and the truth that it is compared with.
     pub name: Name,
-    /// What is refined.
+    /// The parameter that is refined.
     pub by: Name,
     /// (h or Δt, error).
     pub errors: Vec<[f64; 2]>,
-    /// Slope of the error over that, both logarithms: 1 is first order.
+    /// Slope of the error over the parameter, both logarithms: 1 is first order.
     #[serde(deserialize_with = "number")]
     pub order: f64,
 }
@@ -40,7 +40,7 @@ impl Convergence {
 /// Free fall over Δt, and a step in composition that diffuses over h.
 ///
 /// # Errors
-/// What the device says.
+/// The device's error.
 pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> {
     let fall = [2, 4, 8, 16].map(|substeps| free_fall(gpu, substeps));
     let resolutions: &[u32] = if quick { &[10, 20] } else { &[10, 20, 40] };
@@ -69,7 +69,7 @@ pub fn convergence(gpu: &Gpu, quick: bool) -> Result<Vec<Convergence>, Failure> 
     ])
 }
 
-/// Without walls, weight or viscosity.
+/// Parameters without walls, weight or viscosity.
 fn bare() -> Parameters {
     Parameters {
         spacing: 0.0025,
@@ -93,7 +93,7 @@ fn bare() -> Parameters {
     }
 }
 
-/// What `particles` are after `frames`, in the order of their slots.
+/// State of `particles` after `frames`, in the order of their slots.
 fn run(
     gpu: &Gpu,
     parameters: Parameters,
@@ -124,13 +124,12 @@ fn free_fall(gpu: &Gpu, substeps: u32) -> Result<[f64; 2], Failure> {
     Ok([step, (fallen / exact - 1.0).abs()])
 }
 
-/// D, m²/s, and how long it diffuses, s: a front √(4Dt) = 0.2 m wide.
+/// D, m²/s, and duration of the diffusion, s: a front √(4Dt) = 0.2 m wide.
 const DIFFUSIVITY: f64 = 0.01;
 const TIME: f64 = 1.0;
-/// What of D Eq. 5 keeps on the cubic lattice at h/d = 2 (`chemistry/exchange.rs`).
+/// Share of D that Eq. 5 has on the cubic lattice at h/d = 2 (`chemistry/exchange.rs`).
 const LATTICE: f64 = 0.9915;
-/// Length and width of the rod, m: in the time, what is missing at its faces does not
-/// come to its middle.
+/// Length and width of the rod, m: in this time, the missing neighbours at its faces do not affect its middle.
 const LENGTH: f64 = 1.6;
 const WIDTH: f64 = 0.68;
 
@@ -138,7 +137,7 @@ const WIDTH: f64 = 0.68;
 fn diffused(gpu: &Gpu, per_metre: u32) -> Result<(f64, [f64; 2]), Failure> {
     let d = 1.0 / f64::from(per_metre);
     let support = 2.0 * d;
-    // Nearest neighbours swap 0.009 of their difference then, of 1/72 that they may.
+    // Nearest neighbours exchange 0.009 of their difference then, against a limit of 1/72.
     let frames = (TIME * DIFFUSIVITY / (0.005 * support * support)).ceil() as u32;
     let parameters = Parameters {
         spacing: d,

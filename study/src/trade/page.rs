@@ -36,7 +36,7 @@ pub fn page(trade: &Trade) -> String {
     whole_page("Speed for accuracy", OWN, &body)
 }
 
-/// What of a plot's colours the pages' own style sheet does not exchange.
+/// Colours of a plot that the pages' own style sheet does not replace.
 const OWN: &str = r##"
 .canvas svg [fill="#0072B2"] { fill: var(--c0); }
 .canvas svg [fill="#1D2326"] { fill: var(--ink); }

@@ -13,17 +13,17 @@ pub struct Dot<'a> {
     pub cost: f64,
     /// Error, relative.
     pub error: f64,
-    /// What is shown where the mouse rests on it.
+    /// Text that is shown where the mouse rests on it.
     pub title: String,
     /// The preset's name, where it is one.
     pub preset: Option<&'a str>,
 }
 
-/// What has no error that can be told is at the bottom.
+/// Least error that is drawn: smaller ones are at the bottom.
 const LEAST: f64 = 1e-6;
 
 const SIZE: (u32, u32) = (640, 400);
-/// Of the presets' names; the page's style sheet exchanges it.
+/// Colour of the presets' names; the page's style sheet replaces it.
 const INK: RGBColor = RGBColor(0x1d, 0x23, 0x26);
 const TEXT: (&str, u32) = ("sans-serif", 16);
 
@@ -35,7 +35,7 @@ pub fn scatter(dots: &[Dot<'_>]) -> Option<String> {
     let up = span(values.iter().map(|value| value.1))?;
     let mut svg = String::new();
     let places = draw(&mut svg, dots, &values, [across, up]).ok()?;
-    // Plotters has no titles: they are on circles that nobody sees.
+    // Plotters has no titles: they are on invisible circles.
     let titles = html! {
         @for (dot, (x, y)) in dots.iter().zip(places) {
             circle cx=(x) cy=(y) r="7" fill="none" pointer-events="all" { title { (dot.title) } }
@@ -48,7 +48,7 @@ pub fn scatter(dots: &[Dot<'_>]) -> Option<String> {
 
 type DrawError = DrawingAreaErrorKind<std::io::Error>;
 
-/// Where each dot is, pixels.
+/// Position of each dot, pixels.
 fn draw(
     svg: &mut String,
     dots: &[Dot<'_>],
@@ -102,7 +102,7 @@ fn draw(
     Ok(places)
 }
 
-/// An axis' ends around what can be drawn on it.
+/// Ends of an axis that holds all values that can be drawn.
 pub(crate) fn span(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let (low, high) = values
         .filter(|value| value.is_finite() && *value > 0.0)

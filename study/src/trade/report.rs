@@ -1,4 +1,4 @@
-//! What `vitriol trade` found.
+//! Results of `vitriol trade`.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -16,38 +16,38 @@ use super::vouch::Vouched;
 use crate::cli::TradePart;
 use crate::merge::{MergeError, Name, alike, devices, in_order};
 
-/// What `vitriol trade` prints and writes.
+/// Results of `vitriol trade`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Trade {
     /// The device.
     pub device: DeviceStatement,
-    /// Whether with `--quick`.
+    /// Whether it was run with `--quick`.
     pub quick: bool,
     /// The one part, where only one was asked for.
     pub part: Option<TradePart>,
-    /// Numbers of the first case, and behind the last one.
+    /// Number of the first case, and number behind the last one.
     pub cases: [usize; 2],
-    /// How many cases there are.
+    /// Number of all cases.
     pub of: usize,
-    /// The setting whose poured volume is the others' truth, and what it poured.
+    /// The setting whose poured volume is the others' truth, and its pour.
     pub finest: Option<(Setting, Tipped)>,
     /// Settings of the solver, in one vessel of water.
     pub points: Vec<Point>,
-    /// Settings that were not tried for want of time.
+    /// Number of settings that were not tried for want of time.
     pub skipped: usize,
     /// The calorimeter under each preset.
     pub calorimetry: Vec<Calorimetry>,
-    /// Water poured into acid: presets, what is finest, and features left out.
+    /// Water poured into acid: presets, the finest setting, and features left out.
     pub boiling: Vec<Seeds>,
-    /// Frame times of these.
+    /// Frame times of these runs.
     pub boiling_costs: Vec<Cost>,
-    /// What the chemistry's constants change.
+    /// Effects of the chemistry's constants.
     pub constants: Vec<Change>,
-    /// The finest setting by the f64 reference.
+    /// The finest setting compared with the f64 reference.
     pub vouched: Option<Vouched>,
-    /// What each effect that plain water leaves out would change of a pour.
+    /// Effects on a pour of each feature that plain water leaves out.
     pub effects: Vec<Effect>,
-    /// How errors shrink.
+    /// Convergence of errors.
     pub orders: Vec<Convergence>,
     /// Wall time, s.
     pub seconds: f64,
@@ -64,11 +64,11 @@ pub struct Point {
     pub setting: Setting,
     /// Δt_s over its limit in the vessel that rests.
     pub stiffness: f64,
-    /// At rest.
+    /// Its measurements at rest.
     pub rest: Rested,
-    /// While it is poured.
+    /// Its measurements while it is poured.
     pub pour: Tipped,
-    /// What it is off by.
+    /// Its errors.
     pub errors: Errors,
 }
 
@@ -77,11 +77,11 @@ pub struct Point {
 pub struct Errors {
     /// 99th percentile of the density error at rest.
     pub rest_p99: f64,
-    /// Likewise while pouring.
+    /// 99th percentile of the density error while pouring.
     pub pour_p99: f64,
-    /// Of the poured volume against that of the finest run.
+    /// Error of the poured volume against that of the finest run.
     pub poured: f64,
-    /// Of the height of the centre of mass at rest.
+    /// Error of the height of the centre of mass at rest.
     pub lost_volume: f64,
 }
 
@@ -90,36 +90,35 @@ pub struct Errors {
 pub struct Effect {
     /// The effect.
     pub name: Name,
-    /// At rest.
+    /// Its measurements at rest.
     pub rest: Rested,
-    /// While it is poured.
+    /// Its measurements while it is poured.
     pub pour: Tipped,
 }
 
-/// What the calorimeter says of one mix.
+/// The calorimeter's result for one mix.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Calorimetry {
     /// The preset.
     pub preset: Name,
     /// Water and acid, mL.
     pub millilitres: [f64; 2],
-    /// Temperature at the end, °C, and the table's.
+    /// Temperature at the end, °C, measured and in the table.
     pub temperature: [f64; 2],
     /// Largest relative changes of mass, acid, enthalpy.
     pub drifts: [f64; 3],
 }
 
 impl Point {
-    /// 99th percentile of the time, ms, that a ninetieth of a second takes, at rest or
-    /// poured, whichever is more: settings of other frame times have as many frames
-    /// in it as they need.
+    /// 99th percentile of the time, ms, that a ninetieth of a second takes, at rest or poured, whichever is more: settings of other frame
+    /// times have as many frames in it as they need.
     pub fn cost(&self) -> f64 {
         let frames = 1.0 / 90.0 / self.setting.frame_time;
         frames * self.rest.cost.p99_ms.max(self.pour.cost.p99_ms)
     }
 }
 
-/// The one report of parts.
+/// Merges the reports of parts.
 ///
 /// # Errors
 /// [`MergeError`] where they are not of one call, or cases are missing or in two of them.
@@ -153,11 +152,11 @@ pub fn merge(mut parts: Vec<(PathBuf, Trade)>) -> Result<Trade, MergeError> {
     Ok(all)
 }
 
-/// A name, and how the error is read.
+/// A name, and a function that reads the error.
 type NamedError = (&'static str, fn(&Errors) -> f64);
 
 impl Errors {
-    /// Names and readers of each.
+    /// Name and reader of each error.
     pub const ALL: [NamedError; 4] = [
         ("density error at rest, 99th percentile", |e| e.rest_p99),
         ("density error while pouring, 99th percentile", |e| {
@@ -168,7 +167,7 @@ impl Errors {
     ];
 }
 
-/// Tables for people.
+/// Tables as text for people.
 pub fn describe(trade: &Trade) -> String {
     let mut t = format!(
         "{}, {}\n\npreset     knob                   setting                                             \
@@ -281,7 +280,7 @@ mod tests {
     use crate::trade::boil::{Boiled, quartiles};
     use crate::trade::constants::CONSTANTS;
 
-    /// One of everything, with what JSON has no number for.
+    /// A report with one of everything, with numbers that JSON does not have.
     fn one_of_each() -> Trade {
         let scene = vitriol_sim::scene::Scene::builtin("beaker").unwrap();
         let setting = Setting::of(&scene, vitriol_sim::scene::Preset::Fast);

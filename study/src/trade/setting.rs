@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::{Boundary, Preset, RelaxationKind, Scene};
 
-/// What is turned; everything else of the liquid is the scene's.
+/// The solver's knobs; everything else of the liquid is the scene's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     /// Particle spacing d, m.
@@ -17,19 +17,19 @@ pub struct Setting {
     pub substeps: u32,
     /// Iterations a substep.
     pub iterations: u32,
-    /// Whether by Chebyshev's iteration; else by Jacobi's.
+    /// Whether it uses Chebyshev's iteration; else Jacobi's.
     pub chebyshev: bool,
     /// ω.
     pub omega: f64,
     /// Rate at which multipliers are carried on, 1/s.
     pub carry_rate: f64,
-    /// Whether walls are of boundary particles; else of maps.
+    /// Whether walls are boundary particles; else maps.
     pub boundary_particles: bool,
     /// Margin of the neighbour list over h.
     pub list_margin: f64,
 }
 
-/// Which knob a point of a sweep turns.
+/// The knob that a point of a sweep turns.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
@@ -58,7 +58,7 @@ pub enum Knob {
 }
 
 impl Knob {
-    /// The name in reports.
+    /// Its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Preset => "preset",
@@ -77,7 +77,7 @@ impl Knob {
 }
 
 impl Setting {
-    /// What `scene` has under `preset`.
+    /// The setting of `scene` under `preset`.
     pub fn of(scene: &Scene, preset: Preset) -> Self {
         let scene = scene.with_preset(preset);
         let (scale, solver) = (&scene.scale, &scene.solver);
@@ -95,7 +95,7 @@ impl Setting {
         }
     }
 
-    /// The solver's parameters under it; all else as in `scene`.
+    /// The solver's parameters under it; all others as in `scene`.
     pub fn parameters(&self, scene: &Scene) -> Parameters {
         let mut scene = scene.clone();
         scene.scale.spacing = self.spacing;
@@ -116,7 +116,7 @@ impl Setting {
         }
     }
 
-    /// The same with another number of particles for `volume` m³.
+    /// This setting with another number of particles for `volume` m³, by its spacing.
     pub fn with_particles(self, particles: f64, volume: f64) -> Self {
         Self {
             spacing: (volume / particles).cbrt(),
@@ -130,7 +130,7 @@ impl Setting {
         substep * (gravity * depth).sqrt() / (0.4 * self.spacing)
     }
 
-    /// In words.
+    /// The setting in words.
     pub fn label(&self) -> String {
         let iteration = match (self.chebyshev, self.carry_rate > 0.0) {
             (false, _) => format!("Jacobi ω {}", self.omega),

@@ -1,15 +1,15 @@
-//! Which settings are tried.
+//! The settings that are tried.
 
 use vitriol_sim::scene::{Preset, Scene};
 
 use super::setting::{Knob, Setting};
 use super::tank::VOLUME;
 
-/// Rate (1/s) of carrying where it is not a preset's own.
+/// Rate (1/s) at which multipliers are carried on, where it is not a preset's own.
 const CARRY_RATE: f64 = 2.25;
 
-/// The finest setting, beyond all presets, with `particles` of them: what the f64
-/// reference vouches for, and what poured volumes are compared with.
+/// The finest setting, beyond all presets, with `particles` of them: it is compared with the f64 reference, and others' poured volumes are
+/// compared with its.
 pub fn finest(scene: &Scene, particles: f64) -> Setting {
     let fine = Setting {
         substeps: 24,
@@ -18,8 +18,8 @@ pub fn finest(scene: &Scene, particles: f64) -> Setting {
     fine.with_particles(particles, VOLUME)
 }
 
-/// Every setting once: the presets, one knob at a time from each of them, and the
-/// pairs that are known to matter. `quick` is what two cores do in some minutes.
+/// Every setting once: the presets, one knob at a time from each of them, and the pairs that are known to matter. With `quick` those that
+/// two cores run in some minutes.
 pub fn sweep(scene: &Scene, quick: bool) -> Vec<(Preset, Knob, Setting)> {
     let mut all: Vec<(Preset, Knob, Setting)> = Vec::new();
     let mut add = |preset, knob, setting: Setting| {
@@ -109,7 +109,7 @@ fn one_at_a_time(own: Setting, quick: bool) -> Vec<(Knob, Setting)> {
     all
 }
 
-/// From the setting in the middle.
+/// Pairs of knobs, from the setting `own` in the middle.
 fn pairs(own: Setting) -> Vec<(Knob, Setting)> {
     let mut all = Vec::new();
     for substeps in [6, 8, 10, 12] {

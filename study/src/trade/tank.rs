@@ -24,16 +24,16 @@ pub const VOLUME: f64 = 217.09e-6;
 const POURED_FROM: f64 = 150e-6;
 /// The vessel.
 const VESSEL: &str = "beaker-250";
-/// How long it stands before it is tipped, s.
+/// Time before it is tipped, s.
 const SETTLED_IN: f64 = 1.0;
-/// How far it is tipped, radians, in which time, s, and how long it is held there.
+/// Angle by which it is tipped, radians, duration of the tipping, s, and time for which it is held there, s.
 const TILT: f64 = 1.2;
 const TIPPED_IN: f64 = 1.5;
 const HELD: f64 = 1.0;
-/// Frames between two looks.
+/// Frames between two observations.
 const BETWEEN: u32 = 5;
 
-/// Time of a frame, recorded, solved and waited for.
+/// Time to record, solve and wait for a frame.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Cost {
     /// Median, ms.
@@ -45,7 +45,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Of times in ms.
+    /// Statistics of times in ms.
     pub fn of(times: &[f64]) -> Self {
         let ranks = Ranks::of(times);
         let rank = |share| ranks.at(share).unwrap_or(f64::NAN);
@@ -56,7 +56,7 @@ impl Cost {
     }
 }
 
-/// What came of resting.
+/// Measurements of water at rest.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Rested {
     /// Particles.
@@ -65,9 +65,9 @@ pub struct Rested {
     pub cost: Cost,
     /// Mean of max(0, ρ/ρ₀ − 1) over the last part.
     pub density_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile of max(0, ρ/ρ₀ − 1) over the last part.
     pub density_p99: f64,
-    /// Mean of ρ/ρ₀ − 1, of either sign, of what lies deeper than a support radius.
+    /// Mean of ρ/ρ₀ − 1, of either sign, of particles deeper than a support radius.
     pub density_signed: f64,
     /// By how much the centre of mass is too low, over its height: lost volume.
     pub lost_volume: f64,
@@ -78,13 +78,12 @@ pub struct Rested {
     pub pressure: Option<f64>,
 }
 
-/// What came of tipping.
+/// Measurements of water that is poured.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Tipped {
     /// A frame's time.
     pub cost: Cost,
-    /// 99th percentile of max(0, ρ/ρ₀ − 1) in the vessel while it runs out, mean over
-    /// looks.
+    /// 99th percentile of max(0, ρ/ρ₀ − 1) in the vessel while it runs out, mean over observations.
     pub density_p99: f64,
     /// Volume that has run out, m³.
     pub poured: f64,
@@ -140,14 +139,14 @@ impl Tank {
         })
     }
 
-    /// A frame; its time, ms.
+    /// Runs a frame; returns its time, ms.
     fn frame(&self, before: Pose, after: Pose) -> Result<f64, Failure> {
         let begin = Instant::now();
         liquid::frame(&self.gpu, &self.solver, &[before], &[after])?;
         Ok(begin.elapsed().as_secs_f64() * 1e3)
     }
 
-    /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of what is in the vessel.
+    /// Mean and 99th percentile of max(0, ρ/ρ₀ − 1) of the vessel's particles.
     fn density(&self, state: &SolverState, densities: &[f32]) -> (f64, f64) {
         let members = (0..state.tags.len()).filter(|&slot| state.flask_of(slot) == Some(0));
         let errors: Vec<f64> = members
@@ -192,7 +191,7 @@ impl Tank {
         })
     }
 
-    /// Particles that are not the vessel's but in it, or the reverse.
+    /// Number of particles that are in the vessel and not its members, or the reverse.
     fn through_glass(&self, state: &SolverState, pose: Pose) -> u64 {
         let flask_from_stage = pose.inverse();
         let tolerance = 0.05 * self.solver.parameters().support_radius;
@@ -212,10 +211,10 @@ impl Tank {
     }
 }
 
-/// Rests water for `seconds`, of which the last third is looked at.
+/// Rests water for `seconds`, and measures it over the last third.
 ///
 /// # Errors
-/// What the device says.
+/// The device's error.
 pub fn rest(gpu: &Gpu, scene: &Scene, setting: &Setting, seconds: f64) -> Result<Rested, Failure> {
     let tank = Tank::new(gpu, scene, setting, VOLUME)?;
     let frames = (seconds / tank.frame_time).ceil() as u32;
@@ -253,10 +252,10 @@ struct Look {
     pressure: f64,
 }
 
-/// Tips a vessel about its base's edge, holds it, and counts what has run out.
+/// Tips a vessel about its base's edge, holds it, and measures the volume that has run out.
 ///
 /// # Errors
-/// What the device says.
+/// The device's error.
 pub fn tip(gpu: &Gpu, scene: &Scene, setting: &Setting) -> Result<Tipped, Failure> {
     let tank = Tank::new(gpu, scene, setting, POURED_FROM)?;
     let pose = |time: f64| {

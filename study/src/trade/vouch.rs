@@ -1,4 +1,4 @@
-//! Whether the f64 reference vouches for a setting: the same water by both.
+//! The device's solver against the f64 reference for one setting: the same water by both.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use vitriol_sim::solver::{Particle, SolverSpec};
 use super::setting::Setting;
 use crate::liquid;
 
-/// What both found of a glass of water that settles.
+/// Results of both for a glass of water that settles.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Vouched {
     /// Particles.
@@ -25,20 +25,20 @@ pub struct Vouched {
     pub seconds: f64,
     /// 99th percentile of max(0, ρ/ρ₀ − 1), f64 and device.
     pub density_p99: [f64; 2],
-    /// Mean of the same.
+    /// Mean of max(0, ρ/ρ₀ − 1), f64 and device.
     pub density_mean: [f64; 2],
-    /// Height of the centre of mass, m.
+    /// Height of the centre of mass, f64 and device, m.
     pub centre: [f64; 2],
-    /// Kinetic energy, J.
+    /// Kinetic energy, f64 and device, J.
     pub kinetic: [f64; 2],
-    /// Largest distance of a particle's two places, m.
+    /// Largest distance between a particle's positions by both, m.
     pub apart: f64,
 }
 
 /// Lets `count` particles settle for `seconds` by both.
 ///
 /// # Errors
-/// What the device says.
+/// The device's error.
 pub fn vouch(
     gpu: &Gpu,
     scene: &Scene,

@@ -4,7 +4,7 @@ use vitriol_sim::scene::Scene;
 use vitriol_study::command::dam_break::compare;
 use vitriol_tests::gpu;
 
-/// Spacings in a base.
+/// Spacings per base.
 const RESOLUTION: u32 = 6;
 /// Dimensionless time.
 const LAST: f64 = 2.0;
@@ -32,7 +32,7 @@ fn the_front_runs_as_measured() {
                 "n² {n_squared}: {pair:?}"
             );
         }
-        // The whole way, where that does not count.
+        // The whole way, within the time in which the flume's ends do not count.
         let end = fronts.last().unwrap();
         assert!(end.1 < 1.0 + 2.0 * end.0, "n² {n_squared}: {end:?}");
         // A spacing, 0.167, and a fiftieth: the sheet at the front is two thick. It is 0.061 and 0.167
@@ -40,7 +40,7 @@ fn the_front_runs_as_measured() {
         assert!(column.measured.len() > 6);
         let rms = column.rms_z;
         assert!(rms < 1.02 * spacing, "n² {n_squared}: {rms}");
-        // Nearly all of it is a start that is late: a gate takes time to leave. The rest is 0.046 and 0.025.
+        // Nearly all of the difference is a late start: a gate takes time to leave. The rest is 0.046 and 0.025.
         let (delay, rest) = (column.delay, column.delayed_rms_z);
         assert!(
             (0.0..0.25).contains(&delay) && rest < 0.06,

@@ -1,10 +1,10 @@
-//! Some of the cases of `vitriol extremes`, evenly out of all two thousand.
+//! Some of the cases of `vitriol extremes`, evenly spaced among all two thousand.
 
 use vitriol_shaders::Library;
 use vitriol_study::extremes::{Verdict, cases, judge};
 use vitriol_tests::gpu;
 
-/// Every so many of the cases.
+/// Judges every `stride`th case.
 fn every(stride: usize) {
     let device = gpu::device();
     let library = Library::embedded();
@@ -34,7 +34,7 @@ mod long {
     }
 }
 
-/// The same scene 10 km off has the same bits; the judge runs both.
+/// A scene 10 km off has the same bits as at its origin; the judge runs both.
 #[test]
 fn a_scene_ten_kilometres_off_has_the_same_bits() {
     let device = gpu::device();

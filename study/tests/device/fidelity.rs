@@ -7,13 +7,12 @@ use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_study::fidelity::judge::{self, Draw, Drawn, Task};
-use vitriol_study::fidelity::report::{Manner, Row, rows};
+use vitriol_study::fidelity::report::{Manner, DrawnRow, rows};
 use vitriol_study::fidelity::screen::{MANNERS, Screen};
 use vitriol_study::fidelity::states::{State, StateSpec};
 use vitriol_tests::gpu;
 
-/// A right eye that is given the left one's frustum, as by a renderer that takes
-/// frusta to be alike.
+/// A right eye that gets the left one's frustum, as by a renderer that takes frusta to be alike.
 struct Alike(Screen);
 
 impl Draw for Alike {
@@ -66,7 +65,7 @@ fn what_is_drawn_is_the_surface_of_its_particles() {
         let mut samples = 0;
         let pictures = task.judge(draw, |_, _| samples += 1).unwrap();
         assert_eq!((pictures.len(), samples), (8, 1));
-        let [truth, drawn]: [Row; 2] = rows(&pictures).try_into().unwrap();
+        let [truth, drawn]: [DrawnRow; 2] = rows(&pictures).try_into().unwrap();
         (truth.figures, drawn.figures)
     };
     let (truth, drawn) = judged(&mut screen);

@@ -1,4 +1,4 @@
-//! What measures, in small, on a device with the validation layer on.
+//! The measurements, in small, on a device with the validation layer on.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod calorimeter;

@@ -1,4 +1,4 @@
-//! What the order of pouring decides at real size; the factors are in docs/measurements/bubbles.md.
+//! Effects of the order of pouring at real size; the factors are in docs/measurements/bubbles.md.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use vitriol_study::trade::{Boiled, boil};
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 
-/// Pours 20 mL both ways for so many seconds, with what `change` makes of the scene: water into acid and acid into water.
+/// Pours 20 mL both ways for `seconds`, in the scene after `change`: water into acid and acid into water.
 fn both_ways(seconds: f64, change: impl Fn(&mut Scene)) -> [Boiled; 2] {
     let device = gpu::device();
     let text = include_str!("../../../tests/tracks/pours.toml");
@@ -17,7 +17,7 @@ fn both_ways(seconds: f64, change: impl Fn(&mut Scene)) -> [Boiled; 2] {
     ["water-into-acid", "acid-into-water"].map(|name| {
         let mut scene = Scene::builtin(name).unwrap().with_preset(Preset::Fast);
         change(&mut scene);
-        // In the hand that has it from the start.
+        // In the hand that holds it from the start.
         scene.flasks[0].stage_from_flask.position = Vec3::new(0.034, 0.890, -0.400);
         let boiled = boil(&device, &scene, &track, seconds, 1).unwrap().0;
         eprintln!("{name}: {boiled:?}");
@@ -44,23 +44,23 @@ fn coarse_water_into_acid_boils_and_acid_into_water_hardly_does() {
 mod long {
     use super::*;
 
-    /// The same, and it goes on boiling at the surface. Ten seeds on an H200 differ by a factor of twelve at the end of the track
-    /// `two-flasks`. By then five times as much has been thrown out too; two seconds earlier it is still on its way. Acid in water
-    /// makes all of its steam while it falls in, within 1.4 s: 40 mg here. Water on acid makes 160 mg by 3.9 s, and half as much
-    /// again by 5.
+    /// Water poured into acid boils far more than acid into water at the preset's resolution, and it goes on boiling at the surface. Ten
+    /// seeds on an H200 differ by a factor of twelve at the end of the track `two-flasks`. By then five times as much has been thrown out
+    /// too; two seconds earlier it is still on its way. Acid in water makes all of its steam while it falls in, within 1.4 s: 40 mg here.
+    /// Water on acid makes 160 mg by 3.9 s, and half as much again by 5.
     #[test]
     fn water_into_acid_boils_and_acid_into_water_hardly_does() {
         let [wrong, right] = both_ways(5.0, |_| {});
         assert!(wrong.steam > 5.0 * right.steam, "{wrong:?} {right:?}");
-        // What bursts throws milligrams: no liquid leaves in bulk.
+        // Bursting bubbles throw milligrams: no liquid leaves in bulk.
         for boiled in [wrong, right] {
             assert!(
                 boiled.thrown > 0.0 && boiled.thrown < 0.1,
                 "{wrong:?} {right:?}"
             );
         }
-        // Above the mixing line's 9 K, for liquid is not mixed below a particle's size, and below the 24 K that
-        // lamellae of these feeds come to (`sim/src/chemistry/tests/segregation.rs`).
+        // Above the mixing line's 9 K, for liquid is not mixed below a particle's size, and below the 24 K of lamellae of these feeds
+        // (`sim/src/chemistry/tests/segregation.rs`).
         for boiled in [wrong, right] {
             assert!((11.0..25.0).contains(&boiled.superheat), "{boiled:?}");
             assert!(boiled.closure < 1e-4, "{boiled:?}");

@@ -1,11 +1,10 @@
-//! What `vitriol trade` measures with, against formulas.
+//! The measurements of `vitriol trade`, against formulas.
 
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_study::trade::{Setting, convergence, rest};
 use vitriol_tests::gpu;
 
-/// Symplectic Euler is of first order in a fall; Eq. 5 on a lattice of second, to
-/// its own share of D.
+/// Symplectic Euler is of first order in a fall; Eq. 5 on a lattice is of second, with its own share of D.
 #[test]
 fn errors_shrink_with_their_order() {
     let orders = convergence(&gpu::device(), true).unwrap();
@@ -14,7 +13,7 @@ fn errors_shrink_with_their_order() {
     assert!((1.7..2.6).contains(&of(2)), "{orders:?}");
 }
 
-/// Fewer iterations are worse, and what rests is where geometry has it.
+/// Fewer iterations are worse, and the liquid at rest is where geometry has it.
 #[test]
 fn a_setting_is_judged_by_what_it_leaves() {
     let scene = Scene::builtin("beaker").unwrap();

@@ -11,17 +11,17 @@ use crate::{Hand, Joints, Pose, Side};
 
 type Session = xr::Session<xr::Vulkan>;
 
-/// How long a vibration lasts that is not said again, ns.
+/// Duration of a vibration that is not repeated, ns.
 const FADE_NS: i64 = 200_000_000;
 
-/// The actions in a session: spaces first, so that each is destroyed before what it is of.
+/// The actions in a session: spaces first, so that each is destroyed before the action that it belongs to.
 pub(super) struct Actions {
     hands: [Bound; 2],
     seen: Option<Seen>,
-    /// Where the user looks; `None` where the runtime does not tell.
+    /// The gaze; `None` where the runtime does not track it.
     gaze: Option<xr::Space>,
     of: Set,
-    /// Which hands were shaken when that was last said.
+    /// By hand, whether the last call started a vibration.
     shaken: [bool; 2],
 }
 
@@ -40,7 +40,7 @@ struct Set {
     set: xr::ActionSet,
 }
 
-/// What is of one hand.
+/// Spaces and state of one hand.
 struct Bound {
     path: xr::Path,
     grip: xr::Space,
@@ -106,7 +106,7 @@ impl Set {
         Ok(instance.suggest_interaction_profile_bindings(path, &bindings))
     }
 
-    /// Suggests the gaze's binding, which is of no hand (XR_EXT_eye_gaze_interaction).
+    /// Suggests the gaze's binding, which belongs to no hand (XR_EXT_eye_gaze_interaction).
     fn suggest_gaze(&self, instance: &xr::Instance) -> Result<(), CallFailure> {
         let Some(gaze) = &self.gaze else {
             return Ok(());
@@ -127,8 +127,7 @@ impl Actions {
         let of = Set::new(instance)?;
         let on = instance.exts();
         for profile in PROFILES.iter().filter(|profile| (profile.offered)(on)) {
-            // A runtime may know fewer profiles than the specification (XR_ERROR_PATH_UNSUPPORTED);
-            // the others serve.
+            // A runtime may support fewer profiles than the specification has (XR_ERROR_PATH_UNSUPPORTED); the others serve.
             if let Err(answer) = of.suggest(instance, profile)? {
                 tracing::warn!(profile = profile.path, %answer, "bindings refused");
             }
@@ -162,7 +161,7 @@ impl Actions {
         })
     }
 
-    /// Asks which controllers the hands hold now.
+    /// Queries which controllers the hands hold now.
     pub(super) fn name_profiles(
         &mut self,
         instance: &xr::Instance,
@@ -184,8 +183,7 @@ impl Actions {
         Ok(())
     }
 
-    /// Syncs the actions and brings `hands` up to date for `time`; the joints of those that are bare. A pose that is not known
-    /// stays.
+    /// Syncs the actions and updates `hands` for `time`; returns the joints of bare hands. A pose that is not known stays.
     pub(super) fn read(
         &self,
         session: &Session,
@@ -269,7 +267,7 @@ impl Actions {
         Ok(())
     }
 
-    /// Where the user looks at `time`, as the last sync has it: from between the eyes along -Z. `None` where that is not known.
+    /// The gaze at `time`, from the last sync: from between the eyes along -Z. `None` where it is not known.
     pub(super) fn gaze(
         &self,
         stage: &xr::Space,
@@ -282,8 +280,7 @@ impl Actions {
         Ok(located(&found))
     }
 
-    /// Shakes a hand, or stops it at amplitude 0. A hand that is still is left alone: some runtimes send a packet to the
-    /// controller for each call.
+    /// Vibrates a hand, or stops it at amplitude 0. A hand at rest gets no call: some runtimes send a packet to the controller for each.
     pub(super) fn vibrate(
         &mut self,
         session: &Session,
@@ -352,7 +349,7 @@ mod tests {
             let answer = set.suggest(&instance, profile).unwrap();
             assert_eq!(answer, Ok(()), "{path}");
         }
-        // It would have refused a control that a profile has not: Touch's squeeze has no click.
+        // It would have refused a control that a profile does not have: Touch's squeeze has no click.
         let wrong = Profile {
             path: "/interaction_profiles/oculus/touch_controller",
             offered: |_| true,

@@ -1,4 +1,4 @@
-//! Which control of which controller does what: the one table of interaction profiles.
+//! Which control of which controller has which use: the one table of interaction profiles.
 //!
 //! Paths are those of the OpenXR specification, "Interaction Profile Paths", and of the
 //! extensions named in the rows. A click bound to a value reads 0 or 1 (same, "Action state
@@ -6,12 +6,12 @@
 
 use openxr::InstanceExtensions;
 
-/// What a control does.
+/// The use of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// Where the hand grips.
+    /// Pose of the grip.
     Grip,
-    /// Where it points.
+    /// Pose for pointing.
     Aim,
     /// Closing the hand, 0 to 1.
     Squeeze,
@@ -23,7 +23,7 @@ pub(super) enum Use {
     A,
     /// Second button.
     B,
-    /// What shakes.
+    /// Vibration output.
     Haptic,
 }
 
@@ -39,16 +39,16 @@ pub(super) enum On {
 pub(super) struct Profile {
     /// Its path.
     pub path: &'static str,
-    /// Whether the runtime has it, by the extensions that are on.
+    /// Whether the runtime supports it, by the extensions that are on.
     pub offered: fn(&InstanceExtensions) -> bool,
-    /// All but [`POSES`].
+    /// All its controls but [`POSES`].
     pub controls: &'static [Control],
 }
 
 /// Use, hands and path below the hand's.
 type Control = (Use, On, &'static str);
 
-/// What every profile has.
+/// Controls of every profile.
 pub(super) const POSES: [Control; 2] = [
     (Use::Grip, On::Both, "input/grip/pose"),
     (Use::Aim, On::Both, "input/aim/pose"),
@@ -62,7 +62,7 @@ const STICK: Control = (Use::Stick, On::Both, "input/thumbstick");
 const MENU: Control = (Use::B, On::Both, "input/menu/click");
 const PAD_CLICK: Control = (Use::A, On::Both, "input/trackpad/click");
 
-/// Touch's, and Pico's, which are like them.
+/// Controls of Touch, and of Pico's controllers, which are like them.
 const TOUCH: &[Control] = &[
     SQUEEZE,
     TRIGGER,

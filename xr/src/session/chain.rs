@@ -8,13 +8,12 @@ use super::convert::{CallFailure, failed};
 
 /// A swapchain of one size and format.
 pub(super) struct Chain {
-    /// Before the swapchain, whose images they view.
+    /// Views of the swapchain's images; declared before the swapchain, so that they are dropped first.
     images: Vec<Image>,
     chain: xr::Swapchain<xr::Vulkan>,
-    /// Of the image that was acquired, and whether the compositor has let go of it: until then it
-    /// can be neither written nor given back.
+    /// Index of the acquired image, and whether the compositor has released it: until then it can be neither written nor given back.
     held: Option<(usize, bool)>,
-    /// An image has been given back, which is what is shown until the next is.
+    /// Whether an image has been given back, which is shown until the next is.
     has_shown: bool,
 }
 
@@ -87,7 +86,7 @@ impl Chain {
         })
     }
 
-    /// The image for this frame, when the compositor has let go of it.
+    /// Acquires the image for this frame, and waits until the compositor has released it.
     pub(super) fn acquire(&mut self, gpu: &Gpu) -> Result<Image, CallFailure> {
         let (held, ours) = match self.held {
             Some(held) => held,
@@ -109,7 +108,7 @@ impl Chain {
         Ok(self.images[held].clone())
     }
 
-    /// Gives the image back with what was submitted for it.
+    /// Gives the image back with the work that was submitted for it.
     pub(super) fn release(&mut self, gpu: &Gpu) -> Result<(), CallFailure> {
         if self.acquired().is_none() {
             return Ok(());
@@ -133,7 +132,7 @@ impl Chain {
         ours.then(|| &self.images[held])
     }
 
-    /// What the images are like.
+    /// Size, format and usage of the images.
     pub(super) fn desc(&self) -> &ImageDesc {
         self.images[0].desc()
     }

@@ -1,11 +1,11 @@
-//! OpenXR's poses, fields of view and states as ours, and its refusals.
+//! Conversion of OpenXR's poses, fields of view, states and errors to ours.
 
 use glam::{Quat, Vec3};
 use openxr as xr;
 
 use crate::{Fov, HeadsetError, Pose, SessionState};
 
-/// A pose of which the flags say that position and orientation are valid.
+/// Converts a pose whose flags state that position and orientation are valid.
 pub(super) fn pose(pose: xr::Posef) -> Pose {
     let (p, q) = (pose.position, pose.orientation);
     Pose::new(
@@ -59,7 +59,7 @@ pub(super) fn located(location: &xr::SpaceLocation) -> Option<Pose> {
     Some(Pose::new(position?, orientation?))
 }
 
-/// Position and orientation of what was located, each if it is valid: a runtime that has lost the one may know the other.
+/// Position and orientation of a location, each if it is valid: a runtime that has lost one may know the other.
 pub(super) fn parts(location: &xr::SpaceLocation) -> (Option<Vec3>, Option<Quat>) {
     let has = |flag| location.location_flags.contains(flag);
     let (position, orientation) = sound(location.pose);
@@ -69,7 +69,7 @@ pub(super) fn parts(location: &xr::SpaceLocation) -> (Option<Vec3>, Option<Quat>
     )
 }
 
-/// Position and orientation, each if it is one.
+/// Position and orientation, each if its numbers are valid.
 pub(super) fn sound(raw: xr::Posef) -> (Option<Vec3>, Option<Quat>) {
     let Pose {
         position,
@@ -86,15 +86,15 @@ pub(super) fn sound(raw: xr::Posef) -> (Option<Vec3>, Option<Quat>) {
 /// Why a call on a live session failed.
 #[derive(Debug)]
 pub(super) enum CallFailure {
-    /// Runtime or session are gone, or going: they are to be sought again.
+    /// The runtime or the session is gone, or going: the headset looks for it again.
     Lost(String),
-    /// Asking again does not help.
+    /// Another try does not help.
     Fatal(HeadsetError),
 }
 
 impl CallFailure {
-    /// `instead` where the runtime has refused a call, which is said: `what` is then done without. A loss, and a failure of
-    /// the device, stay what they are.
+    /// Returns `instead` where the runtime has refused a call, and warns that the session goes on without `what`. A loss, and a failure of
+    /// the device, stay errors.
     pub(super) fn do_without<T>(self, what: &str, instead: T) -> Result<T, Self> {
         match self {
             Self::Fatal(HeadsetError::Refused { call, cause }) => {
@@ -116,12 +116,12 @@ impl From<vitriol_gpu::GpuError> for CallFailure {
     }
 }
 
-/// For `map_err`: sorts what `call` answered.
+/// For `map_err`: classifies the error code of `call`.
 pub(super) fn failed(call: &'static str) -> impl Fn(xr::sys::Result) -> CallFailure {
     use xr::sys::Result as R;
     move |answer| match answer {
-        // The specification names the first three; a runtime that dies in the middle of a call
-        // is also heard as the fourth (Monado's broken pipe).
+        // The specification names the first three; a runtime that dies in the middle of a call also returns the fourth (Monado's broken
+        // pipe).
         R::ERROR_SESSION_LOST
         | R::ERROR_INSTANCE_LOST
         | R::ERROR_RUNTIME_UNAVAILABLE

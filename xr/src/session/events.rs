@@ -9,7 +9,7 @@ use super::stage::tells_of_recentring;
 use crate::HeadsetError;
 
 impl Live {
-    /// Takes all events that wait.
+    /// Handles all waiting events.
     pub(super) fn take_events(&mut self) -> Result<(), CallFailure> {
         let mut buffer = xr::EventDataBuffer::new();
         // A clone, so that the event's borrow does not hold `self`.
@@ -30,8 +30,7 @@ impl Live {
                 return Err(CallFailure::Lost("the runtime is ending".to_owned()));
             }
             xr::Event::EventsLost(lost) => {
-                // A change of state among them comes again only with the next one; what can be
-                // asked for is asked for.
+                // A change of state among them is repeated only by the next one; the rest is queried.
                 tracing::warn!(count = lost.lost_event_count(), "OpenXR events lost");
                 self.refresh()?;
             }
@@ -41,7 +40,7 @@ impl Live {
             xr::Event::ReferenceSpaceChangePending(change)
                 if tells_of_recentring(change.reference_space_type()) =>
             {
-                // Of several spaces that move, ours has the time that poses go by.
+                // If several spaces move, poses follow ours from its time on.
                 let ours = change.reference_space_type() == self.stage.kind;
                 let known = self.moves_at.filter(|_| !ours);
                 self.moves_at = known.or(Some(change.change_time()));
@@ -64,7 +63,7 @@ impl Live {
             xr::SessionState::READY => {
                 let begun = self.session.begin(self.views.kind());
                 match begun.map_err(failed("xrBeginSession")) {
-                    // READY is told once: another session is tried with the eyes' own views.
+                    // READY is sent once: the next session is tried with the eyes' own views.
                     Err(CallFailure::Fatal(HeadsetError::Refused { call, cause }))
                         if self.inset.is_some() =>
                     {

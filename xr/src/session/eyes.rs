@@ -1,4 +1,4 @@
-//! Both eyes at a frame's display time, as far as the runtime knows them.
+//! Both eyes at a frame's display time, as far as the runtime locates them.
 
 use glam::{Quat, Vec3};
 use openxr as xr;
@@ -9,10 +9,9 @@ use crate::{Fov, Pose, View};
 
 /// The eyes as they were located last.
 pub(super) struct Eyes {
-    /// The left and the right eye's, and those of the inset in each where the session has one.
+    /// The left and the right eye, then the inset's in each, where the session has one.
     all: [View; 4],
-    /// Where each is in the head, seen from the eye itself, m: by it an eye follows a head of which only the orientation is
-    /// known.
+    /// Position of each in the head, in the eye's own axes, m: by it an eye follows a head of which only the orientation is known.
     offsets: [Vec3; 4],
 }
 
@@ -30,12 +29,12 @@ impl Default for Eyes {
 }
 
 impl Eyes {
-    /// The left and the right one.
+    /// The left and the right eye.
     pub(super) fn views(&self) -> [View; 2] {
         [self.all[0], self.all[1]]
     }
 
-    /// The inset's. One of which nothing is known yet is all of its eye's picture: that is right, if coarse.
+    /// The inset's views. A view that has not been located yet is all of its eye's picture: that is right, if coarse.
     pub(super) fn inset(&self) -> [View; 2] {
         [0, 1].map(|eye| {
             let inset = self.all[2 + eye];
@@ -46,7 +45,7 @@ impl Eyes {
         })
     }
 
-    /// Locates them. Fields of view are known at all times; of a pose each part stays that is not.
+    /// Locates them. Fields of view are always known; a part of a pose that is not known keeps its last value.
     pub(super) fn locate(
         &mut self,
         live: &Live,

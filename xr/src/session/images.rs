@@ -1,4 +1,4 @@
-//! A session's swapchains: both eyes' colour and depth, the same of an inset, and the panel.
+//! A session's swapchains: colour and depth of both eyes and of an inset, and the panel.
 
 use openxr as xr;
 use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
@@ -9,22 +9,22 @@ use super::options::OpenXrOptions;
 use super::system::ConnectedHeadset;
 use crate::{HeadsetError, InsetTargets, Targets, depth_extent};
 
-/// See the module.
+/// The swapchains of a session.
 pub(super) struct Images {
     pub eyes: Pair,
     pub inset: Option<Pair>,
     pub panel: Chain,
 }
 
-/// A picture for each eye.
+/// Swapchains of a picture for each eye.
 pub(super) struct Pair {
-    pub colour: Eyes,
+    pub colour: EyeImages,
     /// `None` where the runtime takes no depth.
-    pub depth: Option<Eyes>,
+    pub depth: Option<EyeImages>,
 }
 
 /// Images of both eyes.
-pub(super) enum Eyes {
+pub(super) enum EyeImages {
     /// One swapchain with a layer for each.
     Array(Chain),
     /// A swapchain for each, where the runtime has none with layers. Pictures are copied to an image of our own, whose
@@ -33,7 +33,7 @@ pub(super) enum Eyes {
 }
 
 impl Images {
-    /// Those that the runtime makes, the best first; what it refuses and can be done without is said.
+    /// Creates the swapchains that the runtime supports, the best first; warns of those that it refuses and that can be done without.
     pub(super) fn new(
         gpu: &Gpu,
         session: &xr::Session<xr::Vulkan>,
@@ -54,9 +54,9 @@ impl Images {
         let exts = session.instance().exts();
         let takes_depth = exts.khr_composition_layer_depth.is_some() && offered(d32);
         let pair = |[label, of_depth]: [&'static str; 2], extent| {
-            let colour = Eyes::new(gpu, session, label, extent, srgb)?;
+            let colour = EyeImages::new(gpu, session, label, extent, srgb)?;
             let depth = match takes_depth {
-                true => Eyes::new(gpu, session, of_depth, depth_extent(extent), d32)
+                true => EyeImages::new(gpu, session, of_depth, depth_extent(extent), d32)
                     .map(Some)
                     .or_else(|failure| failure.do_without("depth in the headset's images", None))?,
                 false => None,
@@ -71,7 +71,7 @@ impl Images {
         })
     }
 
-    /// The frame's images, when the compositor has let go of them; the panel's only if it is to change.
+    /// Acquires the frame's images when the compositor has released them; the panel's only if it is to change.
     pub(super) fn acquire(&mut self, gpu: &Gpu, panel: bool) -> Result<Targets, CallFailure> {
         let (colour, depth) = self.eyes.acquire(gpu)?;
         let inset = self.inset.as_mut().map(|inset| inset.acquire(gpu));
@@ -88,8 +88,8 @@ impl Images {
         })
     }
 
-    /// Gives all images back, with what was `drawn` if anything was. Where one is refused the others are given back all the
-    /// same: the frame shows none of them, and the next one is to have new ones.
+    /// Gives all images back, with their contents if they were `drawn`. If the runtime refuses one, the others are given back all the
+    /// same: the frame shows none of them, and the next one acquires new ones.
     pub(super) fn release(&mut self, gpu: &Gpu, drawn: bool) -> Result<(), CallFailure> {
         let eyes = self.eyes.release(gpu, drawn);
         let inset = self.inset.as_mut();
@@ -112,7 +112,7 @@ impl Pair {
     }
 }
 
-impl Eyes {
+impl EyeImages {
     fn new(
         gpu: &Gpu,
         session: &xr::Session<xr::Vulkan>,
@@ -166,7 +166,7 @@ impl Eyes {
         }
     }
 
-    /// The upper left corner of an eye's image, so many pixels wide and high.
+    /// The upper left corner of an eye's image, of `extent` pixels.
     pub(super) fn corner(
         &self,
         eye: u32,

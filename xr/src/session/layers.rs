@@ -1,25 +1,25 @@
-//! The end of a frame: what is shown, layer by layer.
+//! The end of a frame: its composition layers.
 //!
-//! The panel has a layer of its own under the picture, and the picture's alpha is 0 where the panel is seen with nothing before it.
-//! So its text is sampled once, from its own pixels, however coarse the picture is at the time, and a hand before it is seen before
-//! it. A layer over the picture would cover the hand. The picture has the panel as well, so where a runtime takes no such layer it
-//! is shown without alpha, and the mirror shows it, and nothing is multiplied with alpha beforehand.
+//! The panel has a layer of its own under the picture, and the picture's alpha is 0 where the panel is seen with nothing before it. So its
+//! text is sampled once, from its own pixels, however coarse the picture is at the time, and a hand before it is seen before it. A layer
+//! over the picture would cover the hand. The picture has the panel as well: where a runtime refuses such a layer the picture is shown
+//! without alpha, and the mirror shows it. Nothing is multiplied with alpha beforehand.
 
 use openxr as xr;
 use vitriol_gpu::QueueKind;
 
 use super::chain::Chain;
 use super::convert::{CallFailure, failed, fovf, posef};
-use super::images::{Eyes, Pair};
+use super::images::{EyeImages, Pair};
 use super::live::{Begun, Live};
 use super::stage::Stage;
 use crate::{HeadsetError, Pose, Shown, View, depth_extent};
 
-/// Distance at which depth ends for a runtime that takes no infinite range, m. Depths that were drawn for an infinite one are
-/// then off by a share of distance over this.
+/// Distance at which depth ends for a runtime that refuses an infinite range, m. Depths that were drawn for an infinite one then have a
+/// relative error of distance over this.
 const FAR: f32 = 1e5;
 
-/// What a frame has beside the picture.
+/// Parts of a frame beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Extras {
     depth: DepthRange,
@@ -33,7 +33,7 @@ enum DepthRange {
     None,
 }
 
-/// What is tried, the best first.
+/// Combinations to try, the best first.
 const ALL: [Extras; 6] = {
     const fn with(depth: DepthRange, panel: bool) -> Extras {
         Extras { depth, panel }
@@ -49,11 +49,11 @@ const ALL: [Extras; 6] = {
 };
 
 impl Live {
-    /// Gives the images back and shows them. What the runtime refuses a frame with, and takes it without, is left out from
-    /// then on; where it takes none of it, the frame ends empty.
+    /// Gives the images back and shows them. If the runtime refuses the frame and accepts it without some extras, these are left out from
+    /// then on; if it accepts none, the frame ends empty.
     pub(super) fn show(&mut self, begun: Begun, shown: &Shown) -> Result<(), CallFailure> {
         if self.images.inset.is_some() && shown.inset.is_none() {
-            // The runtime takes no picture without. It is not asked, as it would be refused for the program's fault.
+            // The runtime requires the inset's picture. It is not called, as its refusal would be the program's fault.
             self.begun = Some(begun);
             self.end_empty()?;
             return Err(CallFailure::Fatal(HeadsetError::NoInset));
@@ -92,7 +92,7 @@ impl Live {
             DepthRange::Finite => Some(FAR),
             DepthRange::None => None,
         };
-        // The inset's after the eyes', as they were located.
+        // The eyes' parts, then the inset's, as they were located.
         let all: Vec<Part<'_>> = [Some(eyes), inset].into_iter().flatten().collect();
         let depths: Vec<_> = all
             .iter()
@@ -162,7 +162,7 @@ fn quad<'a>(
         })
 }
 
-/// Pictures of both eyes, with what they were drawn: views, and width and height.
+/// Pictures of both eyes, with the views, and the width and height, with which they were drawn.
 type Part<'a> = (&'a Pair, [View; 2], [u32; 2]);
 
 fn view<'a>(
@@ -182,7 +182,7 @@ fn view<'a>(
 /// Depth 1 at the near plane and 0 at `far`: the extension has the plane of the smaller depth
 /// in `near_z` and lets it be the far one, and infinite (XR_KHR_composition_layer_depth).
 fn depths(
-    depth: &Eyes,
+    depth: &EyeImages,
     extent: [u32; 2],
     near: f32,
     far: f32,

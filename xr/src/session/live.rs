@@ -28,14 +28,14 @@ pub(super) struct Begun {
     pub should_render: bool,
 }
 
-/// A session. Its parts are dropped from top to bottom, each before what it is of; the device
-/// outlives the session by the guard that the session holds.
+/// A session. Its parts are dropped from top to bottom, each before the part that it depends on; the device outlives the session by the
+/// guard that the session holds.
 pub(super) struct Live {
     pub stream: xr::FrameStream<xr::Vulkan>,
     pub waiter: xr::FrameWaiter,
     pub images: Images,
     pub head: xr::Space,
-    /// The gaze that an inset goes with.
+    /// Space of the gaze that an inset follows.
     pub gaze: Option<xr::Space>,
     pub stage: Stage,
     pub actions: Actions,
@@ -48,26 +48,26 @@ pub(super) struct Live {
     pub name: String,
     pub blend: xr::EnvironmentBlendMode,
     pub masks: [Mask; 2],
-    /// Those of the display, Hz; empty without a choice.
+    /// The display's rates, Hz; empty without a choice.
     pub rates: Vec<f32>,
-    /// Runtime's last word on the session.
+    /// The last state that the runtime reported.
     pub state: SessionState,
-    /// Between xrBeginSession and xrEndSession.
+    /// Whether it is between xrBeginSession and xrEndSession.
     pub running: bool,
-    /// The runtime wants the session to go.
+    /// Whether the runtime wants the session to end.
     pub ended: bool,
-    /// Someone wears the headset, as far as is known.
+    /// Whether somebody wears the headset, as far as is known.
     pub present: bool,
-    /// When the stage will have moved.
+    /// The time from which on the stage will have moved.
     pub moves_at: Option<xr::Time>,
-    /// The head has been seen in this session.
+    /// Whether the head has been located in this session.
     pub seen: bool,
-    /// The head's place has been known in this session, and is not known in this frame.
+    /// Whether the head's position has been known in this session, and is not known in this frame.
     pub placed: bool,
     pub lost: bool,
-    /// Frames in which nothing but its orientation was.
+    /// Frames in which only its orientation was known.
     pub turning: u32,
-    /// How much less than all there is a frame is shown with beside its picture (`layers`).
+    /// Index of the first combination of extras that is tried for a frame (`layers`).
     pub rung: usize,
     /// Calls that were refused.
     pub refusals: Refusals,
@@ -77,7 +77,7 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Everything from the instance on, or nothing.
+    /// Makes everything from the instance on, or nothing.
     pub(super) fn start(entry: &xr::Entry, options: &OpenXrOptions) -> Result<Self, CallFailure> {
         let instance = system::instance(entry, options.gaze, options.inset)?;
         let mut headset = system::headset(&instance, options.inset)?;
@@ -168,7 +168,7 @@ impl Live {
 
     /// Waits for the next frame and begins it.
     pub(super) fn begin(&mut self) -> Result<Begun, CallFailure> {
-        // One that was waited for and not begun comes first: the runtime gives no other before.
+        // A frame that was waited for and has not begun comes first: the runtime gives no other before.
         let frame = match self.waited {
             Some(frame) => frame,
             None => {
@@ -209,15 +209,15 @@ impl Live {
 
 impl Drop for Live {
     fn drop(&mut self) {
-        // Both fail on a session that is lost, where nothing is left to be ended.
+        // Both fail on a lost session, where nothing is left to end.
         let _ = self.end_empty();
         // The swapchains' images go next.
         let _ = self.gpu.wait_idle();
     }
 }
 
-/// Asks for the rate next to [`RATE`], where there is a choice and the display is slower; a refusal leaves it as it is. Gives
-/// those that there are.
+/// Asks for the rate next to [`RATE`], where there is a choice and the display is slower; a refusal leaves it as it is. Returns the rates
+/// that there are.
 fn choose_rate(session: &xr::Session<xr::Vulkan>) -> Vec<f32> {
     if session.instance().exts().fb_display_refresh_rate.is_none() {
         return Vec::new();

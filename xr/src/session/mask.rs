@@ -1,4 +1,4 @@
-//! What no eye sees (XR_KHR_visibility_mask).
+//! The part of a picture that no eye sees (XR_KHR_visibility_mask).
 
 use openxr as xr;
 
@@ -10,12 +10,12 @@ use crate::Fov;
 pub(super) struct Mask(Vec<[f32; 2]>);
 
 impl Mask {
-    /// Of the left and the right eye. An inset has none: lenses hide little of the middle, and it may lie elsewhere in each frame.
+    /// Masks of the left and the right eye. An inset has none: lenses hide little of the middle, and it may lie elsewhere in each frame.
     pub(super) fn of_eyes(session: &xr::Session<xr::Vulkan>, views: Views) -> [Self; 2] {
         [0, 1].map(|eye| Self::of(session, views, eye))
     }
 
-    /// Empty where the runtime has none.
+    /// The mask of one eye; empty where the runtime has none.
     fn of(session: &xr::Session<xr::Vulkan>, views: Views, eye: u32) -> Self {
         if session.instance().exts().khr_visibility_mask.is_none() {
             return Self::default();
@@ -25,7 +25,7 @@ impl Mask {
             eye,
             xr::VisibilityMaskTypeKHR::HIDDEN_TRIANGLE_MESH,
         );
-        // Without it the whole picture is drawn, which is as right.
+        // Without a mask the whole picture is drawn, which is as right.
         let Ok(mask) = mask else {
             return Self::default();
         };
@@ -38,7 +38,7 @@ impl Mask {
         Self(corners)
     }
 
-    /// In the picture of an eye with this field of view: 0 to 1 from the upper left.
+    /// The mask in the picture of an eye with this field of view: 0 to 1 from the upper left.
     pub(super) fn in_picture(&self, fov: &Fov) -> Vec<[f32; 2]> {
         let [left, right, up, down] = [fov.left, fov.right, fov.up, fov.down].map(f32::tan);
         self.0

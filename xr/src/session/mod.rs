@@ -40,21 +40,21 @@ const IDLE: std::time::Duration = std::time::Duration::from_millis(50);
 /// Tries at another device after one was lost: with their waits half a minute.
 const TRIES: u32 = 10;
 
-/// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and what else the runtime
-/// offers of local_floor, composition_layer_depth, visibility_mask, display_refresh_rate,
-/// hand_interaction, hand_tracking, user_presence, quad_views, foveated_rendering and Pico's controllers.
+/// A headset through OpenXR: API 1.0 with XR_KHR_vulkan_enable2, and those of local_floor, composition_layer_depth, visibility_mask,
+/// display_refresh_rate, hand_interaction, hand_tracking, user_presence, quad_views, foveated_rendering and Pico's controllers that the
+/// runtime offers.
 pub struct OpenXr {
     options: OpenXrOptions,
     entry: xr::Entry,
     /// `None` while there is no runtime.
     live: Option<Live>,
-    /// When to look for the runtime again.
+    /// Times of the tries to find the runtime again.
     seek: Seek,
-    /// The program has asked for the end.
+    /// Whether the program has asked for the end.
     leaving: bool,
     /// Why the session was lost in the middle of a frame.
     lost: Option<String>,
-    /// How often to look for a device again that there is none of: a driver that lost one may need a while.
+    /// Tries that are left at a device where there is none: a driver that lost one may need a while.
     patience: u32,
     // Readable without a session too.
     gpu: Gpu,
@@ -70,12 +70,12 @@ pub struct OpenXr {
 }
 
 impl OpenXr {
-    /// Finds runtime and headset, and has the runtime open the device. While the headset is switched off it is looked for
-    /// again, as long as `waits` says so, which is told what to do.
+    /// Finds runtime and headset, and has the runtime open the device. While the headset is switched off it tries again, as long as
+    /// `waits` returns true; `waits` gets the remedy.
     ///
     /// # Errors
-    /// [`HeadsetError::NoRuntime`] where loader, runtime or headset are absent, with the remedy;
-    /// else what the runtime or the device refused.
+    /// [`HeadsetError::NoRuntime`] where loader, runtime or headset are absent, with the remedy; otherwise the refusal of the runtime or
+    /// the device.
     pub fn open(
         options: OpenXrOptions,
         mut waits: impl FnMut(&str) -> bool,
@@ -124,7 +124,7 @@ impl OpenXr {
         self.live.as_ref().is_some_and(|live| live.running)
     }
 
-    /// Another try at the runtime, if it is time for one.
+    /// Tries the runtime again, if it is time for a try.
     fn seek(&mut self) -> Result<Turn, HeadsetError> {
         let again = |cause: String| Ok(Turn::Lost { cause });
         if !self.seek.wait(IDLE) {
@@ -156,7 +156,7 @@ impl OpenXr {
         }
     }
 
-    /// One turn of a live session. What the runtime refuses, the frame is without.
+    /// One turn of a live session. The frame goes on without calls that the runtime refuses.
     fn turn(&mut self) -> Result<Turn, CallFailure> {
         let paused = |cause| Ok(Turn::Paused { cause });
         let Some(live) = &mut self.live else {
@@ -249,8 +249,8 @@ impl OpenXr {
         );
     }
 
-    /// What a call in the middle of a frame gave; `None` where the runtime refused it. A loss is kept for the next turn,
-    /// which reports it.
+    /// The result of a call in the middle of a frame; `None` where the runtime refused it. A loss is kept for the next turn, which reports
+    /// it.
     fn settle<T>(&mut self, result: Result<T, CallFailure>) -> Result<Option<T>, HeadsetError> {
         let borne = match &mut self.live {
             Some(live) => live.refusals.bear(result),
@@ -403,12 +403,12 @@ impl Headset for OpenXr {
     }
 }
 
-/// Frames with nothing but the head's orientation after which a session begins all the same: two seconds at 90 Hz. Some
-/// headsets never know more.
+/// Frames with nothing but the head's orientation after which a session begins all the same: two seconds at 90 Hz. Some headsets never
+/// report more.
 const TURNS: u32 = 180;
 
-/// The head at the frame's display time; what is not known of it stays. Whether it has been seen in this session: before
-/// that, nothing that is drawn or placed would be where it is meant to be.
+/// Locates the head at the frame's display time; parts that are not known keep their values. Returns whether it has been located in this
+/// session: before that, nothing that is drawn or placed would be where it is meant to be.
 fn find_head(live: &mut Live, begun: Begun, head: &mut Pose) -> Result<bool, CallFailure> {
     let found = live
         .head
@@ -424,7 +424,7 @@ fn find_head(live: &mut Live, begun: Begun, head: &mut Pose) -> Result<bool, Cal
     Ok(live.seen)
 }
 
-/// Of hands of which nothing is known now; their poses stay.
+/// Marks both hands as unknown; their poses stay.
 fn asleep(hands: &mut [Hand; 2]) {
     for hand in hands {
         hand.active = false;

@@ -12,7 +12,7 @@ pub(super) struct Runtime<'a> {
     instance: &'a xr::Instance,
     system: xr::SystemId,
     options: &'a OpenXrOptions,
-    /// The loader's entry point, known once the entry is.
+    /// The loader's entry point, once the loader is loaded.
     loader: Option<vk::PFN_vkGetInstanceProcAddr>,
 }
 
@@ -45,7 +45,7 @@ impl<'a> Runtime<'a> {
     }
 }
 
-/// For `map_err`: the runtime's answer to a step of making the device.
+/// For `map_err`: the runtime's refusal of a step of making the device.
 fn refused<E: std::fmt::Display>(step: &'static str) -> impl Fn(E) -> GpuError {
     move |cause| GpuError::Provider {
         provider: "the OpenXR runtime".to_owned(),

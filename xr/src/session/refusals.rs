@@ -1,4 +1,4 @@
-//! Calls of a frame that the runtime refused: each is said once, and the session goes on.
+//! Calls of a frame that the runtime refused: each is logged once, and the session goes on.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::HeadsetError;
 /// Frames in a row with a refused call after which the session is made anew: two thirds of a second at 90 Hz.
 const MOST: u32 = 60;
 
-/// Calls of a session with an inset that may be refused for its sake.
+/// Calls of a session with an inset that a runtime may refuse because of the inset.
 const OF_VIEWS: [&str; 6] = [
     "xrBeginSession",
     "xrLocateViews",
@@ -18,11 +18,11 @@ const OF_VIEWS: [&str; 6] = [
     "xrEndFrame",
 ];
 
-/// See the module.
+/// Refused calls of one session, and whether they have become too many.
 #[derive(Debug, Default)]
 pub(super) struct Refusals {
     said: BTreeSet<&'static str>,
-    /// Frames in a row that had one.
+    /// Frames in a row that had a refused call.
     row: u32,
     in_frame: bool,
     /// The call that was refused too often for this session to go on.
@@ -30,8 +30,8 @@ pub(super) struct Refusals {
 }
 
 impl Refusals {
-    /// `None` where the call was refused: the frame goes on without what it was to give. A loss is passed on, and so are
-    /// refusals that do not end, as one.
+    /// `None` where the call was refused: the frame goes on without its result. A loss is returned, and so are refusals in more than
+    /// [`MOST`] frames in a row, as a loss.
     pub(super) fn bear<T>(
         &mut self,
         result: Result<T, CallFailure>,
@@ -52,19 +52,18 @@ impl Refusals {
         }
     }
 
-    /// The session is to be made anew since that call is refused.
+    /// Gives up this session, since `call` is always refused: it is to be made anew.
     pub(super) fn give_up(&mut self, call: &'static str, cause: &str) -> CallFailure {
         self.gave_up = Some(call);
         CallFailure::Lost(format!("{call} is always refused: {cause}"))
     }
 
-    /// Whether this session ended over a call that depends on how many views there are. Others would be refused without an
-    /// inset as well.
+    /// Whether this session ended because of a call that depends on the number of views. Others would be refused without an inset as well.
     pub(super) fn gave_up_on_views(&self) -> bool {
         self.gave_up.is_some_and(|call| OF_VIEWS.contains(&call))
     }
 
-    /// A frame begins.
+    /// Begins a frame.
     pub(super) fn begin(&mut self) {
         if !std::mem::take(&mut self.in_frame) {
             self.row = 0;
@@ -100,7 +99,7 @@ mod tests {
             refusals.begin();
             matches!(refusals.bear(refused()), Err(CallFailure::Lost(_)))
         });
-        // The last of the frames before had one, too.
+        // The last of the frames before had a refused call, too.
         assert!(
             lost.is_some_and(|lost| lost.abs_diff(MOST) <= 2),
             "{lost:?}"

@@ -23,15 +23,14 @@ impl Seek {
         }
     }
 
-    /// Waits for the next try, `longest` at most. Whether it is due; then the one after it is
-    /// due twice as late.
+    /// Waits for the next try, `longest` at most. Returns whether it is due; then the one after it is due twice as late.
     pub(super) fn wait(&mut self, longest: Duration) -> bool {
         let (time, due) = self.plan(Instant::now(), longest);
         std::thread::sleep(time);
         due
     }
 
-    /// How long to wait from `now` on, and whether the try is due then.
+    /// The time to wait from `now` on, and whether the try is due then.
     fn plan(&mut self, now: Instant, longest: Duration) -> (Duration, bool) {
         let left = self.due.saturating_duration_since(now);
         if left > longest {

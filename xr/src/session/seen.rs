@@ -18,19 +18,19 @@ const OPEN: f32 = 0.05;
 /// A tracker for each hand.
 pub(super) struct Seen([xr::HandTracker; 2]);
 
-/// What controllers are called that are bare hands.
+/// Part of the names of interaction profiles for bare hands.
 const BARE: &str = "hand_interaction";
 
 impl Seen {
     /// `None` where the runtime tracks no hands.
     pub(super) fn new(instance: &xr::Instance, session: &xr::Session<xr::Vulkan>) -> Option<Self> {
         instance.exts().ext_hand_tracking?;
-        // A system without hand tracking refuses here, and there is nothing else to do.
+        // A system without hand tracking refuses here, which is no error.
         let tracker = |hand| session.create_hand_tracker(hand).ok();
         Some(Self([tracker(xr::Hand::LEFT)?, tracker(xr::Hand::RIGHT)?]))
     }
 
-    /// The hand's joints, if it is bare and all of them are known; fills `hand` in where no profile serves.
+    /// The hand's joints, if it is bare and all of them are known; sets grip and trigger of `hand` where no profile does.
     pub(super) fn read(
         &self,
         stage: &xr::Space,
@@ -38,7 +38,7 @@ impl Seen {
         side: Side,
         hand: &mut Hand,
     ) -> Result<Option<Joints>, CallFailure> {
-        // A runtime may make joints up from the controller.
+        // A runtime may derive joints from the controller.
         if hand.active && !hand.profile.contains(BARE) {
             return Ok(None);
         }
@@ -74,7 +74,7 @@ impl Seen {
     }
 }
 
-/// Where all joints are, and their radii; `None` where one is not known.
+/// Positions and radii of all joints; `None` where one is not known.
 fn places(joints: &xr::HandJointLocations) -> Option<Joints> {
     let mut places = [(Vec3::ZERO, 0.0); 26];
     for (place, joint) in places.iter_mut().zip(joints) {

@@ -1,4 +1,4 @@
-//! The stage: which reference space it is.
+//! The stage: its reference space.
 
 use openxr as xr;
 
@@ -11,9 +11,8 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    /// LOCAL_FLOOR, else STAGE, else LOCAL. The first is where the user has recentred to; STAGE is the play area's, which
-    /// may lie metres away; the origin of LOCAL is where the eyes were: there the floor is not known, and the bench is placed
-    /// by the head.
+    /// LOCAL_FLOOR, else STAGE, else LOCAL. The first is where the user has recentred to; STAGE is the play area's, which may lie metres
+    /// away; the origin of LOCAL is the eyes' first place: its floor is not known, and the bench is placed by the head.
     pub(super) fn new(session: &xr::Session<xr::Vulkan>) -> Result<Self, CallFailure> {
         let offered = session
             .enumerate_reference_spaces()

@@ -1,4 +1,4 @@
-//! Instance and headset: what is asked of the runtime before there is a device.
+//! Instance and headset: queries of the runtime before there is a device.
 
 use openxr as xr;
 
@@ -6,16 +6,16 @@ use super::convert::{CallFailure, failed};
 use super::views::Views;
 use crate::{HeadsetError, probe};
 
-/// What is done without where a runtime refuses quad views.
+/// Name of the inset, in the warning that the session goes on without it.
 pub(super) const INSET: &str = "an inset in each eye's picture (quad views)";
 
-/// What the runtime says of the headset that is connected.
+/// Properties of the connected headset, from the runtime.
 pub(super) struct ConnectedHeadset {
     pub system: xr::SystemId,
     pub views: Views,
     /// Recommended size of each eye's picture, pixels.
     pub extent: [u32; 2],
-    /// The same of the inset's.
+    /// Recommended size of each picture of the inset, pixels; `None` without an inset.
     pub inset: Option<[u32; 2]>,
     pub blend: xr::EnvironmentBlendMode,
 }
@@ -25,8 +25,8 @@ pub(super) fn entry() -> Result<xr::Entry, HeadsetError> {
     crate::entry::entry().map_err(|remedy| HeadsetError::NoRuntime { remedy })
 }
 
-/// An instance with the extensions of ours that the runtime offers, those of gaze and inset only where they are asked for, and
-/// without the latter where the runtime then makes one.
+/// An instance with those of our extensions that the runtime offers, those of gaze and inset only where they are asked for. If the runtime
+/// then makes none, it is made without those of the inset.
 pub(super) fn instance(
     entry: &xr::Entry,
     gaze: bool,
@@ -44,7 +44,7 @@ pub(super) fn instance(
     wanted.ext_local_floor = offered.ext_local_floor;
     wanted.ext_eye_gaze_interaction = gaze && offered.ext_eye_gaze_interaction;
     wanted.varjo_quad_views = inset && offered.varjo_quad_views;
-    // It is of no use without the other.
+    // It is of no use without quad views.
     wanted.varjo_foveated_rendering = wanted.varjo_quad_views && offered.varjo_foveated_rendering;
     wanted.ext_hand_interaction = offered.ext_hand_interaction;
     wanted.ext_hand_tracking = offered.ext_hand_tracking;
@@ -54,7 +54,7 @@ pub(super) fn instance(
     let create =
         |wanted: &xr::ExtensionSet| entry.create_instance(&probe::application(), wanted, &[], &());
     let refusal = match create(&wanted) {
-        // A runtime that cannot be reached just then says nothing of extensions.
+        // A runtime that cannot be reached just then returns no extensions.
         Err(answer)
             if wanted.varjo_quad_views && answer != xr::sys::Result::ERROR_RUNTIME_UNAVAILABLE =>
         {
@@ -65,7 +65,7 @@ pub(super) fn instance(
     wanted.varjo_quad_views = false;
     wanted.varjo_foveated_rendering = false;
     let made = create(&wanted).map_err(absent)?;
-    // Not `failed`: that takes some answers for a loss, and here the runtime is there.
+    // Not `failed`: that takes some codes for a loss, and here the runtime is there.
     CallFailure::Fatal(HeadsetError::Refused {
         call: "xrCreateInstance",
         cause: refusal.to_string(),

@@ -1,7 +1,7 @@
 //! Which views a session has: two, or two and an inset in each.
 //!
 //! The inset is the runtime's own foveation (XR_VARJO_quad_views, which later became OpenXR's own "stereo with foveated inset"). Where
-//! XR_VARJO_foveated_rendering is offered too it goes with the gaze, which the runtime has at first hand; else, and while the gaze is
+//! XR_VARJO_foveated_rendering is offered too it follows the gaze, which the runtime has at first hand; otherwise, and while the gaze is
 //! lost, it is where the runtime puts it.
 
 use openxr as xr;
@@ -13,14 +13,14 @@ use crate::HeadsetError;
 /// Views of a session with an inset: the left and the right eye's, then the left and the right inset.
 const QUAD: usize = 4;
 
-/// See the module.
+/// The views of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Views {
     /// The left and the right eye.
     Stereo,
-    /// The same, and an inset of each.
+    /// The left and the right eye, and an inset in each.
     Quad {
-        /// Whether it goes with the gaze.
+        /// Whether the inset follows the gaze.
         follows: bool,
     },
 }
@@ -46,7 +46,7 @@ impl Views {
         })
     }
 
-    /// As OpenXR names them.
+    /// The view configuration's type in OpenXR.
     pub(super) fn kind(self) -> xr::ViewConfigurationType {
         match self {
             Self::Stereo => xr::ViewConfigurationType::PRIMARY_STEREO,
@@ -54,7 +54,7 @@ impl Views {
         }
     }
 
-    /// Recommended width and height of both pictures of a pair, pixels, and the same of the inset's.
+    /// Recommended width and height of both pictures of a pair, pixels, first of the eyes, then of the inset.
     pub(super) fn extents(
         self,
         instance: &xr::Instance,
@@ -78,8 +78,8 @@ impl Views {
         Ok(extents)
     }
 
-    /// The space by which it is known whether the runtime has the gaze that the inset goes with; `None` where the inset goes with
-    /// none, and where the runtime refuses the space.
+    /// The space that shows whether the runtime has the gaze that the inset follows; `None` where the inset follows none, and where the
+    /// runtime refuses the space.
     pub(super) fn gaze(self, session: &xr::Session<xr::Vulkan>) -> Option<xr::Space> {
         if self != (Self::Quad { follows: true }) {
             return None;
@@ -92,7 +92,7 @@ impl Views {
         .ok()
     }
 
-    /// All of them in `space` at that time. The inset follows the `gaze` while that is tracked in the head's space.
+    /// Locates all views in `space` at that time. The inset follows the `gaze` while that is tracked in the head's space.
     pub(super) fn locate(
         self,
         session: &xr::Session<xr::Vulkan>,
@@ -148,7 +148,7 @@ fn common(left: &xr::ViewConfigurationView, right: &xr::ViewConfigurationView) -
     ]
 }
 
-/// Whether the headset lets the inset go with the gaze.
+/// Whether the headset supports an inset that follows the gaze.
 fn follows(instance: &xr::Instance, system: xr::SystemId) -> bool {
     if instance.exts().varjo_foveated_rendering.is_none() {
         return false;
@@ -167,7 +167,7 @@ fn follows(instance: &xr::Instance, system: xr::SystemId) -> bool {
     answer.into_raw() >= 0 && foveated.supports_foveated_rendering.into()
 }
 
-/// [`xr::Instance::enumerate_view_configuration_views`] with the sizes for an inset that goes with the gaze.
+/// [`xr::Instance::enumerate_view_configuration_views`] with the sizes for an inset that follows the gaze.
 fn foveated_sizes(
     instance: &xr::Instance,
     system: xr::SystemId,
@@ -190,8 +190,8 @@ fn foveated_sizes(
         max_swapchain_sample_count: 0,
     });
     let mut count = 0;
-    // SAFETY: instance and system are the runtime's, and there is room for as many views as are said. Each has a structure of
-    // its own chained to it, of an extension that is on, which lives through the call.
+    // SAFETY: instance and system are the runtime's, and there is room for as many views as are stated. Each has a structure of its own
+    // chained to it, of an extension that is on, which lives through the call.
     let answer = unsafe {
         (instance.fp().enumerate_view_configuration_views)(
             instance.as_raw(),
@@ -218,8 +218,7 @@ fn foveated_sizes(
         .collect())
 }
 
-/// Whether the runtime has the gaze at that time, as XR_VARJO_foveated_rendering lets a program find out. A runtime that cannot
-/// say has not.
+/// Whether the runtime has the gaze at that time, by the rule of XR_VARJO_foveated_rendering. A runtime that refuses the query has not.
 fn is_tracked(gaze: &xr::Space, head: &xr::Space, time: xr::Time) -> bool {
     gaze.locate(head, time).is_ok_and(|found| {
         found
@@ -228,7 +227,7 @@ fn is_tracked(gaze: &xr::Space, head: &xr::Space, time: xr::Time) -> bool {
     })
 }
 
-/// [`xr::Session::locate_views`] with an inset that goes with the gaze while that is `active`.
+/// [`xr::Session::locate_views`] with an inset that follows the gaze while that is `active`.
 ///
 /// Pictures have the sizes of the active state at all times, since swapchains keep theirs: while the gaze is lost the inset, which
 /// is wider then, has fewer pixels for each degree.
@@ -263,8 +262,8 @@ fn locate_foveated(
         fov: xr::Fovf::default(),
     }; QUAD];
     let mut count = 0;
-    // SAFETY: session and space are the runtime's, what is chained is of an extension that is on and lives through the call, and
-    // there is room for as many views as are said.
+    // SAFETY: session and space are the runtime's, the chained structure is of an extension that is on and lives through the call, and
+    // there is room for as many views as are stated.
     let answer = unsafe {
         (session.instance().fp().locate_views)(
             session.as_raw(),

@@ -1,5 +1,5 @@
-//! What a track's file may hold beside the track, for viewers: points, a film, measurements. A reader of tracks passes over
-//! it, but for what was found in a session.
+//! Data that a track's file may hold beside the track, for viewers: points, a film, measurements. A reader of tracks skips them, except
+//! events and progress.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use super::{TrackError, TrackWriter, descriptor, encode, limits, names};
 /// Bytes after which a chunk ends.
 const LONGEST_CHUNK: usize = 8 << 20;
 
-/// Of one moment.
+/// Data of one moment.
 #[derive(Clone, Copy, Debug)]
 pub enum Annex<'a> {
     /// Points in the stage, m, on `/particles`: rows of as many numbers as there are names, of which the first three are
@@ -35,14 +35,14 @@ pub enum Annex<'a> {
         /// Its JSON schema.
         schema: &'a str,
     },
-    /// Something that was found in the session, on `/events`: see [`Track::events`](super::Track::events).
+    /// An event of the session, on `/events`: see [`Track::events`](super::Track::events).
     Event {
         /// An object, as JSON.
         json: &'a str,
         /// Its JSON schema.
         schema: &'a str,
     },
-    /// Something that was said of a lesson, on `/lesson`: see [`Track::progress`](super::Track::progress).
+    /// A change in the session's lesson, on `/lesson`: see [`Track::progress`](super::Track::progress).
     Progress {
         /// An object, as JSON.
         json: &'a str,
@@ -121,7 +121,7 @@ fn points(time_ns: i64, fields: &[&str], rows: &[f32]) -> PointCloud {
     PointCloud {
         timestamp: Some(encode::timestamp(time_ns)),
         frame_id: names::STAGE.into(),
-        pose: Some(super::message::Pose {
+        pose: Some(super::message::PoseMessage {
             position: Some(Vector3 {
                 x: Some(0.0),
                 y: Some(0.0),
@@ -141,25 +141,25 @@ fn points(time_ns: i64, fields: &[&str], rows: &[f32]) -> PointCloud {
 }
 
 impl TrackWriter {
-    /// Adds `annex` at a time of the track. It does not count among what a reader takes at most: a file that holds much of
-    /// it may be too long for one.
+    /// Adds `annex` at a time of the track. It does not count towards the limits of a reader: a file that holds much of it may be too long
+    /// for one.
     ///
     /// # Errors
-    /// [`TrackError::Full`] where so much waits for the disk that it is not taken, [`TrackError::Io`] after the end.
+    /// [`TrackError::Full`] where too much waits for the disk, so that it is not taken; [`TrackError::Io`] after the end.
     pub fn add(&mut self, time_ns: i64, annex: &Annex<'_>) -> Result<(), TrackError> {
         self.make_room()?;
         let added = self.put_annex(time_ns, annex);
         let bytes = added.map_err(|error| self.failed(error))?;
         self.annexed += bytes;
         self.annexed_in_all += bytes as u64;
-        // A reader takes chunks up to a length.
+        // Readers accept chunks up to a length.
         if self.annexed > LONGEST_CHUNK {
             self.flush()?;
         }
         Ok(())
     }
 
-    /// Whether a reader of tracks takes the file, as far as its length goes.
+    /// Whether the file is short enough for a reader of tracks.
     pub fn fits_a_reader(&self) -> bool {
         let unpacked = self.bytes + self.annexed_in_all;
         self.file_bytes() <= limits::FILE && unpacked <= limits::RECORDS / 2

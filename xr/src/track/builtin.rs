@@ -34,7 +34,7 @@ pub fn text(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Where the built-in track's text comes from, for messages.
+/// File name of a built-in track, for messages.
 pub(super) fn file(name: &str) -> PathBuf {
     PathBuf::from(format!("tracks/{name}.toml"))
 }

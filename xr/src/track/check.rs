@@ -1,4 +1,4 @@
-//! What a frame must satisfy, asked alike by who writes and by who reads.
+//! Requirements of a frame, checked alike by writer and reader.
 
 use std::path::Path;
 
@@ -203,7 +203,7 @@ fn field_of_view(fov: &Fov, view: usize) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// Whether there are at most so many.
+/// Checks that there are at most `most`.
 pub fn at_most(topic: &str, field: &str, count: usize, most: usize) -> Result<(), Flaw> {
     if count <= most {
         return Ok(());
@@ -216,7 +216,7 @@ pub fn at_most(topic: &str, field: &str, count: usize, most: usize) -> Result<()
     ))
 }
 
-/// Whether a switch's texts are short.
+/// Checks that a switch's texts are short.
 pub fn switch_texts(key: &str, value: &str) -> Result<(), Flaw> {
     at_most(names::SCENARIO, "length of key", key.len(), limits::TEXT)?;
     at_most(
@@ -227,13 +227,13 @@ pub fn switch_texts(key: &str, value: &str) -> Result<(), Flaw> {
     )
 }
 
-/// Whether a track has few enough switches and frames.
+/// Checks that a track has few enough switches and frames.
 pub fn totals(switches: usize, frames: usize) -> Result<(), Flaw> {
     at_most(names::SCENARIO, "switches", switches, limits::SWITCHES)?;
     at_most(names::FRAME, "frames", frames, limits::FRAMES)
 }
 
-/// Whether a writer's messages stay below what is read, indices and all.
+/// Checks that a writer's messages stay below the reader's limit, indices and all.
 pub fn unpacked(bytes: u64) -> Result<(), Flaw> {
     let megabytes = |bytes: u64| (bytes >> 20) as usize;
     let (count, most) = (megabytes(bytes), megabytes(limits::RECORDS / 2));

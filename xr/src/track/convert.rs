@@ -4,14 +4,14 @@ use std::path::Path;
 
 use super::{Annex, Existing, Keyframes, Track, TrackError, TrackWriter, Written, builtin};
 
-/// JSON schema of what was found in a session and said of its lesson, where a track is written again: its reader alone knows more.
+/// JSON schema of events and progress where a track is written again: any object.
 const ANY_OBJECT: &str = r#"{"type":"object"}"#;
 
 /// The track of that name: a built-in one, else a file, keyframes where its name ends in
 /// `.toml` and MCAP otherwise.
 ///
 /// # Errors
-/// [`TrackError::Unknown`] where it is neither; else what is wrong with the file.
+/// [`TrackError::Unknown`] where it is neither; otherwise the error of the file.
 pub fn load(name: &str) -> Result<Track, TrackError> {
     if let Some(text) = builtin::text(name) {
         return Ok(Keyframes::parse(text, &builtin::file(name))?.sample_track());
@@ -32,10 +32,10 @@ pub fn load(name: &str) -> Result<Track, TrackError> {
     Track::open(file)
 }
 
-/// Writes `track` to the MCAP file `output`. What a failed write leaves is removed.
+/// Writes `track` to the MCAP file `output`. The remains of a failed write are removed.
 ///
 /// # Errors
-/// What [`TrackWriter`] returns.
+/// Those of [`TrackWriter`].
 pub fn save(track: &Track, output: &Path, existing: Existing) -> Result<Written, TrackError> {
     let writer = TrackWriter::create(output, &track.metadata, existing)?;
     let written = fill(writer, track);

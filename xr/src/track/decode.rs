@@ -28,7 +28,7 @@ impl Partial {
             names::TF => once(topic, &mut self.transforms, data),
             names::FRAME => once(topic, &mut self.frame, data),
             names::SCENARIO => {
-                let message: message::Switch = parse(topic, data)?;
+                let message: message::SwitchMessage = parse(topic, data)?;
                 let switch = Switch {
                     key: message.key.unwrap_or_default(),
                     value: message.value.unwrap_or_default(),
@@ -136,7 +136,7 @@ fn hand(
 
 fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
     let views = frame.fov.len();
-    let fov = <&[message::Fov; 2]>::try_from(&frame.fov[..]).map_err(|_| {
+    let fov = <&[message::FovMessage; 2]>::try_from(&frame.fov[..]).map_err(|_| {
         Flaw::new(
             names::FRAME,
             "fov",
@@ -166,7 +166,7 @@ fn frame_info(frame: message::Frame) -> Result<FrameInfo, Flaw> {
     })
 }
 
-/// A frame's own transforms by what they are of.
+/// A frame's own transforms by the name of the child frame.
 type ByChild<'a> = BTreeMap<&'a str, &'a FrameTransform>;
 
 fn by_child(transforms: &[FrameTransform]) -> Result<ByChild<'_>, Flaw> {
@@ -192,7 +192,7 @@ fn by_child(transforms: &[FrameTransform]) -> Result<ByChild<'_>, Flaw> {
     Ok(by_child)
 }
 
-/// Whether a track has the transform of this name, which other programs leave alone.
+/// Whether a transform of this name is one of a track's, which other programs must not use.
 fn is_ours(child: &str) -> bool {
     let hands = names::GRIP.iter().chain(&names::AIM);
     child == names::VIEW

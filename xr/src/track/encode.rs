@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::message::{
-    FrameTransform, FrameTransforms, Input, Quaternion, Switch, Timestamp, Vector3,
+    FrameTransform, FrameTransforms, Input, Quaternion, SwitchMessage, Timestamp, Vector3,
 };
 use super::{message, names};
 use crate::{Hand, Pose, PoseFrame, Side};
@@ -95,7 +95,7 @@ pub fn frame(frame: &PoseFrame) -> message::Frame {
             .info
             .fov
             .iter()
-            .map(|fov| message::Fov {
+            .map(|fov| message::FovMessage {
                 left: Some(fov.left),
                 right: Some(fov.right),
                 up: Some(fov.up),
@@ -107,8 +107,8 @@ pub fn frame(frame: &PoseFrame) -> message::Frame {
 }
 
 /// One switch, for `/scenario`.
-pub fn switch(switch: &crate::Switch) -> Switch {
-    Switch {
+pub fn switch(switch: &crate::Switch) -> SwitchMessage {
+    SwitchMessage {
         key: Some(switch.key.clone()),
         value: Some(switch.value.clone()),
     }

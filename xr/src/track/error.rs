@@ -1,4 +1,4 @@
-//! What can be wrong with a track.
+//! Errors of a track.
 
 use std::path::PathBuf;
 
@@ -14,12 +14,12 @@ pub enum TrackError {
     Io {
         /// The file.
         file: PathBuf,
-        /// What was tried.
+        /// The action that failed.
         action: &'static str,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
-    /// It is no file, too long a one, or cannot be read.
+    /// The path is no file, or the file is too long or cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
     /// The output is there already.
@@ -32,7 +32,7 @@ pub enum TrackError {
         /// The file.
         file: PathBuf,
     },
-    /// So much waits for the disk that a frame was not taken.
+    /// Too much waits for the disk, so that a frame was not taken.
     #[error("{file}: the disk is full, and what waits for it fills its memory; make room", file = file.display())]
     Full {
         /// The file.
@@ -76,7 +76,7 @@ pub enum TrackError {
         /// Name of the schema that the topic has in each track.
         expected: &'static str,
     },
-    /// A message holds what cannot be.
+    /// A message has an invalid value.
     #[error("{file}: {place}: {field} {problem}; {expected}", file = file.display())]
     Message {
         /// The file.
@@ -90,7 +90,7 @@ pub enum TrackError {
         /// What would be right.
         expected: String,
     },
-    /// The metadata record holds what cannot be.
+    /// The metadata record has an invalid value.
     #[error("{file}: metadata: {field} {problem}; {expected}", file = file.display())]
     Metadata {
         /// The file.
@@ -110,7 +110,7 @@ pub enum TrackError {
         /// Line, column, the line itself and what was expected.
         message: String,
     },
-    /// A keyframe file holds a value that cannot be.
+    /// A keyframe file has an invalid value.
     #[error("{file}:{line}: {field} {problem}; {expected}", file = file.display())]
     Keyframe {
         /// The file.
@@ -124,10 +124,10 @@ pub enum TrackError {
         /// What would be right.
         expected: String,
     },
-    /// Neither a built-in track nor a file.
+    /// The name is neither a built-in track's nor a file.
     #[error("{name}: neither a file nor a built-in track; built in are {builtin}")]
     Unknown {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// Names of the built-in tracks.
         builtin: String,

@@ -64,7 +64,7 @@ pub struct Keyframes {
     /// Frames a second; positive.
     pub rate_hz: f64,
     pub(super) head: KeyPath,
-    /// Left and right; no keys: no such hand.
+    /// Left and right; a hand without keys does not exist.
     pub(super) hands: [KeyPath; 2],
     /// Time (s) and switch, ascending.
     pub(super) scenario: Vec<(f64, Switch)>,
@@ -83,7 +83,7 @@ struct Document {
     rate_hz: Spanned<f64>,
     #[serde(default)]
     pivot: Pivot,
-    // Without any, the message says what a track needs.
+    // Without any, the message states what a track needs.
     #[serde(default)]
     head: Vec<Spanned<HeadKey>>,
     #[serde(default)]

@@ -1,5 +1,5 @@
-//! Whether the lengths that a record declares fit into it. mcap 0.26 reserves memory for a text as long as
-//! its length says, up to 4 GB, before it looks whether there is any of it.
+//! Checks that the lengths that a record declares fit into it. mcap 0.26 reserves memory for a text of the declared length, up to 4 GB,
+//! before it checks that the text is there.
 
 use mcap::MAGIC;
 use mcap::records::op;
@@ -24,12 +24,11 @@ pub(super) fn fit(opcode: u8, record: &[u8]) -> bool {
     fits.is_some()
 }
 
-/// Where the last chunk begins that a file does not hold the whole of, or else its end; `None` where a record of a chunk that
-/// is not compressed is longer than its chunk.
+/// Where the last chunk begins that is cut off by the end of a file, or else the file's end; `None` where a record of a chunk that is not
+/// compressed is longer than its chunk.
 ///
-/// mcap 0.26 subtracts each of these from what is left of the chunk without looking: a debug build panics, a release
-/// build goes on behind the chunk. In a compressed one it looks. A chunk without a checksum it unpacks before it has the
-/// whole of it.
+/// mcap 0.26 subtracts each of these from the rest of the chunk without a check: a debug build panics, a release build goes on behind the
+/// chunk. In a compressed chunk it checks. It unpacks a chunk without a checksum before it has the whole of it.
 pub(super) fn end_of_whole_chunks(file: &[u8]) -> Option<usize> {
     let mut records = Records(file.get(MAGIC.len()..).unwrap_or_default());
     for (opcode, content) in records.by_ref() {
@@ -50,7 +49,7 @@ fn holds_its_records(chunk: &[u8]) -> bool {
     let Some(name) = header.and_then(|length| rest.take(length)) else {
         return false;
     };
-    // The length of its records stands twice: here, which mcap believes, and by the chunk's own.
+    // The length of its records is there twice: here, which mcap uses, and as the rest of the chunk.
     let Some((length, records)) = rest.0.split_first_chunk::<8>() else {
         return false;
     };
@@ -59,7 +58,7 @@ fn holds_its_records(chunk: &[u8]) -> bool {
     fits && (!name.is_empty() || walked.sum::<usize>() == records.len())
 }
 
-/// Of a record, B: its kind and its length.
+/// Size of a record's header, B: its kind and its length.
 const RECORD_HEADER: usize = 9;
 
 /// Records, one after the other, as long as they are whole.
@@ -78,7 +77,7 @@ impl<'a> Iterator for Records<'a> {
     }
 }
 
-/// What of a record has not been walked over yet.
+/// The part of a record that has not been walked over yet.
 struct Rest<'a>(&'a [u8]);
 
 impl<'a> Rest<'a> {

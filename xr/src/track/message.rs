@@ -64,7 +64,7 @@ pub struct FrameTransforms {
 
 /// `foxglove.Pose`
 #[derive(Clone, PartialEq, Message)]
-pub struct Pose {
+pub struct PoseMessage {
     #[prost(message, optional, tag = "1")]
     pub position: Option<Vector3>,
     #[prost(message, optional, tag = "2")]
@@ -98,7 +98,7 @@ pub struct PointCloud {
     #[prost(string, tag = "2")]
     pub frame_id: String,
     #[prost(message, optional, tag = "3")]
-    pub pose: Option<Pose>,
+    pub pose: Option<PoseMessage>,
     #[prost(fixed32, tag = "4")]
     pub point_stride: u32,
     #[prost(message, repeated, tag = "5")]
@@ -147,7 +147,7 @@ pub struct Input {
 
 /// `vitriol.xr.Fov`
 #[derive(Clone, PartialEq, Message)]
-pub struct Fov {
+pub struct FovMessage {
     #[prost(float, optional, tag = "1")]
     pub left: Option<f32>,
     #[prost(float, optional, tag = "2")]
@@ -166,14 +166,14 @@ pub struct Frame {
     #[prost(int64, optional, tag = "2")]
     pub period_ns: Option<i64>,
     #[prost(message, repeated, tag = "3")]
-    pub fov: Vec<Fov>,
+    pub fov: Vec<FovMessage>,
     #[prost(enumeration = "crate::SessionState", optional, tag = "4")]
     pub session_state: Option<i32>,
 }
 
 /// `vitriol.xr.Switch`
 #[derive(Clone, PartialEq, Message)]
-pub struct Switch {
+pub struct SwitchMessage {
     #[prost(string, optional, tag = "1")]
     pub key: Option<String>,
     #[prost(string, optional, tag = "2")]

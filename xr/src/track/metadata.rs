@@ -1,4 +1,4 @@
-//! What a track says of itself: its metadata records, read and checked.
+//! A track's metadata records, read and checked.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -42,7 +42,7 @@ fn flawed(file: &Path, field: &str, problem: String, expected: &str) -> TrackErr
     }
 }
 
-/// Whether a metadata record has few texts, and short ones.
+/// Checks that a metadata record has few texts, and short ones.
 pub(super) fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), TrackError> {
     let longest = map
         .iter()
@@ -64,7 +64,7 @@ pub(super) fn short(map: &BTreeMap<String, String>, file: &Path) -> Result<(), T
     Ok(())
 }
 
-/// Whether a reader takes the scenes that a writer is given.
+/// Checks that a reader would accept the scenes that a writer gets.
 pub(super) fn check_carried(
     scenes: &BTreeMap<String, String>,
     file: &Path,

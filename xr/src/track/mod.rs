@@ -1,9 +1,8 @@
 //! Pose tracks: recordings of head, hands, inputs and switches in MCAP files, each message
 //! with the simulation step that consumed it.
 //!
-//! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which
-//! viewers draw without being told how. [`Keyframes`] is the short text form that people
-//! write, and [`builtin`] holds the tracks made from it.
+//! A track is opened by any MCAP viewer; `/tf` holds `foxglove.FrameTransforms`, which viewers draw without configuration. [`Keyframes`]
+//! is the short text form that people write, and [`builtin`] holds the tracks made from it.
 
 mod annex;
 pub mod builtin;
@@ -40,26 +39,25 @@ pub use write::{Existing, TrackWriter, Written};
 /// A whole pose track in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// What it was recorded with.
+    /// Scene, seed and parameters of its recording.
     pub metadata: TrackMetadata,
     /// The frames, steps and times strictly increasing; at least one.
     pub frames: Vec<PoseFrame>,
-    /// For each frame the recorded `stage_from_flask` of each flask; empty where a frame
-    /// recorded none. They are what the simulation answered, kept for comparison and for
-    /// viewers; a replay does not read them.
+    /// For each frame the recorded `stage_from_flask` of each flask; empty where a frame recorded none. They are results of the
+    /// simulation, kept for comparison and for viewers; a replay does not read them.
     pub stage_from_flasks: Vec<Vec<Pose>>,
-    /// The file had no end, as after a crash; all up to its last whole chunk was read.
+    /// Whether the file had no end, as after a crash, and was read up to its last whole chunk.
     pub recovered: bool,
-    /// What its recorder said at the end, such as the final state's hash; empty where it said nothing.
+    /// Results that its recorder wrote at the end, such as the final state's hash; empty where it wrote none.
     pub outcome: BTreeMap<String, String>,
-    /// What was found in the session, in the order in which it was said: time of the track (ns), and an object as JSON. Not what
-    /// was done, so a replay does not read it.
+    /// Events that were found in the session, in the order in which they were emitted: time of the track (ns), and an object as JSON. They
+    /// are results, so a replay does not read them.
     pub events: Vec<(i64, String)>,
-    /// Likewise what was said of a lesson that it goes through.
+    /// Changes in the session's lesson, likewise.
     pub progress: Vec<(i64, String)>,
 }
 
-/// Steps that a recording lacks: those between two of its frames.
+/// A gap in a recording: steps that are missing between two of its frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hole {
     /// The frame before it.
@@ -76,7 +74,7 @@ impl Track {
             .map_or(0.0, |frame| seconds(frame.time_ns))
     }
 
-    /// Where steps are missing, in their order.
+    /// The gaps, in their order.
     pub fn holes(&self) -> impl Iterator<Item = Hole> + '_ {
         let pairs = self.frames.windows(2).enumerate();
         pairs.filter_map(|(index, pair)| {
@@ -85,14 +83,14 @@ impl Track {
         })
     }
 
-    /// What of it is whole: all up to the first hole.
+    /// The whole beginning of the track, up to the first hole.
     #[must_use]
     pub fn up_to_the_first_hole(mut self) -> Self {
         let first = self.holes().next();
         if let Some(Hole { index, .. }) = first {
             self.frames.truncate(index + 1);
             self.stage_from_flasks.truncate(index + 1);
-            // What was said of the end is not true of this one, and what was found later is not of it.
+            // The outcome is that of the whole recording, and later events are not of this part.
             self.outcome.clear();
             let end = self.frames.last().map_or(0, |frame| frame.time_ns);
             self.events.retain(|(time_ns, _)| *time_ns <= end);
@@ -102,7 +100,7 @@ impl Track {
     }
 }
 
-/// What a track was recorded with.
+/// Scene, seed and parameters of a track's recording.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TrackMetadata {
     /// Name of the scene; empty where the track belongs to none.
@@ -113,7 +111,7 @@ pub struct TrackMetadata {
     pub parameters: BTreeMap<String, String>,
     /// Version of the program that recorded.
     pub program_version: String,
-    /// Texts of the scenes that it may bring up, by name; empty of a track that is no recording.
+    /// Texts of the scenes that it may start, by name; empty for a track that is no recording.
     pub scenes: BTreeMap<String, String>,
 }
 

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 use super::ease::Ease;
 use crate::{Hand, Pose};
 
-/// Stands for the interaction profile where no runtime gave one.
+/// Interaction profile of hands that no runtime provided.
 const PROFILE: &str = "/vitriol/keyframes";
 
 /// How far the aim is turned from the grip, about the grip's X: down from the thumb towards
@@ -20,15 +20,15 @@ const GRIP_FROM_AIM_PITCH: f32 = -std::f32::consts::FRAC_PI_4;
 pub struct Key {
     /// Time, s.
     pub t: f64,
-    /// Of the path's pivot in the stage frame, m.
+    /// Position of the path's pivot in the stage frame, m.
     pub position: DVec3,
-    /// Stage from the moved frame, a unit quaternion.
+    /// Rotation from the moved frame to the stage, a unit quaternion.
     pub rotation: DQuat,
-    /// 0..=1.
+    /// Squeeze, 0..=1.
     pub squeeze: f64,
-    /// 0..=1.
+    /// Trigger, 0..=1.
     pub trigger: f64,
-    /// Of the movement that arrives here.
+    /// Course of the movement that arrives here.
     pub ease: Ease,
 }
 

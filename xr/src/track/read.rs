@@ -1,11 +1,9 @@
 //! Reads a track.
 //!
-//! One pass over the records, with every checksum verified, rather than the summary first
-//! and the messages by index: the summary is written last, so that a recording that crashed
-//! has none, and a pass that must work without it works with it too. What tells a crash from
-//! damage is the magic number at the file's end. Where it is, the file was finished, and any
-//! record that is short or fails its checksum is damage. Where it is not, the recording was
-//! cut off, and all whole chunks before the cut count.
+//! One pass over the records, with every checksum verified, rather than the summary first and the messages by index: the summary is
+//! written last, so that a recording that crashed has none, and a pass that must work without it works with it too. The magic number at
+//! the file's end distinguishes a crash from damage. Where it is, the file was finished, and any record that is short or fails its
+//! checksum is damage. Where it is not, the recording was cut off, and all whole chunks before the cut count.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -54,16 +52,16 @@ impl Track {
 
 struct Reading<'a> {
     file: &'a Path,
-    /// Bytes of records so far.
+    /// Bytes of records read so far.
     read: u64,
-    /// Name and encoding by number.
+    /// Name and encoding of each schema, by number.
     schemas: HashMap<u16, (String, String)>,
-    /// Topics by number.
+    /// Topic of each channel, by number.
     channels: HashMap<u16, &'static str>,
     metadata: Option<TrackMetadata>,
     scenes: BTreeMap<String, String>,
     switches: usize,
-    /// Of the frame before.
+    /// Profiles of the frame before.
     profiles: [Arc<str>; 2],
     partial: Option<(u64, i64, Partial)>,
     track: Track,
@@ -102,7 +100,7 @@ impl<'a> Reading<'a> {
             LinearReaderOptions::default()
                 .with_skip_end_magic(!finished)
                 .with_check_finishes_after_end_magic(true)
-                // A chunk is checked before any of its messages is believed.
+                // A chunk is checked before any of its messages is used.
                 .with_prevalidate_chunk_crcs(true)
                 .with_validate_data_section_crc(true)
                 .with_validate_summary_section_crc(true)
@@ -139,8 +137,8 @@ impl<'a> Reading<'a> {
     }
 
     fn record(&mut self, opcode: u8, data: &[u8]) -> Result<(), TrackError> {
-        // Only the kinds that a track is made of are parsed: others are nobody's business,
-        // and mcap 0.26 panics on an attachment record that is too short.
+        // Only the kinds of record that a track has are parsed: others are skipped, and mcap 0.26 panics on an attachment record that is
+        // too short.
         if ![op::SCHEMA, op::CHANNEL, op::MESSAGE, op::METADATA].contains(&opcode) {
             return Ok(());
         }
@@ -212,7 +210,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Something that was found in the session, or said of its lesson.
+    /// Takes in an event of the session, or a change in its lesson.
     fn said(&mut self, topic: &str, log_time: u64, data: &[u8]) -> Result<(), TrackError> {
         let all = match topic {
             names::LESSON => &self.track.progress,
@@ -233,7 +231,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// A scene's text that the track carries.
+    /// Takes in a scene's text that the track carries.
     fn scene(&mut self, map: BTreeMap<String, String>) -> Result<(), TrackError> {
         let (name, toml) = carried(map, self.file)?;
         self.scenes.insert(name, toml);
@@ -293,8 +291,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// That all topics are there. Asked once the first frame is complete, since a topic comes
-    /// before its first message.
+    /// Checks that all topics are there, once the first frame is complete, since a topic comes before its first message.
     fn topics(&self) -> Result<(), TrackError> {
         for topic in [names::TF, names::FRAME, names::INPUT[0], names::INPUT[1]] {
             if !self.channels.values().any(|known| *known == topic) {

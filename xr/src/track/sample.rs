@@ -7,7 +7,7 @@ use super::{Track, TrackMetadata};
 use crate::{Fov, FrameInfo, Pose, PoseFrame, SessionState};
 
 impl Keyframes {
-    /// Time of frame `step`, s: the step's own on a clock of [`rate_hz`](Self::rate_hz).
+    /// Time of frame `step`, s, on a clock of [`rate_hz`](Self::rate_hz).
     fn time(&self, step: u64) -> f64 {
         step as f64 / self.rate_hz
     }

@@ -10,8 +10,8 @@ use crate::{Pose, PoseFrame, PoseSource, SourceError};
 /// did not come back along a straight line.
 const GAP_NS: i64 = 100_000_000;
 
-/// A time this close to a frame's own is the frame's own. Step times computed in f64 and
-/// times stored in ns differ by at most 1 ns; no display is near a rate of 1 MHz.
+/// A time this close to a frame's own counts as the frame's own. Step times computed in f64 and times stored in ns differ by at most 1 ns;
+/// no display is near a rate of 1 MHz.
 const SAME_NS: i64 = 1_000;
 
 /// Plays a track back on the simulation's clock.
@@ -25,7 +25,7 @@ pub struct TrackSource {
     /// Per frame, both hands' grip and aim as held: where a hand is not valid, its last valid
     /// poses (before any was valid, the recorded ones).
     held: Vec<[[Pose; 2]; 2]>,
-    /// Frames whose switches were given out.
+    /// Number of frames whose switches have been returned.
     switched: usize,
 }
 

@@ -5,17 +5,17 @@ use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Most that waits for a disk, B: some 25 minutes of a track at 90 Hz.
+/// Most bytes that wait for a disk: some 25 minutes of a track at 90 Hz.
 const MOST: usize = 32 << 20;
 
 type Bytes = Arc<Mutex<Vec<u8>>>;
 
-/// Where the writer of the container writes to: memory, which never refuses.
+/// The output of the container's writer: memory, which never refuses.
 ///
 /// Its own writer cannot be asked to write a chunk again, so a file that refuses one would end the track.
-pub(super) struct Stage(Bytes);
+pub(super) struct StagedBytes(Bytes);
 
-impl Write for Stage {
+impl Write for StagedBytes {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         lock(&self.0).extend_from_slice(bytes);
         Ok(bytes.len())
@@ -26,11 +26,11 @@ impl Write for Stage {
     }
 }
 
-/// What is not in the file yet.
+/// Bytes that are not in the file yet.
 pub(super) struct Pending {
     file: File,
     staged: Bytes,
-    /// Whole chunks that wait, each with the frames that the file holds once it is there.
+    /// Whole chunks that wait, each with the number of frames that the file holds once it is written.
     chunks: VecDeque<(Vec<u8>, u64)>,
     /// Bytes and frames that the file holds.
     whole: u64,
@@ -38,10 +38,10 @@ pub(super) struct Pending {
 }
 
 impl Pending {
-    /// Of an empty file.
-    pub(super) fn new(file: File) -> (Self, Stage) {
+    /// The two ends for an empty file.
+    pub(super) fn new(file: File) -> (Self, StagedBytes) {
         let staged = Bytes::default();
-        let stage = Stage(Arc::clone(&staged));
+        let stage = StagedBytes(Arc::clone(&staged));
         let pending = Self {
             file,
             staged,
@@ -71,8 +71,8 @@ impl Pending {
         self.frames
     }
 
-    /// Appends all that waits to the file, which holds `frames` frames then. Where the file refuses, it ends with
-    /// its last whole chunk, and the rest waits.
+    /// Appends all waiting chunks to the file, which holds `frames` frames then. Where the file refuses, it ends with its last whole
+    /// chunk, and the rest waits.
     pub(super) fn write_out(&mut self, frames: u64) -> io::Result<()> {
         let staged = std::mem::take(&mut *lock(&self.staged));
         if !staged.is_empty() {
@@ -80,8 +80,7 @@ impl Pending {
         }
         while let Some((bytes, frames)) = self.chunks.front() {
             if let Err(error) = self.file.write_all(bytes) {
-                // Half a chunk would hide what comes after it. A file that cannot be cut is
-                // written over from there on the next time.
+                // Half a chunk would hide the chunks after it. A file that cannot be cut is written over from there on the next time.
                 let _ = self.file.set_len(self.whole);
                 self.file.seek(SeekFrom::Start(self.whole))?;
                 return Err(error);
@@ -93,7 +92,7 @@ impl Pending {
         Ok(())
     }
 
-    /// Waits until the disk has all that was written.
+    /// Waits until all written bytes are on the disk.
     pub(super) fn sync(&self) -> io::Result<()> {
         self.file.sync_all()
     }

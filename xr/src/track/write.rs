@@ -13,16 +13,15 @@ use prost::Message;
 
 use super::check::{self, at};
 use super::metadata::{check_carried, scene_hash, short};
-use super::stage::{Pending, Stage};
+use super::stage::{Pending, StagedBytes};
 use super::{TrackError, TrackMetadata, descriptor, encode, names};
 use crate::{Pose, PoseFrame, Side};
 
-/// A crash loses what was written since the last flush. Half a second keeps the loss below
-/// a second even where frames come irregularly, and an lz4 chunk of 45 frames compresses
-/// nearly as well as one of 90.
+/// Time between flushes: a crash loses the frames since the last one. Half a second keeps the loss below a second even where frames come
+/// irregularly, and an lz4 chunk of 45 frames compresses nearly as well as one of 90.
 const FLUSH_AFTER: Duration = Duration::from_millis(500);
 
-/// Of a message's record beside its data, B.
+/// Bytes of a message's record beside its data.
 const MESSAGE_HEADER: u64 = 31;
 
 /// What to do where the output file is there already.
@@ -34,7 +33,7 @@ pub enum Existing {
     Replace,
 }
 
-/// What a finished track holds.
+/// Summary of a finished track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written {
     /// Frames written.
@@ -46,33 +45,31 @@ pub struct Written {
 /// Writes a track frame by frame, so that the file can be read up to the last flush whatever
 /// happens to the program.
 ///
-/// It writes under the track's final name from the start and not under a temporary one: what
-/// a crash leaves must be found. A disk that is full for a moment loses nothing: what could not
-/// be written waits in memory, the file ends with a whole chunk, and the next flush goes on there.
-/// Dropping it without [`finish`](Self::finish) ends the file properly too, but tells nobody
-/// where that failed.
+/// It writes under the track's final name from the start and not under a temporary one: the remains of a crash must be found. A disk that
+/// is full for a moment loses nothing: unwritten chunks wait in memory, the file ends with a whole chunk, and the next flush goes on
+/// there. Dropping it without [`finish`](Self::finish) ends the file properly too, but does not return errors.
 pub struct TrackWriter {
     file: PathBuf,
     // NoSeek: a chunk reaches the stage whole, with its header, and not as a header of zeros
     // to be filled in later, which a crash would leave behind. `None` once it is finished.
-    mcap: Option<Writer<NoSeek<Stage>>>,
+    mcap: Option<Writer<NoSeek<StagedBytes>>>,
     pending: Pending,
     channels: Channels,
-    /// Channels of what is no part of the track, by topic.
+    /// Channels of annexes, by topic.
     pub(super) annexes: BTreeMap<&'static str, u16>,
-    /// Bytes of it since the last flush.
+    /// Bytes of annexes since the last flush.
     pub(super) annexed: usize,
-    /// And in all.
+    /// Bytes of annexes in all.
     pub(super) annexed_in_all: u64,
     buffer: Vec<u8>,
     /// Frames and switches taken.
     frames: u64,
     switches: usize,
-    /// Bytes of their messages, unpacked.
+    /// Bytes of the messages of frames and switches, unpacked.
     pub(super) bytes: u64,
     last: Option<(u64, i64)>,
     concluded: bool,
-    /// Whether its end was asked for: from then on it is not ended by being dropped.
+    /// Whether [`finish`](TrackWriter::finish) was called: from then on it is not ended by being dropped.
     ending: bool,
     flushed_ns: i64,
     flushed_at: Instant,
@@ -87,11 +84,11 @@ struct Channels {
 }
 
 impl TrackWriter {
-    /// Creates `file` and writes what comes before the first frame.
+    /// Creates `file` and writes the records before the first frame.
     ///
     /// # Errors
-    /// [`TrackError::Metadata`] where a reader would refuse `metadata`; [`TrackError::Exists`] where `file` exists and `existing` does not say to replace it;
-    /// [`TrackError::Io`] where it cannot be created or written.
+    /// [`TrackError::Metadata`] where a reader would refuse `metadata`; [`TrackError::Exists`] where `file` exists and `existing` is
+    /// [`Existing::Refuse`]; [`TrackError::Io`] where it cannot be created or written.
     pub fn create(
         file: &Path,
         metadata: &TrackMetadata,
@@ -175,7 +172,7 @@ impl TrackWriter {
         Ok(())
     }
 
-    /// Where much waits for the disk, tries to write it.
+    /// Tries to write waiting chunks, where there are many.
     pub(super) fn make_room(&mut self) -> Result<(), TrackError> {
         if self.pending.is_full() && self.flush().is_err() {
             return Err(TrackError::Full {
@@ -186,7 +183,7 @@ impl TrackWriter {
     }
 
     /// The file's writer, until its end.
-    pub(super) fn mcap(&mut self) -> Result<&mut Writer<NoSeek<Stage>>, McapError> {
+    pub(super) fn mcap(&mut self) -> Result<&mut Writer<NoSeek<StagedBytes>>, McapError> {
         self.mcap.as_mut().ok_or_else(finished)
     }
 
@@ -204,12 +201,12 @@ impl TrackWriter {
         failed(&self.file, error)
     }
 
-    /// Hands all that was written to the operating system, so that it outlives the program.
+    /// Hands all frames to the operating system, so that they outlive the program.
     ///
     /// # Errors
-    /// [`TrackError::Io`] where the file cannot be written now: all of it waits.
+    /// [`TrackError::Io`] where the file cannot be written now: all of them wait.
     pub fn flush(&mut self) -> Result<(), TrackError> {
-        // Also where that fails: the next try comes half a second later.
+        // Also after a failure: the next try comes half a second later.
         self.flushed_ns = self.last.map_or(0, |(_, time_ns)| time_ns);
         self.flushed_at = Instant::now();
         self.annexed = 0;
@@ -219,12 +216,12 @@ impl TrackWriter {
         self.write_out()
     }
 
-    /// Frames that the file holds: they were handed to the operating system, which took them.
+    /// Frames that the file holds: those that the operating system has taken.
     pub fn written(&self) -> u64 {
         self.pending.frames()
     }
 
-    /// Writes what is said of the end, once (see [`Track::outcome`](super::Track::outcome)).
+    /// Writes the outcome, once (see [`Track::outcome`](super::Track::outcome)).
     ///
     /// # Errors
     /// [`TrackError::Metadata`] where a reader would refuse it; [`TrackError::Io`] after [`finish`](Self::finish).
@@ -326,16 +323,16 @@ impl Drop for TrackWriter {
             return;
         }
         if let Some(mut mcap) = self.mcap.take() {
-            // Nobody is left to be told.
+            // The error is dropped, since there is no caller.
             let _ = mcap.finish();
             let _ = self.pending.write_out(self.frames);
         }
     }
 }
 
-type Begun = (Writer<NoSeek<Stage>>, Channels);
+type Begun = (Writer<NoSeek<StagedBytes>>, Channels);
 
-fn begin(stage: Stage, metadata: &TrackMetadata) -> Result<Begun, McapError> {
+fn begin(stage: StagedBytes, metadata: &TrackMetadata) -> Result<Begun, McapError> {
     let mut mcap = WriteOptions::new()
         .compression(Some(Compression::Lz4))
         // Only a flush ends a chunk, so that no frame is split between two.

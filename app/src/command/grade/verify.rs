@@ -15,7 +15,7 @@ use super::agreement::{Agreement, Tolerance};
 use super::expected::Expected;
 use crate::cli::GradeArgs;
 use crate::command::course;
-use crate::command::plan::{Ask, Plan};
+use crate::command::plan::{Ask, ReplayPlan};
 use crate::command::recorded::{differences, recorded_events, recorded_progress};
 
 /// What simulating a track again came to.
@@ -87,7 +87,7 @@ impl Verified {
         };
         let (events, progress) = (recorded_events(&track), recorded_progress(&track));
         let metadata = track.metadata.clone();
-        let plan = Plan::of(&ask, track)?;
+        let plan = ReplayPlan::of(&ask, track)?;
         let mut experiment = prepare(&Setup {
             scene: &plan.scene,
             scene_name: &plan.name,

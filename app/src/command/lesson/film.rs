@@ -15,10 +15,10 @@ use vitriol_lesson::{Attempt, Language, Lesson, Mode, Texts};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{TrackSource, builtin, load};
 
-use super::subtitles::{Told, Words, cues};
+use super::subtitles::{JudgedTrack, SubtitleWords, cues};
 use crate::cli::LessonArgs;
 use crate::command::course;
-use crate::command::plan::{Ask, Plan};
+use crate::command::plan::{Ask, ReplayPlan};
 use crate::texts::Texts as Around;
 
 /// How the film goes through a lesson, whatever its modes: each step is shown while it is to be done.
@@ -65,7 +65,7 @@ pub fn make(
         device: args.device.as_deref(),
         ..Ask::default()
     };
-    let plan = Plan::new(&ask)?;
+    let plan = ReplayPlan::new(&ask)?;
     let mut experiment = prepare(&Setup {
         scene: &plan.scene,
         scene_name: &plan.name,
@@ -140,7 +140,7 @@ fn subtitles(
     seconds: f64,
 ) -> Result<Vec<Subtitles>, Failure> {
     let attempts = Attempt::all(outcome.events.iter().cloned());
-    let told = Told {
+    let told = JudgedTrack {
         progress: &outcome.progress,
         attempts: &attempts,
         verdict,
@@ -154,7 +154,7 @@ fn subtitles(
         .unwrap_or(&Language::En);
     let of = |language| {
         let (texts, around) = (Texts::of(language).other()?, Around::of(language)?);
-        let words = Words {
+        let words = SubtitleWords {
             lesson: lesson.texts(language),
             texts: &texts,
             summary: &around.summary,

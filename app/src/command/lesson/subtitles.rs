@@ -16,7 +16,7 @@ const NOTE: f64 = 6.0;
 const SHORTEST: f64 = 3.0;
 
 /// What came of the track.
-pub struct Told<'a> {
+pub struct JudgedTrack<'a> {
     /// What was said of the lesson.
     pub progress: &'a [Progress],
     /// What was found.
@@ -28,7 +28,7 @@ pub struct Told<'a> {
 }
 
 /// One language's texts.
-pub struct Words<'a> {
+pub struct SubtitleWords<'a> {
     /// The lesson's own.
     pub lesson: &'a LessonTexts,
     /// Of what happens.
@@ -41,7 +41,7 @@ pub struct Words<'a> {
 type Line = (f64, f64, String);
 
 /// The subtitles in the order of time. Lines that stand at one time are one subtitle: title or points, the step, what went wrong.
-pub fn cues(words: &Words<'_>, told: &Told<'_>) -> Vec<Cue> {
+pub fn cues(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Cue> {
     let lines = [framing(words, told), steps(words, told), notes(words, told)];
     let mut times: Vec<f64> = lines
         .iter()
@@ -73,7 +73,7 @@ pub fn cues(words: &Words<'_>, told: &Told<'_>) -> Vec<Cue> {
 }
 
 /// When the points are said first, s.
-fn points_from(told: &Told<'_>) -> f64 {
+fn points_from(told: &JudgedTrack<'_>) -> f64 {
     let over = told.progress.iter().rev().find_map(|it| match it {
         Progress::Over { t_s } => Some(Some(*t_s)),
         Progress::Begun { .. } => Some(None),
@@ -86,7 +86,7 @@ fn points_from(told: &Told<'_>) -> f64 {
 }
 
 /// The title each time that the lesson begins, and the points.
-fn framing(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
+fn framing(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Line> {
     let title = &words.lesson.title;
     let ends = points_from(told);
     let begins = told.progress.iter().filter_map(|it| match it {
@@ -106,7 +106,7 @@ fn framing(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
 }
 
 /// The step that is to be done.
-fn steps(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
+fn steps(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Line> {
     let mut lines = Vec::new();
     let mut open: Option<(f64, &str)> = None;
     let ends = match told.verdict {
@@ -143,7 +143,7 @@ fn steps(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
 }
 
 /// What went wrong, one after the other.
-fn notes(words: &Words<'_>, told: &Told<'_>) -> Vec<Line> {
+fn notes(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Line> {
     let texts = words.texts;
     let wrong = told.attempts.iter().flat_map(|attempt| {
         let all = attempt.incidents.iter();
@@ -185,7 +185,7 @@ mod tests {
 
     fn said(lesson: &Lesson, seconds: f64, over: Option<f64>, language: Language) -> Vec<Cue> {
         let (texts, around) = (Texts::of(language).unwrap(), Around::of(language).unwrap());
-        let words = Words {
+        let words = SubtitleWords {
             lesson: lesson.texts(language),
             texts: &texts,
             summary: &around.summary,
@@ -225,7 +225,7 @@ mod tests {
         ];
         progress.extend(over.map(|t_s| Progress::Over { t_s }));
         let verdict = Procedure::new(lesson.clone(), Mode::Guided).verdict();
-        let told = Told {
+        let told = JudgedTrack {
             progress: &progress,
             attempts: &[],
             verdict: Some(&verdict),

@@ -13,9 +13,9 @@ use crate::command::keeping::{self, Keeper, Kept, Sitting};
 use crate::live::{Live, Serving};
 
 /// The console of a run of the program, where `--live` asks for one.
-pub(super) struct Console(Option<Serving>);
+pub(super) struct ReplayConsole(Option<Serving>);
 
-impl Console {
+impl ReplayConsole {
     /// Serves it and lets one browser in.
     ///
     /// # Errors

@@ -206,7 +206,7 @@ impl Session {
         self.readings.clear();
         self.sounds.begin();
         self.instructor.begin();
-        self.keeper.forget();
+        self.checkpoints.forget();
         self.spills.clean();
         self.hints.begin();
         self.summary.begin();
@@ -281,11 +281,11 @@ impl Session {
         let (world, picture) = (&self.run.world, &self.benches.current.picture);
         let mut state = None;
         let shapes = picture.shapes(world.gpu(), world, |rec| {
-            state = self.keeper.record(world, rec)?;
+            state = self.checkpoints.record(world, rec)?;
             Ok(())
         })?;
         if let Some(state) = state {
-            self.keeper.submitted(state, shapes.clone());
+            self.checkpoints.submitted(state, shapes.clone());
         }
         Ok(Some((targets, shapes)))
     }
@@ -390,7 +390,7 @@ impl Session {
         self.instructor.hand_over()?;
         self.observe(false)?;
         self.hear();
-        self.keeper.collect(&mut self.run.world)?;
+        self.checkpoints.collect(&mut self.run.world)?;
         self.counts.tally.collect()
     }
 

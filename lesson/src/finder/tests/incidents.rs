@@ -1,12 +1,12 @@
-//! What goes wrong.
+//! Incidents.
 
 use super::*;
 
-/// What lies beside: its amount, its surface, its place, and what was under way where it came from.
+/// A spill has its volume, surface and place, and as its cause what was under way at the flask that it came from.
 #[test]
 fn a_spill_has_a_cause() {
     let bubbling = Bubbling {
-        here: Bubbles {
+        here: BubbleCount {
             count: 3,
             radius: 1e-3,
         },
@@ -61,7 +61,7 @@ fn a_spill_has_a_cause() {
             .filter(|it| matches!(it.what, What::BoiledOver { .. }));
         assert_eq!(boiled.count(), usize::from(bubbles), "{incidents:?}");
     }
-    // A drop is none, and two are one.
+    // One drop is no spill, two are one.
     for (bits, said) in [(2.4, 0), (2.6, 1)] {
         let mut arranged = Arranged::new([0.98, 0.0]);
         arranged.pours(1, bits * BIT, 0.9, Place::Table);
@@ -69,14 +69,14 @@ fn a_spill_has_a_cause() {
     }
 }
 
-/// Drops of bubbles are no particles: what sprays out of a flask as it boils is thrown out, because of what was poured in.
+/// Drops of bubbles are not particles: what sprays out of a flask as it boils is thrown out, because of what was poured in.
 #[test]
 fn what_sprays_out_boils_over() {
     let mut arranged = Arranged::new([0.0, 0.98]);
     arranged.tilt(0, 80.0);
     arranged.pours(20, BIT, 0.0, Place::Flask(1));
-    // Bubbles of air throw drops as well, which do not boil over.
-    arranged.held[1].bubbles.here = Bubbles {
+    // Bubbles of air throw drops as well, which is no boiling over.
+    arranged.held[1].bubbles.here = BubbleCount {
         count: 3,
         radius: 1e-3,
     };
@@ -102,7 +102,7 @@ fn what_sprays_out_boils_over() {
             flask: "target".into()
         }
     );
-    // At its rim.
+    // The incident is at the rim.
     let rim = arranged.finder.bench.rim(&arranged.poses[1], 1) + arranged.finder.bench.origin;
     assert!(
         incident
@@ -113,8 +113,8 @@ fn what_sprays_out_boils_over() {
     );
 }
 
-/// What scalds counts from a fifth of a drop on, what does not by its acid: 0.13 mL of 10 % acid at 50 °C, which a correct pour throws up, have less
-/// than a drop of battery acid, 0.05 mL of 37 %.
+/// Liquid that scalds counts from a fifth of a drop on, other liquid by its acid: 0.13 mL of 10 % acid at 50 °C, which a correct pour
+/// throws up, have less than a drop of battery acid, 0.05 mL of 37 %.
 #[test]
 fn drops_boil_over_where_they_harm() {
     for (acid, celsius, thrown, said) in [
@@ -129,9 +129,9 @@ fn drops_boil_over_where_they_harm() {
     ] {
         let mut arranged = Arranged::new([0.0, acid]);
         arranged.held[1].temperature = Some(celsius);
-        // Somewhere in it it boils.
+        // One particle boils.
         arranged.held[1].hottest = Some(140.0);
-        arranged.held[1].bubbles.here = Bubbles {
+        arranged.held[1].bubbles.here = BubbleCount {
             count: 3,
             radius: 1e-3,
         };
@@ -147,7 +147,7 @@ fn drops_boil_over_where_they_harm() {
     }
 }
 
-/// Where there is something to wear it protects as long as it is worn: one bare touch, and the skin is what was touched.
+/// Gloves and goggles protect as long as they are worn; after one bare touch the skin counts as touched.
 #[test]
 fn a_glove_protects_while_it_is_on() {
     let on = |goggles: Option<bool>, gloves: Option<[bool; 2]>| Worn { goggles, gloves };
@@ -190,7 +190,7 @@ fn a_glove_protects_while_it_is_on() {
     }
 }
 
-/// Acid on a hand and hot water in the face: whose, how much, how hot, and of which flask; however little it is.
+/// Acid on a hand and hot water in the face: which part, how much, how hot, and from which flask; however little it is.
 #[test]
 fn what_comes_to_somebody() {
     let mut arranged = Arranged::new([0.98, 0.0]);
@@ -258,7 +258,7 @@ fn what_comes_to_somebody() {
     assert_eq!(*unknown, Cause::Unknown);
 }
 
-/// Hot from the limit on, over only where it has cooled well below; the hottest particle of all, and when.
+/// An incident begins at the limit and ends only where the liquid has cooled well below; the hottest particle of all, and when.
 #[test]
 fn heat_is_one_incident_until_it_has_cooled() {
     let mut arranged = Arranged::new([0.98, 0.0]);
@@ -297,7 +297,7 @@ fn heat_is_one_incident_until_it_has_cooled() {
     assert!(near(hottest.t_s, 0.32), "{hottest:?}");
 }
 
-/// One that falls out of a hand is one incident with its bounces and its break; a knock by a hand, or of glass on glass, is none.
+/// A flask that falls out of a hand is one incident with its bounces and its break; a knock by a hand, or of glass on glass, is none.
 #[test]
 fn glass_that_is_dropped() {
     let blow = |speed: f32, other: Option<usize>| Strike {
@@ -341,7 +341,8 @@ fn glass_that_is_dropped() {
     assert!(near(incident.t_s, 0.47), "{incident:?}");
 }
 
-/// What falls from the bench strikes twice and is one fall, at its hardest; what is knocked in a hand and breaks was not let go of.
+/// A flask that falls from the bench strikes twice and is one incident, with the hardest impact; one that is knocked in a hand and breaks
+/// was not let go of.
 #[test]
 fn a_fall_is_one_and_a_knock_is_none() {
     let blow = |speed: f32| Strike {
@@ -381,7 +382,7 @@ fn a_fall_is_one_and_a_knock_is_none() {
     assert_eq!(what(&incidents), (3.5, true, Cause::Unknown));
 }
 
-/// Drops that fall a pause apart are one spill, and what a scene begins with is nobody's.
+/// Drops that fall a pause apart are one spill, and the liquid that a scene begins with is nobody's spill.
 #[test]
 fn a_drip_is_a_spill_and_a_hot_start_is_nobodys() {
     let mut arranged = Arranged::new([0.98, 0.0]);
@@ -405,7 +406,7 @@ fn a_drip_is_a_spill_and_a_hot_start_is_nobodys() {
     assert!(near(volume_m3, 3.0 * BIT), "{spill:?}");
 }
 
-/// A scene that is a twentieth of the real size has what a real one has.
+/// A scene at a twentieth of the real size gives the events of a real one.
 #[test]
 fn sizes_are_real() {
     let mut scene = Scene::builtin("water-into-acid").unwrap();

@@ -1,4 +1,4 @@
-//! Whatever a file or a look has.
+//! Arbitrary files and observations.
 
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ proptest! {
         let _ = Lesson::parse(&text, "any.toml");
     }
 
-    /// A good file in which a piece is another piece of it, or goes.
+    /// A valid file in which a piece is replaced by another piece of it, or removed.
     #[test]
     fn a_damaged_lesson_is_read_or_refused(
         at in 0..GOOD.len(), long in 0usize..60, from in 0..GOOD.len(), of in 0usize..60,
@@ -28,7 +28,7 @@ proptest! {
         }
     }
 
-    /// Numbers of any kind do not stop a judge.
+    /// A judge takes any numbers without a panic.
     #[test]
     fn a_judge_bears_any_number(values in proptest::collection::vec(proptest::num::f64::ANY, 6)) {
         let lesson = Lesson::parse(GOOD, "good.toml").unwrap();

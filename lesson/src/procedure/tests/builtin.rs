@@ -1,4 +1,4 @@
-//! The lessons that come with the program, against the scenes that do.
+//! The built-in lessons, against the built-in scenes.
 
 use vitriol_sim::scene::Scene;
 
@@ -35,7 +35,7 @@ fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
             lesson.texts(Language::De).title
         );
     }
-    // No texts are of a lesson that is none.
+    // No texts belong to a lesson that does not exist.
     for language in Language::ALL {
         let texts = Texts::of(language).unwrap();
         let named: Vec<&str> = texts.lesson.keys().map(String::as_str).collect();
@@ -159,7 +159,7 @@ fn texts_say_what_is_judged() {
     );
 }
 
-/// The dilution as it should be, from its first look to its points.
+/// The correct dilution, from its first observation to its points.
 #[test]
 fn who_dilutes_correctly_has_all_points() {
     for (name, mode) in [
@@ -177,7 +177,7 @@ fn who_dilutes_correctly_has_all_points() {
             (sight.flasks[1].volume_m3, sight.flasks[1].acid) = (volume_ml * 1e-6, acid);
             sight
         };
-        // Goggles and gloves lie there at first.
+        // Goggles and gloves lie on the bench at first.
         let mut bare = at(0.0, false, 160.0, 0.0);
         (bare.goggles, bare.gloves) = (Some(false), Some([false; 2]));
         procedure.advance(&bare, &[]);

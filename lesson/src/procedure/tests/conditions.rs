@@ -1,8 +1,8 @@
-//! Each condition, come about and not.
+//! Each condition, met and not met.
 
 use super::*;
 
-/// A step with that condition, before its first look.
+/// A run of one step with that condition, before its first observation.
 fn fresh(condition: &str) -> Run {
     let step = format!("condition = {condition}");
     Run {
@@ -12,27 +12,27 @@ fn fresh(condition: &str) -> Run {
     }
 }
 
-/// One after a look at the bench as it is at first.
+/// A run of one step with that condition, after one observation of the unchanged bench.
 fn one(condition: &str) -> Run {
     let step = format!("condition = {condition}");
     Run::new(lesson(&[("one", &step)], &[]), Mode::Guided)
 }
 
-/// Whether a first look at what `change` makes of the bench does it.
+/// Whether the first observation of a bench with `change` meets the condition.
 fn at_once(condition: &str, change: &dyn Fn(&mut Sight)) -> bool {
     let mut run = fresh(condition);
     run.look(STEP, change);
     run.status("one") == Status::Done
 }
 
-/// Whether a step with that condition is done by so long a look, s, at what `change` makes of the bench.
+/// Whether `long` seconds of observations of a bench with `change` meet the condition.
 fn seen(condition: &str, long: f64, change: &dyn Fn(&mut Sight)) -> bool {
     let mut run = one(condition);
     run.look(long, change);
     run.status("one") == Status::Done
 }
 
-/// Whether it is done by these events.
+/// Whether these events meet the condition.
 fn heard(condition: &str, events: &[Event]) -> bool {
     let mut run = one(condition);
     for event in events {
@@ -66,7 +66,7 @@ fn put_down_was_lifted_and_stands() {
     assert_eq!(run.status("one"), Status::Done);
     // Somebody holds it on the bench.
     assert!(!seen(put_down, 3.0, &|it| it.flasks[0].held = true));
-    // The other one is no matter.
+    // The other flask does not matter.
     let mut run = one(put_down);
     run.look(0.5, &|it| it.flasks[1].held = true);
     run.wait(1.0);
@@ -91,7 +91,7 @@ fn poured_adds_up_from_one_flask_into_another() {
     assert!(!elsewhere(&|it| it.into = None));
     assert!(!elsewhere(&|it| it.into = Some("a".to_owned())));
     assert!(!elsewhere(&|it| it.from = "b".to_owned()));
-    // Before the lesson.
+    // A pour before the lesson does not count.
     assert!(!elsewhere(&|it| (it.t_s, it.until_s) = (8.0, 10.0)));
     assert!(elsewhere(&|it| (it.t_s, it.until_s) = (8.0, 10.1)));
 }
@@ -162,7 +162,7 @@ fn holds_is_an_amount_of_a_concentration_for_a_while() {
     run.wait(STEP);
     run.look(2.0, &full);
     assert_eq!(run.status("one"), Status::Open);
-    // Two seconds where nothing is said.
+    // The default is two seconds.
     let holds = holds.replace(", for_s = 3", "");
     assert!(!seen(&holds, 1.8, &full) && seen(&holds, 2.2, &full));
 }
@@ -267,7 +267,7 @@ fn wiped_is_what_lies_there() {
     }
 }
 
-/// What came before the step began is not of it.
+/// Water that came before the step began does not count.
 #[test]
 fn rinsed_is_water_since_the_step_began() {
     let rinsed = "{ rinsed = { hand = \"right-hand\", at_least_ml = 50 } }";
@@ -280,7 +280,7 @@ fn rinsed_is_water_since_the_step_began() {
     assert_eq!(run.status("one"), Status::Done);
 }
 
-/// Acid was poured while, or before, a hand holds the other flask: a pour stays poured, a hand has to be there.
+/// Acid is poured while, or before, a hand holds the other flask: a pour stays met, a hold only while it lasts.
 #[test]
 fn all_are_so_at_one_time_and_any_is_enough() {
     let parts = "[{ lifted = { flask = \"b\" } }, { any = [{ temperature = { flask = \"a\", at_least_c = 50 } }, { poured = { from = \"a\", into = \"b\", at_least_ml = 5 } }] }]";
@@ -310,7 +310,7 @@ fn all_are_so_at_one_time_and_any_is_enough() {
     assert!(!seen(&format!("{{ any = {parts} }}"), 1.0, &|_| {}));
 }
 
-/// Evidence is the first of any, and the last of all.
+/// Evidence is that of the first part of an `any`, and of the last part of an `all`.
 #[test]
 fn evidence_is_of_the_first_or_the_last() {
     let measured = "{ measured = { flask = \"a\", for_s = 1 } }";

@@ -1,11 +1,11 @@
-//! Lessons that ask for what their scene has not.
+//! Lessons that ask for something that their scene does not have.
 
 use super::spoiled::GOOD;
 use super::*;
 
 type Change<'a> = &'a dyn Fn(&mut SceneFacts);
 
-/// A bench with all bodies but those that are taken away.
+/// Properties of a bench with all bodies, from which tests take some away.
 pub(super) fn facts() -> SceneFacts {
     let flask = |name: &str| FlaskFacts {
         name: name.to_owned(),
@@ -86,7 +86,7 @@ fn a_lesson_that_asks_for_what_its_scene_has_not_is_refused() {
     }
 }
 
-/// Each body, alone.
+/// Each body, alone, is asked for by the conditions that need it.
 #[test]
 fn each_body_is_asked_for_by_what_needs_it() {
     let refused = |body: &str, change: &dyn Fn(&mut SceneFacts)| {

@@ -1,8 +1,8 @@
-//! Each thing that is kept, kept and not: as a rule, and while a step is open.
+//! Each requirement, kept and breached: as a rule, and while a step is open.
 
 use super::*;
 
-/// What breaks a rule, while the one step waits for a flask to be lifted.
+/// Why a rule `keep` is broken, while the one step waits for a flask to be lifted.
 fn broken(keep: &str, looks: &dyn Fn(&mut Sight), events: &[Event]) -> Vec<Why> {
     let step = ("one", "condition = { lifted = { flask = \"a\" } }");
     let mut run = Run::new(lesson(&[step], &[("rule", keep)]), Mode::Free);
@@ -76,7 +76,7 @@ fn what_must_not_happen_is_of_its_kind() {
             assert_eq!(why.len(), usize::from(kind == other), "{kind}, {other}");
         }
         assert!(broken(&keep, &|_| {}, &[spilt(10.5, 9.0)]).is_empty());
-        // What began before the lesson is not of it.
+        // An incident that began before the lesson does not count.
         assert!(broken(&keep, &|_| {}, &[incident(9.9, whats[0].1.clone())]).is_empty());
     }
 }
@@ -129,7 +129,7 @@ fn gear_and_sash_are_kept() {
     assert_eq!(broken(sash, &|it| it.sash_m = Some(0.41), &[]).len(), 1);
 }
 
-/// One failure, however long it lasts; nothing counts meanwhile; and another once it was so again.
+/// A breach is one failure, however long it lasts; nothing counts meanwhile; after it has ended, the next is another.
 #[test]
 fn a_step_fails_once_while_what_it_keeps_is_not_so() {
     let body = "condition = { measured = { flask = \"b\", for_s = 1 } }\nkeep = [\"goggles\", { never = \"boiled-over\" }]";
@@ -152,7 +152,7 @@ fn a_step_fails_once_while_what_it_keeps_is_not_so() {
         }]
     );
     assert_eq!(run.status("one"), Status::Open);
-    // The half second of before is forgotten.
+    // The half second from before the breach does not count.
     run.look(0.8, &measures(true));
     assert_eq!(run.status("one"), Status::Open);
     run.look(STEP, &measures(false));
@@ -162,7 +162,7 @@ fn a_step_fails_once_while_what_it_keeps_is_not_so() {
     assert_eq!(run.line("one").failures, 2);
 }
 
-/// Spills of a try are of it alone.
+/// Spills count for the try in which they happen.
 #[test]
 fn a_new_try_begins_with_nothing_spilt() {
     let body =

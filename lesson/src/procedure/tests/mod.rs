@@ -1,4 +1,4 @@
-//! Against sights and events that are arranged by hand.
+//! Tests with sights and events that are arranged by hand.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod any;
@@ -14,7 +14,7 @@ mod spoiled;
 use super::*;
 use crate::event::{Cause, Content, Ending, Event, Incident, Pour, Skin, Surface, What};
 
-/// Looks are so far apart here, s.
+/// Time between observations here, s.
 const STEP: f64 = 0.1;
 
 /// A lesson with steps and rules of these ids and bodies, and texts for them.
@@ -88,7 +88,7 @@ impl Run {
         run
     }
 
-    /// Looks for so long, s, at what `change` makes of the bench.
+    /// Takes in observations for `long` seconds of a bench with `change`.
     fn look(&mut self, long: f64, change: &dyn Fn(&mut Sight)) {
         for _ in 0..(long / STEP).round() as usize {
             self.t += STEP;
@@ -98,7 +98,7 @@ impl Run {
         }
     }
 
-    /// A look with these events, with all on the bench as it was at first.
+    /// Takes in these events with an observation of the unchanged bench.
     fn hear(&mut self, events: &[Event]) {
         self.t += STEP;
         let said = self.procedure.advance(&sight(self.t), events);
@@ -119,7 +119,7 @@ impl Run {
         lines.into_iter().find(|line| line.id == id).unwrap()
     }
 
-    /// Why something failed, of all that was said.
+    /// Reasons of all failures that were reported.
     fn whys(&self) -> Vec<Why> {
         let whys = self.said.iter().filter_map(|it| match it {
             Progress::StepFailed { why, .. } | Progress::RuleBroken { why, .. } => Some(why),
@@ -134,7 +134,7 @@ impl Run {
     }
 }
 
-/// So much from `a` into `b`, mL at mL/s, of that acid fraction.
+/// A pour from `a` into `b`: its times, s, volume, mL, rate, mL/s, and acid mass fraction.
 fn pour([t_s, until_s]: [f64; 2], ml: f64, ml_s: f64, acid: f64) -> Event {
     Event::Poured(Pour {
         t_s,

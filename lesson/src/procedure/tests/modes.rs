@@ -50,7 +50,7 @@ fn free_opens_all_steps_and_hints_are_asked_for() {
     assert_eq!(run.procedure.ask_hint("two", run.t), None);
     assert_eq!(run.procedure.ask_hint("three", run.t), None);
     assert_eq!(run.line("one").hints, 1);
-    // It is said once.
+    // It is reported once.
     run.wait(STEP);
     assert_eq!(run.hints(), 0);
 }
@@ -182,7 +182,7 @@ fn it_begins_again_with_its_scene() {
     assert_eq!(again.count(), 1);
     run.look(STEP, &lifts);
     assert_eq!(run.status("one"), Status::Done);
-    // What was lifted before was not lifted now.
+    // A flask that was lifted before the restart does not count as lifted.
     let body = "condition = { put-down = { flask = \"a\" } }";
     let mut run = Run::new(lesson(&[("one", body)], &[]), Mode::Guided);
     run.look(1.0, &lifts);
@@ -196,7 +196,7 @@ fn it_begins_again_with_its_scene() {
     assert_eq!(run.status("one"), Status::Open);
 }
 
-/// A recording keeps what was said, and a replay says it again.
+/// A recording stores progress, and a replay gives the same progress.
 #[test]
 fn the_same_looks_give_the_same_progress_which_is_kept_as_json() {
     let body = format!(

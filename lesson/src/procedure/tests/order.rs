@@ -1,4 +1,4 @@
-//! What belongs to which step, although it is known only later.
+//! Which step a pour or an incident counts for, although it is known only later.
 
 use super::*;
 
@@ -29,7 +29,7 @@ fn a_pour_that_begins_before_the_one_before_is_known_counts() {
     assert_eq!(done, Some((said_at, 12.0)));
 }
 
-/// Two pours that are said at once are two, and one that was over before is none of the second step.
+/// Two pours that are reported at once are two; one that was over before the second step does not count for it.
 #[test]
 fn each_pour_counts_once() {
     let lesson = lesson(&[("one", POUR), ("two", POUR)], &[]);
@@ -47,7 +47,7 @@ fn each_pour_counts_once() {
     assert_eq!(run.status("two"), Status::Done);
 }
 
-/// What boils over in a pour is said with it, or after it.
+/// An incident in a pour is reported with the pour, or after it.
 #[test]
 fn what_went_wrong_in_a_step_fails_it_whenever_it_is_known() {
     let body = format!("{POUR}\nkeep = [{{ never = \"boiled-over\" }}]");
@@ -63,7 +63,7 @@ fn what_went_wrong_in_a_step_fails_it_whenever_it_is_known() {
     run.wait(4.0);
     run.hear(std::slice::from_ref(&good));
     assert_eq!(run.status("one"), Status::Done);
-    // That is of the second step, which does not mind.
+    // That incident is of the second step, which does not forbid it.
     run.hear(&[boiled_over(13.1)]);
     assert_eq!(run.status("one"), Status::Done);
     run.hear(&[boiled_over(12.0)]);
@@ -151,7 +151,7 @@ fn rules_are_judged_after_the_last_step_for_what_began_before() {
     assert!(run.line("order").met);
 }
 
-/// The finder's last events bring the last pour and the end together.
+/// The finder's last events have the last pour and the end together.
 #[test]
 fn a_pour_that_is_known_at_the_end_counts() {
     let mut run = Run::new(
@@ -168,7 +168,7 @@ fn a_pour_that_is_known_at_the_end_counts() {
     assert!(run.procedure.state().over);
 }
 
-/// Several are open at a time, but one waits for those that it comes after, done or missed.
+/// Several steps are open at a time, but one waits for those of its `after`, done or missed.
 #[test]
 fn a_step_begins_after_those_it_names() {
     let second = format!("{LIFT}\nafter = [\"one\"]");
@@ -186,12 +186,12 @@ fn a_step_begins_after_those_it_names() {
         run.look(STEP, &|it| it.flasks[0].held = true);
         assert_eq!(of(&run), [Status::Missed, Status::Done, Status::Done]);
     }
-    // One at a time, in their order.
+    // In `guided` one is open at a time, in their order.
     let run = Run::new(lesson(&steps, &[]), Mode::Guided);
     assert_eq!(run.status("three"), Status::Waiting);
 }
 
-/// A step that is opened by a look sees that look, however many there are.
+/// A step that an observation opens takes in the same observation, however many steps open in turn.
 #[test]
 fn what_is_so_already_is_done_at_once() {
     let goggles = "condition = { goggles = { on = true } }";

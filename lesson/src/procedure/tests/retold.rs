@@ -1,4 +1,4 @@
-//! A verdict by what was said, against that of who judged.
+//! Verdicts from recorded progress, against those of the judge.
 
 use super::modes::{LIFT, POUR};
 use super::*;
@@ -56,7 +56,7 @@ fn what_was_said_comes_to_what_was_judged() {
         assert_ne!(first, second);
         let retold = Verdict::retold(&lesson, mode, &run.said);
         assert_eq!(retold, [first, second], "{mode}");
-        // As a recording keeps it.
+        // As a recording stores it.
         let kept = serde_json::to_string(&run.said).unwrap();
         let read: Vec<Progress> = serde_json::from_str(&kept).unwrap();
         assert_eq!(Verdict::retold(&lesson, mode, &read), retold);
@@ -72,7 +72,7 @@ fn what_is_said_of_no_lesson_counts_for_nothing() {
         id: "five".to_owned(),
         evidence_s: 1.0,
     };
-    // Before any beginning, and of a step that is not there.
+    // Progress before any beginning, and of a step that does not exist.
     let said = [vec![other.clone()], run.said, vec![other]].concat();
     let retold = Verdict::retold(&lesson, Mode::Free, &said);
     assert_eq!(retold, [run.procedure.verdict()]);

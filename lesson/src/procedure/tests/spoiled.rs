@@ -1,9 +1,9 @@
-//! Lessons with a mistake, and what is said of it: file, field, and what would be right.
+//! Lessons with a mistake, and the messages about it: file, field, and what would be right.
 
 use super::fits::facts;
 use super::*;
 
-/// A lesson in which all that can be spoiled is there once.
+/// A lesson that has each thing that a test spoils once.
 pub(super) const GOOD: &str = r#"
 version = 1
 name = "own-1"

@@ -5,7 +5,7 @@ use crate::chemistry::paper::{AntiViscosity, Boiling, REFERENCE_POWER};
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::reference::Reference;
-use crate::reference::chemistry::{Chemistry, Paper};
+use crate::reference::chemistry::{ReferenceChemistry, ReferencePaper};
 use crate::scene::Scene;
 
 /// Liquid of `temperature` °C in the open at k_v = `intensity`, its
@@ -29,8 +29,8 @@ fn hot(temperature: f64, intensity: f64, kind: Boiling, substeps: u32) -> Refere
     reference.velocities = random.points(reference.positions.len(), 4.0);
     let law = AntiViscosity::new(100.0, intensity).unwrap();
     let particles = vec![(temperature, 0.0); reference.positions.len()];
-    let paper = Paper::new(None, Some((law, kind)), &particles).unwrap();
-    reference.chemistry = Some(Chemistry::Paper(paper));
+    let paper = ReferencePaper::new(None, Some((law, kind)), &particles).unwrap();
+    reference.chemistry = Some(ReferenceChemistry::Paper(paper));
     reference
 }
 
@@ -38,7 +38,7 @@ fn hot(temperature: f64, intensity: f64, kind: Boiling, substeps: u32) -> Refere
 fn gain(mut reference: Reference, frames: u32) -> f64 {
     let neighbours = reference.neighbours(&reference.positions);
     // e_i is known from the second substep on.
-    if let Some(Chemistry::Paper(paper)) = &mut reference.chemistry {
+    if let Some(ReferenceChemistry::Paper(paper)) = &mut reference.chemistry {
         paper.agitation.fill(1e300);
     }
     reference.smooth(&neighbours);
@@ -77,7 +77,7 @@ fn anti_viscosity_keeps_momentum() {
     for kind in [Boiling::Power, Boiling::Literal] {
         let mut reference = hot(150.0, 1.0, kind, 3);
         // Some of it is below T_B, so that the pairs' means matter.
-        if let Some(Chemistry::Paper(paper)) = &mut reference.chemistry {
+        if let Some(ReferenceChemistry::Paper(paper)) = &mut reference.chemistry {
             for temperature in paper.temperatures.iter_mut().step_by(3) {
                 *temperature = 20.0;
             }
@@ -115,8 +115,8 @@ fn extremes_of_boiling_stay_bounded() {
             let mut reference = glass_of_water(super::parameters(), 200, Pose::IDENTITY);
             let law = AntiViscosity::new(100.0, intensity).unwrap();
             let particles = vec![(temperature, 0.0); 200];
-            let paper = Paper::new(None, Some((law, kind)), &particles).unwrap();
-            reference.chemistry = Some(Chemistry::Paper(paper));
+            let paper = ReferencePaper::new(None, Some((law, kind)), &particles).unwrap();
+            reference.chemistry = Some(ReferenceChemistry::Paper(paper));
             for _ in 0..4 {
                 reference.step(&[Pose::IDENTITY], &[Pose::IDENTITY]);
             }

@@ -7,7 +7,7 @@ use crate::chemistry::thomsen;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::reference::Reference;
-use crate::reference::chemistry::{Chemistry, DilutionLaw, Paper};
+use crate::reference::chemistry::{ReferenceChemistry, DilutionLaw, ReferencePaper};
 use crate::reference::dilution::{Weight, diffuse};
 use crate::scene::Scene;
 use glam::DVec3;
@@ -32,14 +32,14 @@ fn law(scheme: Diffusion, parameters: &Parameters) -> DilutionLaw {
 fn glass(parameters: Parameters, law: DilutionLaw, of: impl Fn(DVec3) -> (f64, f64)) -> Reference {
     let mut reference = glass_of_water(parameters, 300, Pose::IDENTITY);
     let particles: Vec<_> = reference.positions.iter().map(|&at| of(at)).collect();
-    let paper = Paper::new(Some(law), None, &particles).unwrap();
-    reference.chemistry = Some(Chemistry::Paper(paper));
+    let paper = ReferencePaper::new(Some(law), None, &particles).unwrap();
+    reference.chemistry = Some(ReferenceChemistry::Paper(paper));
     reference
 }
 
-fn paper(reference: &Reference) -> &Paper {
+fn paper(reference: &Reference) -> &ReferencePaper {
     match &reference.chemistry {
-        Some(Chemistry::Paper(paper)) => paper,
+        Some(ReferenceChemistry::Paper(paper)) => paper,
         _ => panic!("has the paper's chemistry"),
     }
 }
@@ -96,9 +96,9 @@ fn conservative_diffusion_does_not_drift_where_the_literal_does() {
         let particles: Vec<_> = (0..count)
             .map(|i| (20.0, if i % 2 == 0 { 0.98 } else { 0.0 }))
             .collect();
-        let start = Paper::new(Some(law(scheme, &parameters)), None, &particles).unwrap();
+        let start = ReferencePaper::new(Some(law(scheme, &parameters)), None, &particles).unwrap();
         let before = sum(&start.acid);
-        reference.chemistry = Some(Chemistry::Paper(start));
+        reference.chemistry = Some(ReferenceChemistry::Paper(start));
         let neighbours = reference.neighbours(&reference.positions);
         for _ in 0..200 {
             reference.dilute(&neighbours);
@@ -140,7 +140,7 @@ fn heat_in_the_glass_is_the_enthalpy_of_dilution() {
     let after = paper(&reference);
     let drift = sum(&after.acid) / sum(&before.acid) - 1.0;
     assert!(drift.abs() < 1e-12, "{drift}");
-    let heat = |paper: &Paper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
+    let heat = |paper: &ReferencePaper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
     let released = heat(after) - heat(&before);
     let warming = (sum(&after.temperatures) - sum(&before.temperatures)) * law.heat.heat_capacity();
     assert!(released > 0.0);
@@ -178,7 +178,7 @@ fn one_particle_of_acid_in_water_and_any_diffusivity() {
             ..law(Diffusion::Conservative, &parameters)
         };
         let mut reference = glass(parameters, law, |_| (20.0, 0.0));
-        let Some(Chemistry::Paper(start)) = &mut reference.chemistry else {
+        let Some(ReferenceChemistry::Paper(start)) = &mut reference.chemistry else {
             panic!("has the paper's chemistry")
         };
         start.acid[150] = 1.0;
@@ -262,7 +262,7 @@ fn a_wall_of_the_map_cools_like_one_of_particles() {
 fn scenes_of_the_paper_start_with_their_chemistry() {
     let of = |name: &str| {
         let scene = Scene::builtin(name).unwrap();
-        Paper::of_scene(&scene, Some(1), Diffusion::default(), Boiling::default()).unwrap()
+        ReferencePaper::of_scene(&scene, Some(1), Diffusion::default(), Boiling::default()).unwrap()
     };
     assert!(of("beaker").is_none());
     let soup = of("tomato-soup").unwrap();
@@ -274,5 +274,5 @@ fn scenes_of_the_paper_start_with_their_chemistry() {
     if let Some(paper) = &mut scene.paper {
         paper.T_B = Some(-5.0);
     }
-    assert!(Paper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err());
+    assert!(ReferencePaper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err());
 }

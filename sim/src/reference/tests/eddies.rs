@@ -6,7 +6,7 @@ use crate::chemistry::Physical as Law;
 use crate::chemistry::eddies::{Mixing, SCHMIDT};
 use crate::parameters::Parameters;
 use crate::reference::Reference;
-use crate::reference::chemistry::{Chemistry, Physical};
+use crate::reference::chemistry::{ReferenceChemistry, ReferencePhysical};
 use glam::DVec3;
 use std::f64::consts::PI;
 use vitriol_tests::random::Random;
@@ -39,8 +39,8 @@ fn cube(
     let volume = parameters.particle_volume();
     let mut reference = in_the_open(parameters, positions);
     reference.velocities = reference.positions.iter().map(|&x| velocity(x)).collect();
-    let physical = Physical::new(law, volume, &particles).unwrap();
-    reference.chemistry = Some(Chemistry::Physical(Box::new(physical)));
+    let physical = ReferencePhysical::new(law, volume, &particles).unwrap();
+    reference.chemistry = Some(ReferenceChemistry::Physical(Box::new(physical)));
     reference
 }
 

@@ -8,7 +8,7 @@ use crate::chemistry::eddies::Mixing;
 use crate::chemistry::transport::Losses;
 use crate::parameters::Parameters;
 use crate::reference::Reference;
-use crate::reference::chemistry::{Chemistry, Physical};
+use crate::reference::chemistry::{ReferenceChemistry, ReferencePhysical};
 
 /// An insulated vessel whose particles hold their vapour.
 pub fn closed() -> Law {
@@ -40,20 +40,20 @@ fn block(law: Law, of: impl Fn(f64) -> (f64, f64)) -> Reference {
     }
     let volume = parameters.particle_volume();
     let mut reference = in_the_open(parameters, positions);
-    let physical = Physical::new(law, volume, &particles).unwrap();
-    reference.chemistry = Some(Chemistry::Physical(Box::new(physical)));
+    let physical = ReferencePhysical::new(law, volume, &particles).unwrap();
+    reference.chemistry = Some(ReferenceChemistry::Physical(Box::new(physical)));
     reference
 }
 
-pub fn physical(reference: &Reference) -> &Physical {
+pub fn physical(reference: &Reference) -> &ReferencePhysical {
     match &reference.chemistry {
-        Some(Chemistry::Physical(physical)) => physical,
+        Some(ReferenceChemistry::Physical(physical)) => physical,
         _ => panic!("has the physical chemistry"),
     }
 }
 
 /// Mass, acid (kg) and enthalpy (J) of all particles.
-fn totals(physical: &Physical) -> [f64; 3] {
+fn totals(physical: &ReferencePhysical) -> [f64; 3] {
     let sum = |of: fn(&crate::chemistry::physical::Content) -> f64| -> f64 {
         physical.contents.iter().map(of).sum()
     };
@@ -66,7 +66,7 @@ fn totals(physical: &Physical) -> [f64; 3] {
 
 /// Eddies of that diffusivity (m²/s) everywhere.
 pub fn stir(reference: &mut Reference, diffusivity: f64) {
-    if let Some(Chemistry::Physical(physical)) = &mut reference.chemistry {
+    if let Some(ReferenceChemistry::Physical(physical)) = &mut reference.chemistry {
         physical.eddies.fill(diffusivity);
     }
 }
@@ -166,10 +166,10 @@ fn a_shear_wave_decays_as_its_viscosity_says() {
         let particles = vec![(temperature, acid); positions.len()];
         let mut reference = in_the_open(parameters.clone(), positions.clone());
         let volume = parameters.particle_volume();
-        let state = Physical::new(law, volume, &particles).unwrap();
+        let state = ReferencePhysical::new(law, volume, &particles).unwrap();
         let row = state.table.at(acid);
         let viscosity = row.viscosity_at(temperature) / row.density_at(temperature);
-        reference.chemistry = Some(Chemistry::Physical(Box::new(state)));
+        reference.chemistry = Some(ReferenceChemistry::Physical(Box::new(state)));
         let neighbours = reference.neighbours(&reference.positions);
         // Known from the first line 26 on.
         reference.dilute(&neighbours);
@@ -213,6 +213,6 @@ fn extremes_stay_numbers() {
 
 #[test]
 fn impossible_liquids_are_refused() {
-    let refused = Physical::new(closed(), 1e-8, &[(20.0, 0.5), (20.0, 1.1)]);
+    let refused = ReferencePhysical::new(closed(), 1e-8, &[(20.0, 0.5), (20.0, 1.1)]);
     assert!(matches!(refused, Err(OutOfRange::Acid(_))));
 }

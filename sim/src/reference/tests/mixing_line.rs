@@ -8,7 +8,7 @@ use super::mixing::{closed, physical, stir};
 use super::{in_the_open, parameters};
 use crate::chemistry::Physical as Law;
 use crate::reference::Reference;
-use crate::reference::chemistry::{Chemistry, Physical};
+use crate::reference::chemistry::{ReferenceChemistry, ReferencePhysical};
 use glam::DVec3;
 
 const WATER: (f64, f64) = (20.0, 0.0);
@@ -34,8 +34,8 @@ fn cube(
     }
     let volume = parameters.particle_volume();
     let mut reference = in_the_open(parameters, positions);
-    let physical = Physical::new(law, volume, &particles).unwrap();
-    reference.chemistry = Some(Chemistry::Physical(Box::new(physical)));
+    let physical = ReferencePhysical::new(law, volume, &particles).unwrap();
+    reference.chemistry = Some(ReferenceChemistry::Physical(Box::new(physical)));
     reference
 }
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::flask::{Side, VolumeMap, particles};
 use crate::reference::motion::constrain;
 use crate::reference::placement::Motion;
-use crate::reference::surroundings::Table;
+use crate::reference::surroundings::Slab;
 use crate::surface_tension::SurfaceTension;
 use glam::{DVec2, Vec3};
 
@@ -142,7 +142,7 @@ fn boundary_particles_and_maps_make_up_the_density_alike() {
 
 #[test]
 fn table_and_floor_hold() {
-    let table = Table {
+    let table = Slab {
         top: 0.5,
         under: 0.46,
         centre: DVec2::new(0.1, 0.2),
@@ -173,7 +173,7 @@ fn table_and_floor_hold() {
             + DVec3::new(0.1, 0.5 + 0.5 * D, 0.2)
     });
     // A wide one: nothing holds the puddle together, and it does not reach the edge.
-    let wide = Table {
+    let wide = Slab {
         size: DVec2::splat(2.0),
         ..table
     };

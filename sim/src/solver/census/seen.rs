@@ -123,20 +123,20 @@ pub struct Moved {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bubbling {
     /// That are there, and their mean radius, m.
-    pub here: Bubbles,
+    pub here: BubbleCount,
     /// Their volume, m³ of the scene.
     pub volume: f64,
     /// That came to be.
     pub born: u32,
     /// That went out in liquid that is too cold for them, and the mean of their largest radii.
-    pub collapsed: Bubbles,
+    pub collapsed: BubbleCount,
     /// That burst at the surface, likewise.
-    pub burst: Bubbles,
+    pub burst: BubbleCount,
 }
 
 /// A number of bubbles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bubbles {
+pub struct BubbleCount {
     /// How many.
     pub count: u32,
     /// Their mean radius, m; 0 of none.

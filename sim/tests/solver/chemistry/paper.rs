@@ -40,7 +40,7 @@ fn errors(parameters: Parameters, lanes: u32) -> Errors {
     no_limiter_acted(&solver);
     let state = solver.snapshot().unwrap();
     let (found, heat) = (particles(&state), by_identity(&state, &state.heat));
-    let Some(reference::Chemistry::Paper(paper)) = &truth.chemistry else {
+    let Some(reference::ReferenceChemistry::Paper(paper)) = &truth.chemistry else {
         panic!("has the paper's chemistry")
     };
     let inside = |i: usize| {

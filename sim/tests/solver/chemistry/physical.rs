@@ -44,7 +44,7 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
     let mut before = solver.snapshot().unwrap();
     let mut truth = leaning_reference(&setup, &poses);
     // No two alike.
-    let Some(reference::Chemistry::Physical(physical)) = &mut truth.chemistry else {
+    let Some(reference::ReferenceChemistry::Physical(physical)) = &mut truth.chemistry else {
         panic!("has the physical chemistry")
     };
     for slot in 0..before.tags.len() {
@@ -73,7 +73,7 @@ fn errors(law: Physical, parameters: Parameters, lanes: u32, count: usize) -> Er
     let found = particles(&state);
     let matter = by_identity(&state, &state.matter);
     let heat = by_identity(&state, &state.heat);
-    let Some(reference::Chemistry::Physical(physical)) = &truth.chemistry else {
+    let Some(reference::ReferenceChemistry::Physical(physical)) = &truth.chemistry else {
         panic!("has the physical chemistry")
     };
     let unit = setup.parameters.particle_mass();

@@ -157,12 +157,14 @@ pub fn leaning_reference(setup: &Setup, poses: &[Pose]) -> Reference {
                 let law = AntiViscosity::new(b.boiling_point, b.intensity).unwrap();
                 (law, b.law)
             });
-            let paper = reference::Paper::new(law, boiling, &particles).unwrap();
-            Some(reference::Chemistry::Paper(paper))
+            let paper = reference::ReferencePaper::new(law, boiling, &particles).unwrap();
+            Some(reference::ReferenceChemistry::Paper(paper))
         }
         Chemistry::Physical(law) => {
-            let physical = reference::Physical::new(*law, p.particle_volume(), &particles);
-            Some(reference::Chemistry::Physical(Box::new(physical.unwrap())))
+            let physical = reference::ReferencePhysical::new(*law, p.particle_volume(), &particles);
+            Some(reference::ReferenceChemistry::Physical(Box::new(
+                physical.unwrap(),
+            )))
         }
     };
     truth

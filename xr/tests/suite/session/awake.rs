@@ -17,7 +17,7 @@ fn options() -> OpenXrOptions {
     }
 }
 
-/// The next turn that is no frame, after frames that are drawn; `None` if there is none in a while.
+/// The next pause, after frames that are drawn; `None` if there is none in a while.
 fn pause(client: &mut Client) -> Option<Pause> {
     for _ in 0..20 {
         match client.xr.next().unwrap() {
@@ -37,7 +37,7 @@ fn a_headset_that_is_off_is_waited_for() {
     let Some(mock) = mock::enter(name, &[Change::Headset(false)]) else {
         return;
     };
-    // As long as is wanted.
+    // It waits as long as `waits` is true.
     let given_up = OpenXr::open(options(), |_| false).err().unwrap();
     assert!(
         matches!(given_up, HeadsetError::Asleep { .. }),
@@ -89,7 +89,7 @@ fn nobody_wears_it() {
     client.assert_silent();
 }
 
-/// Without the focus it is drawn, and no hand does anything.
+/// Without the focus pictures are drawn, and the hands are inactive.
 #[test]
 fn something_else_has_the_focus() {
     let gripping = HandState {
@@ -134,7 +134,7 @@ fn a_runtime_without_vulkan_is_not_the_one() {
     let error = OpenXr::open(options(), |_| true).err().unwrap();
     assert!(matches!(error, HeadsetError::NoRuntime { .. }));
     let text = error.to_string();
-    // Which it is, and which other to choose: Monado's file lies beside.
+    // The message names the runtime, and others to choose: Monado's file lies beside.
     for part in ["Mock", "SteamVR", "openxr_monado.json"] {
         assert!(text.contains(part), "{text}");
     }
@@ -174,7 +174,7 @@ fn a_mask_may_change() {
     client.assert_silent();
 }
 
-/// A display that is slower than 90 Hz is asked for 90, one that is faster is left alone, and what is asked for later arrives.
+/// A display that is slower than 90 Hz is asked for 90, one that is faster is left alone, and a rate that is asked for later arrives.
 #[test]
 fn the_displays_rate_can_be_chosen() {
     let rates = |now| Change::Rates {

@@ -17,23 +17,23 @@ pub fn focused(frame: &HeadsetFrame) -> bool {
     frame.poses.info.session_state == SessionState::Focused
 }
 
-/// Width and height of what a program draws that must hurry.
+/// Width and height of a picture that is drawn smaller to save time.
 pub fn hurried(extent: [u32; 2]) -> [u32; 2] {
     extent.map(|side| side * 7 / 10)
 }
 
-/// A headset and pictures of its size.
+/// A headset, and pictures of its size.
 pub struct Client {
     pub xr: OpenXr,
     pictures: Option<Pictures>,
 }
 
-/// Each with what it is copied from, and with the word that fills it.
+/// Each picture with the buffer that it is copied from, and with the word that fills it.
 struct Pictures {
     all: Vec<(Buffer, Image, u32)>,
 }
 
-/// What the eyes' pictures show, and the inset's.
+/// Colour of the eyes' pictures, and of the inset's.
 pub const EYES: [u8; 4] = [64, 128, 191, 255];
 pub const INSET: [u8; 4] = [32, 191, 64, 255];
 
@@ -42,7 +42,7 @@ impl Client {
         Self::open_with(false)
     }
 
-    /// The same that asks for the gaze or not.
+    /// Opens the headset with the gaze and an inset, or without both; [`Client::open`] is without.
     pub fn open_with(gaze: bool) -> Self {
         let options = OpenXrOptions {
             gpu: Options {
@@ -59,7 +59,7 @@ impl Client {
         Self { xr, pictures: None }
     }
 
-    /// Turns up to and with the next frame; what was no frame, in words.
+    /// Turns up to and with the next frame; the other turns are returned in words.
     pub fn frame(&mut self) -> (HeadsetFrame, Vec<String>) {
         let begun = Instant::now();
         let mut others = Vec::new();
@@ -91,8 +91,8 @@ impl Client {
         panic!("no focus came");
     }
 
-    /// The eyes, in an open frame, as soon as the runtime has taken in a packet that has the head at
-    /// `head`, and so all else in that packet.
+    /// The eyes, in an open frame, as soon as the runtime has taken in a packet that has the head at `head`, and so all other values in
+    /// that packet.
     pub fn hear(&mut self, head: Vec3) -> [View; 2] {
         until("the runtime hears", || {
             let views = self.xr.locate_views().unwrap();
@@ -109,7 +109,7 @@ impl Client {
         let panel = Pose::new(Vec3::new(0.0, 1.4, -0.7), Quat::IDENTITY);
         let shown = Shown {
             views,
-            // A corner of the image, as a program that must hurry draws.
+            // A corner of the image, as a program in a hurry draws.
             extent: hurried(self.xr.extent()),
             inset: self.xr.inset().map(|inset| Inset {
                 extent: hurried(inset.extent),
@@ -176,7 +176,7 @@ impl Client {
         gpu.submit(rec).unwrap();
     }
 
-    /// Fails where Vulkan's validation layer has said anything about the present device.
+    /// Fails if Vulkan's validation layer has reported anything about the present device.
     pub fn assert_silent(&self) {
         self.xr.gpu().wait_idle().unwrap();
         let messages = self.xr.gpu().take_validation_messages();

@@ -1,4 +1,4 @@
-//! What is driven into the runtime comes out as head and hands.
+//! Input that is driven into the runtime comes out as head and hands.
 
 use glam::{Quat, Vec3};
 use vitriol_gpu::QueueKind;
@@ -32,7 +32,7 @@ fn same(pose: &Pose, controller: &Controller) -> bool {
         && pose.orientation.dot(controller.orientation).abs() > 1.0 - 1e-5
 }
 
-/// A frame that began when the runtime had heard of these shows them: the driver does not predict.
+/// A frame that began when the runtime had taken in these values shows them: the driver does not predict.
 fn shows(frame: &HeadsetFrame, head: Vec3, n: u32) {
     assert!(frame.poses.stage_from_view.position.distance(head) < 1e-5);
     for side in Side::BOTH {
@@ -40,7 +40,7 @@ fn shows(frame: &HeadsetFrame, head: Vec3, n: u32) {
         assert!(hand.active && hand.valid && hand.tracked);
         let sent = moving(n, side);
         assert!(same(&hand.stage_from_grip, &sent), "{n}: {hand:?}");
-        // Monado's bindings hold them in 32 bits as they were sent.
+        // Monado's bindings hold the values in 32 bits as they were sent.
         assert_eq!((hand.squeeze, hand.trigger), (sent.squeeze, sent.trigger));
         assert_eq!(hand.thumbstick, [0.5, -0.25]);
         assert_eq!(hand.button_a, side == Side::Left);
@@ -117,7 +117,7 @@ fn a_hand_that_sleeps_stays_where_it_was() {
         squeeze: 0.75,
         ..Controller::default()
     };
-    // The head tells what was heard.
+    // The head's position shows which packet was taken in.
     let mut head = Vec3::new(0.0, 1.6, 0.1);
     let mut settle = |client: &mut Client, state: &Controller, frames: u32| {
         head.x += 0.1;

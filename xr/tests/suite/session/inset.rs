@@ -14,7 +14,7 @@ pub const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
 pub const OF_STEREO: i32 = 2;
 pub const OF_QUAD: i32 = 1_000_037_000;
 
-/// Of the eyes' pictures where nothing is foveated.
+/// Size of the eyes' pictures where nothing is foveated.
 const STEREO: [u32; 2] = [64, 48];
 
 /// A client that asks for the inset and has the focus, on a runtime that begins with `changes`.
@@ -25,7 +25,7 @@ pub fn opened(name: &str, changes: &[Change]) -> Option<(Mock, Client)> {
     Some((mock, client))
 }
 
-/// View configurations of the sessions that were begun, and the answers.
+/// View configurations of the sessions that were begun, and the runtime's answers.
 pub fn begun(mock: &Mock) -> Vec<(i32, i32)> {
     let calls = mock.calls_of("xrBeginSession").into_iter();
     calls
@@ -54,7 +54,7 @@ pub fn is_stereo(mock: &Mock, client: &mut Client) {
     assert_eq!(shown(mock).len(), 2);
 }
 
-/// Draws frames until the session was made anew; what was no frame, in words.
+/// Draws frames until the session was made anew; the other turns are returned in words.
 pub fn until_renewed(client: &mut Client) -> Vec<String> {
     let mut others = Vec::new();
     for _ in 0..200 {
@@ -72,7 +72,7 @@ pub fn angles(fov: &Fov) -> [f32; 4] {
     [fov.left, fov.right, fov.up, fov.down]
 }
 
-/// As the runtime makes it, `half` about a middle that is so far to the right and up, rad.
+/// Angles of a field of view as the runtime makes it, `half` about a middle that is `aside` to the right and `above` up, rad.
 pub fn about(aside: f32, above: f32, half: f32) -> [f32; 4] {
     [
         aside - half,
@@ -177,7 +177,8 @@ fn both_pairs_are_shown() {
     assert_eq!(chains.len(), 4);
 }
 
-/// Without the second extension, and in a headset that cannot, it is where the runtime puts it, and as large as it says for that.
+/// Without the second extension, and in a headset that cannot follow, the inset is where the runtime puts it, and of the size that the
+/// runtime gives for that.
 fn stays(name: &str, changes: &[Change]) {
     let looks = mock::Pose::new(Vec3::new(0.0, 1.6, 0.0), Quat::from_rotation_y(0.25));
     let changes = [changes, &[Change::Gaze(Some(looks))]].concat();
@@ -222,7 +223,7 @@ fn it_stays_in_a_headset_without_eye_tracking() {
 
 #[test]
 fn none_is_had_where_none_is_offered() {
-    // The one is of no use without the other.
+    // The one extension is of no use without the other.
     let name = "session::inset::none_is_had_where_none_is_offered";
     let Some((mock, mut client)) = opened(name, &[Change::offer_too(FOLLOWS)]) else {
         return;
@@ -317,7 +318,7 @@ fn pictures_without_pixels_are_none() {
     is_none("session::inset::pictures_without_pixels_are_none", empty);
 }
 
-/// A runtime that has three views in the middle of a session is left, and found again without an inset.
+/// A session whose runtime gives three views in the middle of it ends, and a new one begins without an inset.
 #[test]
 fn three_views_in_the_middle() {
     let name = "session::inset::three_views_in_the_middle";
@@ -335,7 +336,7 @@ fn three_views_in_the_middle() {
     is_stereo(&mock, &mut client);
 }
 
-/// A field of view that is none is not taken: at first the inset is all of each eye's picture, later what it was.
+/// An invalid field of view is not used: at first the inset is all of each eye's picture, later it keeps its last field of view.
 #[test]
 fn an_empty_field_of_view() {
     let name = "session::inset::an_empty_field_of_view";
@@ -369,14 +370,14 @@ fn an_empty_field_of_view() {
     client.assert_silent();
 }
 
-/// A program that has no picture for the inset shows nothing and is told so. The runtime is not blamed, and the session stays.
+/// A program that has no picture for the inset shows nothing and gets an error. The runtime is not blamed, and the session stays.
 #[test]
 fn a_frame_without_it_is_ended_without_a_picture() {
     let name = "session::inset::a_frame_without_it_is_ended_without_a_picture";
     let Some((mock, mut client)) = opened(name, &[Change::offer_all_too(&[QUAD, FOLLOWS])]) else {
         return;
     };
-    // More of them than a session takes that are refused in a row.
+    // More such frames than a session allows refused ones in a row.
     for _ in 0..100 {
         let (_, others) = client.frame();
         assert!(others.is_empty(), "{others:?}");

@@ -6,7 +6,7 @@ use vitriol_xr::Headset;
 
 use crate::session::inset::{FOLLOWS, QUAD, about, angles, assert_near, opened, shown};
 
-/// Where the runtime lets it, the inset is where the user looks, in the frame for which that is known, and is shown as it was drawn.
+/// Where the runtime supports it, the inset is where the user looks, in the frame for which that is known, and is shown as it was drawn.
 #[test]
 fn it_follows_the_gaze() {
     let name = "session::inset_gaze::it_follows_the_gaze";
@@ -50,7 +50,7 @@ fn asked(mock: &Mock, before: usize) -> Vec<bool> {
         .collect()
 }
 
-/// The runtime is asked for an inset that follows only while it has the gaze. Without, the inset stands ahead; its pictures stay.
+/// The runtime is asked for an inset that follows only while it has the gaze. Without it, the inset stands ahead; its pictures stay.
 #[test]
 fn a_gaze_that_is_lost_and_found() {
     let name = "session::inset_gaze::a_gaze_that_is_lost_and_found";
@@ -79,7 +79,7 @@ fn a_gaze_that_is_lost_and_found() {
     client.assert_silent();
 }
 
-/// Without the gaze's space nobody knows whether there is a gaze: the inset stands ahead, and all else is as it was.
+/// Without the gaze's space it is not known whether there is a gaze: the inset stands ahead, and all else is as it was.
 #[test]
 fn it_stays_without_the_gazes_space() {
     let name = "session::inset_gaze::it_stays_without_the_gazes_space";

@@ -22,7 +22,7 @@ fn refuse(call: &str, answer: i32, when: &str) -> Change {
     }
 }
 
-/// The session is sought again, once, with the eyes' views alone.
+/// A new session begins, once, with the eyes' views alone.
 #[test]
 fn refused_at_the_sessions_begin() {
     let name = "session::inset_refused::refused_at_the_sessions_begin";
@@ -37,7 +37,7 @@ fn refused_at_the_sessions_begin() {
     assert_eq!(begun(&mock), [(OF_QUAD, UNSUPPORTED), (OF_STEREO, 0)]);
 }
 
-/// A client on a runtime that has no images of so many pixels.
+/// A client on a runtime that has no images of that many pixels.
 fn without_images(name: &str, [width, height]: [u32; 2]) -> Option<(Mock, Client)> {
     let images = format!("{width} x {height}");
     let changes = [
@@ -55,7 +55,7 @@ fn refused_images() {
         return;
     };
     is_stereo(&mock, &mut client);
-    // Nothing of it was begun.
+    // No session with four views was begun.
     assert_eq!(begun(&mock), [(OF_STEREO, 0)]);
 }
 
@@ -131,7 +131,7 @@ fn refused_with_the_instance_for_the_gaze() {
     refused_with(name, FOLLOWS);
 }
 
-/// A session that is lost over something else has its inset again.
+/// A session that is lost for another reason has its inset again.
 #[test]
 fn another_call_that_is_always_refused() {
     let name = "session::inset_refused::another_call_that_is_always_refused";
@@ -158,7 +158,7 @@ fn another_call_that_is_always_refused() {
     assert_eq!(begun(&mock), [(OF_QUAD, 0), (OF_QUAD, 0)]);
 }
 
-/// Images that can be given back are, whichever of those before them could not.
+/// Images that can be given back are, whichever of the images before them could not.
 #[test]
 fn refused_images_that_are_given_back() {
     let name = "session::inset_refused::refused_images_that_are_given_back";

@@ -17,7 +17,7 @@ fn an_exit_that_is_asked_for_comes() {
     let mut client = Client::open();
     client.focus();
     client.xr.request_exit().unwrap();
-    // STOPPING, IDLE and EXITING follow within some frames, as soon as the runtime says so.
+    // STOPPING, IDLE and EXITING follow within some frames, as soon as the runtime sends them.
     let begun = Instant::now();
     loop {
         assert!(begun.elapsed() < PATIENCE, "the end does not come");
@@ -40,8 +40,8 @@ fn every_frame_that_has_begun_is_ended() {
     };
     let mut client = Client::open();
     let first = client.focus().index;
-    // Not ended, ended without a picture, begun to be drawn and given up, drawn. The core
-    // validation layer tells of a frame that begins within another, and so does Monado.
+    // Not ended, ended without a picture, begun to be drawn and given up, drawn. The core validation layer reports a frame that begins
+    // within another, and so does Monado.
     for n in 0..12 {
         let (frame, _) = client.frame();
         assert_eq!(frame.index, first + 1 + n);
@@ -60,7 +60,7 @@ fn every_frame_that_has_begun_is_ended() {
     client.assert_silent();
 }
 
-/// Tells the test of the focus that it is the other program.
+/// Marks a process of the test of the focus as the other program.
 const OTHER: &str = "VITRIOL_OTHER_PROGRAM";
 
 /// Another program in the headset, until it is killed.
@@ -82,7 +82,7 @@ impl Drop for Other {
     }
 }
 
-/// Has Monado show the client with that number.
+/// Makes Monado show the client with that number.
 fn show(client: &str) {
     let done = Command::new("monado-ctl")
         .args(["-p", client])
@@ -91,7 +91,7 @@ fn show(client: &str) {
     assert!(done.status.success(), "{done:?}");
 }
 
-/// Turns until one is as wanted.
+/// Turns until one is `wanted`.
 fn until(client: &mut Client, wanted: impl Fn(&Turn) -> bool) {
     let begun = Instant::now();
     while begun.elapsed() < PATIENCE {

@@ -10,7 +10,7 @@ use vitriol_xr::{Headset, HeadsetFrame, Shown, Side, Turn};
 
 use crate::session::client::Client;
 
-/// Before what the runtime is killed.
+/// The call of a frame before which the runtime is killed.
 #[derive(Clone, Copy, Debug)]
 enum At {
     Acquire,
@@ -28,7 +28,7 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
     };
     client.frame();
     kill(rig, At::Acquire);
-    // None of a runtime that is gone.
+    // A runtime that is gone gives none.
     if let Some(targets) = client.xr.acquire(true).unwrap() {
         client.submit(&targets);
     }
@@ -56,14 +56,14 @@ fn survive(rig: &mut Rig, client: &mut Client, at: At) -> HeadsetFrame {
             turn => panic!("{turn:?}"),
         }
     }
-    // The device goes on without the runtime: this is what the experiment moves over from.
+    // The device goes on without the runtime: the experiment copies its data from it.
     let data = [1_u32, 2, 3, 4];
     let gpu = client.xr.gpu().clone();
     let buffer = Buffer::storage(&gpu, "particles", 16).unwrap();
     gpu.write(&buffer, &data).unwrap();
     assert_eq!(gpu.read::<u32>(&buffer).unwrap(), data);
     client.assert_silent();
-    // Nothing is there yet, and each turn says so soon.
+    // The runtime is not there yet, and each turn reports that soon.
     for _ in 0..10 {
         let (turn, took) = own_time(|| client.xr.next().unwrap());
         assert!(matches!(turn, Turn::Lost { .. }));
@@ -107,7 +107,7 @@ fn a_killed_runtime_is_found_again() {
     let mut handles = Vec::new();
     for at in [At::Acquire, At::Locate, At::End, At::Next] {
         let frame = survive(&mut rig, &mut client, at);
-        // Before the new controller is heard of, the hand is where it was.
+        // Before the new controller's first report, the hand is where it was.
         let held = frame.poses.hand(Side::Right);
         assert!(held.active || held.stage_from_grip.position == hand.position);
         assert!(frame.index > index, "{} after {index}", frame.index);

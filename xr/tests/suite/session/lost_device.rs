@@ -24,7 +24,7 @@ fn another_device_is_opened() {
         let lost = client.xr.gpu().clone();
         lost.lose();
         client.xr.lose_device();
-        // Whatever the caller still asks of the frame is borne.
+        // Later calls in the frame are harmless.
         assert!(client.xr.acquire(true).unwrap().is_none());
         client.xr.end(None).unwrap();
         let (_, others) = client.frame();

@@ -1,5 +1,4 @@
-//! The mock runtime itself: what a script says happens, what is called is written down, and what is
-//! wrong is refused.
+//! The mock runtime itself: it carries out its script, writes down the calls, and refuses wrong ones.
 
 use std::time::Instant;
 
@@ -93,7 +92,7 @@ fn a_controller_arrives_through_its_bindings() {
     assert!(hand.button_a && !hand.button_b);
     assert_eq!(hand.stage_from_grip.position, left.grip.position);
     assert!(!frame.poses.hand(Side::Right).active);
-    // The profile is told by an event, which the next frame's turn takes.
+    // An event announces the profile, which the next frame's turn takes.
     let (frame, _) = client.frame();
     assert_eq!(&*frame.poses.hand(Side::Left).profile, mock::TOUCH);
     client.xr.vibrate(Side::Left, 0.5).unwrap();
@@ -107,7 +106,7 @@ fn a_controller_arrives_through_its_bindings() {
     assert_eq!(mock.calls_of("xrStopHapticFeedback")[0].with["hand"], 0);
 }
 
-/// Where the extension is offered, and asked for.
+/// Where the extension is offered, and asked for, the gaze arrives.
 #[test]
 fn the_gaze_arrives() {
     let changes = [Change::offer_too("XR_EXT_eye_gaze_interaction")];
@@ -116,7 +115,7 @@ fn the_gaze_arrives() {
     };
     let mut client = Client::open_with(true);
     client.focus();
-    // Nothing is known of it at first.
+    // The gaze is not known at first.
     client.frame();
     client.xr.locate_views().unwrap();
     assert_eq!(client.xr.gaze(), None);
@@ -139,7 +138,7 @@ fn the_gaze_arrives() {
     client.assert_silent();
 }
 
-/// A runtime that could tell is not asked unless it is to be.
+/// A runtime that could track the gaze does so only where it is asked for.
 #[test]
 fn the_gaze_is_not_asked_for_by_itself() {
     let changes = [
@@ -182,7 +181,7 @@ fn a_change_takes_effect_in_its_frame() {
     client.assert_silent();
 }
 
-/// What [`moves`] comes to: the poses leap in the frame for which the space moves, which is told of in that frame.
+/// Result of [`moves`]: the poses leap in the frame for which the space moves, and the client reports it in that frame.
 const AT_ITS_TIME: [(f32, bool); 5] = [
     (0.0, false),
     (0.0, false),
@@ -191,8 +190,7 @@ const AT_ITS_TIME: [(f32, bool); 5] = [
     (-2.0, false),
 ];
 
-/// Where the head is in the frames around one before which the space moves, and which of them the
-/// client takes for recentred.
+/// Position of the head in the frames around one before which the space moves, and whether the client reports a recentring.
 fn moves(mock: &Mock, client: &mut Client, space: SpaceKind) -> Vec<(f32, bool)> {
     client.focus();
     let mut seen = Vec::new();
@@ -307,7 +305,7 @@ fn what_is_wrong_is_refused() {
         near: 0.05,
         panel: None,
     };
-    // What the client makes of it is its own affair.
+    // The client's own result does not matter here.
     let _ = client.xr.end(Some(&shown));
     let ends = mock.calls_of("xrEndFrame");
     let refused = ends.iter().find(|call| call.answer < 0).unwrap();
@@ -358,7 +356,7 @@ fn the_way_down_is_legal_too() {
             client.draw();
         }
     }
-    // Asleep until it is woken, or leaves.
+    // The headset sleeps until it is woken, or the program ends.
     assert!(matches!(client.xr.next().unwrap(), Turn::Paused { .. }));
     mock.say(Change::Goal(mock::Goal::Focused));
     client.focus();
@@ -388,7 +386,7 @@ fn what_is_not_known_is_rubbish() {
         },
     ));
     let (frame, _) = client.frame();
-    // The client stays with what it knew.
+    // The client keeps the last known position.
     assert_eq!(frame.poses.stage_from_view.position.x, 0.0);
     let hand = frame.poses.hand(Side::Right);
     assert!(hand.active && !hand.valid && !hand.tracked, "{hand:?}");
@@ -430,7 +428,7 @@ fn hands_without_controllers_and_masks_arrive() {
     assert!(hand.active && hand.valid && hand.trigger == 1.0, "{hand:?}");
     assert_eq!(hand.stage_from_grip.position, Vec3::new(0.3, 1.2, -0.3));
     assert_eq!(client.xr.hidden_area().map(|mask| mask.len()), [0, 3]);
-    // Another mask is told by an event.
+    // An event announces another mask.
     mock.say(Change::Mask {
         eye: 0,
         vertices: vec![[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]],

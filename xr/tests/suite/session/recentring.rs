@@ -32,7 +32,7 @@ fn it_is_heard_whichever_space_moves() {
     client.assert_silent();
 }
 
-/// Poses leap in the frame in which the client says so, in the space that the user recentres.
+/// Poses leap in the frame in which the client reports it, in the space that the user recentres.
 #[test]
 fn poses_leap_as_it_is_told() {
     let Some(mock) = mock::enter("session::recentring::poses_leap_as_it_is_told", &[]) else {

@@ -1,4 +1,4 @@
-//! What a runtime refuses, the session does without.
+//! A session goes on without what the runtime refuses.
 
 use glam::{Quat, Vec3};
 use vitriol_tests::mock::{self, Change, Depth, Layer, Mock};
@@ -14,7 +14,7 @@ const FORMAT_UNSUPPORTED: i32 = -26;
 const BLEND_TEXTURE_SOURCE_ALPHA: u64 = 2;
 const UNPREMULTIPLIED_ALPHA: u64 = 4;
 
-/// That call always, where `when` holds.
+/// The runtime refuses that call always, where `when` holds.
 fn refuse(call: &str, answer: i32, when: Option<&str>) -> Change {
     Change::Refuse {
         call: call.to_owned(),
@@ -24,11 +24,11 @@ fn refuse(call: &str, answer: i32, when: Option<&str>) -> Change {
     }
 }
 
-/// What the last frame was ended with.
+/// The parts with which the last frame was ended.
 struct Last {
     depths: [Option<Depth>; 2],
     panels: usize,
-    /// Each eye has a swapchain of its own.
+    /// Whether each eye has a swapchain of its own.
     apart: bool,
 }
 
@@ -95,7 +95,7 @@ fn a_depth_range_without_end() {
         assert_eq!((depth.min, depth.max, depth.far), (0.0, 1.0, 0.05));
         assert!(depth.near.is_finite() && depth.near > 1e4);
     }
-    // It is not asked for in each frame.
+    // It is not tried again in each frame.
     let ends = mock.calls_of("xrEndFrame");
     assert_eq!(ends.iter().filter(|call| call.answer < 0).count(), 1);
 }
@@ -226,7 +226,7 @@ fn a_call_that_always_is_means_a_loss() {
     client.assert_silent();
 }
 
-/// A hand that rests is left alone, and one that was shaken is told to stop once.
+/// A hand at rest gets no call, and one that was vibrating is stopped once.
 #[test]
 fn nothing_is_said_to_a_hand_at_rest() {
     let name = "session::refused::nothing_is_said_to_a_hand_at_rest";

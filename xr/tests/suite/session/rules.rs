@@ -1,6 +1,5 @@
-//! Rules of OpenXR's best-practice layer, by OpenXR's own dump of what is handed to the runtime: a frame is
-//! ended for the time that the runtime named for it, and shown with the views that were located last,
-//! for that time too.
+//! Rules of OpenXR's best-practice layer, by OpenXR's own dump of the calls to the runtime: a frame is ended for the time that the runtime
+//! named for it, and shown with the views that were located last, for that time too.
 
 use std::path::Path;
 use std::process::Command;
@@ -34,7 +33,7 @@ fn a_frame_ends_with_its_own_time_and_views() {
     assert!(drawn.unwrap().success());
 }
 
-/// What is drawn of each picture, pixels.
+/// Size of the part of each picture that is drawn, pixels.
 const DRAWN: [u32; 2] = [200, 150];
 
 /// Draws frames of a head that moves in each of them, and compares them with their dump.
@@ -68,7 +67,7 @@ fn draw(dump: &Path) {
     client.assert_silent();
     drop(client);
 
-    // Buffers that the runtime is to fill are dumped as they lie.
+    // Buffers that the runtime is to fill are dumped uninitialised.
     let dump = std::fs::read(dump).unwrap();
     let dump = String::from_utf8_lossy(&dump);
     let calls: Vec<&str> = dump.split("XrResult ").collect();

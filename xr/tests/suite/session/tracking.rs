@@ -1,4 +1,4 @@
-//! Heads and hands of which not all is known.
+//! Heads and hands that are known in part.
 
 use glam::{Quat, Vec3};
 use vitriol_tests::mock::{self, Change, Fov, HandState, Known, Mock};
@@ -20,7 +20,7 @@ fn layers(mock: &Mock) -> Vec<usize> {
 }
 
 fn is_turned(pose: &Pose, yaw: f32) -> bool {
-    // Quaternions of 32 bits tell no smaller angles apart.
+    // Quaternions of 32 bits resolve no smaller angles.
     pose.orientation.angle_between(Quat::from_rotation_y(yaw)) < 1e-3
 }
 
@@ -97,7 +97,7 @@ fn a_head_whose_place_is_lost_goes_on_turning() {
         }
         assert_eq!([0, 1].map(|eye: usize| views[eye].fov.left), [-0.6, -0.5]);
     }
-    // With nothing known all stays, and the picture goes on.
+    // With nothing known all poses stay, and the picture goes on.
     mock.say(head(place, 9.0, Known::NOTHING));
     let (views, head) = seen(&mut client, true);
     assert!(head.position == place && is_turned(&head, 1.5), "{head:?}");
@@ -163,7 +163,7 @@ fn a_hand_whose_place_is_lost_stays_where_it_was() {
     assert!(layers(&mock).iter().rev().take(5).all(|&count| count == 2));
 }
 
-/// A right hand whose palm looks left, thumb up and fingers ahead, with the tips of thumb and index finger so far apart, m.
+/// A right hand whose palm looks left, thumb up and fingers ahead, with the tips of thumb and index finger `apart` m from each other.
 fn bare(apart: f32) -> Vec<mock::Joint> {
     let palm = Vec3::new(0.2, 1.1, -0.4);
     // Of a palm joint +Y leaves the back of the hand, and -Z looks along the fingers.
@@ -213,7 +213,7 @@ fn a_bare_hand_is_seen() {
         assert_eq!(joints.0[10].1, 0.008);
         assert!(frame.joints[0].is_none());
     }
-    // One joint that is not known, and there are none; nor while it holds a controller.
+    // If one joint is not known, there are none; nor while it holds a controller.
     let mut partly = bare(0.06);
     partly[7].known = Known::NOTHING;
     assert!(see(Some(partly)).joints[1].is_none());
@@ -224,7 +224,7 @@ fn a_bare_hand_is_seen() {
         frame.poses.hand(Side::Right).stage_from_grip.position.y,
         1.0
     );
-    // Out of sight it is gone, and stays where it was.
+    // Out of sight it is inactive, and its pose stays.
     mock.say(Change::Hand {
         side: 1,
         state: None,

@@ -7,9 +7,9 @@ use vitriol_xr::track::{Existing, Track, builtin, load};
 use vitriol_xr::{Pose, Side};
 
 const TABLE: f32 = 0.75;
-/// Of the flask that is poured from: outer radius and height, m.
+/// Outer radius and height of the flask that is poured from, m.
 const FLASK: (f32, f32) = (0.036, 0.095);
-/// Of the beaker that is poured into: outer radius, inner radius and height, m.
+/// Outer radius, inner radius and height of the beaker that is poured into, m.
 const BEAKER: (f32, f32, f32) = (0.040, 0.038, 0.110);
 /// Rounding of f32 products of metres.
 const NEAR: f32 = 2e-6;

@@ -12,7 +12,7 @@ fn parse(bytes: &[u8]) -> Result<Track, TrackError> {
     Track::parse(bytes, Path::new("damaged.mcap"))
 }
 
-/// What is read must be a beginning of what was written.
+/// The track that is read must be a beginning of the one that was written.
 fn is_beginning(read: &Track, whole: &Track) {
     let kept = read.frames.len();
     assert!(kept <= whole.frames.len());

@@ -1,4 +1,4 @@
-//! Tracks that come from others: what they may hold, and how much.
+//! Tracks from other people: what they may hold, and how much.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,7 +7,7 @@ use vitriol_tests::wait::own_time;
 use vitriol_xr::track::{Existing, Track, TrackMetadata, TrackWriter, limits, save};
 use vitriol_xr::{Pose, Switch};
 
-/// What reading says of a file with `metadata` records before the frames of a good track.
+/// The result of reading a file with `metadata` records before the frames of a good track.
 fn with_records(records: &[(&str, &[(&str, &str)])]) -> Result<Track, String> {
     let good = super::bytes(&super::track(3));
     let mut bytes = Vec::new();
@@ -80,7 +80,7 @@ fn texts_and_parameters_have_an_end() {
     assert!(many.contains("number of entries is 300"), "{many}");
 }
 
-/// The writer holds to the limits that the reader has, so that what was recorded can be read.
+/// The writer keeps the reader's limits, so that every recording can be read.
 #[test]
 fn what_is_recorded_is_within_the_limits() {
     let dir = tempfile::tempdir().unwrap();
@@ -130,7 +130,7 @@ fn what_is_recorded_is_within_the_limits() {
     assert_eq!(track.stage_from_flasks[0].len(), limits::FLASKS);
 }
 
-/// So it does with what a track says of itself, to the last entry.
+/// The writer keeps the limits of metadata, to the last entry.
 #[test]
 fn what_is_said_is_within_the_limits() {
     let dir = tempfile::tempdir().unwrap();
@@ -159,7 +159,7 @@ fn what_is_said_is_within_the_limits() {
     }
 }
 
-/// What unpacks to more than any track is not unpacked to its end.
+/// A file that unpacks to more than any track is not unpacked to its end.
 #[test]
 fn a_file_that_unpacks_without_end_is_left() {
     let mut bytes = Vec::new();
@@ -213,8 +213,8 @@ fn a_step_has_few_switches() {
     );
 }
 
-/// Reading takes time in proportion to what there is: four times the frames, by the processor's time of this thread,
-/// four times as long. A search of all before each would take sixteen.
+/// The time to read is proportional to the file: four times the frames, by the processor's time of this thread, take four times as long. A
+/// search of all before each would take sixteen.
 #[test]
 fn reading_takes_time_in_proportion() {
     let of = |frames: u64| {
@@ -260,8 +260,8 @@ fn missing_steps_are_found() {
     assert!(whole.outcome.is_empty());
 }
 
-/// The container's library subtracts a record from what is left of its chunk without looking: found by fuzzing, and so are the
-/// bytes. What is whole and not compressed is read.
+/// The container's library subtracts a record from the rest of its chunk without a check: found by fuzzing, and so are the bytes. Records
+/// that are whole and not compressed are read.
 #[test]
 fn a_record_longer_than_its_chunk_is_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/track");

@@ -165,7 +165,7 @@ fn conversion_keeps_every_bit_and_overwrites_nothing() {
     let again = convert(text.to_str().unwrap(), &mcap, Existing::Refuse);
     assert!(matches!(again, Err(TrackError::Exists { .. })));
 
-    // A bad source leaves nothing, and what is there as it is.
+    // A bad source leaves no file, and leaves an existing one as it is.
     std::fs::write(&text, TEXT.replace("t = 2.0", "t = 0.9")).unwrap();
     let new = dir.path().join("b.mcap");
     assert!(convert(text.to_str().unwrap(), &new, Existing::Refuse).is_err());
@@ -184,7 +184,7 @@ fn conversion_keeps_every_bit_and_overwrites_nothing() {
 #[test]
 fn bad_keyframes_are_refused_with_their_line() {
     let cases = [
-        // What is replaced by what, and what the message must say.
+        // (text, its replacement, parts of the message)
         (
             "seed = 7",
             "sede = 7",
@@ -252,7 +252,7 @@ fn bad_keyframes_are_refused_with_their_line() {
             "yaw = nan",
             &["test.toml:8", "head.rotation has NaN"],
         ),
-        // Not a quaternion, and not three angles of which nobody says which.
+        // Not a quaternion, and not three angles without names.
         (
             "rotation = { yaw = 90, pitch = -30, roll = 10 }",
             "rotation = [0.0, 0.0, 0.0, 1.5]",

@@ -8,8 +8,8 @@ use vitriol_xr::track::{Existing, Track, TrackWriter};
 
 const FILE: &str = "VITRIOL_TEST_KILLED_TRACK";
 
-/// Runs the test `name` of this program again, as a child that writes to `file` and kills
-/// itself, and gives back what can be read of the file.
+/// Runs the test `name` of this program again, as a child that writes to `file` and kills itself, and returns the track that can be read
+/// from the file.
 fn killed(name: &str) -> Track {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("killed.mcap");

@@ -67,7 +67,7 @@ fn read(messages: &[Raw], with_metadata: bool) -> Result<Track, String> {
     Track::parse(&bytes, Path::new("bad.mcap")).map_err(|error| error.to_string())
 }
 
-/// What reading says once `change` was applied to each message of step 7.
+/// The error of reading once `change` was applied to each message of step 7.
 fn refusal(mut change: impl FnMut(&mut Raw)) -> String {
     let mut messages = good();
     for raw in messages.iter_mut().filter(|raw| raw.sequence == 7) {
@@ -174,7 +174,7 @@ fn frames() {
     assert_says(&other, &["view.parent_frame_id is `world`", "`stage`"]);
 }
 
-/// Time is linear in what a frame holds: each transform is looked up once, and no frame has more than 256.
+/// Time is linear in the number of a frame's transforms: each is looked up once, and no frame has more than 256.
 #[test]
 fn many_transforms() {
     let flask = |t: &[Transform], n: usize| {
@@ -294,7 +294,7 @@ fn other_topics_are_let_be() {
     assert_eq!(read(&messages, true).unwrap().frames.len(), 20);
 }
 
-/// The writer refuses what the reader would, writes nothing of it, and goes on.
+/// The writer refuses what the reader would refuse, writes nothing of it, and goes on.
 #[test]
 fn the_writer_refuses_too() {
     type Break = fn(&mut PoseFrame);

@@ -1,4 +1,4 @@
-//! What is written is what is read.
+//! A track that is written and read is the same.
 
 use proptest::prelude::*;
 use std::path::Path;
@@ -176,8 +176,8 @@ proptest! {
     }
 }
 
-/// What was found in a session is read in its order, goes with a track that is saved again, and is left out where the track is cut
-/// before it; what no reader could take is refused.
+/// Events of a session are read in their order, are kept in a track that is saved again, and are left out where the track is cut before
+/// them; events that no reader could accept are refused.
 #[test]
 fn what_was_found_goes_with_the_track() {
     let dir = tempfile::tempdir().unwrap();
@@ -191,7 +191,7 @@ fn what_was_found_goes_with_the_track() {
     ]
     .map(|(at, json)| (at, json.to_owned()))
     .to_vec();
-    // What was said of a lesson likewise, on a topic of its own.
+    // Likewise changes in a lesson, on a topic of their own.
     track.progress = [(early, "{\"d\":4}"), (late, "{\"e\":5}")]
         .map(|(at, json)| (at, json.to_owned()))
         .to_vec();

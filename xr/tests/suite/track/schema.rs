@@ -1,5 +1,4 @@
-//! The file describes itself: what a viewer that knows nothing of this program decodes with
-//! the schemas in the file is what was written.
+//! The file describes itself: a viewer without this program's code decodes the written values with the schemas in the file.
 
 use prost_reflect::{DescriptorPool, DynamicMessage, MessageDescriptor, ReflectMessage, Value};
 use vitriol_xr::{Pose, Side};

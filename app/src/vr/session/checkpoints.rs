@@ -15,7 +15,7 @@ const EVERY: u64 = 22;
 
 /// See the module.
 #[derive(Default)]
-pub(super) struct Keeper {
+pub(super) struct Checkpoints {
     /// The step that is kept next.
     due: u64,
     /// Copies on their way, with the submission that they are in.
@@ -23,7 +23,7 @@ pub(super) struct Keeper {
     reading: Option<JoinHandle<Result<Kept, WorldError>>>,
 }
 
-impl Keeper {
+impl Checkpoints {
     /// Records the copies if they are due, behind all steps.
     pub fn record(
         &mut self,
