@@ -17,7 +17,7 @@ use clap::{Parser, Subcommand};
 
 pub use arguments::{CameraName, PagesArgs, ReplayArgs, ScenesArgs, TrackArgs};
 #[cfg(feature = "class")]
-pub use class::{ConsoleArgs, ForgetArgs, GradeArgs, HubArgs, KeepArgs};
+pub use class::{ForgetArgs, GradeArgs, HubArgs, KeepArgs};
 pub use drawn::DrawnArgs;
 #[cfg(feature = "export")]
 pub use export::ExportArgs;

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use tracing::level_filters::LevelFilter;
 use vitriol::cli::{Cli, left_out};
-use vitriol_experiment::{error_line, escaped};
+use vitriol_run::{error_line, escaped};
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {

@@ -2,8 +2,8 @@
 
 use glam::{Affine3A, Vec3};
 use serde_json::{Value, json};
-use vitriol_experiment::{EYES_APART, HEAD_FIELD, stage, tripod};
 use vitriol_render::{Fov, View};
+use vitriol_run::{EYES_APART, HEAD_FIELD, stage, tripod};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::PoseFrame;
 

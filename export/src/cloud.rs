@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use vitriol_experiment::stage;
+use vitriol_run::stage;
 use vitriol_sim::measure::AIR_OVER_STEAM;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;

@@ -17,8 +17,8 @@ mod surfaces;
 mod table;
 mod vtk;
 
-use vitriol_experiment::output::OutDir;
-use vitriol_experiment::{
+use vitriol_run::output::OutDir;
+use vitriol_run::{
     Experiment, Failure, Laboratory, Moment, Progress, Sample, Span, Watch, sample_is_due,
 };
 use vitriol_xr::track::TrackMetadata;

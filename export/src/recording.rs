@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use vitriol_experiment::output::OutDir;
-use vitriol_experiment::particles::Particles;
-use vitriol_experiment::track::{STATE_HASH, blame};
-use vitriol_experiment::{
+use vitriol_run::output::OutDir;
+use vitriol_run::particles::Particles;
+use vitriol_run::track::{STATE_HASH, blame};
+use vitriol_run::{
     Action, Blame, Experiment, FILM_FPS, FILM_SIZE, Failure, H264, Laboratory, Moment, Sample,
     stage,
 };

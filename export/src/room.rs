@@ -1,9 +1,9 @@
 //! Table and room as meshes.
 
 use glam::DVec3;
-use vitriol_experiment::scenery::laboratory;
-use vitriol_experiment::stage;
 use vitriol_render::BoxDesc;
+use vitriol_run::scenery::laboratory;
+use vitriol_run::stage;
 use vitriol_sim::scene::Scene;
 
 use crate::mesh::Mesh;

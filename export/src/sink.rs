@@ -3,9 +3,9 @@
 use std::cell::OnceCell;
 use std::io::Write;
 
-use vitriol_experiment::output::{OutDir, Staged};
-use vitriol_experiment::particles::Particles;
-use vitriol_experiment::{Blame, Failure, Laboratory, Moment, Sample};
+use vitriol_run::output::{OutDir, Staged};
+use vitriol_run::particles::Particles;
+use vitriol_run::{Blame, Failure, Laboratory, Moment, Sample};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 use vitriol_sim::world::World;

@@ -5,9 +5,9 @@
 //! the glass, and the glass along it: no gap of half a particle is left between liquid and wall, and none shines through.
 
 use glam::{DAffine3, DQuat, DVec3};
-use vitriol_experiment::glassware::Glassware;
-use vitriol_experiment::{Liquid, stage};
 use vitriol_render::reference::{Anisotropy, Field, Nothing, SURFACE, Shape, Surroundings};
+use vitriol_run::glassware::Glassware;
+use vitriol_run::{Liquid, stage};
 use vitriol_sim::bodies::is_nowhere;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;

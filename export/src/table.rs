@@ -9,7 +9,7 @@ use parquet::data_type::DoubleType;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use vitriol_experiment::{Blame, Failure, LedgerSample, Sample};
+use vitriol_run::{Blame, Failure, LedgerSample, Sample};
 
 /// Rows that a Parquet file holds together, and this program in memory: a minute and a half.
 const ROWS: usize = 1000;

@@ -2,7 +2,7 @@
 //! ParaView and PyVista read them.
 
 use serde_json::json;
-use vitriol_experiment::particles::Particles;
+use vitriol_run::particles::Particles;
 
 /// Kind of a cell that is one point.
 const VERTEX: u8 = 1;

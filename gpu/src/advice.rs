@@ -1,4 +1,4 @@
-//! Where what is missing comes from, on this system: halves of sentences for messages.
+//! Where to get missing parts of Vulkan on this system: halves of sentences for messages.
 
 /// Loader and driver of Vulkan.
 #[cfg(windows)]
@@ -7,7 +7,7 @@ pub const LOADER: &str =
 /// A driver of Vulkan.
 #[cfg(windows)]
 pub const DRIVER: &str = "install your graphics card's driver from its maker";
-/// The layer that checks what a program asks of Vulkan.
+/// The layer that checks a program's calls of Vulkan.
 #[cfg(windows)]
 pub const VALIDATION: &str = "install LunarG's Vulkan SDK";
 
@@ -18,6 +18,6 @@ pub const LOADER: &str = "install it (Debian: package libvulkan1), and a driver:
 /// A driver of Vulkan.
 #[cfg(not(windows))]
 pub const DRIVER: &str = "install a driver: your graphics card's, or the software one (Debian: package mesa-vulkan-drivers)";
-/// The layer that checks what a program asks of Vulkan.
+/// The layer that checks a program's calls of Vulkan.
 #[cfg(not(windows))]
 pub const VALIDATION: &str = "install it (Debian: package vulkan-validationlayers)";

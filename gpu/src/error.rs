@@ -1,4 +1,4 @@
-//! What can go wrong between this program and the device, and what to do.
+//! Failures between this program and the device, and their remedies.
 
 use ash::vk;
 
@@ -10,13 +10,13 @@ pub enum GpuError {
     /// The Vulkan loader (libvulkan) is not installed.
     #[error("the Vulkan loader cannot be loaded ({cause}); {LOADER}")]
     NoLoader {
-        /// What the system said.
+        /// The system's message.
         cause: String,
     },
     /// The loader is there, but no driver made an instance.
     #[error("no Vulkan instance can be created ({result}); {DRIVER}")]
     NoInstance {
-        /// The loader's answer.
+        /// The loader's result.
         result: vk::Result,
     },
     /// Drivers are there but offer no device.
@@ -27,7 +27,7 @@ pub enum GpuError {
         "no Vulkan device is named \"{wanted}\"; the devices are: {offered}. Choose by index or part of the name"
     )]
     NoSuchDevice {
-        /// What was asked for.
+        /// The device that was asked for.
         wanted: String,
         /// Index and name of each device.
         offered: String,
@@ -56,9 +56,9 @@ pub enum GpuError {
     /// The provider (plain loader, OpenXR runtime) refused.
     #[error("{provider} could not {step}: {cause}")]
     Provider {
-        /// Who refused.
+        /// Name of the provider.
         provider: String,
-        /// What it was asked for.
+        /// The step that it refused.
         step: &'static str,
         /// Cause and remedy in the provider's words.
         cause: String,
@@ -73,7 +73,7 @@ pub enum GpuError {
         label: String,
         /// Bytes asked for.
         bytes: u64,
-        /// What the allocator said.
+        /// The allocator's message.
         cause: String,
     },
     /// A buffer is larger than a shader may bind.
@@ -94,7 +94,7 @@ pub enum GpuError {
     ImageUnsupported {
         /// Label of the image.
         label: String,
-        /// What does not fit.
+        /// The property that is not supported.
         cause: String,
     },
     /// A Vulkan call failed for a reason that has no variant of its own.
@@ -104,7 +104,7 @@ pub enum GpuError {
     Vulkan {
         /// The call.
         call: &'static str,
-        /// Its answer.
+        /// Its result.
         result: vk::Result,
     },
     /// The device stopped answering (hang, reset, driver crash).
@@ -116,13 +116,13 @@ pub enum GpuError {
         /// Label of the last pass that the device reached, when markers are on.
         last_pass: Option<String>,
     },
-    /// A bundle holds what is known within one submission only, or is executed where it cannot be.
+    /// A bundle contains something that is known within one submission only, or is executed where it cannot be.
     #[error(
         "no bundle can be recorded or executed: {0}; images and readbacks go to the submission's own recorder, and \
          a bundle to the queue that it was recorded for"
     )]
     Bundle(
-        /// What does not fit.
+        /// The content or place that is not allowed.
         String,
     ),
     /// A shader declares something that this crate does not bind.
@@ -168,12 +168,12 @@ pub enum GpuError {
         /// `maxComputeWorkGroupCount`.
         limit: [u32; 3],
     },
-    /// A raster scope and what is drawn in it do not fit each other.
+    /// A raster scope and its draws do not fit each other.
     #[error("raster \"{pass}\": {cause}")]
     Raster {
         /// Label of the scope or draw.
         pass: String,
-        /// What does not fit.
+        /// The property in which they differ.
         cause: String,
     },
     /// A copy, upload or read reaches past a buffer's end or is unaligned.
@@ -188,7 +188,7 @@ pub enum GpuError {
         /// Size of the buffer.
         size: u64,
     },
-    /// The host reached for memory that only the device sees.
+    /// The host accessed memory that only the device can access.
     #[error(
         "buffer \"{label}\" is not visible to the host; use `read_back` or `upload`, or make it with `Buffer::readback` or `Buffer::staging`"
     )]
@@ -196,12 +196,12 @@ pub enum GpuError {
         /// Label of the buffer.
         label: String,
     },
-    /// A buffer was used for what it was not made for.
+    /// A buffer was used in a way that it was not made for.
     #[error("buffer \"{label}\" was not made for {usage:?}; make it with `Buffer::storage`")]
     WrongBuffer {
         /// Label of the buffer.
         label: String,
-        /// What it would need.
+        /// The usage that it would need.
         usage: vk::BufferUsageFlags,
     },
     /// A result was asked for before the device had it.

@@ -21,7 +21,7 @@ pub(crate) struct Inner {
     pub(crate) queues: Queues,
     pub(crate) options: Options,
     pub(crate) core: Arc<Core>,
-    /// A call has said that the device is lost.
+    /// Whether a call has returned that the device is lost.
     lost: AtomicBool,
 }
 
@@ -55,7 +55,7 @@ impl Gpu {
     /// Opens a device through `provider`.
     ///
     /// # Errors
-    /// What is missing (loader, driver, device, feature, layer), with remedy.
+    /// A [`GpuError`] that names what is missing (loader, driver, device, feature, layer), with remedy.
     pub fn open(provider: &mut dyn Provider, options: &Options) -> Result<Self, GpuError> {
         let (core, plan) = device::open(provider, options)?;
         Ok(Self {
@@ -68,12 +68,12 @@ impl Gpu {
         })
     }
 
-    /// What the device is and offers.
+    /// Properties of the device.
     pub fn info(&self) -> &DeviceInfo {
         &self.inner.core.info
     }
 
-    /// How it was opened.
+    /// Options with which it was opened.
     pub fn options(&self) -> &Options {
         &self.inner.options
     }
@@ -84,7 +84,7 @@ impl Gpu {
         self.inner.core.messages.list()
     }
 
-    /// As [`Gpu::validation_messages`], and forgets them.
+    /// Returns the messages of [`Gpu::validation_messages`], and clears them.
     pub fn take_validation_messages(&self) -> Vec<String> {
         self.inner.core.messages.take()
     }
@@ -115,17 +115,17 @@ impl Gpu {
         self.inner.last_pass()
     }
 
-    /// Whether the device is lost: nothing that was submitted to it will come, and what lives on it is gone. Another device may be
-    /// opened in its place.
+    /// Whether the device is lost: submitted work will not complete, and its resources are gone. Another device may be opened in its
+    /// place.
     pub fn is_lost(&self) -> bool {
         self.inner.lost.load(Ordering::Relaxed)
     }
 
     /// From now on every submission and every wait fails as on a lost device. For tests: no driver loses a device on demand.
     ///
-    /// A lost device executes nothing more, so what is under way is waited for: whoever hears of the loss may destroy what it uses.
+    /// A lost device executes nothing more, so this waits for submitted work: callers that get the error may destroy what the device used.
     pub fn lose(&self) {
-        // A device that is lost already has nothing under way.
+        // A device that is lost already has no work in flight.
         let _ = self.wait_idle();
         self.inner.lost.store(true, Ordering::Relaxed);
     }
@@ -143,7 +143,7 @@ impl Gpu {
 }
 
 impl Inner {
-    /// Last value that the queue's timeline has reached.
+    /// The last value that the queue's timeline has reached.
     fn reached(&self, index: usize) -> Result<u64, GpuError> {
         self.check()?;
         let timeline = self.queues.at(index).timeline;
@@ -159,7 +159,7 @@ impl Inner {
         let wait = vk::SemaphoreWaitInfo::default()
             .semaphores(&semaphores)
             .values(&values);
-        // Shows what blocks a thread; a test checks by it that the frame loop never waits here.
+        // Traces each wait; a test checks by it that the frame loop never waits here.
         tracing::trace!(target: "vitriol_gpu::wait", queue = index, value, "waits for the device");
         // SAFETY: the semaphore lives as long as the queues. Without a limit:
         // a driver reports a device that hangs as lost.
@@ -174,13 +174,13 @@ impl Inner {
         Ok(value != 0 && self.reached(submission.queue)? >= value)
     }
 
-    /// Lets go of what finished submissions used.
+    /// Recycles finished submissions of a queue.
     pub(crate) fn collect(&self, index: usize) -> Result<(), GpuError> {
         let reached = self.reached(index)?;
         self.queues.at(index).recycle(reached)
     }
 
-    /// Once lost, a device stays lost.
+    /// Fails if the device is lost: once lost, it stays lost.
     pub(crate) fn check(&self) -> Result<(), GpuError> {
         if self.lost.load(Ordering::Relaxed) {
             return Err(self.error("", vk::Result::ERROR_DEVICE_LOST));
@@ -208,7 +208,7 @@ impl Inner {
         }
     }
 
-    /// The main queue's first: what hangs there is what the user sees.
+    /// Label of the last pass that was reached, of the main queue first: the user sees what hangs there.
     fn last_pass(&self) -> Option<String> {
         self.queues.iter().find_map(|queue| queue.last_pass())
     }

@@ -28,11 +28,10 @@
 //! Rules that hold everywhere:
 //! - Device requirements are Vulkan 1.3 (dynamic rendering, synchronization2,
 //!   timeline semaphores) and `VK_KHR_push_descriptor`.
-//! - A handle ([`Buffer`], [`Image`], pipelines) is a cheap clone; what a
-//!   recorder uses lives until the device has finished with it.
-//! - Between submissions on one queue everything is ordered; between queues
-//!   only what [`Gpu::submit_after`] orders.
-//! - Nothing here panics on what user, file or driver can cause.
+//! - A handle ([`Buffer`], [`Image`], pipelines) is a cheap clone; resources that a recorder uses live until the device has finished with
+//!   them.
+//! - Submissions on one queue are ordered; between queues [`Gpu::submit_after`] alone orders them.
+//! - Nothing here panics because of a user, file or driver.
 // Vulkan is an unsafe interface; every block states why its call is valid.
 #![allow(unsafe_code)]
 

@@ -1,5 +1,4 @@
-//! The device's queues: submission, and the recycling of what the device has
-//! finished with.
+//! The device's queues: submission, and the recycling of finished submissions.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
@@ -82,7 +81,7 @@ impl Queues {
         self.0.iter()
     }
 
-    /// The device is idle: lets everything go.
+    /// Frees everything; the device must be idle.
     pub(crate) fn destroy(&mut self, core: &Core) {
         for queue in self.0.drain(..) {
             drop(queue.state);
@@ -112,13 +111,12 @@ impl Queue {
         })
     }
 
-    /// Memory of a submission that has finished, for the next one.
+    /// Storage of a finished submission, for the next one.
     pub(crate) fn recycled(&self) -> Option<Box<Storage>> {
         lock_queue(&self.state).free.pop()
     }
 
-    /// Submits what was recorded, after `waits`, and holds what it uses until
-    /// the device has finished.
+    /// Submits the recorded commands, after `waits`, and holds what they use until the device has finished.
     pub(crate) fn submit(
         &self,
         storage: Box<Storage>,
@@ -152,11 +150,10 @@ impl Queue {
         lock_queue(&self.state).submitted
     }
 
-    /// Lets go of what submissions up to the timeline's value `reached` used,
-    /// and keeps their memory for the next ones.
+    /// Releases the resources of submissions up to the timeline's value `reached`, and keeps their storage for the next ones.
     pub(crate) fn recycle(&self, reached: u64) -> Result<(), GpuError> {
-        // Each while the queue is free: times may be waited for, and among what is let go may be the last of a scene's
-        // pipelines and buffers, which a driver destroys in tens of milliseconds.
+        // Each while the queue is free: other threads may wait for its times, and the resources may be the last of a scene's pipelines and
+        // buffers, which a driver destroys in tens of milliseconds.
         let mut result = Ok(());
         for mut storage in self.finished(reached) {
             match storage.recycle(self.timestamp_mask) {
@@ -167,7 +164,7 @@ impl Queue {
         result
     }
 
-    /// Takes out those up to the timeline's value `reached`.
+    /// Takes out the storages of submissions up to the timeline's value `reached`.
     #[expect(clippy::vec_box, reason = "as for those that are free")]
     fn finished(&self, reached: u64) -> Vec<Box<Storage>> {
         let mut state = lock_queue(&self.state);
@@ -178,7 +175,7 @@ impl Queue {
         finished.map(|(_, storage)| storage).collect()
     }
 
-    /// Label of the last pass that the device has reached in what is in flight.
+    /// Label of the last pass that the device has reached in submissions in flight.
     pub(crate) fn last_pass(&self) -> Option<String> {
         let state = lock_queue(&self.state);
         let mut latest_first = state.in_flight.iter().rev();

@@ -31,9 +31,8 @@ impl Ticket {
         self.gpu.inner.has_finished(&self.submission)
     }
 
-    /// Time of each pass in order, where they are timed, and last the whole submission under the
-    /// label "total". Empty without `Options::timestamps`, or where the device
-    /// has none.
+    /// Time of each pass in order, where passes are timed, and last the whole submission under the label "total". Empty without
+    /// `Options::timestamps`, or where the device has no timestamps.
     ///
     /// # Errors
     /// [`GpuError::NotDone`] before the device has finished.
@@ -42,7 +41,7 @@ impl Ticket {
             return Err(GpuError::NotDone);
         }
         self.gpu.inner.collect(self.submission.queue)?;
-        // Another thread may be reading them.
+        // Another thread may be storing them now.
         Ok(self.submission.timings.wait().clone())
     }
 }

@@ -1,8 +1,8 @@
-//! What hands and tools are drawn of: bones, each of one finish.
+//! Bones, from which hands and tools are drawn, each of one finish.
 
 use glam::Vec3;
 
-/// Bones that a hand has at most, and tools in all, as in `common/picture/bones.wgsl`.
+/// Most bones of a hand, and of all tools together, as in `common/picture/bones.wgsl`.
 pub const MOST_BONES: usize = 32;
 
 /// Distance over which the bones of a hand join smoothly, metres: they add up to a quarter of it where they meet, 1 mm. With
@@ -12,7 +12,7 @@ pub const JOINED: f32 = 0.004;
 /// Reflectance where acid has charred a glove. Ours: about the sRGB colour (62, 42, 28).
 pub(crate) const CHARRED: Vec3 = Vec3::new(0.048, 0.023, 0.011);
 
-/// What a bone is of.
+/// The material of a bone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
     /// A glove.
@@ -21,9 +21,9 @@ pub enum Finish {
     Cuff,
     /// A ray of light, that a hand points with.
     Ray,
-    /// Something to hold on to, that is not of the hand.
+    /// A handle to hold on to, that is not of the hand.
     Handle,
-    /// The same while a hand is at it.
+    /// A handle ([`Finish::Handle`]) while a hand is at it.
     HandleAtHand,
     /// A hand without a glove.
     Skin,
@@ -72,18 +72,18 @@ pub struct Scale {
     pub celsius: [f32; 2],
     /// How far they are from the middle of the bone's first end, metres.
     pub heights: [f32; 2],
-    /// What it shows, °C: the column's end is there.
+    /// The temperature that it shows, °C: the column's end is there.
     pub reading: f32,
 }
 
-/// One bone of a glove, or what is drawn like one: the convex hull of two spheres.
+/// One bone of a glove, or an object that is drawn like one: the convex hull of two spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bone {
     /// The spheres' middles in the stage, metres.
     pub ends: [Vec3; 2],
     /// Their radii, metres.
     pub radii: [f32; 2],
-    /// What it is of.
+    /// Its material.
     pub finish: Finish,
     /// How black acid has made it, 0 to 1.
     pub stain: f32,

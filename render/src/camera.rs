@@ -60,7 +60,7 @@ impl Fov {
 pub struct View {
     /// Where the eye is in the stage; rigid, in metres.
     pub stage_from_eye: Affine3A,
-    /// What it sees.
+    /// Its frustum.
     pub fov: Fov,
 }
 

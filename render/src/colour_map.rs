@@ -92,7 +92,7 @@ pub enum ColourMap {
 }
 
 impl ColourMap {
-    /// sRGB-encoded, evenly spaced over the attribute's range.
+    /// The map's colours, sRGB-encoded, evenly spaced over the attribute's range.
     pub fn entries(self) -> &'static [[f32; 3]; ENTRIES] {
         match self {
             Self::Lapaz => &LAPAZ,
@@ -101,7 +101,7 @@ impl ColourMap {
         }
     }
 
-    /// The same in linear light.
+    /// [`ColourMap::entries`] decoded to linear light, with alpha 1.
     pub fn linear_entries(self) -> [[f32; 4]; ENTRIES] {
         self.entries()
             .map(|[red, green, blue]| [linear(red), linear(green), linear(blue), 1.0])

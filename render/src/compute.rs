@@ -1,11 +1,11 @@
-//! How every pass of this crate gets its pipeline.
+//! Creation of this crate's compute pipelines.
 
 use vitriol_gpu::{ComputePipeline, Gpu};
 use vitriol_shaders::{Library, ShaderId};
 
 use crate::RenderError;
 
-/// The pipeline of a shader, specialised by `constants`.
+/// The pipeline of a shader's entry point `main`, specialised by `constants`.
 pub(crate) fn compute(
     gpu: &Gpu,
     library: &Library,
@@ -15,7 +15,7 @@ pub(crate) fn compute(
     compute_of(gpu, library, (shader, "main"), constants)
 }
 
-/// The same of another entry point.
+/// The pipeline of a shader's entry point `entry`, specialised by `constants`; [`compute`] takes `main`.
 pub(crate) fn compute_of(
     gpu: &Gpu,
     library: &Library,

@@ -1,4 +1,4 @@
-//! What a renderer is made for.
+//! Description from which a renderer is made.
 
 use crate::tints::Tint;
 
@@ -29,7 +29,7 @@ pub struct Lanes {
 }
 
 impl Lanes {
-    /// As many as suit the device.
+    /// Numbers of lanes that suit the device.
     pub const CHOSEN: Self = Self {
         neighbours: None,
         pixels: None,
@@ -55,9 +55,9 @@ pub enum SurfaceFilter {
     /// Truong and Yuksel's narrow-range filter of 2018.
     #[default]
     NarrowRange,
-    /// Van der Laan's screen-space curvature flow of 2009, which the paper takes.
+    /// Van der Laan's screen-space curvature flow of 2009, which the paper uses.
     CurvatureFlow,
-    /// None: the ellipsoids as they are, to compare with.
+    /// No filter: the ellipsoids as they are, for comparison.
     None,
 }
 
@@ -72,12 +72,12 @@ pub struct LiquidDesc {
     pub filter: SurfaceFilter,
     /// Whether particles are ellipsoids by their neighbours' places; else spheres.
     pub anisotropic: bool,
-    /// What it absorbs.
+    /// Its absorption.
     pub tint: Tint,
 }
 
 impl LiquidDesc {
-    /// For `particles` of them and no bubbles, as the program draws by itself.
+    /// A liquid of `particles` at most, without bubbles, with the program's own filter and tint.
     pub const fn new(particles: u32) -> Self {
         Self {
             particles,

@@ -1,4 +1,4 @@
-//! What drawing can fail with.
+//! Errors of drawing.
 
 use vitriol_gpu::GpuError;
 use vitriol_shaders::ShaderError;
@@ -6,22 +6,22 @@ use vitriol_shaders::ShaderError;
 /// Why a picture was not drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// The device or its memory.
+    /// The device or its memory failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A shader.
+    /// A shader failed.
     #[error(transparent)]
     Shader(#[from] ShaderError),
-    /// The renderer was asked for a number of views that it has not.
+    /// The renderer was asked for a number of views that it does not have.
     #[error("{views} views asked for; a renderer has one (a film) or two (a headset)")]
     ViewCount {
         /// Views asked for.
         views: u32,
     },
-    /// A frame brings another number of something than the scene or target has.
+    /// A frame has another number of something than the scene or target.
     #[error("the frame has {given} {what}, the renderer {wanted}; give as many, in the same order")]
     Count {
-        /// What was counted.
+        /// The quantity that was counted.
         what: &'static str,
         /// How many the frame has.
         given: usize,
@@ -33,9 +33,9 @@ pub enum RenderError {
         "a picture of {extent:?} pixels of a renderer of {held:?}; draw at most that, and at least one"
     )]
     Extent {
-        /// What the frame asks for.
+        /// Width and height that the frame asks for, pixels.
         extent: [u32; 2],
-        /// What there is.
+        /// Width and height of the renderer's images, pixels.
         held: [u32; 2],
     },
     /// Lanes were asked for that shader or device do not have.
@@ -43,13 +43,13 @@ pub enum RenderError {
         "{asked} lanes for a particle's {of}; take a power of two from {least} to {most}, or leave it to the program"
     )]
     Lanes {
-        /// What they share.
+        /// The particle's property whose work they share.
         of: &'static str,
-        /// How many were asked for.
+        /// Lanes asked for.
         asked: u32,
-        /// Fewest.
+        /// Fewest lanes.
         least: u32,
-        /// Most on this device.
+        /// Most lanes on this device.
         most: u32,
     },
     /// A scene has more vessels than a picture.
@@ -81,7 +81,7 @@ pub enum RenderError {
         count: u32,
         /// The shorter buffer's label.
         buffer: String,
-        /// What it holds.
+        /// Particles that it holds.
         held: u64,
     },
 }

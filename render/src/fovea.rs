@@ -1,5 +1,4 @@
-//! Foveation: away from where the eye or the lens is sharp, one pixel of each block is shaded, and colours go over from one to the
-//! next.
+//! Foveation: away from where the eye or the lens is sharp, one pixel of each block is shaded, and colours are interpolated between them.
 //!
 //! The eye's least angle of resolution grows linearly with the angle from the fovea, ω = ω₀ + m e: a cycle of ω₀ = 1/48° at the
 //! fovea and m = 0.022 (B. Guenter et al., Foveated 3D graphics, 2012, their lower estimate). Two samples are needed for a cycle,
@@ -12,17 +11,17 @@ use crate::camera::View;
 
 /// Half the angle within which every pixel is shaded, degrees.
 const SHARP: f32 = 10.0;
-/// Half the angle beyond which blocks of four by four pixels are shaded where nothing but the room is, degrees: 0.34° wide at most
-/// where they are allowed (0.1° a pixel there), by Guenter's law at 30°.
+/// Half the angle beyond which blocks of four by four pixels are shaded where only the room is seen, degrees: 0.34° wide at most where
+/// they are allowed (0.1° a pixel there), by Guenter's law at 30°.
 const QUARTER: f32 = 30.0;
 
-/// Where a frame's pictures are to be sharp. Panel and sign always are.
+/// The region in which a frame's pictures are sharp. Panel and sign always are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foveation {
-    /// The middle of it in each view's eye, as slopes to the right and up from its line of sight.
+    /// Its middle in each view's eye, as slopes to the right and up from the line of sight.
     pub towards: [[f32; 2]; 2],
-    /// Half the angle within which every pixel is shaded as without foveation, radians. Beyond, one of each block of two by two
-    /// is.
+    /// Half the angle within which every pixel is shaded as without foveation, radians. Beyond, one pixel of each block of two by two is
+    /// shaded.
     pub sharp: f32,
     /// Half the angle beyond which one pixel of each block of four by four is shaded, radians, where a tile of the picture has
     /// neither liquid, glass, hands nor edges.
@@ -30,8 +29,8 @@ pub struct Foveation {
 }
 
 impl Foveation {
-    /// About the lenses' axes, which are the eyes' lines of sight: for a headset that does not tell where its wearer looks. Lenses
-    /// are sharp there, and spread the pixels elsewhere.
+    /// Foveation about the lenses' axes, which are the eyes' lines of sight: for a headset that does not report where its wearer looks.
+    /// Lenses are sharp there, and spread the pixels elsewhere.
     pub fn fixed() -> Self {
         Self {
             towards: [[0.0; 2]; 2],
@@ -41,7 +40,7 @@ impl Foveation {
     }
 }
 
-/// For the pass that lists tiles; without foveation all of them are sharp.
+/// Uniforms of the pass that lists tiles; without foveation all tiles are sharp.
 pub(crate) fn foveae(foveation: Option<Foveation>, views: &[View]) -> layout::Foveae {
     let mut foveae = layout::Foveae {
         quarter: foveation.map_or(-2.0, |foveation| foveation.quarter.cos()),

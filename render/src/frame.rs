@@ -1,4 +1,4 @@
-//! What changes from frame to frame, and its uniforms.
+//! Description of one frame, and its uniforms.
 
 use glam::{Affine3A, Mat4, Vec3};
 use vitriol_shaders::layout;
@@ -15,8 +15,9 @@ use crate::source::{LiquidSource, ParticleSource, SteamSource};
 use crate::tiles::{MOST_PUFFS, tiles_of};
 use crate::tints::Tint;
 
-/// Side of a cell of bubbles, metres as drawn: wider than most bubbles are, and a tenth of a beaker. In metres, since what bounds a ray's way
-/// is how many cells it goes through (`MOST_CELLS` in `common/picture/bubble_light.wgsl`), and a vessel is as large as it is drawn.
+/// Side of a cell of bubbles, metres as drawn: wider than most bubbles are, and a tenth of a beaker. In metres, since the cost of a ray is
+/// bounded by the number of cells that it goes through (`MOST_CELLS` in `common/picture/bubble_light.wgsl`), and a vessel is as large as
+/// it is drawn.
 const BUBBLE_CELL: f32 = 0.006;
 
 /// Side of a cell of bubbles in a scene's unit, which is drawn as `length_scale` metres.
@@ -28,7 +29,7 @@ pub(crate) fn bubble_cell(length_scale: f32) -> f32 {
 /// the liquid bends most of it elsewhere, and the glass reflects some.
 const VESSEL_OPACITY: f32 = 0.5;
 
-/// What a particle's colour stands for.
+/// The attribute that a particle's colour shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColourBy {
     /// Its speed: the map runs from rest to this speed (scene's unit per
@@ -59,7 +60,7 @@ impl ColourBy {
         }
     }
 
-    /// As the shader counts them.
+    /// Number of the attribute in the shader.
     pub(crate) fn attribute(self) -> u32 {
         match self {
             Self::Speed(_) => 0,
@@ -69,47 +70,48 @@ impl ColourBy {
     }
 }
 
-/// One frame.
+/// Description of one frame.
 #[derive(Clone, Copy)]
 pub struct FrameDesc<'a> {
-    /// Width and height of each view as drawn, pixels, if that is less than the renderer's: the picture is
-    /// in the upper left corner of its images then. What is beside it there is of no meaning.
+    /// Width and height of each view as drawn, pixels, if that is less than the renderer's: the picture is then in the upper left corner
+    /// of its images, and the pixels beside it are undefined.
     pub extent: Option<[u32; 2]>,
-    /// As many as the renderer has.
+    /// The eyes, as many as the renderer has views.
     pub views: &'a [View],
     /// `stage_from_vessel` of each vessel of the scene, rigid, in the scene's
     /// unit.
     pub vessels: &'a [Affine3A],
-    /// Shards of vessels that are broken, which are far away then; of more than 16 the first.
+    /// Shards of broken vessels, which themselves are far away then; of more than 16 the first.
     pub shards: &'a [ShardDesc],
     /// Particles to be coloured by an attribute; `None` for none.
     pub particles: Option<ParticleSource<'a>>,
     /// The bones of the user's left and right hand, at most [`MOST_BONES`] each, in any order; none of a hand that
     /// is not seen.
     pub hands: [&'a [Bone]; 2],
-    /// Those of the tools, together at most as many.
+    /// Bones of the tools, together at most [`MOST_BONES`].
     pub tools: &'a [Bone],
     /// Liquid that looks like liquid, where the renderer was made for it;
     /// `None` for none.
     pub liquid: Option<LiquidSource<'a>>,
-    /// Steam over all that; `None` for none.
+    /// Steam over all of the picture; `None` for none.
     pub steam: Option<SteamSource<'a>>,
-    /// A panel among all that; `None` for none.
+    /// A panel in the scene; `None` for none.
     pub panel: Option<Panel<'a>>,
-    /// A sign among all that: of its image the disc that touches the sides is seen; `None` for none.
+    /// A sign in the scene: it shows the disc of its image that touches the sides; `None` for none.
     pub sign: Option<Panel<'a>>,
-    /// A pane of glass among all that, seen from both sides; `None` for none.
+    /// A pane of glass in the scene, seen from both sides; `None` for none.
     pub pane: Option<Pane>,
     /// Share of the light that is shown, 0 to 1: less than 1 where the picture fades.
     pub shown: f32,
     /// How much acid is on the user's goggles, 0 to 1.
     pub goggles: f32,
-    /// The eyes' own views, where `views` are parts of what they see, such as an inset: splashes on the goggles are where the eyes see
-    /// them, and no lens hides anything ([`Renderer::set_visibility_mask`](crate::Renderer::set_visibility_mask)). `None` where `views` are the eyes' own.
+    /// The eyes' own views, where `views` are parts of them, such as an inset: splashes on the goggles are where the eyes see them, and no
+    /// lens hides anything ([`Renderer::set_visibility_mask`](crate::Renderer::set_visibility_mask)). `None` where `views` are the eyes'
+    /// own.
     pub part_of: Option<&'a [View]>,
-    /// Where the picture is to be sharp; `None` for everywhere.
+    /// Region in which the picture is sharp; `None` for everywhere.
     pub foveation: Option<Foveation>,
-    /// What the particles' colours stand for.
+    /// The attribute that the particles' colours show.
     pub colour_by: ColourBy,
     /// Metres of the stage that a unit of the scene is drawn as: 1 at real
     /// size. Views stay in metres.
@@ -128,7 +130,7 @@ impl FrameDesc<'_> {
         self.particles.is_some() || bubbles.is_some_and(|bubbles| bubbles.spray.is_some())
     }
 
-    /// Whether the frame fits the scene, the views and its own buffers.
+    /// Checks that the frame fits the scene, the views and its own buffers.
     pub(crate) fn check(&self, scene: &Scene, desc: &RenderDesc) -> Result<(), RenderError> {
         let held = desc.extent;
         let extent = self.extent(held);
@@ -269,7 +271,8 @@ impl FrameDesc<'_> {
     }
 }
 
-/// Upper left corner, width and height of a part of a picture, over the whole's: (0, 0, 1, 1) of a whole itself, to the bit.
+/// Upper left corner, width and height of the picture of `part` in units of the picture of `whole`: (0, 0, 1, 1) for the whole itself, to
+/// the bit.
 fn in_picture(part: &Fov, whole: &Fov) -> [f32; 4] {
     let [part, whole] =
         [part, whole].map(|fov| [fov.left, fov.right, fov.up, fov.down].map(f32::tan));
@@ -282,7 +285,7 @@ fn in_picture(part: &Fov, whole: &Fov) -> [f32; 4] {
     ]
 }
 
-/// A view for the shaders.
+/// Uniforms of a view.
 fn eye(view: &View, length_scale: f32, [width, height]: [u32; 2]) -> layout::View {
     let axes = view.stage_from_eye.matrix3;
     let fov = view.fov;

@@ -6,7 +6,7 @@ use vitriol_shaders::{Library, layout, render};
 use crate::compute::compute;
 use crate::{RenderError, Renderer};
 
-/// Halves depths on each side, of pictures of one size at most: what is handed over takes a quarter of the copy.
+/// Halves the width and height of a picture's depth: handed to the runtime, it takes a quarter of the copy.
 pub struct HalfDepth {
     pass: ComputePipeline,
     halved: Buffer,
@@ -15,7 +15,7 @@ pub struct HalfDepth {
 }
 
 impl HalfDepth {
-    /// For the pictures of a renderer whose views are of `extent` pixels at most.
+    /// Buffers for the pictures of a renderer whose views are of `extent` pixels at most.
     ///
     /// # Errors
     /// [`RenderError::Gpu`] out of memory, [`RenderError::Shader`].
@@ -35,9 +35,8 @@ impl HalfDepth {
         })
     }
 
-    /// Records it after a picture by a renderer whose views are these, of `drawn` pixels, for an image of a picture of `whole` pixels; it
-    /// is in the upper left corner as the picture is, with the nearest depth of each two by two pixels that the lenses do not
-    /// hide.
+    /// Records the pass after a picture of `drawn` pixels by `renderer`, for a depth image of a picture of `whole` pixels. The result is
+    /// in the upper left corner as the picture is, with the nearest depth of each two by two pixels that the lenses do not hide.
     ///
     /// # Errors
     /// [`GpuError`] where the device refuses.
@@ -63,7 +62,7 @@ impl HalfDepth {
     }
 
     /// Reversed depths as `array<f32>`, each view's pixels row by row, of views half as wide and high as the `whole` that was recorded
-    /// last, rounded up. A copy to an image of 32-bit depth is right.
+    /// last, rounded up. They can be copied to an image of 32-bit depth.
     pub fn depth(&self) -> &Buffer {
         &self.halved
     }

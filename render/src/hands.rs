@@ -11,11 +11,11 @@ use crate::frame::FrameDesc;
 use crate::solids::Solids;
 use crate::tiles::{Class, Tiles};
 
-/// The passes that draw hands.
+/// The passes that draw hands and tools.
 pub(crate) struct Hands {
     mark_pass: ComputePipeline,
     light_pass: ComputePipeline,
-    /// The same in coarse tiles, where frames may be foveated.
+    /// Draws them in tiles of which blocks are shaded; only where frames may be foveated.
     coarse_pass: Option<ComputePipeline>,
     bones: Buffer,
     views: u32,
@@ -43,14 +43,14 @@ impl Hands {
         })
     }
 
-    /// Whether any of these shaders is one of these.
+    /// Whether `changed` has a shader of these passes.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed
             .iter()
             .any(|id| id.path().starts_with("render/hands/"))
     }
 
-    /// Records which tiles they are in; these are marked with everything else by then and not listed yet.
+    /// Records the pass that marks the tiles with hands or tools, after the other marks and before the lists.
     pub(crate) fn record_marks(
         &self,
         rec: &mut Recorder,
@@ -88,7 +88,7 @@ impl Hands {
         })
     }
 
-    /// Records their depth and light over those of the spheres; the tiles are listed.
+    /// Records their depth and light over those of the spheres, after the lists of tiles.
     pub(crate) fn record_light(
         &self,
         rec: &mut Recorder,
@@ -137,7 +137,7 @@ fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
         Finish::Scale(scale) => Some((index as u32, scale)),
         _ => None,
     });
-    // All zeros, of which nothing is drawn.
+    // All zeros, which draws nothing.
     let nothing = Scale {
         celsius: [0.0; 2],
         heights: [0.0; 2],
@@ -160,8 +160,8 @@ fn run(frame: &FrameDesc<'_>) -> layout::HandsRun {
     }
 }
 
-/// Farthest that a bone may be from the stage's origin, metres. Beyond, or where it is no number, no tracker
-/// knows the hand.
+/// Farthest that a bone may be from the stage's origin, metres. A bone beyond, or at no finite place, comes from a tracker that has lost
+/// the hand.
 const FARTHEST: f32 = 100.0;
 
 fn drawn(hand: &[Bone]) -> impl Iterator<Item = &Bone> {

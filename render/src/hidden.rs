@@ -1,10 +1,9 @@
-//! The part of the picture that the headset's lenses hide, as a bit a pixel.
+//! The part of the picture that the headset's lenses hide, one bit a pixel.
 
 use glam::Vec2;
 
-/// Bits of one view, row by row, each row in whole words from its left; what lies past a row's end is hidden.
-/// `corners` are of triangles, three each, 0 to 1 from the upper left; a pixel is hidden whose centre
-/// lies in one.
+/// Bits of one view, row by row, each row in whole words from its left; bits past a row's end are set. `corners` are of triangles, three
+/// each, 0 to 1 from the upper left; a pixel is hidden if its centre lies in one.
 pub fn hidden_words(corners: &[[f32; 2]], [width, height]: [u32; 2]) -> Vec<u32> {
     let row_words = width.div_ceil(32) as usize;
     let mut words = vec![0_u32; row_words * height as usize];

@@ -4,18 +4,18 @@ use vitriol_gpu::{DeviceInfo, vk};
 
 use crate::RenderError;
 
-/// Invocations that share a particle's neighbours on a GPU: the latency of
-/// fetching a list is what a few ten thousand particles cost there.
+/// Invocations that share a particle's neighbours on a GPU: for a few ten thousand particles the latency of fetching the list dominates
+/// there.
 const SHARED_BY: u32 = 4;
 
-/// The shader adds up so many lanes at most, see `common/liquid/lane_sums.wgsl`.
+/// Most lanes that the shader adds up, see `common/liquid/lane_sums.wgsl`.
 const MOST_OF_NEIGHBOURS: u32 = 32;
 
 /// Invocations that share an ellipsoid's pixels: a warp on a GPU, eight lanes of a vector on a CPU.
 const SPLATTED_BY: [u32; 2] = [32, 8];
 
-/// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and of few
-/// spheres so many more that all of them together fill it.
+/// Invocations that share a sphere: on a CPU eight lanes of a vector; on a GPU at least a warp, and for few spheres so many more that all
+/// of them together fill it.
 const LEAST_OF_SPHERE: [u32; 2] = [32, 8];
 const MOST_OF_SPHERE: [u32; 2] = [1024, 8];
 const FILLS: u32 = 1 << 17;
@@ -24,7 +24,7 @@ const FILLS: u32 = 1 << 17;
 const LEAST_OF_PIXELS: u32 = 8;
 const MOST_OF_PIXELS: u32 = 1024;
 
-/// Lanes of a particle's neighbours where `asked` were asked for.
+/// Lanes for a particle's neighbours: `asked`, or as many as suit the device.
 pub(crate) fn of_neighbours(info: &DeviceInfo, asked: Option<u32>) -> Result<u32, RenderError> {
     let most = most_of_neighbours(info);
     match asked {
@@ -34,7 +34,7 @@ pub(crate) fn of_neighbours(info: &DeviceInfo, asked: Option<u32>) -> Result<u32
     }
 }
 
-/// Lanes of an ellipsoid's pixels where `asked` were asked for.
+/// Lanes for an ellipsoid's pixels: `asked`, or as many as suit the device.
 pub(crate) fn of_splats(info: &DeviceInfo, asked: Option<u32>) -> Result<u32, RenderError> {
     match asked {
         Some(asked) => refuse("pixels", asked, LEAST_OF_PIXELS, MOST_OF_PIXELS),
@@ -42,8 +42,7 @@ pub(crate) fn of_splats(info: &DeviceInfo, asked: Option<u32>) -> Result<u32, Re
     }
 }
 
-/// Lanes of each of `count` spheres' pixels where `asked` were asked for, which
-/// [`of_splats`] has not refused.
+/// Lanes for the pixels of each of `count` spheres: `asked`, which [`of_splats`] must have accepted, or as many as suit the device.
 pub(crate) fn of_spheres(info: &DeviceInfo, asked: Option<u32>, count: u32) -> u32 {
     let of_device = |lanes: [u32; 2]| lanes[usize::from(is_cpu(info))];
     let share = (FILLS / count.max(1)).next_power_of_two();

@@ -1,16 +1,16 @@
-//! How bright the room is.
+//! Brightness of the room.
 
-/// The room's light over that of a day, and how it is exposed.
+/// The room's light relative to a day's, and its exposure.
 ///
-/// A day's light gives the bench an irradiance of π · 1.29 in the shaders' unit, which is taken to be 800 lx: a room by day near a window. EN 12464-1 asks for
-/// 500 lx where one works in a laboratory.
+/// A day's light gives the bench an irradiance of π · 1.29 in the shaders' unit, which is taken to be 800 lx: a room by day near a window.
+/// EN 12464-1 asks for 500 lx where one works in a laboratory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoomLight {
-    /// The window's light over a day's.
+    /// The window's light relative to a day's.
     pub window: f32,
-    /// That of ceiling, lamps and floor.
+    /// The light of ceiling, lamps and floor relative to a day's.
     pub sky: f32,
-    /// What light is multiplied by before it is tone mapped: as an eye or a camera adapts, which it does only in part.
+    /// Factor of light before tone mapping: the adaptation of an eye or a camera, which is only partial.
     pub exposure: f32,
 }
 

@@ -49,7 +49,7 @@ pub fn segments(outer: &[[f64; 2]], inner: &[[f64; 2]]) -> Vec<[f32; 4]> {
     table
 }
 
-/// Without the points that lie within [`TOLERANCE`] of what is left (Douglas and Peucker).
+/// The outline without points that lie within [`TOLERANCE`] of the rest (Douglas and Peucker).
 fn simplified(points: &[Vec2]) -> Vec<Vec2> {
     let reach = points.iter().map(|point| point.x).fold(0.0, f32::max);
     let mut kept = Vec::new();
@@ -111,8 +111,7 @@ mod tests {
         }
     }
 
-    /// On a sphere's outline the smoothed normals are the radii, and what is left out lies within the
-    /// tolerance.
+    /// On a sphere's outline the smoothed normals are the radii, and dropped points lie within the tolerance.
     #[test]
     fn round_outline_is_smooth() {
         let outer: Vec<[f64; 2]> = (0..=256)

@@ -1,12 +1,12 @@
-//! A panel in the scene: a rectangle that shows an image; or a sign: the disc in it; or a pane of glass.
+//! A panel (a rectangle that shows an image), a sign (the disc in it) or a pane of glass in the scene.
 
 use glam::{Affine3A, Mat4, Vec3};
 use vitriol_gpu::{Gpu, GpuError, Image, ImageDesc, vk};
 
-/// A panel or a sign of a frame. Its image was recorded before.
+/// A panel or a sign of a frame. Its image must have been recorded before.
 #[derive(Clone, Copy)]
 pub struct Panel<'a> {
-    /// What it shows: one layer, 8 bits a channel, of which the values are sRGB's.
+    /// The image that it shows: one layer, 8 bits a channel with sRGB-encoded values.
     pub image: &'a Image,
     /// Its middle; +Z is its face's normal. Stage in metres, rigid.
     pub stage_from_panel: Affine3A,
@@ -23,13 +23,13 @@ pub struct Pane {
     pub size: [f32; 2],
 }
 
-/// To the frame of a panel, with half its sides as units of x and y; 0 without one.
+/// Transform from the stage to a panel's frame, with half its sides as units of x and y; all zeros without one.
 pub(crate) fn panel_from_stage(panel: Option<&Panel<'_>>, length_scale: f32) -> [[f32; 4]; 4] {
     let face = panel.map(|panel| (panel.stage_from_panel, panel.size));
     face_from_stage(face, length_scale)
 }
 
-/// The same of a pane.
+/// Transform from the stage to a pane's frame, with half its sides as units of x and y; all zeros without one.
 pub(crate) fn pane_from_stage(pane: Option<Pane>, length_scale: f32) -> [[f32; 4]; 4] {
     let face = pane.map(|pane| (pane.stage_from_pane, pane.size));
     face_from_stage(face, length_scale)
@@ -44,7 +44,7 @@ fn face_from_stage(face: Option<(Affine3A, [f32; 2])>, length_scale: f32) -> [[f
     matrix.to_cols_array_2d()
 }
 
-/// Bound in place of a panel's image.
+/// An image of one pixel, bound where a frame has no panel.
 pub(crate) fn no_panel(gpu: &Gpu) -> Result<Image, GpuError> {
     let desc = ImageDesc {
         extent: [1, 1],

@@ -1,4 +1,4 @@
-//! What each pass of the liquid's picture leaves behind, as pictures to look at.
+//! The result of each pass of the liquid's picture, as pictures for people.
 
 use glam::Vec3;
 use vitriol_gpu::Readback;
@@ -10,10 +10,10 @@ use crate::fluid::{Surface, SurfaceReadback};
 use crate::readback::{PictureReadback, side_by_side};
 use crate::tiles::{EDGE_MARK, LIQUID_MARK, STEAM_MARK, TILE, VESSEL_MARKS, tiles_of};
 
-/// What a pass left behind, all views side by side.
+/// The result of one pass, all views side by side.
 #[derive(Clone, Debug)]
 pub struct PassPicture {
-    /// The pass as timings name it; with " normals" where those of its depth are shown.
+    /// The pass as timings name it; with " normals" where the normals of its depth are shown.
     pub name: &'static str,
     /// Width and height, pixels.
     pub extent: [u32; 2],
@@ -21,7 +21,7 @@ pub struct PassPicture {
     pub pixels: Vec<u8>,
 }
 
-/// What the passes left behind, on its way to the host.
+/// The results of the passes, on their way to the host.
 pub struct PassesReadback {
     pub(crate) tiles: Readback,
     pub(crate) splatted: SurfaceReadback,
@@ -33,7 +33,7 @@ pub struct PassesReadback {
     pub(crate) extent: [u32; 2],
 }
 
-/// Where there is no liquid.
+/// Colour where there is no liquid.
 const NOTHING: [f32; 3] = [0.13; 3];
 
 /// Share of the liquid's pixels beyond either end of a colour map: a few drops far from the rest would
@@ -108,7 +108,7 @@ impl PassesReadback {
         ])
     }
 
-    /// The marks of the tiles over the picture.
+    /// Draws the marks of the tiles over the picture.
     fn tiles(&self, finished: &[u8]) -> Result<Vec<u8>, RenderError> {
         let width = self.extent[0];
         let [columns, rows] = tiles_of(self.extent);
@@ -130,7 +130,7 @@ impl PassesReadback {
                 .find(|(is, _)| *is)
                 .map(|(_, colour)| colour);
             let seen = [0, 1, 2].map(|i| f32::from(seen[i]) / 255.0);
-            // Its first row and column are a line between it and the next.
+            // The first row and column of a tile are a line between it and the next.
             let share = if x % TILE == 0 || y % TILE == 0 {
                 0.0
             } else {
@@ -152,7 +152,7 @@ impl PassesReadback {
         let (up, down) = (fov.up.tan(), fov.down.tan());
         let focal = width as f32 / (right - left);
         let spacing = self.filtered.spacing();
-        // In the eye's frame, and view depth; none where there is no liquid.
+        // Position in the eye's frame with view depth; none where there is no liquid.
         let seen = |x: i32, y: i32| {
             let (x, y) = (x.clamp(0, width - 1), y.clamp(0, height - 1));
             let depth = surface.depth[(y * width + x) as usize];
@@ -190,14 +190,14 @@ impl PassesReadback {
     }
 }
 
-/// Least and greatest of these but for a share beyond either.
+/// Range of the values without the share `BEYOND` at either end.
 fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
     let mut sorted: Vec<f32> = values.collect();
     sorted.sort_by(f32::total_cmp);
     let last = sorted.len().saturating_sub(1) as f32;
     let at = |share: f32| sorted.get((share * last) as usize).copied();
     let low = at(BEYOND).unwrap_or(0.0);
-    // Never empty, so that a place in it can be told.
+    // Never empty, so that a place in it is defined.
     [low, at(1.0 - BEYOND).unwrap_or(0.0).max(low + f32::EPSILON)]
 }
 

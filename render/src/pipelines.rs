@@ -7,26 +7,26 @@ use crate::RenderError;
 use crate::compute::compute_of;
 use crate::tiles::Class;
 
-/// Rays that are traced to the glass of a pixel that has an edge of it, on a GPU and on a CPU, whose film has to come in time.
+/// Rays that are traced to the glass in a pixel with an edge of it: on a GPU, and on a CPU, where a film has to come in time.
 const GLASS_RAYS: [f64; 2] = [4.0, 1.0];
 
-/// Pixels over which they are spread in blocks, which glass has of two by two.
+/// Pixels over which the rays are spread in blocks, which glass has of two by two.
 const OVER_BLOCK: f64 = 2.0;
 
-/// The parts of the room that a pipeline is for, as in `common/picture/room_parts.wgsl`.
+/// The parts of the room that a pipeline draws, as in `common/picture/room_parts.wgsl`.
 const SEES_BENCH: f64 = 1.0;
 const SEES_WALLS: f64 = 2.0;
-/// Those two and the table's fittings.
+/// Bench, walls and the table's fittings.
 const SEES_TABLE: f64 = 7.0;
 
 /// A pass over the tiles of a class.
 type OfClass = (Class, ComputePipeline);
 
-/// Of the picture, and of its finish, one for each class of tiles.
+/// The pipelines of the picture and of its finish, one for each class of tiles.
 pub(crate) struct Pipelines {
     pub(crate) picture: [OfClass; 7],
     pub(crate) finish: [OfClass; 2],
-    /// The same of blocks, where frames may be foveated.
+    /// Picture and finish of tiles of which blocks are shaded; only where frames may be foveated.
     coarse: Option<([OfClass; 3], [OfClass; 2])>,
 }
 
@@ -84,13 +84,13 @@ impl Pipelines {
         })
     }
 
-    /// Those of blocks, picture and finish, that a frame which is `foveated` or not has.
+    /// The pipelines of picture and finish that shade blocks; none for a frame that is not `foveated`.
     pub(crate) fn coarse(&self, foveated: bool) -> (&[OfClass], &[OfClass]) {
         let coarse = self.coarse.as_ref().filter(|_| foveated);
         coarse.map_or((&[], &[]), |(picture, finish)| (picture, finish))
     }
 
-    /// Whether any of these shaders is one of this crate's.
+    /// Whether `changed` has a shader of these pipelines.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed.iter().any(|id| USED.contains(id))
     }

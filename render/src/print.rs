@@ -1,28 +1,28 @@
-//! What is printed on vessels, as the shaders read it: `common/picture/printed.wgsl`.
+//! Prints on vessels, as the shaders read them: `common/picture/printed.wgsl`.
 
-/// Letters that there are, in the shaders' order; of each digit also an index under the line.
+/// Letters that can be printed, in the shaders' order; each digit also as an index under the line.
 const LETTERS: &str = "0123456789mLHSO% ";
 
 /// Indices under the line.
 const INDICES: &str = "₀₁₂₃₄₅₆₇₈₉";
 
-/// By how much their codes are more than those of digits.
+/// Offset of an index's code from its digit's code.
 const LOWERED: u32 = 32;
 
-/// Letters of a line at most.
+/// Most letters of a line.
 const MOST: usize = 8;
 
 /// A paper label on a vessel's side, to the left of its marks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// One or two lines, one over the other, of up to eight letters each: digits, indices under the line, `m`, `L`, `H`, `S`, `O`, `%` and spaces. Other letters
-    /// are left blank.
+    /// One or two lines, one over the other, of up to eight letters each: digits, indices under the line, `m`, `L`, `H`, `S`, `O`, `%` and
+    /// spaces. Other letters are left blank.
     pub lines: Vec<String>,
     /// Height of its lower edge, in the scene's unit.
     pub bottom: f64,
     /// Height of its letters, likewise.
     pub letters: f64,
-    /// The angle of its middle from +Z towards +X, and half of what it takes up, rad.
+    /// The angle of its middle from +Z towards +X, and half of the angle that it covers, rad.
     pub angles: [f64; 2],
 }
 
@@ -35,7 +35,7 @@ fn code(letter: char) -> u32 {
         .unwrap_or(blank)
 }
 
-/// A line in two numbers, six bits a letter: below 2²⁴ they are exact.
+/// A line as two numbers, six bits a letter: below 2²⁴ they are exact in f32.
 fn packed(line: &str) -> [f32; 2] {
     let codes = line.chars().chain(std::iter::repeat(' ')).take(MOST);
     let codes: Vec<u32> = codes.map(code).collect();
@@ -45,7 +45,7 @@ fn packed(line: &str) -> [f32; 2] {
 }
 
 impl Label {
-    /// Its two rows.
+    /// The label's two rows for the shader: its place, then its lines.
     pub(crate) fn rows(&self) -> Vec<[f32; 4]> {
         let line = |index: usize| self.lines.get(index).map_or([0.0; 2], |line| packed(line));
         let [[a, b], [c, d]] = [line(0), line(1)];
@@ -65,7 +65,7 @@ mod tests {
         let [first, last] = packed("H₂SO₄");
         assert_eq!(first as u32, 12 | 34 << 6 | 13 << 12 | 14 << 18);
         assert_eq!(last as u32, 36 | 16 << 6 | 16 << 12 | 16 << 18);
-        // What is too long is cut, and what there is no letter for is left blank.
+        // A line that is too long is cut, and unknown letters are left blank.
         assert_eq!(packed("H₂SO₄ 98 %"), packed("H₂SO₄ 98"));
         assert_eq!(packed("x"), packed(""));
     }

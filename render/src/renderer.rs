@@ -38,10 +38,10 @@ pub struct Renderer {
     scene: Scene,
     frame: Buffer,
     fluid: Option<Fluid>,
-    /// Which pixels the lenses hide, a bit each.
+    /// The pixels that the lenses hide, a bit each.
     hidden: Option<Buffer>,
     tiles: Tiles,
-    /// Bound in place of what a frame lacks.
+    /// Bound in place of buffers that a frame does not have.
     nothing: Buffer,
     spheres: Spheres,
     spray: Spray,
@@ -50,14 +50,14 @@ pub struct Renderer {
     /// The picture before its edges are smoothed.
     drawn: Image,
     between: Sampler,
-    /// Shown by the panel that a frame has not.
+    /// Bound in place of a panel's image where a frame has no panel.
     no_panel: Image,
     picture: Image,
     depths: Buffer,
 }
 
 impl Renderer {
-    /// A renderer of an empty scene, its shaders from `library`.
+    /// A renderer of an empty scene, with shaders from `library`.
     ///
     /// # Errors
     /// [`RenderError::ViewCount`], [`RenderError::Lanes`]; [`RenderError::Gpu`] where the device
@@ -66,7 +66,7 @@ impl Renderer {
         if !(1..=2).contains(&desc.views) {
             return Err(RenderError::ViewCount { views: desc.views });
         }
-        // Also without a liquid, whose pipelines take them.
+        // Checked without a liquid too, since its pipelines take the lanes.
         lanes::of_neighbours(gpu.info(), desc.lanes.neighbours)?;
         lanes::of_splats(gpu.info(), desc.lanes.pixels)?;
         let image = |label| {
@@ -149,7 +149,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Replaces the scene: builds and uploads its outlines, and waits for that.
+    /// Replaces the scene: builds and uploads its outlines, and waits for the upload.
     ///
     /// # Errors
     /// [`RenderError::Gpu`] out of memory or on device loss.
@@ -165,10 +165,9 @@ impl Renderer {
         self.fluid.as_ref().map(|fluid| fluid.ellipsoids(0))
     }
 
-    /// Takes a mesh of what each view's lens hides, as a runtime gives it: the
-    /// corners of triangles, three each, at places of the picture from (0, 0)
-    /// at its upper left to (1, 1). They stay black, and their pixels are not
-    /// lit. Views without a mesh have an empty slice; waits for the upload.
+    /// Takes a mesh of the part that each view's lens hides, as a runtime gives it: the corners of triangles, three each, at places of the
+    /// picture from (0, 0) at its upper left to (1, 1). These pixels stay black and are not lit. Views without a mesh have an empty slice;
+    /// waits for the upload.
     ///
     /// # Errors
     /// [`RenderError::Count`] for another number of views,
@@ -199,16 +198,15 @@ impl Renderer {
         self.desc.extent
     }
 
-    /// The picture, a layer a view: `R8G8B8A8_UNORM`, of which the values are sRGB's, so that a copy
-    /// to an image of that encoding is right. Alpha is 1, and 0 where a frame's panel is seen with nothing before it: there a layer
-    /// under the picture that shows the same may be seen in its place. The picture has the panel all the same, so alpha is not to be
-    /// multiplied with it, and may be left out.
+    /// The picture, a layer a view: `R8G8B8A8_UNORM` with sRGB-encoded values, so that it can be copied to an image of that encoding.
+    /// Alpha is 1, and 0 where a frame's panel is seen with nothing before it: there a layer under the picture that shows the same may be
+    /// seen in its place. The picture has the panel all the same, so it is not to be multiplied with alpha, which may be left out.
     pub fn image(&self) -> &Image {
         &self.picture
     }
 
-    /// Depth of what is not glass (reversed, see [`crate::camera`]), as `array<f32>`: each view's pixels row by
-    /// row. A copy to an image of 32-bit depth is right.
+    /// Depth of everything but glass (reversed, see [`crate::camera`]), as `array<f32>`: each view's pixels row by row. It can be copied
+    /// to an image of 32-bit depth.
     pub fn depth(&self) -> &Buffer {
         &self.depths
     }
@@ -227,8 +225,7 @@ impl Renderer {
         self.prepare(rec, frame, 0)
     }
 
-    /// Records what comes before the lit picture: uniforms, tiles, the liquid's
-    /// surface from that slot.
+    /// Records the passes before the lit picture: uniforms, tiles, the liquid's surface from that slot.
     fn prepare(
         &self,
         rec: &mut Recorder,
@@ -271,7 +268,7 @@ impl Renderer {
         })
     }
 
-    /// What the lenses hide of a frame; `None` where that is nothing.
+    /// The mask of pixels that the lenses hide in a frame; `None` where they hide none.
     fn mask(&self, frame: &FrameDesc<'_>) -> Option<&Buffer> {
         self.hidden.as_ref().filter(|_| frame.part_of.is_none())
     }

@@ -1,4 +1,4 @@
-//! What stands in the room, and its meshes on the device.
+//! Vessels and furniture of a picture, and their outlines on the device.
 
 use glam::{Affine3A, Vec3};
 use vitriol_gpu::{Buffer, Gpu};
@@ -9,7 +9,7 @@ use crate::light::RoomLight;
 use crate::outline::segments;
 use crate::print::Label;
 
-/// Vessels that a picture has at most, and shards: a tile has a bit for each.
+/// Most vessels and shards of a picture: a tile has a bit for each.
 pub(crate) const MOST_VESSELS: usize = 8;
 pub(crate) const MOST_SHARDS: usize = 16;
 
@@ -27,7 +27,7 @@ pub struct VesselDesc {
     /// Heights of its graduation marks, from the lowest up; every second one
     /// is longer.
     pub marks: Vec<f64>,
-    /// The volumes up to them as they are printed, mL, in the same order: beside every second mark, the longer ones. None are printed where there are none.
+    /// Volumes up to the marks, mL, in the same order; printed beside every second mark, the longer ones. Empty for none.
     pub volumes: Vec<u32>,
     /// Its label; `None` for none.
     pub label: Option<Label>,
@@ -40,8 +40,8 @@ const MARK_LENGTHS: [f32; 2] = [0.22, 0.4];
 const MARK_WIDTH: f32 = 0.02;
 
 impl VesselDesc {
-    /// Its marks for `common/picture/glass_light.wgsl`: height, half the angle, half the strip's width, which is twice the line's, and
-    /// the number.
+    /// Its marks for `common/picture/glass_light.wgsl`: height, half the angle, half the strip's width, which is twice the line's, and the
+    /// number.
     fn marks(&self) -> Vec<[f32; 4]> {
         // The uppermost number has the unit beside it.
         let last = (self.volumes.len() / 2 * 2).checked_sub(1);
@@ -116,13 +116,13 @@ pub(crate) struct Bounds {
 /// A shard of a vessel of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShardDesc {
-    /// Which vessel's; one that is not there has no shards.
+    /// Index of its vessel; a vessel that does not exist has no shards.
     pub vessel: usize,
     /// 0 its base, 1 to 3 its wall above that, a third of a turn each, from +X to +Z on.
     pub piece: u32,
-    /// Height up to which the base goes, in the scene's unit.
+    /// Height of the base's upper edge, in the scene's unit.
     pub base: f32,
-    /// Where the vessel would be with it, rigid, in the scene's unit.
+    /// Pose that the vessel would have if it were whole with this shard, rigid, in the scene's unit.
     pub stage_from_vessel: Affine3A,
 }
 
@@ -135,8 +135,8 @@ pub struct BoxDesc {
     pub max: Vec3,
 }
 
-/// What does not change from frame to frame, in the scene's unit (metres, or
-/// what the frame's `length_scale` makes of it).
+/// The parts of a picture that do not change from frame to frame, in the scene's unit (metres, or as the frame's `length_scale` defines
+/// it).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneDesc {
     /// Glass, in the order of the frame's poses.
@@ -145,7 +145,7 @@ pub struct SceneDesc {
     pub table: Option<BoxDesc>,
     /// The room, seen from within: floor, walls and ceiling.
     pub room: Option<BoxDesc>,
-    /// How bright it is in it.
+    /// Brightness of the room.
     pub light: RoomLight,
     /// Whether the room has more than its window: benches, shelf, fume hood and signs, and a sink in the table.
     pub furnished: bool,
@@ -176,7 +176,7 @@ impl SceneDesc {
 /// A vessel on the device.
 pub(crate) struct Vessel {
     pub(crate) bounds: Bounds,
-    /// Without the pose.
+    /// Its outline's uniforms, without the pose.
     pub(crate) shape: layout::Vessel,
 }
 

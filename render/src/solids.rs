@@ -1,14 +1,14 @@
-//! What of hands and coloured spheres is nearest at each pixel.
+//! The nearest hand or coloured sphere at each pixel.
 
 use vitriol_gpu::{Buffer, Gpu, bytes_of_elements};
 
 use crate::RenderError;
 
-/// Arrays of each view's pixels, row by row. Tiles that have neither are not written where a frame has no spheres.
+/// Arrays of each view's pixels, row by row. In a frame without spheres, tiles without hands are not written.
 pub(crate) struct Solids {
     /// Reversed depth, 0 where there is nothing.
     pub(crate) depths: Buffer,
-    /// Numbers of spheres at first, and light in the end.
+    /// Numbers of the nearest spheres at first, and light in the end.
     pub(crate) nearest: Buffer,
 }
 

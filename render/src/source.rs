@@ -14,9 +14,8 @@ pub struct ParticleSource<'a> {
     /// `array<vec4<f32>>`: xyz in the stage, in the scene's unit; w < 0 marks
     /// a particle that was taken out.
     pub positions: &'a Buffer,
-    /// `array<vec4<f32>>` in the same order, that [`FrameDesc::colour_by`](crate::FrameDesc) reads:
-    /// velocities (xyz, the scene's unit per second), or temperature (°C) and
-    /// acid fraction in x and y.
+    /// `array<vec4<f32>>` in the same order, of the attribute that [`FrameDesc::colour_by`](crate::FrameDesc) shows: velocities (xyz, the
+    /// scene's unit per second), or temperature (°C) and acid fraction in x and y.
     pub attributes: &'a Buffer,
     /// How many of them are drawn.
     pub count: u32,
@@ -33,8 +32,8 @@ pub struct SteamSource<'a> {
     pub puffs: &'a Buffer,
     /// How many of them are drawn.
     pub count: u32,
-    /// What of it is water on the vessels' inner walls, `array<Dew>` ([`Dew`](vitriol_shaders::layout::Dew)), as
-    /// `common/chemistry/dew.wgsl` has it, by vessel; `None` for none.
+    /// Water on the vessels' inner walls, by vessel, `array<Dew>` ([`Dew`](vitriol_shaders::layout::Dew)) as `common/chemistry/dew.wgsl`
+    /// has it; `None` for none.
     pub dew: Option<&'a Buffer>,
 }
 
@@ -63,12 +62,12 @@ pub struct VesselTables<'a> {
 /// Bubbles in the liquid.
 #[derive(Clone, Copy)]
 pub struct BubbleSource<'a> {
-    /// `array<Bubble>` ([`Bubble`](vitriol_shaders::layout::Bubble)): centre and radius in the scene's unit. Without steam and air it
-    /// is none.
+    /// `array<Bubble>` ([`Bubble`](vitriol_shaders::layout::Bubble)): centre and radius in the scene's unit. An entry with neither steam
+    /// nor air is no bubble.
     pub bubbles: &'a Buffer,
-    /// How many places of them there are.
+    /// Number of entries.
     pub count: u32,
-    /// What they threw up; `None` where that is not followed.
+    /// Drops that they threw up; `None` where spray is not simulated.
     pub spray: Option<SpraySource<'a>>,
 }
 
@@ -77,7 +76,7 @@ pub struct BubbleSource<'a> {
 pub struct SpraySource<'a> {
     /// `array<Drops>` ([`Drops`](vitriol_shaders::layout::Drops)), two for each place of a bubble.
     pub drops: &'a Buffer,
-    /// Mass of a particle at rest density, kg, in which theirs is counted.
+    /// Mass of a particle at rest density, kg: the unit of the drops' masses.
     pub mass: f32,
 }
 
@@ -101,16 +100,16 @@ pub struct LiquidSource<'a> {
     pub neighbours: Option<Neighbours<'a>>,
     /// Glass that cuts the liquid; `None` for none.
     pub vessels: Option<VesselTables<'a>>,
-    /// What of it is vapour; `None` for none.
+    /// Bubbles in it; `None` for none.
     pub bubbles: Option<BubbleSource<'a>>,
-    /// The table that it may lie on.
+    /// The table that liquid may lie on.
     pub table: Option<BoxDesc>,
     /// Height of the floor.
     pub floor: f32,
 }
 
 impl LiquidSource<'_> {
-    /// Whether its buffers hold what it says, and a renderer made for `desc` is enough for it.
+    /// Checks that its buffers are as large as it states, and that a renderer made for `desc` can draw it.
     pub(crate) fn check(&self, desc: &LiquidDesc) -> Result<(), RenderError> {
         let counts = self.neighbours.map(|neighbours| (neighbours.counts, 4));
         let buffers = [

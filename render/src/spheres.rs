@@ -39,15 +39,15 @@ impl Spheres {
         })
     }
 
-    /// Whether any of these shaders is one of these.
+    /// Whether `changed` has a shader of these passes.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed
             .iter()
             .any(|id| id.path().starts_with("render/spheres/"))
     }
 
-    /// Records which sphere is nearest, and marks the tiles that they are in, which are marked
-    /// with everything else by then and not listed yet.
+    /// Records the passes that find the nearest sphere of each pixel and mark the tiles with spheres, after the other marks and before the
+    /// lists.
     pub(crate) fn record_nearest(
         &self,
         rec: &mut Recorder,
@@ -80,7 +80,7 @@ impl Spheres {
         })
     }
 
-    /// Records their light; the tiles are listed.
+    /// Records their light, after the lists of tiles.
     pub(crate) fn record_light(
         &self,
         rec: &mut Recorder,

@@ -19,7 +19,7 @@ pub(crate) struct Spray {
 pub(crate) struct Flights<'a> {
     /// `array<Flight>`.
     pub(crate) buffer: &'a Buffer,
-    /// Which of them have drops, and the dispatch over those.
+    /// Indices of the flights that have drops, after the size of the dispatch over them.
     pub(crate) flying: &'a Buffer,
 }
 
@@ -33,15 +33,15 @@ impl Spray {
         })
     }
 
-    /// Whether any of these shaders is one of these.
+    /// Whether `changed` has a shader of these passes.
     pub(crate) fn uses(changed: &[ShaderId]) -> bool {
         changed
             .iter()
             .any(|id| id.path().starts_with("render/spray/"))
     }
 
-    /// Records which drop is nearest, and marks the tiles that they are in, which are marked with everything else by then and not
-    /// listed yet.
+    /// Records the passes that find the nearest drop of each pixel and mark the tiles with drops, after the other marks and before the
+    /// lists.
     pub(crate) fn record_nearest(
         &self,
         rec: &mut Recorder,
@@ -69,7 +69,7 @@ impl Spray {
         })
     }
 
-    /// Records their light; the tiles are listed.
+    /// Records their light, after the lists of tiles.
     pub(crate) fn record_light(
         &self,
         rec: &mut Recorder,

@@ -1,4 +1,4 @@
-//! Marks what each tile of the picture contains, and lists the tiles by it for the passes over their pixels.
+//! Marks the contents of each tile of the picture, and lists the tiles by class for the passes over their pixels.
 
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Pass, Recorder};
 use vitriol_shaders::{Library, layout, render};
@@ -10,7 +10,7 @@ use crate::source::SteamSource;
 /// Pixels along a tile's edge, as in `common/picture/tile_marks.wgsl`.
 pub(crate) const TILE: u32 = 32;
 
-/// What a tile has in it, as in `common/picture/tile_marks.wgsl`.
+/// Bits of a tile's contents, as in `common/picture/tile_marks.wgsl`.
 pub(crate) const LIQUID_MARK: u32 = 1 << 31;
 /// An edge that is neither the liquid's nor a vessel's.
 pub(crate) const EDGE_MARK: u32 = 1 << 30;
@@ -21,9 +21,9 @@ pub(crate) const VESSEL_MARKS: u32 = 0xff_ffff;
 /// Points on the table's edge that are marked, as in `render/tiles.wgsl`.
 const TABLE_POINTS: u32 = 128;
 
-/// Words of a bit a puff, as in `common/picture/tile_marks.wgsl`.
+/// Words of a tile's bits for puffs, one a puff, as in `common/picture/tile_marks.wgsl`.
 const PUFF_WORDS: u32 = 32;
-/// Puffs of steam that a frame has at most.
+/// Most puffs of steam in a frame.
 pub(crate) const MOST_PUFFS: u32 = 32 * PUFF_WORDS;
 
 /// Tiles in a row, and rows, of a view.
@@ -31,15 +31,15 @@ pub(crate) fn tiles_of([width, height]: [u32; 2]) -> [u32; 2] {
     [width.div_ceil(TILE), height.div_ceil(TILE)]
 }
 
-/// What a list has the tiles of; the numbers are `common/picture/tile_pixels.wgsl`'s.
+/// Class of the tiles in a list; the numbers are those of `common/picture/tile_pixels.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum Class {
     /// Liquid, and perhaps glass.
     Liquid = 0,
-    /// Glass without liquid, of which every pixel is shaded.
+    /// Glass without liquid; every pixel is shaded.
     Glass = 1,
-    /// Neither, likewise; any of the room.
+    /// Neither liquid nor glass; every pixel is shaded, and any part of the room may be seen.
     Plain = 2,
     /// Edges to be smoothed, without steam.
     Edges = 3,
@@ -47,34 +47,34 @@ pub(crate) enum Class {
     Steam = 4,
     /// Coloured spheres, or spray.
     Spheres = 5,
-    /// Hands, of which every pixel is shaded.
+    /// Hands; every pixel is shaded.
     Hands = 6,
-    /// Of which blocks are shaded, without steam.
+    /// Tiles of which blocks are shaded, without steam.
     Spread = 7,
-    /// The same with steam.
+    /// Tiles of which blocks are shaded, with steam.
     SpreadSteam = 8,
-    /// Liquid of which every pixel is shaded, and perhaps glass.
+    /// Liquid, and perhaps glass; every pixel is shaded.
     SharpLiquid = 9,
-    /// Of which blocks are shaded: liquid, and perhaps glass.
+    /// Liquid, and perhaps glass; blocks are shaded.
     CoarseLiquid = 10,
-    /// Glass without liquid, likewise.
+    /// Glass without liquid; blocks are shaded.
     CoarseGlass = 11,
-    /// Neither, likewise.
+    /// Neither liquid nor glass; blocks are shaded.
     CoarsePlain = 12,
-    /// Hands, likewise.
+    /// Hands; blocks are shaded.
     CoarseHands = 13,
-    /// Neither, likewise; of the room the table's top alone.
+    /// Neither liquid nor glass; of the room only the table's top is seen.
     Bench = 14,
-    /// Neither, likewise; of the room all but the table, its fittings and what hangs at the back wall.
+    /// Neither liquid nor glass; the table, its fittings and what hangs at the back wall are not seen.
     Walls = 15,
-    /// Neither, likewise; any of the room, and a panel, a sign or a pane.
+    /// Neither liquid nor glass; any part of the room, and a panel, a sign or a pane.
     Sheets = 16,
-    /// Neither, likewise; of the room all but what hangs at the back wall.
+    /// Neither liquid nor glass; what hangs at the back wall is not seen.
     Table = 17,
 }
 
 impl Class {
-    /// What its share of the pass "picture" is called.
+    /// Name of its share of the pass "picture".
     pub(crate) fn picture(self) -> &'static str {
         match self {
             Self::Bench => "picture: bench",
@@ -87,7 +87,7 @@ impl Class {
     }
 }
 
-/// As in `render/tile_lists.wgsl`.
+/// Number of lists, as in `render/tile_lists.wgsl`.
 const LISTS: u64 = 18;
 
 /// The marks of all views' tiles, and their lists.
@@ -158,7 +158,7 @@ impl Tiles {
         })
     }
 
-    /// Records the lists of the tiles that are marked, in views of `extent`, by how sharp they are to be.
+    /// Records the pass that lists the marked tiles of views of `extent` by class and by how sharp they are to be.
     pub(crate) fn list(
         &self,
         rec: &mut Recorder,
@@ -186,7 +186,7 @@ impl Tiles {
         &self.marks
     }
 
-    /// Which puffs each tile has.
+    /// The puffs that each tile has, a bit each.
     pub(crate) fn puffs(&self) -> &Buffer {
         &self.puffs
     }

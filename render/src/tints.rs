@@ -1,13 +1,13 @@
-//! The liquids' tints. Water and sulfuric acid are both clear; so that they can
-//! be told apart, each absorbs a part of the light that it would not. Without that, they differ by how they bend light alone.
+//! The liquids' tints. Water and sulfuric acid are both clear; so that they can be told apart, each absorbs light that it would not absorb
+//! in reality. Without tints, they differ by how they bend light alone.
 
-/// What the liquids absorb.
+/// The absorption that the liquids are drawn with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tint {
-    /// [`WATER`] and [`ACID`], so that they can be told apart.
+    /// The artificial tints [`WATER`] and [`ACID`], so that they can be told apart.
     #[default]
     Artificial,
-    /// What they do: next to nothing.
+    /// Their real absorption: next to nothing.
     None,
 }
 
@@ -21,14 +21,14 @@ impl Tint {
     }
 }
 
-/// What water absorbs, per metre, at the dominant wavelengths of Rec. 709's primaries, 611, 549 and 464 nm: Pope and Fry 1997,
-/// table 3. Of acid no figure was found; a bottle of it looks as clear.
+/// Absorption of water, per metre, at the dominant wavelengths of Rec. 709's primaries, 611, 549 and 464 nm: Pope and Fry 1997, table 3.
+/// No figure was found for acid; a bottle of it looks as clear.
 const TRUE_WATER: [f32; 3] = [0.265, 0.055, 0.010];
 
-/// What 60 mm of water let through of red, green and blue light.
+/// Share of red, green and blue light that 60 mm of water let through.
 pub const WATER: [f32; 3] = [0.40, 0.74, 0.92];
 
-/// What 60 mm of pure acid let through.
+/// Share of red, green and blue light that 60 mm of pure acid let through.
 pub const ACID: [f32; 3] = [0.96, 0.70, 0.22];
 
 /// The path for which the tints are stated, metres: about a beaker's width.
@@ -39,7 +39,7 @@ fn absorption(tint: [f32; 3]) -> [f32; 3] {
     tint.map(|share| -share.ln() / PATH)
 }
 
-/// sRGB-encoded colour of white paper seen through that path.
+/// sRGB-encoded colour of white paper seen through [`PATH`] of a liquid with that tint.
 pub fn seen_through(tint: [f32; 3]) -> [f32; 3] {
     tint.map(|linear| 1.055 * linear.powf(1.0 / 2.4) - 0.055)
 }

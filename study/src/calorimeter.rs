@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use glam::{Quat, Vec3};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_sim::flask::Profile;
 use vitriol_sim::measure::{HeatMeasurement, measure_heat};
 use vitriol_sim::parameters::Parameters;
@@ -79,9 +79,9 @@ pub struct Mixed {
     pub spacing: f64,
     /// Relative error of the ratio of the liquids' particle numbers against that of their volumes.
     pub ratio_error: f64,
-    /// Before the first step.
+    /// Measurement before the first step.
     pub start: HeatMeasurement,
-    /// At the end.
+    /// Measurement at the end.
     pub end: HeatMeasurement,
     /// Simulated time, s.
     pub seconds: f64,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::arguments::{filter, positive, preset};
-use vitriol_experiment::units::pair;
+use vitriol_run::arguments::{filter, positive, preset};
+use vitriol_run::units::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 /// The subcommands.

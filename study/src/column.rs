@@ -5,8 +5,8 @@
 //! middle, where the front is read, before T = [`Column::LAST_TIME`].
 
 use glam::DVec3;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Ground, Particle, SolverSpec, SolverState};

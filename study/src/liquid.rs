@@ -1,8 +1,8 @@
 //! Liquid in a solver of its own, without a world around it.
 
 use glam::DVec3;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
-use vitriol_experiment::track::blame;
-use vitriol_experiment::{Blame, DeviceStatement, Failure};
+use vitriol_run::track::blame;
+use vitriol_run::{Blame, DeviceStatement, Failure};
 use vitriol_xr::files;
 
 /// A name that was written in the program, or read from a report.

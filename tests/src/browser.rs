@@ -1,9 +1,8 @@
-//! A real browser for pages: headless Chromium opens a page, runs it, and hands
-//! back what the page told and what its console said, or a picture of it.
+//! A real browser for pages: headless Chromium opens a page, runs it, and returns the page's result and the console's messages, or a
+//! picture of it.
 //!
-//! A page tells its result by `console.log("TOLD " + JSON.stringify(value))`;
-//! files beside it can be loaded, framed and read as if they came from one
-//! server.
+//! A page returns its result by `console.log("TOLD " + JSON.stringify(value))`; files beside it can be loaded, framed and read as if they
+//! came from one server.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -21,13 +20,12 @@ const NAMES: [&str; 4] = [
     "google-chrome-stable",
 ];
 
-/// What came of a visit.
+/// Result of a visit.
 #[derive(Debug)]
 pub struct Visit {
-    /// The JSON that the page told.
+    /// The JSON that the page returned.
     pub told: String,
-    /// Everything else that came to the console: uncaught exceptions, failed
-    /// loads, log calls. A sound page leaves it empty.
+    /// All other messages of the console: uncaught exceptions, failed loads, log calls. A sound page leaves it empty.
     pub console: Vec<String>,
 }
 
@@ -40,14 +38,12 @@ pub enum Look {
     Dark,
 }
 
-/// Opens `page` and waits until it has told its result.
+/// Opens `page` and waits for its result.
 ///
-/// `None` where no browser is installed, with a loud word on standard error;
-/// with `CI=true` that is a failure instead.
+/// `None` where no browser is installed, with a message on standard error; with `CI=true` that is a failure instead.
 ///
 /// # Panics
-/// Where no browser is installed and `CI=true`, the browser fails, or the page
-/// says nothing within [`PATIENCE`].
+/// Where no browser is installed and `CI=true`, the browser fails, or the page returns nothing within [`PATIENCE`].
 #[must_use]
 pub fn visit(page: &Path) -> Option<Visit> {
     let browser = Browser::start(page, Look::Light, &[])?;
@@ -152,7 +148,7 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        // Fails where it has ended by itself, which is as well.
+        // It fails if the browser has ended by itself, which is fine.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,4 +1,4 @@
-//! A browser's tab that a test directs: headless Chromium, by its DevTools protocol over a pipe.
+//! A browser's tab under a test's control: headless Chromium, by its DevTools protocol over a pipe.
 //!
 //! Messages are JSON, each ended by a zero byte (`--remote-debugging-pipe`); the browser reads them from descriptor 3 and
 //! writes them to descriptor 4, which a shell makes of its standard input and output.
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::browser::{Look, find_or_say};
 use crate::wait::PATIENCE;
 
-/// Time between two questions to a page.
+/// Time between two queries of a page.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// A tab. The browser goes when this is dropped.
@@ -29,7 +29,7 @@ pub struct Tab {
 }
 
 impl Tab {
-    /// An empty one; `None` and panics as for [`visit`](crate::browser::visit).
+    /// An empty tab; `None` and panics as for [`visit`](crate::browser::visit).
     ///
     /// # Panics
     /// Where the browser fails.
@@ -103,7 +103,7 @@ impl Tab {
         }
     }
 
-    /// Calls a method of the protocol and gives its result.
+    /// Calls a method of the protocol and returns its result.
     ///
     /// # Panics
     /// Where the browser refuses it, ends, or does not answer within [`PATIENCE`].
@@ -151,7 +151,7 @@ impl Tab {
         assert!(gone["errorText"].is_null(), "{address}: {gone}");
     }
 
-    /// What an expression gives, promises waited for.
+    /// The value of an expression, after its promises.
     ///
     /// # Panics
     /// Where it throws.
@@ -165,7 +165,7 @@ impl Tab {
         given["result"]["value"].take()
     }
 
-    /// Asks until an expression gives something that is true in JavaScript.
+    /// Evaluates an expression until its value is true in JavaScript.
     ///
     /// # Panics
     /// Where it does not within [`PATIENCE`].
@@ -219,7 +219,7 @@ impl Tab {
         self.call("Input.insertText", json!({"text": text}));
     }
 
-    /// The window's size, CSS pixels, and the colours that its user prefers.
+    /// Sets the window's size, CSS pixels, and the colours that its user prefers.
     pub fn look(&mut self, [width, height]: [u32; 2], look: Look) {
         let size = json!({
             "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600,
@@ -237,10 +237,9 @@ impl Tab {
         from_base64(taken["data"].as_str().expect("a picture"))
     }
 
-    /// What was complained of since the last question: uncaught exceptions, what a policy forbade, what did not load, what
-    /// was written to the console.
+    /// Complaints since the last call: uncaught exceptions, actions that a policy forbade, failed loads, messages on the console.
     pub fn complaints(&mut self) -> Vec<String> {
-        // What came before this answer is noted.
+        // Complaints before this answer are recorded.
         self.eval("0");
         std::mem::take(&mut self.complaints)
     }
@@ -248,13 +247,13 @@ impl Tab {
 
 impl Drop for Tab {
     fn drop(&mut self) {
-        // Fails where it has ended by itself, which is as well.
+        // It fails if the browser has ended by itself, which is fine.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// RFC 4648, 4.
+/// Decodes base 64 (RFC 4648, 4).
 fn from_base64(text: &str) -> Vec<u8> {
     let digits = text.bytes().filter_map(|digit| match digit {
         b'A'..=b'Z' => Some(digit - b'A'),

@@ -1,5 +1,5 @@
-//! A device with the validation layer and its synchronisation validation, and
-//! a guard that fails the test during which the layer had something to say.
+//! A device with the validation layer and its synchronisation validation, and a guard that fails the test if the layer has reported
+//! anything.
 
 use std::ops::Deref;
 use std::sync::OnceLock;
@@ -59,7 +59,7 @@ impl Deref for Watched {
 
 impl Drop for Watched {
     fn drop(&mut self) {
-        // What is still under way could be reported after the test. Of a device that a test has lost nothing comes.
+        // Work in flight could be reported after the test. A device that a test has lost reports nothing more.
         let idle = if self.0.is_lost() {
             Ok(())
         } else {

@@ -1,12 +1,12 @@
-//! What `./lab setup` installs in the user's cache for tests alone.
+//! Programs that `./lab setup` installs in the user's cache for tests alone.
 
 use std::path::PathBuf;
 
-/// The folder of that `name`, whose contents are `what`; `None` without, with a loud word on standard error. With `CI=true` that
-/// is a failure instead.
+/// The folder of that `name`, whose contents are `what`; `None` if it is missing, with a message on standard error. With `CI=true` that is
+/// a failure instead.
 ///
 /// # Panics
-/// Where it is not there and `CI=true`.
+/// Where it is missing and `CI=true`.
 pub(crate) fn find(name: &str, what: &str, test: &str) -> Option<PathBuf> {
     let cache = std::env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
     let home = || PathBuf::from(std::env::var_os("HOME").unwrap_or_else(|| "/root".into()));

@@ -1,5 +1,4 @@
-//! Harnesses that several tests share. A harness panics where its means fail:
-//! it is test code.
+//! Harnesses that several tests share. A harness panics where its own resources fail: it is test code.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod browser;

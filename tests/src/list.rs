@@ -1,6 +1,6 @@
 //! The solver's neighbour list, for tests that read or write it.
 
-/// Particles of a block.
+/// Number of particles in a block.
 const BLOCK: usize = 32;
 
 /// Words of the list of `count` particles, each of which has room for `capacity` neighbours.

@@ -1,5 +1,4 @@
-//! The mock OpenXR runtime (`tests/runtime`) in the rig (`tests/src/rig.rs`): a test says what the headset
-//! does, and reads what was called.
+//! The mock OpenXR runtime (`tests/runtime`) in the rig (`tests/src/rig.rs`): a test sets the headset's behaviour, and reads the calls.
 
 use std::fs::File;
 use std::io::Write;
@@ -16,16 +15,15 @@ use crate::rig;
 /// The runtime's library, which Cargo builds with this crate.
 const LIBRARY: &str = "libvitriol_mock_runtime.so";
 
-/// A hold on the runtime of this process, and of the processes that it starts.
+/// A handle to the runtime of this process, and of the processes that it starts.
 pub struct Mock {
     folder: PathBuf,
 }
 
-/// Runs the test `name` (module path and function, as the test's own runner knows it) in the rig
-/// with the mock runtime, which begins with `changes`: gives a hold on it to the instance that runs
-/// there, and `None` to the one outside, where the test is over then.
+/// Runs the test `name` (module path and function, as the test's own runner knows it) in the rig with the mock runtime, which begins with
+/// `changes`: returns a handle to it in the process that runs there, and `None` in the one outside, where the test is over then.
 ///
-/// Where there can be no rig, a loud word goes to standard error and the test is over too.
+/// Where there can be no rig, a message goes to standard error and the test is over too.
 ///
 /// # Panics
 /// Where the test fails in the rig; where there can be no rig and `CI=true`.
@@ -35,7 +33,7 @@ pub fn enter(name: &str, changes: &[Change]) -> Option<Mock> {
     Some(Mock { folder })
 }
 
-/// Fills the rig's folder, and gives the environment that leads to it.
+/// Fills the rig's folder; returns the environment that leads to it.
 fn prepare(folder: &Path, changes: &[Change]) -> Vec<(&'static str, PathBuf)> {
     let manifest = folder.join("runtime.json");
     let text = serde_json::json!({
@@ -52,7 +50,7 @@ fn prepare(folder: &Path, changes: &[Change]) -> Vec<(&'static str, PathBuf)> {
     ]
 }
 
-/// The end of what was written down.
+/// The end of the log of calls.
 fn last_calls(folder: &Path) -> String {
     let text = std::fs::read_to_string(folder.join(CALLS)).unwrap_or_default();
     let lines: Vec<&str> = text.lines().collect();
@@ -60,7 +58,7 @@ fn last_calls(folder: &Path) -> String {
     format!("the last calls:\n{}", last.join("\n"))
 }
 
-/// Beside the test's program, which is in `target/*/deps`, or in the folder above.
+/// Path of the library: beside the test's program, which is in `target/*/deps`, or in the folder above.
 fn library() -> PathBuf {
     let program = std::env::current_exe().expect("this test's program");
     program
@@ -94,7 +92,7 @@ fn calls(folder: &Path) -> Vec<Call> {
 }
 
 impl Mock {
-    /// The runtime changes as soon as it reads its script: at the client's next turn.
+    /// Changes the runtime as soon as it reads its script: at the client's next turn.
     ///
     /// # Panics
     /// Where the script cannot be written.
@@ -102,7 +100,7 @@ impl Mock {
         say(&self.folder, None, change);
     }
 
-    /// The runtime changes as the xrWaitFrame of that number begins (see [`Cue::at`]).
+    /// Changes the runtime at the beginning of the xrWaitFrame of that number (see [`Cue::at`]).
     ///
     /// # Panics
     /// Where the script cannot be written.
@@ -110,7 +108,7 @@ impl Mock {
         say(&self.folder, Some(frame), change);
     }
 
-    /// What was called so far and is written down.
+    /// The calls so far that are logged.
     ///
     /// # Panics
     /// Where the runtime wrote no calls.
@@ -119,7 +117,7 @@ impl Mock {
         calls(&self.folder)
     }
 
-    /// Those of that name.
+    /// The calls of that name.
     ///
     /// # Panics
     /// As for [`Mock::calls`].

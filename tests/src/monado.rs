@@ -15,18 +15,16 @@ pub use remote::{Controller, Remote};
 /// Port of the remote driver; the network namespace has no other.
 const PORT: u16 = 4242;
 
-/// The rig from within, with its service running.
+/// The rig seen from inside, with its service running.
 pub struct Rig {
     folder: PathBuf,
     service: Option<Child>,
 }
 
-/// Runs the test `name` (module path and function, as the test's own runner knows it) in the
-/// rig: gives the rig to the instance that runs there, and `None` to the one outside, where the
-/// test is over then.
+/// Runs the test `name` (module path and function, as the test's own runner knows it) in the rig: returns the rig in the process that runs
+/// there, and `None` in the one outside, where the test is over then.
 ///
-/// Where there is no Monado, or no namespace can be made, a loud word goes to standard error and
-/// the test is over too.
+/// Where there is no Monado, or no namespace can be made, a message goes to standard error and the test is over too.
 ///
 /// # Panics
 /// Where the test fails in the rig; where there can be no rig and `CI=true`.
@@ -41,7 +39,7 @@ pub fn enter(name: &str) -> Option<Rig> {
     Some(rig)
 }
 
-/// Fills the rig's folder, and gives the environment that leads to it.
+/// Fills the rig's folder; returns the environment that leads to it.
 fn prepare(folder: &Path) -> Vec<(&'static str, PathBuf)> {
     let at = |part: &str| folder.join(part);
     std::fs::create_dir_all(at("config/monado")).expect("a folder in the rig's");
@@ -61,7 +59,7 @@ fn prepare(folder: &Path) -> Vec<(&'static str, PathBuf)> {
     ]
 }
 
-/// What the service said.
+/// The service's log.
 fn log(folder: &Path) -> String {
     let log = std::fs::read_to_string(folder.join("monado.log")).unwrap_or_default();
     format!("Monado's log:\n{log}")
@@ -91,13 +89,13 @@ impl Rig {
             .spawn()
             .expect("monado-service starts");
         self.service = Some(service);
-        // Its socket is there before it listens; its word that it has started comes after.
+        // Its socket exists before it listens; its message that it has started comes after.
         until("monado-service listens", || {
             (self.starts() > before).then_some(())
         });
     }
 
-    /// How often a service has said that it has started.
+    /// Number of times that the service has logged its start.
     fn starts(&self) -> usize {
         let log = std::fs::read_to_string(self.folder.join("monado.log")).unwrap_or_default();
         log.matches("service has started").count()
@@ -113,7 +111,7 @@ impl Rig {
         service.wait().expect("the service ends");
     }
 
-    /// A hold on head and hands.
+    /// A connection that sets head and hands.
     ///
     /// # Panics
     /// Where the remote driver does not answer.
@@ -122,7 +120,7 @@ impl Rig {
         Self::remote_here()
     }
 
-    /// The same for a process that a test has started in its rig.
+    /// A connection that sets head and hands, for a process that a test has started in its rig; [`Rig::remote`] is for the test itself.
     ///
     /// # Panics
     /// Where the remote driver does not answer.

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 pub struct Program(pub &'static str);
 
 impl Program {
-    /// Its end with these arguments.
+    /// Runs it with these arguments; returns its exit status and output.
     ///
     /// # Panics
     /// Where it cannot be started.
@@ -19,10 +19,10 @@ impl Program {
         command.output().unwrap()
     }
 
-    /// What it prints on standard output with `--json` as its last argument.
+    /// Its standard output with `--json` as its last argument.
     ///
     /// # Panics
-    /// Where it fails, or that is no text.
+    /// Where it fails, or the output is no text.
     #[must_use]
     pub fn json(self, folder: &Path, arguments: &[&str]) -> String {
         let output = self.run(folder, &[arguments, &["--json"]].concat());

@@ -1,4 +1,4 @@
-//! A Learning Record Store that others wrote: Ralph, of France Université Numérique. `./lab setup` installs it.
+//! A Learning Record Store by other authors: Ralph, of France Université Numérique. `./lab setup` installs it.
 
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
@@ -6,19 +6,19 @@ use std::process::{Child, Command, Stdio};
 
 use crate::{installed, wait};
 
-/// Who may write to it, as in a token's file.
+/// User name and password that may write to it, as in a token's file.
 pub const CREDENTIALS: &str = "vitriol:sulfuric";
 
-/// What `ralph auth` wrote for these, but for the hash: that has bcrypt's least rounds, since it is reckoned in each test.
+/// The output of `ralph auth` for these, except for the hash: that has bcrypt's least rounds, since it is computed in each test.
 const USERS: &str = r#"[{"agent": {"mbox": "mailto:vitriol@example.org"}, "scopes": ["statements/write", "statements/read"],
 "hash": "HASH", "username": "vitriol"}]"#;
 
 /// bcrypt of the password.
 const HASH: &str = "$2b$04$0clP5spKreqzc13VW5vB9.9X7vvVBgKMJy1.p.2/2KU9841y7Cb3W";
 
-/// The application of `ralph runserver -b fs`, but for two things. That one has a second process, which starts it again whenever
-/// its source changes and would outlive a kill. And its storage in files (5.1.0) makes its file anew for each request, so that it
-/// refuses all but the first; it can append, and is told to.
+/// The application of `ralph runserver -b fs`, except for two things. That one has a second process, which starts it again whenever its
+/// source changes and would outlive a kill. And its storage in files (5.1.0) makes its file anew for each request, so that it refuses all
+/// but the first; it can append, and is set to.
 const APPLICATION: &str = "
 import sys, uvicorn
 from ralph.backends.data.base import BaseOperationType
@@ -27,7 +27,7 @@ FSDataBackend.default_operation_type = BaseOperationType.APPEND
 uvicorn.run('ralph.api:app', host='127.0.0.1', port=int(sys.argv[1]), log_level='warning')
 ";
 
-/// Where Ralph is.
+/// Path of Ralph's installation.
 #[derive(Debug)]
 pub struct Ralph {
     root: PathBuf,
@@ -42,8 +42,7 @@ pub struct Server {
 }
 
 impl Ralph {
-    /// That of this machine; `None` without, with a loud word on standard error. With `CI=true` that is a failure
-    /// instead.
+    /// Ralph on this machine; `None` if it is missing, with a message on standard error. With `CI=true` that is a failure instead.
     ///
     /// # Panics
     /// Where there is none and `CI=true`.
@@ -53,7 +52,7 @@ impl Ralph {
         Some(Self { root })
     }
 
-    /// What a script prints for the Python that has Ralph.
+    /// Standard output of a script, run by Ralph's Python.
     ///
     /// # Panics
     /// Where it fails.
@@ -66,8 +65,8 @@ impl Ralph {
         String::from_utf8(output.stdout).unwrap()
     }
 
-    /// Starts a server that keeps its statements in this folder, and waits until it answers. The port is that of a server of
-    /// before, or any that is free.
+    /// Starts a server that keeps its statements in this folder, and waits until it answers. The port is that of an earlier server, or any
+    /// free one.
     ///
     /// It is the application that `ralph runserver -b fs` starts, see `APPLICATION`.
     ///
@@ -121,20 +120,20 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Fails where it has ended by itself, which is as well.
+        // It fails if the server has ended by itself, which is fine.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// A port of this machine that nobody listens on. It is none of those that the system gives to who connects (from 32768 on Linux,
-/// 49152 elsewhere): while the server is away, a client that asks again and again could else meet itself there.
+/// A port of this machine that nobody listens on. It is outside of those that the system gives to connecting clients (from 32768 on Linux,
+/// 49152 elsewhere): while the server is away, a client that tries again and again could otherwise connect to itself there.
 ///
 /// # Panics
 /// Where none is free.
 #[must_use]
 pub fn free_port() -> u16 {
-    // Tests that run at once begin at different ones.
+    // Tests that run at the same time begin at different ones.
     let first = 20_000 + (std::process::id() % 12_000) as u16;
     let mut ports = (first..32_000).chain(20_000..first);
     let free = ports.find(|&port| TcpListener::bind(("127.0.0.1", port)).is_ok());

@@ -21,7 +21,7 @@ impl Random {
         DVec3::from_array([(); 3].map(|()| size * (self.number() - 0.5)))
     }
 
-    /// `count` such points.
+    /// `count` such points, as of [`Random::point`].
     pub fn points(&mut self, count: usize, size: f64) -> Vec<DVec3> {
         (0..count).map(|_| self.point(size)).collect()
     }

@@ -6,14 +6,14 @@ use std::process::Command;
 
 use crate::installed;
 
-/// Where they are.
+/// Paths of the readers.
 #[derive(Debug)]
 pub struct Readers {
     root: PathBuf,
 }
 
 impl Readers {
-    /// Those of this machine; `None` without, with a loud word on standard error. With `CI=true` that is a failure
+    /// The readers on this machine; `None` if they are missing, with a message on standard error. With `CI=true` that is a failure
     /// instead.
     ///
     /// # Panics
@@ -24,7 +24,7 @@ impl Readers {
         Some(Self { root })
     }
 
-    /// What a script for Python prints.
+    /// Standard output of a script for Python.
     ///
     /// # Panics
     /// Where it fails.
@@ -32,12 +32,12 @@ impl Readers {
     pub fn python(&self, script: &Path, arguments: &[&str]) -> String {
         let mut command = Command::new(self.root.join("bin/python"));
         command.arg(script).args(arguments);
-        // What it asks the network for is nothing that these tests need.
+        // These tests need nothing that it requests of the network.
         command.env("RERUN_ANALYTICS", "off");
         output(command)
     }
 
-    /// What a script for Node prints; its first argument is the folder of the modules.
+    /// Standard output of a script for Node; its first argument is the folder of the modules.
     ///
     /// # Panics
     /// Where it fails.

@@ -1,32 +1,29 @@
-//! Where tests of OpenXR run: OpenXR's loader with its core validation layer and the software Vulkan
-//! driver, in a network of its own.
+//! The environment in which tests of OpenXR run: OpenXR's loader with its core validation layer and the software Vulkan driver, in a
+//! network of its own.
 //!
-//! All of it, and Monado, is taken from the system where Monado is installed, else from Debian 13's
-//! packages, which `./lab setup` unpacks into the user's cache. A program that uses it must share its C
-//! library and its Vulkan driver, so the unpacked `/usr` is laid over the system's, in a mount
-//! namespace: a test starts itself again in there (see [`enter`]), and what it starts is in there
-//! too.
+//! All of it, and Monado, is taken from the system where Monado is installed, else from Debian 13's packages, which `./lab setup` unpacks
+//! into the user's cache. A program that uses it must share its C library and its Vulkan driver, so the unpacked `/usr` is laid over the
+//! system's, in a mount namespace: a test starts itself again in there (see [`enter`]), and processes that it starts are in there too.
 
 use std::fs::File;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Where the rig's folder is told to the test that runs in it.
+/// Environment variable with the rig's folder, for the test that runs in it.
 const FOLDER: &str = "VITRIOL_RIG";
 /// Monado's manifest, of the system or laid over it.
 pub(crate) const MANIFEST: &str = "/usr/share/openxr/1/openxr_monado.json";
 /// The software driver's manifest.
 const DRIVERS: &str = "/usr/share/vulkan/icd.d";
-/// What the core validation layer has said, in the rig's folder.
+/// File of the core validation layer's messages, in the rig's folder.
 const SAID: &str = "validation.txt";
 
-/// Runs the test `name` (module path and function, as the test's own runner knows it) in the
-/// rig: gives the rig's folder to the instance that runs there, and `None` to the one outside, where
-/// the test is over then. Before it starts, `prepare` fills the folder and gives what its environment
-/// gets beside what every rig has; where it fails, `log` says more.
+/// Runs the test `name` (module path and function, as the test's own runner knows it) in the rig: returns the rig's folder in the process
+/// that runs there, and `None` in the one outside, where the test is over then. Before it starts, `prepare` fills the folder and returns
+/// environment variables in addition to those of every rig; where the test fails, the text of `log` is added to the message.
 ///
-/// Where there can be no rig, a loud word goes to standard error and the test is over too.
+/// Where there can be no rig, a message goes to standard error and the test is over too.
 ///
 /// # Panics
 /// Where the test fails in the rig; where there can be no rig and `CI=true`.
@@ -72,7 +69,7 @@ fn root() -> Result<Option<PathBuf>, String> {
     }
 }
 
-/// What was added last to the packages that are unpacked: the layer that dumps OpenXR's calls.
+/// The newest of the packages that are unpacked: the layer that dumps OpenXR's calls.
 fn dumps() -> String {
     let manifest = "usr/share/openxr/1/api_layers/explicit.d/XrApiLayer_api_dump";
     format!("{manifest}.{}-linux-gnu.json", std::env::consts::ARCH)
@@ -159,7 +156,7 @@ fn run_inside(
     assert!(entered, "there is no test {name}");
 }
 
-/// The manifest in `folder`, as the rig will see it.
+/// The manifest in `folder`, with the path that it has in the rig.
 fn software_driver(folder: &Path) -> PathBuf {
     let name = std::fs::read_dir(folder)
         .expect("the folder of Vulkan's drivers")
@@ -169,13 +166,13 @@ fn software_driver(folder: &Path) -> PathBuf {
     Path::new(DRIVERS).join(name)
 }
 
-/// What the core validation layer has objected to so far.
+/// Objections of the core validation layer so far.
 fn objections(folder: &Path) -> Vec<String> {
     let said = std::fs::read_to_string(folder.join(SAID)).unwrap_or_default();
     let (greetings, objections): (Vec<_>, Vec<_>) = said
         .lines()
         .map(str::to_owned)
-        // Its coming and going.
+        // Its messages of start and end.
         .partition(|line| line.contains("VALID_DEBUG | VUID-CoreValidation-"));
     assert!(
         !greetings.is_empty() || std::thread::panicking(),

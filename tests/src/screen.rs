@@ -1,5 +1,4 @@
-//! A screen without a monitor: Xvfb, an X server that draws into memory, and a hold on the windows
-//! that a program opens there.
+//! A screen without a monitor: Xvfb, an X server that draws into memory, and control of the windows that a program opens there.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -15,10 +14,10 @@ use x11rb::rust_connection::RustConnection;
 
 use crate::wait::until;
 
-/// Tells the test that it runs on the screen.
+/// Marks a test that runs on the screen.
 const INSIDE: &str = "VITRIOL_SCREEN";
 
-/// The screen from within.
+/// The screen seen from inside.
 pub struct Screen {
     connection: RustConnection,
     root: u32,
@@ -28,11 +27,10 @@ pub struct Screen {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window(u32);
 
-/// Runs the test `name` (module path and function, as the test's own runner knows it) on a screen
-/// of its own: gives the screen to the instance that runs there, and `None` to the one outside,
-/// where the test is over then.
+/// Runs the test `name` (module path and function, as the test's own runner knows it) on a screen of its own: returns the screen in the
+/// process that runs there, and `None` in the one outside, where the test is over then.
 ///
-/// Where there is no Xvfb, a loud word goes to standard error and the test is over too.
+/// Where there is no Xvfb, a message goes to standard error and the test is over too.
 ///
 /// # Panics
 /// Where the test fails on the screen; where there can be none and `CI=true`.
@@ -79,7 +77,7 @@ struct Server {
 }
 
 impl Server {
-    /// On the first display that is free.
+    /// Starts it on the first display that is free.
     fn start() -> Result<Self, String> {
         let mut child = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x1024x24"])
@@ -91,7 +89,7 @@ impl Server {
             .map_err(|error| format!("Xvfb (package xvfb) cannot be run: {error}"))?;
         let stdout = child.stdout.take().expect("Xvfb's standard output");
         let mut number = String::new();
-        // It says its number once it listens.
+        // It prints its number once it listens.
         let _ = BufReader::new(stdout).read_line(&mut number);
         let server = Self {
             child,
@@ -131,7 +129,7 @@ impl Screen {
         until(&format!("a window of {part}"), || self.find(part))
     }
 
-    /// Notes from now on each window that is opened, see [`Screen::opened`].
+    /// Counts from now on each window that is opened, see [`Screen::opened`].
     pub fn watch(&self) {
         let events = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
         self.checked(self.connection.change_window_attributes(self.root, &events));
@@ -139,7 +137,7 @@ impl Screen {
 
     /// Windows that were opened since [`Screen::watch`] or the last call.
     pub fn opened(&self) -> usize {
-        // An answer comes behind the events of what was before the question.
+        // An answer comes after the events of earlier requests.
         let asked = self.connection.get_input_focus().expect("a question");
         asked.reply().expect("an answer");
         let event = || {
@@ -152,7 +150,7 @@ impl Screen {
             .count()
     }
 
-    /// A window's title; `None` of one without, or that is gone.
+    /// A window's title; `None` of one without a title, or that is gone.
     pub fn title(&self, window: Window) -> Option<String> {
         let (name, utf8) = (self.atom("_NET_WM_NAME"), self.atom("UTF8_STRING"));
         let asked = self
@@ -163,7 +161,7 @@ impl Screen {
         (!title.is_empty()).then(|| String::from_utf8_lossy(&title).into_owned())
     }
 
-    /// What a window shows: width, height, and pixels of red, green and blue, row by row.
+    /// The picture of a window: width, height, and pixels of red, green and blue, row by row.
     pub fn picture(&self, window: Window) -> ([u32; 2], Vec<[u8; 3]>) {
         let size = self.connection.get_geometry(window.0).expect("a question");
         let size = size.reply().expect("the window is there");

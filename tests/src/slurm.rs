@@ -8,7 +8,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use crate::{installed, wait};
 
-/// Where Slurm is.
+/// Path of Slurm's installation.
 #[derive(Debug)]
 pub struct Slurm {
     root: PathBuf,
@@ -19,13 +19,12 @@ pub struct Slurm {
 pub struct Cluster {
     slurm: Slurm,
     folder: PathBuf,
-    /// Munge, the controller and the node, in the order of their start.
+    /// The processes of Munge, the controller and the node, in the order of their start.
     daemons: Vec<Child>,
 }
 
 impl Slurm {
-    /// That of this machine; `None` without, with a loud word on standard error. With `CI=true` that is a failure
-    /// instead.
+    /// Slurm on this machine; `None` if it is missing, with a message on standard error. With `CI=true` that is a failure instead.
     ///
     /// # Panics
     /// Where there is none and `CI=true`.
@@ -39,7 +38,7 @@ impl Slurm {
         Some(Self { root })
     }
 
-    /// Libraries, and among them Slurm's plugins: the folder has the machine's name in its own.
+    /// Folder of libraries, and among them Slurm's plugins: its name contains the machine's.
     fn libraries(&self) -> PathBuf {
         let folders = std::fs::read_dir(self.root.join("usr/lib")).unwrap();
         let mut folders = folders.map(|it| it.unwrap().path());
@@ -55,7 +54,7 @@ impl Slurm {
         command
     }
 
-    /// Starts a cluster that keeps what it needs in this folder, and waits until its node takes jobs: so many at a time.
+    /// Starts a cluster that keeps its files in this folder, and waits until its node accepts jobs: `at_a_time` at a time.
     ///
     /// # Panics
     /// Where it does not start.
@@ -102,7 +101,7 @@ impl Slurm {
 }
 
 impl Cluster {
-    /// Without what wants root, control groups or another node.
+    /// Slurm's configuration, without features that need root, control groups or another node.
     fn configuration(&self, at_a_time: u32) -> String {
         let id = |option| {
             let told = Command::new("id").arg(option).output().unwrap();
@@ -110,7 +109,7 @@ impl Cluster {
         };
         let host = Command::new("uname").arg("-n").output().unwrap();
         let host = String::from_utf8(host.stdout).unwrap();
-        // As Slurm has it: without the domain.
+        // As Slurm uses it: without the domain.
         let host = host.trim().split('.').next().unwrap().to_owned();
         let [controller, node] = free_ports();
         let (user, folder) = (id("-un"), self.folder.display());
@@ -176,7 +175,7 @@ PartitionName=class Nodes={host} Default=YES MaxTime=INFINITE State=UP
         }
     }
 
-    /// What one of Slurm's programs says, such as `squeue`.
+    /// Output of one of Slurm's programs, such as `squeue`.
     ///
     /// # Panics
     /// Where it cannot be started.
@@ -188,7 +187,7 @@ PartitionName=class Nodes={host} Default=YES MaxTime=INFINITE State=UP
         command.output().unwrap()
     }
 
-    /// The number of the job that `sbatch` makes of this script, in this folder. Libraries are the machine's own in it again.
+    /// Submits a script with `sbatch` in this folder; returns the job's number. Libraries are the machine's own in it again.
     ///
     /// # Panics
     /// Where Slurm refuses it.
@@ -204,7 +203,7 @@ PartitionName=class Nodes={host} Default=YES MaxTime=INFINITE State=UP
         String::from_utf8(told.stdout).unwrap().trim().to_owned()
     }
 
-    /// Waits until a job has ended, and gives the state of each of its tasks by number, as `COMPLETED` or `FAILED`.
+    /// Waits until a job has ended; returns the state of each of its tasks by number, as `COMPLETED` or `FAILED`.
     ///
     /// # Panics
     /// Where that takes too long.
@@ -219,10 +218,10 @@ PartitionName=class Nodes={host} Default=YES MaxTime=INFINITE State=UP
         })
     }
 
-    /// The state of each of a job's tasks, as `squeue` tells it.
+    /// The state of each of a job's tasks, as `squeue` prints it.
     ///
     /// # Panics
-    /// Where it tells no number.
+    /// Where it prints no number.
     #[must_use]
     pub fn states(&self, job: &str) -> Vec<(u32, String)> {
         let job = format!("--jobs={job}");
@@ -254,7 +253,7 @@ impl Drop for Cluster {
             let _ = self.ask("scancel", &["--user", &user]);
         }
         for daemon in self.daemons.iter_mut().rev() {
-            // Fails where it has ended by itself, which is as well.
+            // It fails if the process has ended by itself, which is fine.
             let _ = daemon.kill();
             let _ = daemon.wait();
         }
@@ -263,7 +262,7 @@ impl Drop for Cluster {
 
 /// Two ports of this machine that nobody listens on.
 fn free_ports() -> [u16; 2] {
-    // Held both, so that they are two.
+    // Both are held at once, so that they differ.
     let held = [(); 2].map(|()| TcpListener::bind(("127.0.0.1", 0)).unwrap());
     held.map(|it| it.local_addr().unwrap().port())
 }

@@ -1,17 +1,17 @@
-//! Waiting for what happens, however long it takes on a busy machine.
+//! Waiting for conditions, however long it takes on a busy machine.
 
 use std::time::{Duration, Instant};
 
-/// Longest wait for anything: no machine is so busy, so what takes longer hangs.
+/// Longest wait for anything: no machine is so busy that more is needed, so a longer wait means a hang.
 pub const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Time between two questions.
+/// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Asks until there is an answer.
+/// Calls `ask` until it returns a value.
 ///
 /// # Panics
-/// Where none comes within [`PATIENCE`]; `what` says in vain for what.
+/// Where it returns none within [`PATIENCE`]; `what` names the condition in the message.
 pub fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     let begun = Instant::now();
     loop {
@@ -23,10 +23,10 @@ pub fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// What `work` gives, and how long it took but for the time in which this thread waited for a
-/// processor that others had: a limit on it holds on a busy machine too.
+/// The result of `work`, and its duration without the time in which this thread waited for a processor that others had: so a limit on it
+/// holds on a busy machine too.
 ///
-/// Where the system does not tell that wait, all the time that passed.
+/// Where the system does not report that wait, all the time that passed.
 pub fn own_time<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let (begun, before) = (Instant::now(), queued());
     let done = work();

@@ -44,8 +44,8 @@ pub enum FileError {
 
 /// The contents of `file`, which is to be a `what` of at most `limit` bytes.
 ///
-/// Its kind is asked for before it is opened: opening a pipe waits for a writer, and a device may be endless. A user
-/// who puts a pipe in the file's place between the two waits for it; what is endless is read up to the limit.
+/// Its kind is checked before it is opened: opening a pipe waits for a writer, and a device may be endless. A user who puts a pipe in the
+/// file's place between the two waits for it; an endless file is read up to the limit.
 ///
 /// # Errors
 /// [`FileError`] where `file` is no file, longer than `limit`, or cannot be read.

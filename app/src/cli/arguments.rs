@@ -4,15 +4,17 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
-use vitriol_experiment::Colour;
-use vitriol_experiment::arguments::{filter, named, positive, preset};
-use vitriol_experiment::units::pair;
+use vitriol_run::Colour;
+use vitriol_run::arguments::{filter, named, positive, preset};
+use vitriol_run::units::pair;
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 #[cfg(feature = "class")]
-use super::class::{ConsoleArgs, KeepArgs};
+use super::class::KeepArgs;
 use super::drawn::DrawnArgs;
 use super::lesson::JudgeArgs;
+#[cfg(feature = "class")]
+use vitriol_live::ConsoleArgs;
 
 /// Where a film is seen from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

@@ -4,15 +4,13 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
-use vitriol_console::HubAddress;
-use vitriol_experiment::arguments::preset;
 use vitriol_record::Pseudonym;
 use vitriol_record::lrs::Endpoint;
+use vitriol_run::arguments::preset;
 use vitriol_sim::scene::Preset;
 
 use super::lesson::JudgeArgs;
 use crate::command::grade::Tolerance;
-use crate::live::hub_address;
 
 /// Arguments of `vitriol grade`.
 #[derive(Debug, Args)]
@@ -81,28 +79,6 @@ pub struct KeepArgs {
     /// File with its token, which you alone may read: `Bearer TOKEN`, `Basic BASE64` or `NAME:PASSWORD`
     #[arg(long, value_name = "FILE", requires = "lrs")]
     pub lrs_token: Option<PathBuf>,
-}
-
-/// Where the instructor's console is. Without any of these it is a page that this computer alone can open; its address, good for one
-/// browser, goes to standard error.
-#[derive(Args, Clone, Debug, Default)]
-pub struct ConsoleArgs {
-    /// Serve the console there, for other computers too, by HTTPS: such as 0.0.0.0:8470
-    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "hub")]
-    pub listen: Option<SocketAddr>,
-    /// Be one of the students of that hub: what `vitriol hub` prints, or a file that holds it
-    #[arg(long, value_name = "HUB", value_parser = hub_address)]
-    pub hub: Option<HubAddress>,
-    /// What the console calls this student; without it the computer's name
-    #[arg(long, value_name = "NAME")]
-    pub name: Option<String>,
-}
-
-impl ConsoleArgs {
-    /// Whether any of them is given.
-    pub fn is_given(&self) -> bool {
-        self.listen.is_some() || self.hub.is_some() || self.name.is_some()
-    }
 }
 
 /// Arguments of `vitriol hub`.

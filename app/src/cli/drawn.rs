@@ -1,7 +1,7 @@
 //! Arguments of how a scene is drawn, which all have that draw it.
 
 use clap::Args;
-use vitriol_experiment::arguments::{room, tint};
+use vitriol_run::arguments::{room, tint};
 use vitriol_sim::scene::{PictureRoom, PictureTint};
 
 /// How a scene is drawn, in place of what it says itself.

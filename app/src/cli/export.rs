@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use vitriol_experiment::arguments::{named, positive, preset};
-use vitriol_experiment::units::pair;
+use vitriol_run::arguments::{named, positive, preset};
+use vitriol_run::units::pair;
 use vitriol_sim::scene::Preset;
 
 use super::arguments::rate;

@@ -183,7 +183,8 @@ mod whole {
     use clap::{Arg, Args, Command, CommandFactory};
 
     use super::PARTS;
-    use crate::cli::{ConsoleArgs, KeepArgs};
+    use crate::cli::KeepArgs;
+    use vitriol_live::ConsoleArgs;
 
     #[test]
     fn each_command_is_in_every_build_or_of_one_part() {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use vitriol_experiment::arguments::preset;
 use vitriol_lesson::{Language, Mode};
+use vitriol_run::arguments::preset;
 use vitriol_sim::scene::Preset;
 
 /// Arguments of `vitriol lesson`.

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glam::Vec3;
-use vitriol_experiment::arguments::{filter, positive, preset};
-use vitriol_experiment::units::pair;
-use vitriol_experiment::{Colour, HEAD_FIELD, Look};
+use vitriol_run::arguments::{filter, positive, preset};
+use vitriol_run::units::pair;
+use vitriol_run::{Colour, HEAD_FIELD, Look};
 use vitriol_sim::scene::{PictureFilter, Preset};
 
 use super::arguments::{CameraName, colour};

@@ -3,17 +3,18 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use vitriol_experiment::arguments::{positive, preset};
-use vitriol_experiment::units::pair;
 use vitriol_lesson::{Language, Mode};
+use vitriol_run::arguments::{positive, preset};
+use vitriol_run::units::pair;
 use vitriol_sim::scene::Preset;
 
 use super::arguments::rate;
-use super::class::{ConsoleArgs, KeepArgs};
+use super::class::KeepArgs;
 use super::drawn::DrawnArgs;
-use crate::vr::foveating::Foveating;
-use crate::vr::latch::Grip;
-use crate::vr::placement::Posture;
+use vitriol_live::ConsoleArgs;
+use vitriol_session::foveating::Foveating;
+use vitriol_session::latch::Grip;
+use vitriol_session::placement::Posture;
 
 /// Arguments of `vitriol vr`.
 #[derive(Debug, Args)]

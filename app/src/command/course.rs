@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::track::{LESSON, LESSON_HASH, MODE};
-use vitriol_experiment::{Blame, Failure, Judging, Scenes, in_a_line};
 use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Lesson, Mode, SceneFacts};
+use vitriol_run::track::{LESSON, LESSON_HASH, MODE};
+use vitriol_run::{Blame, Failure, Judging, Scenes, in_a_line};
 use vitriol_xr::track::Track;
 
 use crate::cli::JudgeArgs;

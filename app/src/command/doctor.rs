@@ -4,8 +4,8 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::{Failure, Format, emit};
 use vitriol_gpu::advice::DRIVER;
+use vitriol_run::{Failure, Format, emit};
 
 #[derive(Debug, Serialize)]
 struct Findings {

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_experiment::output::{OutDir, REPORT_JSON};
-use vitriol_experiment::progress::Runs;
-use vitriol_experiment::track::{DEVICE, DRIVER, PRESET};
-use vitriol_experiment::{
+use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
+use vitriol_run::output::{OutDir, REPORT_JSON};
+use vitriol_run::progress::Runs;
+use vitriol_run::track::{DEVICE, DRIVER, PRESET};
+use vitriol_run::{
     Blame, Colour, Experiment, FILM_SIZE, Failure, Format, Laboratory, Sample, Setup, device, emit,
 };
-use vitriol_export::{Export, Format as Exported, Origin, TableFormat, Times};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::files;
@@ -191,7 +191,7 @@ fn simulated(
     let progress = Runs::new(format).of(&args.input, plan.span);
     let mut export = Export::new(formats, times, (plan.span, progress), &origin, out)?;
     let span = plan.span;
-    vitriol_experiment::replay(
+    vitriol_run::replay(
         &mut TrackSource::new(plan.track),
         &mut laboratory,
         span,
@@ -291,7 +291,7 @@ fn times(args: &ExportArgs, plan: &ReplayPlan, whole: Option<f64>) -> Result<Tim
 }
 
 /// What an exported recording says of itself: it replays like one that was recorded.
-fn metadata(plan: &ReplayPlan, device: &vitriol_experiment::DeviceStatement) -> TrackMetadata {
+fn metadata(plan: &ReplayPlan, device: &vitriol_run::DeviceStatement) -> TrackMetadata {
     let mut metadata = TrackMetadata {
         scene: plan.name.clone(),
         seed: plan.seed,

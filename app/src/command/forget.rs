@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Failure, Format, emit};
 use vitriol_record::store::{Forgotten, Store, StoreError, default_path};
+use vitriol_run::{Blame, Failure, Format, emit};
 
 use crate::cli::ForgetArgs;
 

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use serde::Serialize;
 use vitriol_console::Hub;
-use vitriol_experiment::{Blame, Failure, Format, emit};
+use vitriol_run::{Blame, Failure, Format, emit};
 
 use crate::cli::HubArgs;
-use crate::live::{invitation, start};
+use vitriol_live::{invitation, start};
 
 /// Time between two looks whether the last code was used.
 const TICK: Duration = Duration::from_secs(1);

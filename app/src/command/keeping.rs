@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_lesson::{Attempt, Rubric, Score, Texts};
 use vitriol_record::lrs::{Lrs, Patience, Token};
 use vitriol_record::store::{Store, default_path};
 use vitriol_record::{KeepError, Keeping, Points, Scored, Session, keep};
+use vitriol_run::{Blame, Failure};
 
 use crate::cli::KeepArgs;
 

@@ -4,8 +4,8 @@ mod film;
 mod subtitles;
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Experiment, Failure, Format, Setup, emit};
 use vitriol_lesson::{Language, Lesson, Texts};
+use vitriol_run::{Blame, Experiment, Failure, Format, Setup, emit};
 
 use crate::cli::LessonArgs;
 use crate::command::course::open;

@@ -7,8 +7,8 @@ use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 use clap_mangen::Man;
 use serde::Serialize;
-use vitriol_experiment::output::{new_file, write_new};
-use vitriol_experiment::{Blame, Failure, Format, emit};
+use vitriol_run::output::{new_file, write_new};
+use vitriol_run::{Blame, Failure, Format, emit};
 
 use crate::cli::{Cli, PagesArgs};
 use crate::report::Report;

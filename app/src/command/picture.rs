@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_experiment::output::{self, ColorType, OutDir};
-use vitriol_experiment::progress::Runs;
-use vitriol_experiment::{Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit};
+use vitriol_run::output::{self, ColorType, OutDir};
+use vitriol_run::progress::Runs;
+use vitriol_run::{Blame, Colour, Experiment, Failure, Format, Observer, Setup, Span, emit};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Feature;
 use vitriol_xr::track::TrackSource;
@@ -93,7 +93,7 @@ pub fn run(
     })?;
     let span = Span::covering(args.at, scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Runs::new(format).of(&args.track, span));
-    vitriol_experiment::replay(
+    vitriol_run::replay(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,

@@ -1,14 +1,14 @@
 //! A replay before it runs: its track, scene, preset, solver and length, all checked.
 
-use vitriol_experiment::{Action, Blame, Failure, Scenes, Span, device, track};
+use vitriol_run::{Action, Blame, Failure, Scenes, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Track, limits};
 
-use crate::budget;
 use crate::command::recorded::{
     actions, changes_scene, differences, is_recording, own_solver, preset_of, scene_of, whole,
 };
+use vitriol_run::budget;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,10 +1,10 @@
 //! What a recording says of how it is to be replayed, and what is asked for instead.
 
-use vitriol_experiment::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
-use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
+use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
+use vitriol_run::units::three_digits;
+use vitriol_run::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::Pose;
 use vitriol_xr::track::{Hole, Track, TrackMetadata};
@@ -196,7 +196,7 @@ pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_experiment::track::{self, key};
+    use vitriol_run::track::{self, key};
 
     /// A recording's own changes of the solver are repeated, unless something else is asked for.
     #[test]

@@ -9,18 +9,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_experiment::output::{
+use vitriol_lesson::procedure::{Progress, Verdict};
+use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
+use vitriol_run::output::{
     FILM, FILM_TEMPERATURE, INCIDENTS_CSV, OutDir, REPORT_HTML, REPORT_JSON,
 };
-use vitriol_experiment::progress::Runs;
-use vitriol_experiment::track::{DEVICE, DRIVER, STATE_HASH};
-use vitriol_experiment::units::{grouped, mass, percent, three_digits, with_unit};
-use vitriol_experiment::{
+use vitriol_run::progress::Runs;
+use vitriol_run::track::{DEVICE, DRIVER, STATE_HASH};
+use vitriol_run::units::{grouped, mass, percent, three_digits, with_unit};
+use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Scenes, Setup, emit, in_a_line,
 };
-use vitriol_lesson::procedure::{Progress, Verdict};
-use vitriol_lesson::{Event, Rubric, Score, Texts, incidents_csv};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Feature, Scene};
 use vitriol_xr::track::{TrackMetadata, TrackSource};
@@ -199,7 +199,7 @@ fn replay(
     });
     let films = films.collect::<Result<_, _>>().other()?;
     let mut observer = Observer::new(span, films, bars.of(name, span));
-    vitriol_experiment::replay(
+    vitriol_run::replay(
         &mut TrackSource::new(track),
         experiment.as_mut(),
         span,

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::passes::anatomy;
-use vitriol_experiment::units::{grouped, length, three_digits, with_unit};
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_gpu::Timestamps;
+use vitriol_run::passes::anatomy;
+use vitriol_run::units::{grouped, length, three_digits, with_unit};
+use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_sim::scene::{Feature, Preset, Scene};
 
 use crate::cli::ScenesArgs;

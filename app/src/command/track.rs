@@ -5,9 +5,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde::Serialize;
-use vitriol_experiment::track::BROKEN_OFF;
-use vitriol_experiment::units::three_digits;
-use vitriol_experiment::{Failure, Format, emit, in_a_line, track};
+use vitriol_run::track::BROKEN_OFF;
+use vitriol_run::units::three_digits;
+use vitriol_run::{Failure, Format, emit, in_a_line, track};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::track::{self as tracks, Existing, builtin};
 

@@ -8,23 +8,23 @@ use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use vitriol_experiment::{Blame, Failure, Format, Scenes, device, emit, track};
 use vitriol_gpu::{Gpu, PlainLoader, Timestamps};
+use vitriol_run::{Blame, Failure, Format, Scenes, device, emit, track};
 use vitriol_sound::Device;
 use vitriol_xr::Headset;
 
-use crate::budget;
 use crate::cli::VrArgs;
 use crate::command::course;
 use crate::command::keeping::{self, Sitting};
 use crate::command::recorded::whole;
-use crate::live::{Serving, Watchers};
-use crate::vr::decision::Decision;
-use crate::vr::menu;
-use crate::vr::mirror::Window;
-use crate::vr::session::{Course, Options, Session};
-use crate::vr::stand_in::{StandIn, StandInSpec, Timing};
-use crate::vr::workbench::Plan;
+use vitriol_live::{Serving, Watchers};
+use vitriol_run::budget;
+use vitriol_session::decision::Decision;
+use vitriol_session::menu;
+use vitriol_session::mirror::Window;
+use vitriol_session::session::{Course, Options, Session};
+use vitriol_session::stand_in::{StandIn, StandInSpec, Timing};
+use vitriol_session::workbench::Plan;
 
 /// Runs `vitriol vr`.
 ///

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use vitriol_experiment::{HeatSample, LedgerSample, Sample, units};
+use vitriol_run::{HeatSample, LedgerSample, Sample, units};
 
 use super::model::Report;
 use super::plot::Curve;

@@ -1,11 +1,11 @@
 //! `report.html`: one file that needs nothing but the film beside it.
 
 use maud::{Markup, PreEscaped, html};
-use vitriol_experiment::output::{INCIDENTS_CSV, REPORT_JSON};
-use vitriol_experiment::page::{CURVE_COLOURS, page};
-use vitriol_experiment::units::{self, grouped, percent, three_digits, with_unit};
-use vitriol_experiment::{LedgerSample, Sample};
 use vitriol_lesson::Texts;
+use vitriol_run::output::{INCIDENTS_CSV, REPORT_JSON};
+use vitriol_run::page::{CURVE_COLOURS, page};
+use vitriol_run::units::{self, grouped, percent, three_digits, with_unit};
+use vitriol_run::{LedgerSample, Sample};
 
 use super::model::Report;
 use super::plot::{Curve, Plot, over_time};

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Rubric, Score, Texts};
+use vitriol_run::{Counters, DeviceStatement, MassByPlace, Sample, in_a_line};
 use vitriol_sim::scene::Scene;
 
 /// How a run stands to the recording that it replays.

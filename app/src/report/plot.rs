@@ -1,7 +1,7 @@
 //! Plots over time, as inline SVG.
 
 use plotters::prelude::*;
-use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
+use vitriol_run::page::{AXIS, CURVE_COLOURS, GRID};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 270;

@@ -9,9 +9,9 @@ use std::path::Path;
 use std::process::{Command as Process, Stdio};
 
 use vitriol::command::grade::{Status, Verdict};
-use vitriol_experiment::{Failure, Setup};
 use vitriol_lesson::Attempt;
 use vitriol_record::{Keeping, Scored, Session, Timestamp, keep};
+use vitriol_run::{Failure, Setup};
 use vitriol_tests::program::Program;
 use vitriol_tests::wait;
 use vitriol_xr::Switch;

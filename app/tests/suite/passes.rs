@@ -7,7 +7,7 @@ use clap::Parser;
 use image::{GrayImage, RgbaImage};
 use vitriol::cli::{Cli, Command};
 use vitriol::command::picture;
-use vitriol_experiment::{Failure, Format, Setup, on_device};
+use vitriol_run::{Failure, Format, Setup, on_device};
 use vitriol_sim::scene::Scene;
 use vitriol_tests::gpu;
 

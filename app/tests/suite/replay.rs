@@ -10,7 +10,7 @@ use std::path::Path;
 use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
-use vitriol_experiment::{Action, Colour, Experiment, Failure, Format, Setup};
+use vitriol_run::{Action, Colour, Experiment, Failure, Format, Setup};
 
 use toy::{FLASK, Toy, replay, replay_of, report_of};
 use vitriol_lesson::{Attempt, Event, Rubric, Texts};
@@ -25,7 +25,7 @@ fn what_was_found_is_kept_under_a_pseudonym() {
     let folder = tempfile::tempdir().unwrap();
     let class = folder.path().join("class.db");
     let track = folder.path().join("recorded.mcap");
-    let built_in = vitriol_experiment::track::load("two-flasks").unwrap();
+    let built_in = vitriol_run::track::load("two-flasks").unwrap();
     save(&built_in, &track, Existing::Refuse).unwrap();
     let kept = ["--pseudonym", "p07", "--class", class.to_str().unwrap()];
     for (name, more, attempts) in [("a", &[][..], 0), ("b", &kept, 1), ("c", &kept, 1)] {
@@ -265,7 +265,7 @@ fn a_failed_run_leaves_nothing() {
 /// The report of a run in which a student did what the lesson's own tests have: water into acid, then acid into water. The acid's
 /// flask has a name that breaks a page which does not escape it.
 fn told(mut report: Report) -> (Report, String) {
-    let events = include_str!("../../../lesson/tests/events.json");
+    let events = include_str!("../../../run/lesson/tests/events.json");
     let events = events.replace("\"target\"", &serde_json::to_string(FLASK).unwrap());
     let events: Vec<Event> = serde_json::from_str(&events).unwrap();
     report.attempts = Attempt::all(events);

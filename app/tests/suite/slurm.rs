@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-use vitriol_experiment::{Observer, Progress, Scenes, Setup, Span, on_device};
 use vitriol_lesson::{Cause, Event, Incident, Surface, What};
+use vitriol_run::{Observer, Progress, Scenes, Setup, Span, on_device};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_tests::program::{Program, words};
@@ -43,7 +43,7 @@ fn scene(folder: &Path) -> String {
 
 /// Half a second, with what a simulation finds in it.
 fn recording(folder: &Path) -> Track {
-    let mut track = vitriol_experiment::track::load("two-flasks").unwrap();
+    let mut track = vitriol_run::track::load("two-flasks").unwrap();
     track.frames.truncate(46);
     track.stage_from_flasks.truncate(46);
     let text = scene(folder);
@@ -86,7 +86,7 @@ fn recording(folder: &Path) -> Track {
     let span = Span::covering(track.duration(), scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Progress::hidden());
     let mut source = TrackSource::new(track.clone());
-    vitriol_experiment::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
+    vitriol_run::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     say(&mut track, &experiment.outcome().unwrap().events);
     track
 }

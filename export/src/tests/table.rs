@@ -3,7 +3,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use vitriol_experiment::MassByPlace;
+use vitriol_run::MassByPlace;
 
 use super::*;
 

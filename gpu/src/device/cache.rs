@@ -6,21 +6,21 @@ use std::path::{Path, PathBuf};
 use ash::vk;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// What a file begins with; the sum of what follows comes next.
+/// First bytes of a file; the checksum of the rest comes next.
 const MAGIC: [u8; 8] = *b"vitriol1";
-/// Most bytes that are read: scenes have some MB.
+/// Largest file that is read, bytes: scenes have some MB.
 const MOST: u64 = 1 << 28;
 
-/// Where a device's pipelines are kept.
+/// The file in which a device's pipelines are kept.
 pub(super) struct Kept {
     path: PathBuf,
-    /// Sum of what was read.
+    /// Checksum of the data that were read.
     sum: u64,
 }
 
 impl Kept {
-    /// The file of a device under `folder`, and what a run before has left there. A file that is damaged counts as none, since
-    /// some drivers take what they are given.
+    /// The file of a device under `folder`, and the data that an earlier run stored there. A damaged file counts as none, since some
+    /// drivers do not check their data.
     pub(super) fn read(folder: &Path, device: &vk::PhysicalDeviceProperties) -> (Self, Vec<u8>) {
         let id = [device.vendor_id, device.device_id, device.driver_version];
         let id = id.map(|part| format!("{part:08x}")).join("-");
@@ -31,7 +31,7 @@ impl Kept {
         (Self { path, sum }, data)
     }
 
-    /// Keeps `data`, if it is not what was read. What fails is no harm: pipelines are compiled anew.
+    /// Stores `data`, unless they are those that were read. A failure does no harm: pipelines are compiled anew.
     pub(super) fn write(&self, data: &[u8]) {
         let sum = xxh3_64(data);
         if sum == self.sum || data.is_empty() {
@@ -53,7 +53,7 @@ fn read(path: &Path) -> Option<Vec<u8>> {
     (*magic == MAGIC && u64::from_le_bytes(*sum) == xxh3_64(data)).then(|| data.to_vec())
 }
 
-/// Beside the file first: two programs may end at once.
+/// Written beside the file first: two programs may end at once.
 fn write(path: &Path, sum: u64, data: &[u8]) -> std::io::Result<()> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
@@ -94,15 +94,15 @@ mod tests {
         kept.write(&pipelines);
         let (kept, data) = read(1);
         assert_eq!(data, pipelines);
-        // Another driver's are not this one's.
+        // Another driver has a file of its own.
         assert!(read(2).1.is_empty());
-        // What was read is not written again.
+        // Data that were read are not written again.
         std::fs::remove_file(&kept.path).unwrap();
         kept.write(&pipelines);
         assert!(!kept.path.exists());
         kept.write(&pipelines[1..]);
         let whole = std::fs::read(&kept.path).unwrap();
-        // One bit, the end, another beginning, nothing.
+        // One bit changed, the end cut off, another beginning, an empty file.
         let mut bit = whole.clone();
         bit[40] ^= 1;
         let other = [b"vitriol0", &whole[8..]].concat();

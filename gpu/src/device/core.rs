@@ -21,17 +21,17 @@ pub struct Core {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) device: ash::Device,
     pub(crate) push: ash::khr::push_descriptor::Device,
-    /// Where the instance has VK_EXT_debug_utils.
+    /// Set where the instance has VK_EXT_debug_utils.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
     pub(crate) messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     pub(crate) messages: Messages,
     pub(crate) allocator: Mutex<ManuallyDrop<Allocator>>,
-    /// Readback buffers for the next ones.
+    /// Readback buffers that are free for reuse.
     pub(crate) spares: Spares,
     pub(crate) pipeline_cache: vk::PipelineCache,
-    /// Its compute pipelines.
+    /// Compute pipelines of the device.
     pub(crate) shared: Shared,
-    /// Where its pipelines are kept.
+    /// The file in which its pipelines are kept; `None` without a folder.
     pub(super) kept: Option<Kept>,
     pub(crate) info: DeviceInfo,
     /// Queue families in use, each once.
@@ -67,7 +67,7 @@ impl Core {
 impl Drop for Core {
     fn drop(&mut self) {
         if let Some(kept) = &self.kept {
-            // SAFETY: the cache is this device's; what is not given is not kept.
+            // SAFETY: the cache is this device's; where the call fails, nothing is stored.
             let data = unsafe { self.device.get_pipeline_cache_data(self.pipeline_cache) };
             kept.write(&data.unwrap_or_default());
         }

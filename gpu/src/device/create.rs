@@ -1,4 +1,4 @@
-//! What instance and device are asked to have, and their creation from that.
+//! Requests for instance and device, and their creation from these.
 
 use std::ffi::{CStr, CString, c_char};
 
@@ -20,7 +20,7 @@ pub(crate) fn instance_extensions(entry: &ash::Entry, layer: Option<&CStr>) -> V
         .collect()
 }
 
-/// Version of Vulkan that the validation layer knows; `None` without one.
+/// Version of Vulkan that the validation layer supports; `None` without one.
 pub(crate) fn validation_layer(entry: &ash::Entry) -> Option<u32> {
     // SAFETY: the loader is alive.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }.unwrap_or_default();
@@ -81,7 +81,7 @@ pub(crate) fn create_instance(
     let layers = pointers(&request.layers);
     let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
-    // Catches what the layer says while the instance itself comes and goes.
+    // Catches the layer's messages while the instance itself is created and destroyed.
     let mut messenger = messages.create_info();
     let mut create = vk::InstanceCreateInfo::default()
         .application_info(&application)

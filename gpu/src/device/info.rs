@@ -1,4 +1,4 @@
-//! What the opened device is and offers.
+//! Properties of the opened device.
 
 use std::ffi::{CStr, CString};
 
@@ -21,7 +21,7 @@ pub struct DeviceInfo {
     pub limits: BindingLimits,
     /// Invocations per subgroup.
     pub subgroup_size: u32,
-    /// Of the smallest subgroup that the driver may choose.
+    /// Invocations of the smallest subgroup that the driver may choose.
     pub least_subgroup_size: u32,
     /// Nanoseconds per timestamp tick; zero where the device has none.
     pub timestamp_period: f32,
@@ -78,7 +78,7 @@ pub(crate) struct Properties {
     pub(crate) timestamp_period: f32,
     pub(crate) extensions: Vec<CString>,
     pub(crate) features: EnabledFeatures,
-    /// Required things that are not there.
+    /// Requirements that it does not meet.
     pub(crate) missing: Vec<String>,
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn version_text(version: u32) -> String {
     )
 }
 
-/// A fixed character array up to its terminator.
+/// Text of a fixed character array up to its terminator.
 fn text(result: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     result.map_or_else(
         |_| String::from("?"),
@@ -100,7 +100,7 @@ fn text(result: Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     )
 }
 
-/// Asks the driver about `physical`.
+/// Queries the properties of `physical`.
 pub(crate) fn query(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Properties {
     let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
     let mut v12 = vk::PhysicalDeviceVulkan12Properties::default();
@@ -163,7 +163,7 @@ fn device_extensions(instance: &ash::Instance, physical: vk::PhysicalDevice) -> 
         .collect()
 }
 
-/// Optional features that are there, and required ones that are not.
+/// Optional features that the device has, and required ones that it lacks.
 fn query_features(
     instance: &ash::Instance,
     physical: vk::PhysicalDevice,

@@ -28,7 +28,7 @@ pub struct DeviceSummary {
     pub extensions: Vec<String>,
     /// Required things that it lacks; empty when it can be used.
     pub missing: Vec<String>,
-    /// Optional things that it lacks, with what is done instead.
+    /// Optional things that it lacks, with the substitute for each.
     pub missing_optional: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! A mutex's value, whoever panicked with it; and how long threads wait for those that they share.
+//! Access to a mutex's value even if a thread panicked with it; and the time that threads wait for those that they share.
 
 use std::cell::Cell;
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 /// Waits for one kind of lock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Waits {
-    /// Times that another thread held it.
+    /// Number of times that another thread held the lock.
     pub count: u64,
-    /// All of them together.
+    /// Time of all waits together.
     pub total: Duration,
-    /// The longest.
+    /// Time of the longest wait.
     pub longest: Duration,
 }
 
@@ -22,7 +22,7 @@ impl Waits {
         longest: Duration::ZERO,
     };
 
-    /// Adds others.
+    /// Adds the waits of `others`.
     pub fn add(&mut self, others: &Self) {
         self.count += others.count;
         self.total += others.total;
@@ -33,14 +33,14 @@ impl Waits {
 /// How long a thread waited for other threads of this program that use the same device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LockWaits {
-    /// For a queue: to submit, and to take up what the device has finished with.
+    /// For a queue: to submit, and to recycle finished submissions.
     pub queue: Waits,
     /// For the device's memory: to allocate and to free.
     pub memory: Waits,
 }
 
 impl LockWaits {
-    /// What the calling thread has waited since it last asked.
+    /// Waits of the calling thread since its last call of this function.
     pub fn take() -> Self {
         WAITED.replace(Self {
             queue: Waits::NONE,
@@ -48,7 +48,7 @@ impl LockWaits {
         })
     }
 
-    /// Adds others.
+    /// Adds the waits of `others`.
     pub fn add(&mut self, others: &Self) {
         self.queue.add(&others.queue);
         self.memory.add(&others.memory);
@@ -76,7 +76,7 @@ pub(crate) fn lock_memory<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     counted(mutex, |waits| &mut waits.memory)
 }
 
-/// Counts and times only where another thread holds it: the clock is not read else.
+/// Locks, and counts and times the wait only where another thread holds the lock: otherwise no clock is read.
 fn counted<T>(mutex: &Mutex<T>, of: fn(&mut LockWaits) -> &mut Waits) -> MutexGuard<'_, T> {
     match mutex.try_lock() {
         Ok(guard) => return guard,

@@ -1,4 +1,4 @@
-//! Limits that the shaders need of a device, beyond what Vulkan asks of every one.
+//! Limits that the shaders need of a device, beyond those that Vulkan guarantees.
 
 use ash::vk;
 
@@ -17,7 +17,8 @@ pub struct Needs {
     pub immediate_bytes: u32,
 }
 
-/// See [`Needs`]. Vulkan asks every device for 128 invocations, 4 storage buffers, 32 pushed bindings, 16 KiB and 128 bytes.
+/// Limits that this project's shaders need. Vulkan guarantees 128 invocations, 4 storage buffers, 32 pushed bindings, 16 KiB and 128
+/// bytes.
 pub const NEEDS: Needs = Needs {
     invocations: 256,
     storage_buffers: 32,
@@ -26,7 +27,7 @@ pub const NEEDS: Needs = Needs {
     immediate_bytes: 128,
 };
 
-/// What of it a device lacks, in words.
+/// Limits of [`NEEDS`] that a device lacks, in words.
 pub(super) fn lacks(limits: &vk::PhysicalDeviceLimits, bindings: u32) -> Vec<String> {
     let invocations = limits
         .max_compute_work_group_invocations
@@ -62,7 +63,7 @@ mod tests {
 
     #[test]
     fn what_a_small_device_lacks_is_said() {
-        // What Vulkan asks of every device.
+        // Limits that Vulkan guarantees.
         let least = vk::PhysicalDeviceLimits {
             max_compute_work_group_invocations: 128,
             max_compute_work_group_size: [128, 128, 64],

@@ -22,7 +22,7 @@ use crate::GpuError;
 use crate::memory::Spares;
 use crate::pipeline::Shared;
 
-/// Version from which on a validation layer knows VK_KHR_shader_maximal_reconvergence for certain; it came in January 2024.
+/// Version from which on a validation layer certainly supports VK_KHR_shader_maximal_reconvergence; it came in January 2024.
 const RECONVERGES: u32 = vk::make_api_version(0, 1, 3, 280);
 
 /// Opens a device through `provider`, with the queues of the plan.
@@ -54,7 +54,7 @@ pub(crate) fn open(
     let physical = provider.choose(instance, &candidates, options.device.as_deref())?;
     let mut properties = info::query(instance, physical);
     if options.validation && validation_layer(&entry).is_some_and(|knows| knows < RECONVERGES) {
-        // It would take the extension for an error of ours.
+        // An older layer would take the extension for an error of ours.
         properties.features.maximal_reconvergence = false;
     }
     if !properties.missing.is_empty() {
@@ -134,7 +134,7 @@ pub(crate) fn open(
     Ok((core, plan))
 }
 
-/// Destroys what there is when opening fails half-way.
+/// Destroys the objects that exist when opening fails half-way.
 struct Opening {
     instance: ash::Instance,
     device: Option<ash::Device>,

@@ -1,8 +1,8 @@
-//! How a device is opened.
+//! Options for opening a device.
 
 use std::path::PathBuf;
 
-/// What the device's clock is read for; see [`Ticket::timings`](crate::Ticket::timings).
+/// Work that the device's clock measures; see [`Ticket::timings`](crate::Ticket::timings).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Timestamps {
     /// Nothing.
@@ -23,17 +23,17 @@ pub struct Options {
     /// Loads the Khronos validation layer with synchronisation validation;
     /// see [`Gpu::validation_messages`](crate::Gpu::validation_messages).
     pub validation: bool,
-    /// What is measured by the device's clock.
+    /// Work that is measured by the device's clock.
     pub timestamps: Timestamps,
     /// Marks each pass as the device reaches it, so that
     /// [`GpuError::DeviceLost`](crate::GpuError::DeviceLost) can name the last one.
     pub markers: bool,
-    /// Folder in which compiled pipelines are kept for the next run; none are without one.
+    /// Folder in which compiled pipelines are kept for the next run; `None` keeps none.
     pub pipelines: Option<PathBuf>,
 }
 
 impl Options {
-    /// Whether something is told of each pass: then a [`Bundle`](crate::Bundle) hides what is asked for.
+    /// Whether each pass has a marker or a time of its own: a [`Bundle`](crate::Bundle) would hide them.
     pub fn tells_passes(&self) -> bool {
         self.markers || self.timestamps == Timestamps::Passes
     }

@@ -1,10 +1,10 @@
-//! Which queues the device is opened with.
+//! Choice of the queues that the device is opened with.
 
 use ash::vk;
 
 use super::provider::QueueRequest;
 
-/// Of the main queue and the second: a picture that is late is seen, a step of the simulation that is late is not.
+/// Priorities of the main queue and of the second: a picture that is late is seen, a step of the simulation that is late is not.
 const PRIORITIES: [f32; 2] = [1.0, 0.5];
 
 /// One queue of the device.
@@ -16,7 +16,7 @@ pub(crate) struct Place {
     pub(crate) timestamp_mask: u64,
 }
 
-/// Which queues are taken.
+/// The queues that are used.
 pub(crate) struct QueuePlan {
     main: Place,
     /// `None`: the main queue serves as both.

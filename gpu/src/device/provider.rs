@@ -1,4 +1,4 @@
-//! Who makes the Vulkan instance and device.
+//! Providers, which make the Vulkan instance and device.
 //!
 //! `Gpu::open` decides what it needs (requests, as data), asks the provider to
 //! add its own needs, and has it create instance and device from the finished
@@ -14,7 +14,7 @@ use super::info::EnabledFeatures;
 use super::select::{self, Candidate};
 use crate::GpuError;
 
-/// What the instance is to have.
+/// Requirements of the instance.
 #[derive(Clone, Debug)]
 pub struct InstanceRequest {
     /// Highest API version that the program uses, `vk::make_api_version` coded.
@@ -34,7 +34,7 @@ pub struct QueueRequest {
     pub priorities: Vec<f32>,
 }
 
-/// What the device is to have.
+/// Requirements of the device.
 #[derive(Clone, Debug)]
 pub struct DeviceRequest {
     /// Device extensions.

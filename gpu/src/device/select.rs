@@ -1,4 +1,4 @@
-//! Which physical device is taken.
+//! Choice of the physical device.
 
 use ash::vk;
 

@@ -34,7 +34,7 @@ pub(crate) struct BufferInner {
     /// Views as texels, each made when it is first asked for.
     views: Mutex<Vec<(TexelFormat, vk::BufferView)>>,
     allocation: Allocation,
-    /// Whether it is kept for the next one of its size.
+    /// Whether its memory is kept for the next readback buffer of its size.
     is_kept: bool,
     core: Arc<Core>,
 }
@@ -169,7 +169,7 @@ impl Buffer {
         Ok(Self::of(core, label, made, usage, location))
     }
 
-    /// Of what was made for it.
+    /// A buffer from its handle and memory.
     fn of(
         core: &Arc<Core>,
         label: &str,
@@ -368,7 +368,7 @@ impl Drop for BufferInner {
 }
 
 impl Spare {
-    /// Gives handle and memory back to the device.
+    /// Frees handle and memory.
     pub(crate) fn destroy(mut self, core: &Core) {
         // SAFETY: nobody holds the buffer any more, and the device has finished what used it.
         unsafe { core.device.destroy_buffer(self.handle, None) };
@@ -376,12 +376,12 @@ impl Spare {
     }
 }
 
-/// Bytes as a buffer has them.
+/// Size of a buffer that is asked for with `bytes`.
 fn rounded(bytes: u64) -> u64 {
     bytes.next_multiple_of(4).max(16)
 }
 
-/// This use, and copies.
+/// This usage with copies.
 fn copied(usage: vk::BufferUsageFlags) -> vk::BufferUsageFlags {
     usage | vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST
 }

@@ -19,7 +19,7 @@ pub struct ImageDesc {
     pub layers: u32,
     /// Texel format.
     pub format: vk::Format,
-    /// What it is used for; copies out of it and into it are always added.
+    /// Its usage; copies out of it and into it are always added.
     pub usage: vk::ImageUsageFlags,
 }
 
@@ -40,8 +40,7 @@ impl ImageDesc {
         }
     }
 
-    /// Layout between recorders. Every recorder finds and leaves an image in
-    /// it, so that recorders need not know of each other.
+    /// Layout between recorders. Every recorder finds and leaves an image in this layout, so that recorders are independent of each other.
     fn home(&self) -> vk::ImageLayout {
         if self.usage.contains(vk::ImageUsageFlags::STORAGE) {
             vk::ImageLayout::GENERAL

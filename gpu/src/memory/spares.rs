@@ -1,5 +1,5 @@
-//! Readback buffers that nobody uses any more, kept for the next ones of their size. A frame that reads back makes none anew, so it
-//! does not wait for a thread that allocates, whose blocks take the driver milliseconds.
+//! Readback buffers that are not used any more, kept for the next ones of their size. A frame that reads back allocates none, so it does
+//! not wait for a thread that allocates blocks, which take the driver milliseconds.
 
 use std::collections::VecDeque;
 use std::sync::Mutex;
@@ -9,29 +9,29 @@ use gpu_allocator::vulkan::Allocation;
 
 use crate::device::lock;
 
-/// Most bytes of them: some states of a scene of 10,000 particles. The oldest go first.
+/// Most bytes of spare buffers: some states of a scene of 10,000 particles. The oldest are freed first.
 const MOST: u64 = 1 << 26;
 
-/// One of them.
+/// Handle and memory of a readback buffer.
 pub(crate) struct Spare {
     pub(crate) handle: vk::Buffer,
     pub(crate) allocation: Allocation,
     pub(crate) bytes: u64,
 }
 
-/// See the module.
+/// A device's spare readback buffers, oldest first.
 #[derive(Default)]
 pub(crate) struct Spares(Mutex<VecDeque<Spare>>);
 
 impl Spares {
-    /// One of exactly so many bytes.
+    /// Takes a spare buffer of exactly `bytes` bytes, if there is one.
     pub(crate) fn take(&self, bytes: u64) -> Option<Spare> {
         let mut spares = lock(&self.0);
         let place = spares.iter().position(|spare| spare.bytes == bytes)?;
         spares.remove(place)
     }
 
-    /// Keeps one, and returns those for which there is no room any more.
+    /// Adds a spare buffer, and returns those that exceed [`MOST`], to be destroyed.
     pub(crate) fn put(&self, spare: Spare) -> Vec<Spare> {
         let mut spares = lock(&self.0);
         spares.push_back(spare);
@@ -46,7 +46,7 @@ impl Spares {
         gone
     }
 
-    /// All of them, at the device's end.
+    /// Takes all spare buffers, at the device's end.
     pub(crate) fn take_all(&self) -> Vec<Spare> {
         lock(&self.0).drain(..).collect()
     }
@@ -74,7 +74,7 @@ mod tests {
         let sizes = |gone: Vec<Spare>| gone.iter().map(|spare| spare.bytes).collect::<Vec<_>>();
         assert_eq!(sizes(spares.put(of(MOST - 16))), [0; 0]);
         assert_eq!(sizes(spares.put(of(4))), [16]);
-        // What is too large for all of them is not kept.
+        // A buffer that is larger than [`MOST`] is not kept.
         assert_eq!(sizes(spares.put(of(MOST + 4))), [MOST - 16, 4, MOST + 4]);
         assert!(spares.take_all().is_empty());
     }

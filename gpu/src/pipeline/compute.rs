@@ -27,14 +27,13 @@ pub(crate) struct ComputeInner {
     core: Arc<Core>,
 }
 
-/// A device's pipelines by their shader, as long as something holds them. Most shaders of two solvers or two renderers are the same,
-/// and a driver that keeps none compiles each again: Mesa 22.3 takes 0.4 s for the largest.
+/// A device's compute pipelines by their shader, as long as something holds them. Most shaders of two solvers or two renderers are the
+/// same, and a driver without a cache compiles each again: Mesa 22.3 takes 0.4 s for the largest.
 #[derive(Default)]
 pub(crate) struct Shared(Mutex<HashMap<u64, Weak<ComputeInner>>>);
 
 impl Shared {
-    /// What tells `compiled` from other shaders, names of bindings included: 64 bits, so that two of a thousand are mistaken for
-    /// each other once in 10¹³ times.
+    /// Hash of `compiled`, names of bindings included: 64 bits, so that two of a thousand are mistaken for each other once in 10¹³ times.
     fn key(compiled: &Compiled) -> u64 {
         let mut hasher = DefaultHasher::new();
         compiled.hash(&mut hasher);
@@ -46,7 +45,7 @@ impl Shared {
         all.get(&key)?.upgrade()
     }
 
-    /// Keeps `inner`, unless another thread has made the same meanwhile; the one that is kept.
+    /// Stores `inner`, unless another thread has stored the same meanwhile; returns the stored one.
     fn keep(&self, key: u64, inner: Arc<ComputeInner>) -> Arc<ComputeInner> {
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(other) = all.get(&key).and_then(Weak::upgrade) {
@@ -59,11 +58,10 @@ impl Shared {
 }
 
 impl ComputePipeline {
-    /// The pipeline of a shader: the one that the device has of it already, if any is held.
+    /// The pipeline of a shader: an existing one of the device, if any is held.
     ///
     /// # Errors
-    /// [`GpuError::Shader`] where the shader is of another stage or declares
-    /// what cannot be bound; what the driver says otherwise.
+    /// [`GpuError::Shader`] where the shader is of another stage or has a declaration that cannot be bound; otherwise the driver's error.
     pub fn new(core: &Arc<Core>, compiled: &Compiled) -> Result<Self, GpuError> {
         if compiled.stage != Stage::Compute {
             return Err(wrong_stage(compiled, "compute"));
@@ -113,8 +111,7 @@ impl ComputePipeline {
         self.inner.workgroup_size
     }
 
-    /// Names of its bindings, in the order of their numbers. Those that only a
-    /// branch uses which specialisation removed are not among them.
+    /// Names of its bindings, in the order of their numbers, without those in branches that specialisation removed.
     pub fn bindings(&self) -> impl Iterator<Item = &str> {
         self.inner
             .layout
@@ -124,7 +121,7 @@ impl ComputePipeline {
     }
 }
 
-/// The shader with what this device has better ways for.
+/// The shader with changes that suit this device.
 fn for_device<'a>(core: &Core, compiled: &'a Compiled) -> Result<Cow<'a, Compiled>, ShaderError> {
     let mut compiled = Cow::Borrowed(compiled);
     if core.info.reads_texels {

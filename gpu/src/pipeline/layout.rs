@@ -12,7 +12,7 @@ use crate::GpuError;
 use crate::barrier::Scope;
 use crate::device::Core;
 
-/// What the update template reads for one binding.
+/// Data of one binding for the update template.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub(crate) union DescriptorData {
@@ -41,7 +41,7 @@ pub(crate) struct Slot {
     stages: vk::ShaderStageFlags,
 }
 
-/// What pushing descriptors and immediates takes of a layout.
+/// The parts of a layout that are needed to push descriptors and immediates.
 #[derive(Clone, Copy)]
 pub(crate) struct LayoutPush {
     pub(crate) handle: vk::PipelineLayout,
@@ -55,7 +55,7 @@ pub(crate) struct LayoutPush {
 pub(crate) struct Layout {
     pub(crate) slots: Vec<Slot>,
     pub(crate) immediate_bytes: u32,
-    /// Names that the shaders declare and, as specialised, do without.
+    /// Names that the shaders declare and, as specialised, do not use.
     unused: Vec<String>,
     immediate_stages: vk::ShaderStageFlags,
     pub(crate) handle: vk::PipelineLayout,
@@ -66,7 +66,7 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// # Errors
-    /// [`GpuError::Shader`] where the shaders declare what cannot be bound.
+    /// [`GpuError::Shader`] where the shaders have a declaration that cannot be bound.
     pub(crate) fn new(
         core: &Arc<Core>,
         bind_point: vk::PipelineBindPoint,
@@ -273,7 +273,7 @@ fn descriptor_type(kind: &BindingKind) -> vk::DescriptorType {
     }
 }
 
-/// How `stage` accesses a binding, where it may have one of that kind.
+/// How `stage` accesses a binding; `None` where the stage cannot have one of that kind.
 fn scope(stage: Stage, kind: &BindingKind) -> Option<Scope> {
     let pick = |readable: bool, writable: bool| {
         let mut scope = Scope::NONE;

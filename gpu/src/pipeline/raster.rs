@@ -22,7 +22,7 @@ pub(crate) struct RasterInner {
     pub(crate) handle: vk::Pipeline,
     pub(crate) layout: Layout,
     pub(crate) label: CString,
-    /// Of the target.
+    /// Format of the target.
     pub(crate) format: vk::Format,
     core: Arc<Core>,
 }
@@ -32,8 +32,7 @@ impl RasterPipeline {
     /// premultiplied colour: `new + old · (1 − α)`.
     ///
     /// # Errors
-    /// [`GpuError::Shader`] where a shader is of another stage, declares what
-    /// cannot be bound, or the stages contradict each other.
+    /// [`GpuError::Shader`] where a shader is of another stage, has a declaration that cannot be bound, or contradicts the other stage.
     pub fn new(
         core: &Arc<Core>,
         vertex: &Compiled,

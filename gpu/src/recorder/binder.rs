@@ -1,4 +1,4 @@
-//! Names of a pass or draw, resolved against what its shaders declare.
+//! Names of a pass or draw, resolved against the declarations of its shaders.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -8,7 +8,7 @@ use crate::pipeline::{DescriptorData, Layout, Slot};
 use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
 
-/// How a buffer or image was given.
+/// The way in which a buffer or image was given.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Asked {
     Read,
@@ -16,7 +16,7 @@ pub(crate) enum Asked {
     Uniform,
 }
 
-/// Bindings of one pass or draw. The first mistake is kept and told at the end.
+/// Bindings of one pass or draw. The first mistake is kept and returned at the end.
 pub(crate) struct Binder<'a> {
     layout: &'a Layout,
     /// Label of the pass in messages.
@@ -275,7 +275,7 @@ impl<'a> Binder<'a> {
         storage.constants.extend_from_slice(bytes);
     }
 
-    /// The first mistake, or what is missing.
+    /// Returns the first mistake, or the missing binding.
     pub(crate) fn check(&mut self, storage: &Storage) -> Result<(), GpuError> {
         if let Some(error) = self.error.take() {
             return Err(*error);

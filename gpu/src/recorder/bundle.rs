@@ -9,10 +9,10 @@ use crate::barrier::Scope;
 use crate::submission::{Storage, Submission};
 use crate::{Buffer, GpuError};
 
-/// Compute passes, fills, copies and uploads in a secondary command buffer. A submission that executes it says the same to
-/// the device as one that records them again, and the host spends next to nothing. Cheap to clone.
+/// Compute passes, fills, copies and uploads in a secondary command buffer. A submission that executes it is the same to the device as one
+/// that records them again, and the host spends next to nothing. Cheap to clone.
 ///
-/// Its immediates and what it uploads stay what they were; what changes goes to buffers before it.
+/// Its immediates and uploads stay as recorded; data that change go to buffers before it.
 #[derive(Clone)]
 pub struct Bundle {
     inner: Arc<BundleInner>,
@@ -22,7 +22,7 @@ struct BundleInner {
     queue: usize,
     commands: vk::CommandBuffer,
     label: String,
-    /// What it uses, each with every way in which it does.
+    /// Resources that it uses, each with every way in which it does.
     uses: Vec<(Buffer, Scope)>,
     host_reads: bool,
     /// Owns the commands and holds what they use. In a mutex, which nobody locks, because submissions on several threads
@@ -31,7 +31,7 @@ struct BundleInner {
 }
 
 impl Recorder {
-    /// Records what `f` does as a bundle for this recorder's queue; does not execute it.
+    /// Records the commands of `f` as a bundle for this recorder's queue; does not execute it.
     ///
     /// # Errors
     /// Those of `f`; [`GpuError::Bundle`] where it uses an image or reads back.
@@ -97,7 +97,7 @@ impl Recorder {
             let device = &storage.core.device;
             device.cmd_execute_commands(storage.cmd, &[inner.commands]);
         }
-        // What is bound is undefined after it.
+        // The bound pipeline is undefined after it.
         storage.bound = vk::Pipeline::null();
         storage.close_pass()
     }

@@ -7,7 +7,7 @@ use super::transfer::{texel_bytes, whole_image};
 use crate::barrier::Scope;
 use crate::{Buffer, GpuError, Image};
 
-/// What is copied of an image.
+/// The part of an image that is copied.
 #[derive(Clone, Copy)]
 enum Part {
     Whole,

@@ -11,9 +11,8 @@ use crate::pipeline::ComputeInner;
 use crate::submission::Storage;
 use crate::{Buffer, GpuError, Image, Sampler};
 
-/// A compute pass in the making: name every binding of the shader once, give
-/// its immediates if it has any, and end with its size. Mistakes are told
-/// there.
+/// A compute pass in the making: name every binding of the shader once, give its immediates if it has any, and end with its size, which
+/// returns the first mistake.
 #[must_use = "a pass is recorded by its size: invocations, workgroups or indirect"]
 pub struct Pass<'r> {
     storage: &'r mut Storage,

@@ -19,9 +19,8 @@ pub struct Raster<'r> {
 }
 
 impl Recorder {
-    /// Fills `target`, an image of one layer, with the colour `clear` and draws
-    /// what `f` records over it. All draws of a scope come after all passes
-    /// before it. `label` stands in timings, markers and debuggers.
+    /// Fills `target`, an image of one layer, with the colour `clear` and draws the draws that `f` records over it. All draws of a scope
+    /// come after all passes before it. `label` appears in timings, markers and debuggers.
     ///
     /// # Errors
     /// [`GpuError::Raster`] where the target does not fit the queue or the

@@ -1,4 +1,4 @@
-//! Where a recorder begins and where it goes.
+//! Creation and submission of recorders.
 
 use ash::vk;
 
@@ -17,7 +17,7 @@ impl Gpu {
         let queue = inner.queues.at(index);
         let mut storage = match queue.recycled() {
             Some(storage) => storage,
-            // Only then: what others used is not let go in a frame that needs none of it.
+            // Only then: a frame that has recycled storage does not spend time on destroying others' resources.
             None => {
                 inner.collect(index)?;
                 let finished = queue.recycled();
@@ -36,7 +36,7 @@ impl Gpu {
         })
     }
 
-    /// Submits what was recorded, after all that was submitted to its queue.
+    /// Submits the recorded commands, after all that were submitted to its queue.
     ///
     /// # Errors
     /// Out of memory, or device loss with the last pass reached.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::device::Core;
 use crate::{Buffer, GpuError};
 
-/// Large enough for the small uploads of a frame.
+/// Size of a chunk: large enough for the small uploads of a frame.
 const CHUNK_BYTES: u64 = 1 << 20;
 
 #[derive(Default)]
@@ -15,9 +15,8 @@ pub(crate) struct Arena {
 }
 
 impl Arena {
-    /// A place that holds `data`: a staging buffer and an offset in it. What
-    /// does not fit the chunk gets a buffer of its own, which the caller's
-    /// submission frees.
+    /// A place that holds `data`: a staging buffer and an offset in it. Data that do not fit the chunk get a buffer of their own, which
+    /// the caller's submission frees.
     pub(crate) fn place(
         &mut self,
         core: &Arc<Core>,

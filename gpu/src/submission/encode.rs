@@ -18,7 +18,7 @@ impl Storage {
         self.host_reads = false;
         let inheritance = vk::CommandBufferInheritanceInfo::default();
         let flags = if self.is_bundle {
-            // The next submission executes it while the device is still at the one before.
+            // The next submission executes the bundle while the device still executes the one before.
             vk::CommandBufferUsageFlags::SIMULTANEOUS_USE
         } else {
             vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT
@@ -31,7 +31,7 @@ impl Storage {
         unsafe { self.core.device.begin_command_buffer(self.cmd, &begin) }
             .map_err(GpuError::vulkan("vkBeginCommandBuffer"))?;
         if self.is_bundle {
-            // Whoever executes it orders it as one pass.
+            // The recorder that executes a bundle orders it as one pass.
             return Ok(());
         }
         // After everything that was submitted to this queue before; that is why
@@ -122,7 +122,7 @@ impl Storage {
         self.image_barriers.clear();
     }
 
-    /// What stands before every pass; its uses are in `uses`, `image_uses`.
+    /// Commands before every pass; its uses are in `uses`, `image_uses`.
     pub(crate) fn open_pass(&mut self, label: &[u8]) -> Result<(), GpuError> {
         for index in 0..self.image_uses.len() {
             let used = self.image_uses[index];
@@ -196,7 +196,7 @@ impl Storage {
         }
     }
 
-    /// The draws of the open scope.
+    /// Records the draws of the open scope.
     pub(crate) fn replay_draws(&mut self) {
         self.bound = vk::Pipeline::null();
         let mut bound = vk::Pipeline::null();
@@ -223,7 +223,7 @@ impl Storage {
         }
     }
 
-    /// What stands after every pass.
+    /// Commands after every pass.
     pub(crate) fn close_pass(&mut self) -> Result<(), GpuError> {
         self.close_label();
         if let Some(queries) = self.queries.as_mut().filter(|it| it.of_passes) {

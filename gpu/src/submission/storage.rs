@@ -31,7 +31,7 @@ pub(crate) struct ImageUse {
     pub(crate) index: usize,
     pub(crate) layout: vk::ImageLayout,
     pub(crate) scope: Scope,
-    /// The pass overwrites all of it.
+    /// Whether the pass overwrites all of it.
     pub(crate) discard: bool,
 }
 
@@ -60,16 +60,16 @@ pub(crate) struct Storage {
     pool: vk::CommandPool,
     pub(crate) cmd: vk::CommandBuffer,
     pub(crate) submission: Arc<Submission>,
-    /// Whether it holds a bundle, which submissions execute and none is.
+    /// Whether it holds a bundle, which is executed by submissions and never submitted.
     pub(crate) is_bundle: bool,
-    /// Keeps what the commands use beside buffers and images.
+    /// Other resources that the commands use, beside buffers and images.
     retained: Vec<Arc<dyn Any + Send + Sync>>,
     pub(crate) planner: Planner,
     pub(crate) buffers: Vec<BufferUse>,
     buffer_indices: HashMap<u64, usize>,
     pub(crate) images: Vec<ImageState>,
     image_indices: HashMap<u64, usize>,
-    /// Of the pass being recorded.
+    /// Buffer uses of the pass being recorded.
     pub(crate) uses: Vec<Use>,
     pub(crate) image_uses: Vec<ImageUse>,
     pub(crate) descriptors: Vec<DescriptorData>,
@@ -85,7 +85,7 @@ pub(crate) struct Storage {
     pub(crate) queries: Option<Queries>,
     pub(crate) markers: Option<Markers>,
     pub(crate) bound: vk::Pipeline,
-    /// Something was copied to where the host reads.
+    /// Whether something was copied to memory that the host reads.
     pub(crate) host_reads: bool,
 }
 
@@ -94,7 +94,7 @@ pub(crate) struct Storage {
 unsafe impl Send for Storage {}
 
 impl Storage {
-    /// Of a submission.
+    /// Storage of a submission.
     pub(crate) fn new(core: &Arc<Core>, family: u32, options: &Options) -> Result<Self, GpuError> {
         let flags = vk::CommandPoolCreateFlags::TRANSIENT;
         let mut storage = Self::of(core, family, flags, vk::CommandBufferLevel::PRIMARY)?;
@@ -108,7 +108,7 @@ impl Storage {
         Ok(storage)
     }
 
-    /// Of a bundle. It has neither times nor markers: those are a submission's.
+    /// Storage of a bundle. It has neither times nor markers: those are a submission's.
     pub(crate) fn of_bundle(core: &Arc<Core>, family: u32) -> Result<Self, GpuError> {
         let flags = vk::CommandPoolCreateFlags::empty();
         Self::of(core, family, flags, vk::CommandBufferLevel::SECONDARY)
@@ -164,7 +164,7 @@ impl Storage {
         Ok(storage)
     }
 
-    /// The index in [`Storage::images`]; holds the image from its first use on.
+    /// The image's index in [`Storage::images`]; holds the image from its first use on.
     pub(crate) fn image_index(&mut self, image: &Image) -> usize {
         let inner = &image.inner;
         if let Some(index) = self.image_indices.get(&inner.id) {
@@ -239,7 +239,7 @@ impl Storage {
         self.retained.push(object);
     }
 
-    /// Forgets the pass being recorded.
+    /// Clears the uses of the pass being recorded.
     pub(crate) fn clear_pass(&mut self) {
         self.pass_bytes = 0;
         self.uses.clear();
@@ -249,8 +249,7 @@ impl Storage {
         self.draws.clear();
     }
 
-    /// The device has finished: reads the times, lets everything go, and makes
-    /// ready for the next recording.
+    /// Call it when the device has finished: reads the times, releases all resources, and prepares for the next recording.
     pub(crate) fn recycle(&mut self, timestamp_mask: u64) -> Result<(), GpuError> {
         let read = match &mut self.queries {
             Some(queries) => queries.read(&self.core, &self.names, timestamp_mask),
@@ -260,8 +259,8 @@ impl Storage {
             Ok(timings) => (timings, Ok(())),
             Err(error) => (Vec::new(), Err(error)),
         };
-        // Whatever came of it: a thread that asks for them waits for this one. Set already only where they were read
-        // before, and then they are the same.
+        // Also where reading failed: a thread that asks for the times waits for this value. It is set already only where the times were
+        // read before, and then they are the same.
         let _ = self.submission.timings.set(timings);
         read?;
         if let Some(markers) = &mut self.markers {

@@ -52,7 +52,7 @@ impl Names {
 /// Timestamps of one pool.
 const POOL_SIZE: u32 = 512;
 
-/// Timestamps: one at the start, where it is asked for one at the end of each pass, one at the end.
+/// Timestamps: one at the start, one at the end of each pass where that is asked for, one at the end.
 pub(crate) struct Queries {
     pub(crate) of_passes: bool,
     pools: Vec<vk::QueryPool>,

@@ -68,7 +68,7 @@ fn submissions_execute_it_while_others_are_under_way() {
         rec.execute(&bundle).unwrap();
         last = Some(gpu.submit(rec).unwrap());
     }
-    // The submissions hold what the bundle uses.
+    // The submissions hold the resources of the bundle.
     drop(bundle);
     last.unwrap().wait().unwrap();
     // Sixteen times x → 3x + 1, from 0.

@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Helpers of the tests.
 
 use vitriol_gpu::{Gpu, Options, PlainLoader};
 use vitriol_shaders::{Compiled, Library, ShaderId};

@@ -165,7 +165,7 @@ fn a_uniform_written_between_passes_is_seen_in_order() {
     assert_silent(&gpu);
 }
 
-/// A software driver has texels in their place.
+/// A software driver reads them as texels.
 #[test]
 fn structures_are_read_whole_and_by_their_members() {
     let gpu = open();
@@ -236,7 +236,8 @@ fn structures_are_read_whole_and_by_their_members() {
     assert_silent(&gpu);
 }
 
-/// As long as it is held. Names are a shader's own: one whose words are another's is bound by its names.
+/// A shader has one pipeline as long as it is held. Names are part of the shader: one with the same words and other names is bound by its
+/// own.
 #[test]
 fn a_shader_has_one_pipeline_on_a_device() {
     let (gpu, another) = (open(), open());
@@ -251,7 +252,7 @@ fn a_shader_has_one_pipeline_on_a_device() {
     };
     assert!(names(&first).contains(&"source".to_owned()));
     assert!(names(&renamed).contains(&"origin".to_owned()));
-    // The others have let go of theirs.
+    // The other pipelines have been dropped.
     drop(first);
     let mut rec = gpu.recorder(QueueKind::Main).unwrap();
     let [from, to] = ["from", "to"].map(|label| Buffer::storage(&gpu, label, 4 * 64).unwrap());

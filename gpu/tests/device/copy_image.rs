@@ -26,7 +26,7 @@ fn both_layers_arrive_bit_by_bit_in_a_swapchain_image() {
     let d32 = vk::Format::D32_SFLOAT;
     let picture = image(&gpu, "picture", linear, 2, 8);
     let depth = image(&gpu, "depth", d32, 2, 8);
-    // As an XR runtime's: made by another, found and left as an attachment.
+    // As an XR runtime's: made by another owner, found and left as an attachment.
     let owners = [
         image(&gpu, "owner", srgb, 2, 8),
         image(&gpu, "owner of depth", d32, 2, 8),
@@ -91,7 +91,7 @@ fn each_layer_arrives_alone() {
     assert_silent(&gpu);
 }
 
-/// The corner of a larger image goes to a smaller one, each layer's own; what is beside it does not.
+/// The corner of a larger image goes to a smaller one, each layer's own; the rest of it does not.
 #[test]
 fn a_corner_arrives() {
     let gpu = open();

@@ -40,7 +40,7 @@ fn what_was_compiled_is_kept_and_damage_is_no_harm() {
     let file = only_file(folder.path());
     let first = std::fs::read(&file).unwrap();
     assert!(first.starts_with(b"vitriol1") && first.len() > 32);
-    // Damaged it is as if there were none; Mesa's software driver keeps nothing but a header, so what is kept is not looked into.
+    // A damaged file counts as none; Mesa's software driver stores only a header, so the contents are not checked.
     for damaged in [&first[..first.len() - 7], &[]] {
         std::fs::write(&file, damaged).unwrap();
         compile(folder.path());

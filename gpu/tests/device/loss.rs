@@ -20,8 +20,8 @@ fn markers_name_the_last_pass_reached() {
     let counts = Buffer::storage(&gpu, "counts", 256).unwrap();
     gpu.write(&counts, &[0_u32; 64]).unwrap();
     assert_eq!(gpu.last_pass(), None);
-    // Recorders but the first are recycled ones, whose markers must be clear. A pass that was over
-    // before there was a look at it is made longer.
+    // Recorders but the first are recycled ones, whose markers must be clear. A pass that was over before it could be observed is made
+    // longer.
     let (mut caught, mut long) = (0, 1 << 22);
     while caught < 2 {
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();

@@ -145,7 +145,7 @@ fn what_is_in_use_outlives_its_handles() {
     assert_silent(&gpu);
 }
 
-/// What one readback has left in its memory is not what the next of its size says.
+/// The contents of one readback are not those of the next one of its size, which has its memory.
 #[test]
 fn readbacks_share_memory_and_not_what_is_in_it() {
     let gpu = open();
@@ -153,7 +153,7 @@ fn readbacks_share_memory_and_not_what_is_in_it() {
     gpu.write(&one, &[1_u32; 1024]).unwrap();
     gpu.write(&two, &[2_u32; 1024]).unwrap();
     for round in 0..20 {
-        // Some at once, which are let go of in another order than they came.
+        // Some at once, which are dropped in another order than they were made.
         let mut rec = gpu.recorder(QueueKind::Main).unwrap();
         let mut copies: Vec<_> = (0..round % 4 + 1)
             .map(|n| if n % 2 == 0 { (&one, 1) } else { (&two, 2) })

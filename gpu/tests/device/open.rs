@@ -36,7 +36,7 @@ fn devices_are_listed_and_described() {
     );
 }
 
-/// The limits that a device is asked for are what the shaders use, with all switched on that goes together.
+/// The limits that are required of a device are those that the shaders need, with all features on that go together.
 #[test]
 fn no_shader_needs_more_than_is_asked_for() {
     let library = Library::embedded();

@@ -75,7 +75,7 @@ fn recorders_of_several_threads() {
     assert_silent(&gpu);
 }
 
-/// What a thread waits for others is counted on that thread, by the lock; what nobody holds is not waited for.
+/// A thread's wait for another thread is counted on the waiting thread, by lock; a lock that nobody holds counts no wait.
 #[test]
 fn waits_for_other_threads_are_counted() {
     let gpu = open();

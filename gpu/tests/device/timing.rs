@@ -54,12 +54,12 @@ fn every_pass_is_timed_under_its_label() {
     // 3 µs, which are a dispatch's fixed cost. The best of several, since other
     // tests share the processor.
     assert!(large > 4.0 * small, "{large} ns against {small} ns");
-    // The stamps abut; only what closes the submission is nobody's.
+    // The stamps abut; only the work that closes the submission belongs to no pass.
     assert!(closing < 0.1, "{closing} of the total");
     assert_silent(&gpu);
 }
 
-/// The whole alone: as long as what its passes come to when they are timed.
+/// The time of the whole submission is the sum of its passes' times when they are measured.
 #[test]
 fn a_submission_is_timed_as_a_whole() {
     let gpu = open_with(|options| {
@@ -144,7 +144,7 @@ fn recording_a_frame_is_cheap() {
     assert!(best < 0.3e-3, "{best} s");
 }
 
-/// Whichever thread takes up what the device has finished, each thread that asks has its times.
+/// Whichever thread recycles the finished submission, each thread that asks gets its times.
 #[test]
 fn times_are_whole_while_another_thread_reads_them() {
     let gpu = open_with(|options| options.timestamps = Timestamps::Whole);

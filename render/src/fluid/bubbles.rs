@@ -1,4 +1,4 @@
-//! The cells in which the picture's rays look for the liquid's bubbles, and the flights of the drops that these threw up.
+//! The cells in which the picture's rays look for the liquid's bubbles, and the flights of the drops that the bubbles threw up.
 
 use vitriol_gpu::{Buffer, ComputePipeline, Gpu, GpuError, Recorder, bytes_of_elements};
 use vitriol_shaders::{Library, fluid, layout};
@@ -9,41 +9,41 @@ use crate::compute::compute;
 use crate::frame::bubble_cell;
 use crate::source::BubbleSource;
 
-/// Places of the table, as in `common/picture/bubble_cells.wgsl`; behind them is the number of entries.
+/// Size of the hash table of cells, as in `common/picture/bubble_cells.wgsl`; behind it is the number of entries.
 const CELLS: usize = 32_768;
-/// Radius from which on a bubble is none, or of a solver that has failed, metres as drawn.
+/// Radius from which on a bubble is not drawn, since a solver that has failed made it, metres as drawn.
 const LARGEST: f32 = 0.05;
-/// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most. And entries for few bubbles
-/// that may be large.
+/// Entries for each bubble, on the average: one of 2 mm reaches into two or three cells, one of 6 mm into eight at most. And entries for
+/// few bubbles that may be large.
 const ENTRIES: u32 = 8;
 const LEAST_ENTRIES: u32 = 1 << 16;
 
-/// Words before the numbers of flights, as in `common/picture/spray_drops.wgsl`.
+/// Words before the numbers of flights in `flying`, as in `common/picture/spray_drops.wgsl`.
 const FLYING: usize = 4;
 
-/// The cells of the frames that are under way.
+/// The cells of the frames that are in flight.
 pub(super) struct BubbleCells {
     pass: ComputePipeline,
     flights_pass: ComputePipeline,
-    /// Entries that they hold.
+    /// Most entries of a frame.
     entries: u32,
     views: u32,
     cells: [Cells; SLOTS],
 }
 
-/// Those of a frame.
+/// The cells and flights of one frame.
 pub(crate) struct Cells {
-    /// For each place of the table its first entry and one more, and the number of entries.
+    /// For each place of the table its first entry plus one, then the number of entries.
     pub(crate) heads: Buffer,
     pub(crate) entries: Buffer,
     /// Two flights of drops for each place of a bubble.
     pub(crate) flights: Buffer,
-    /// Which of them have drops, and the dispatch over those (`common/picture/spray_drops.wgsl`).
+    /// Indices of the flights that have drops, after the size of the dispatch over them (`common/picture/spray_drops.wgsl`).
     pub(crate) flying: Buffer,
 }
 
 impl BubbleCells {
-    /// For `most` bubbles, seen in so many views.
+    /// Cells for at most `most` bubbles, seen in `views` views.
     pub(super) fn new(
         gpu: &Gpu,
         library: &Library,
@@ -78,7 +78,7 @@ impl BubbleCells {
         })
     }
 
-    /// Records which bubbles are in which cell, and which drops fly; a unit of the scene is drawn as `length_scale` metres.
+    /// Records the passes that sort bubbles into cells and list the flights; a unit of the scene is drawn as `length_scale` metres.
     pub(super) fn record(
         &self,
         rec: &mut Recorder,

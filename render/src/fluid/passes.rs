@@ -12,14 +12,14 @@ use crate::tiles::Class;
 /// Steps of curvature flow, for which its shader chooses the time step.
 const FLOW_STEPS: u32 = 40;
 
-/// One of each, and the filter's in their order.
+/// One pipeline of each pass, and the filter's in their order.
 pub(super) struct Passes {
     pub(super) anisotropy: ComputePipeline,
-    /// Invocations of it that share a particle.
+    /// Invocations of `anisotropy` that share a particle.
     pub(super) lanes: u32,
     pub(super) splat: ComputePipeline,
     pub(super) thickness: ComputePipeline,
-    /// Invocations of these two that share a particle.
+    /// Invocations of `splat` and `thickness` that share a particle.
     pub(super) splat_lanes: u32,
     pub(super) filter: Vec<ComputePipeline>,
 }
@@ -60,7 +60,7 @@ fn stages(filter: SurfaceFilter) -> Vec<(ShaderId, Vec<(&'static str, f64)>)> {
         let own = match filter {
             SurfaceFilter::NarrowRange => ("PASS", pass.into()),
             SurfaceFilter::CurvatureFlow => ("STEPS", FLOW_STEPS.into()),
-            // Only cuts what reaches into the glass.
+            // It only cuts off ellipsoids that reach into the glass.
             SurfaceFilter::None => ("PASS", 3.0),
         };
         let last = f64::from(u8::from(pass + 1 == passes));

@@ -1,4 +1,4 @@
-//! The drawn surface as numbers, to be compared with the truth.
+//! The drawn surface as numbers, for comparison with the truth.
 
 use vitriol_gpu::Readback;
 
@@ -18,7 +18,7 @@ pub struct Surface {
     /// Liquid along the view's axis, in the scene's unit. Along a pixel's ray
     /// it is longer by the ray's length per depth.
     pub thickness: Vec<f32>,
-    /// Acid mass fraction of what is in the ray; 0 where there is no liquid.
+    /// Acid mass fraction of the liquid along the ray; 0 where there is no liquid.
     pub acid: Vec<f32>,
 }
 
@@ -33,7 +33,7 @@ pub struct SurfaceReadback {
     pub(super) spacing: f32,
 }
 
-/// Parts of a spacing that thickness is counted in, as in `common/picture/pixel_blocks.wgsl`.
+/// Steps of a particle spacing in which thickness is counted, as in `common/picture/pixel_blocks.wgsl`.
 const PARTS: f32 = 1_048_576.0;
 
 impl SurfaceReadback {

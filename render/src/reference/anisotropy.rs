@@ -48,7 +48,7 @@ pub struct Anisotropy {
 }
 
 impl Anisotropy {
-    /// For particles of spacing `spacing` and neighbours within `radius`.
+    /// Parameters for particles of spacing `spacing` and neighbours within `radius`.
     pub fn new(spacing: f64, radius: f64) -> Self {
         Self {
             spacing,
@@ -148,7 +148,7 @@ pub struct Sums {
 }
 
 impl Sums {
-    /// Of nothing.
+    /// Moments of an empty neighbourhood.
     pub const ZERO: Self = Self {
         weight: 0.0,
         first: DVec3::ZERO,

@@ -1,12 +1,11 @@
-//! How far a picture is from the truth, and two pictures of one liquid from
-//! each other. Distances are in particle radii, ½ d.
+//! Differences between a picture and the truth, and between two pictures of one liquid. Distances are in particle radii, ½ d.
 
 use glam::DVec3;
 
 use super::march::Picture;
 
-/// Cosine between ray and normal below which a surface counts to its
-/// silhouette: seen so flatly, a depth says more of the pixel than of the liquid.
+/// Cosine between ray and normal below which a surface counts to its silhouette: seen so flatly, a depth depends on the pixel more than on
+/// the liquid.
 const GRAZING: f64 = 0.25;
 
 /// How far off the tangent plane of a pixel's surface its neighbour's may lie,
@@ -37,10 +36,8 @@ pub struct Interior {
 }
 
 impl Interior {
-    /// Those of the true picture of particles of spacing `spacing` (scene's
-    /// unit) that are seen from the front and a spacing, at its nearest depth,
-    /// away from any edge: of the liquid, of one part before another, and of
-    /// the picture.
+    /// Interior of the true picture of particles of spacing `spacing` (scene's unit): pixels whose surface is seen from the front and is a
+    /// spacing, at its nearest depth, away from any edge: of the liquid, of one part before another, and of the picture.
     pub fn new(truth: &Picture, spacing: f64) -> Self {
         let [width, height] = truth.rays.size();
         let nearest = truth.depth.iter().copied().fold(f64::INFINITY, f64::min);
@@ -88,8 +85,7 @@ impl Interior {
     }
 }
 
-/// Spreads what is true by `margin` along lines of `length` pixels that lie
-/// `stride` apart.
+/// Spreads the true pixels of `mask` by `margin` along lines of `length` pixels that lie `stride` apart.
 fn dilate(mask: &[bool], length: usize, stride: usize, margin: usize) -> Vec<bool> {
     let mut spread = vec![false; mask.len()];
     for (pixel, _) in mask.iter().enumerate().filter(|(_, set)| **set) {
@@ -143,7 +139,7 @@ impl Differences {
     }
 }
 
-/// `drawn` less `truth` over the pixels of the interior that both have.
+/// Difference of `drawn` less `truth` over the pixels of the interior that have liquid in both.
 pub fn difference(
     truth: &Picture,
     drawn: &Picture,
@@ -170,12 +166,10 @@ pub struct Seen<'a> {
     pub interior: &'a Interior,
 }
 
-/// What `from` shows, seen by the other eye, against what `to` shows there:
-/// over the pixels that by the truth both eyes see, away from silhouettes.
-/// `from` and `to` are of these two eyes.
+/// Compares the surface in `from`, projected into the other eye, with the surface in `to`: over the pixels that by the truth both eyes
+/// see, away from silhouettes. `from` and `to` are pictures of these two eyes.
 ///
-/// The same measures the flicker of a liquid that does not move between two
-/// places of a head that does.
+/// With two places of a moving head in place of two eyes it measures the flicker of a liquid at rest.
 pub fn reprojection(
     [from, to]: [&Picture; 2],
     [first, second]: [Seen<'_>; 2],

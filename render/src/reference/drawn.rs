@@ -1,14 +1,12 @@
-//! A picture of the renderer's in the terms of the truth.
+//! A picture of the renderer in the form of the reference's.
 
 use glam::DVec3;
 
 use super::march::{Picture, Rays};
 
 impl Picture {
-    /// A picture by its view depths (not finite or not above 0 where there is
-    /// no liquid) and ways through the liquid in view depth, by rows from the
-    /// top, scene's unit. Normals are the depth's; the liquid is taken to lie
-    /// in one piece behind its first surface.
+    /// A picture from its view depths (not finite or not above 0 where there is no liquid) and ways through the liquid in view depth, by
+    /// rows from the top, scene's unit. Normals are those of the depth; the liquid is taken to lie in one piece behind its first surface.
     pub fn drawn(rays: &Rays, depth: &[f32], ways: &[f32]) -> Self {
         let depth: Vec<f64> = depth
             .iter()

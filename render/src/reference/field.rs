@@ -19,13 +19,12 @@ use super::surroundings::Surroundings;
 /// (`a_half_space_ends_where_it_should`).
 pub const SURFACE: f64 = 0.14;
 
-/// How far into the liquid φ is looked at to tell a wall from a free surface,
-/// particle spacings, and what it then is at least over the surface's level:
-/// free, φ rises by some thousandths over that way.
+/// How far into the liquid φ is evaluated to tell a wall from a free surface, particle spacings, and least value that it has there above
+/// the surface's level: at a free surface φ rises by some thousandths over that way.
 const WALL_STEP: f64 = 1e-3;
 const WALL_RISE: f64 = 1.05;
 
-/// A kernel in place.
+/// A particle's kernel at its place.
 #[derive(Clone, Copy, Debug)]
 struct Placed {
     centre: DVec3,

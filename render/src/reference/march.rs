@@ -1,4 +1,4 @@
-//! Rays against the surface, and what an eye sees of it.
+//! Marches rays to the surface, and collects the picture of an eye.
 
 use glam::{DMat3, DVec3};
 
@@ -95,7 +95,7 @@ impl Rays {
     }
 }
 
-/// What an eye sees of a liquid.
+/// The picture that an eye has of a liquid.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Its rays.
@@ -140,8 +140,7 @@ impl Picture {
         }
     }
 
-    /// Takes away what lies behind something opaque: `depth` is the view depth
-    /// of that along a ray from the eye.
+    /// Removes liquid behind something opaque, whose view depth along a ray from the eye is `depth`.
     pub fn hide(&mut self, depth: impl Fn(DVec3, DVec3) -> f64) {
         for pixel in 0..self.depth.len() {
             if self.depth[pixel] > depth(self.rays.eye, self.rays.through(pixel)) {
@@ -171,7 +170,7 @@ fn march(field: &Field<'_>, rays: &Rays, direction: DVec3, whole: bool) -> Optio
     let (start, end) = enter(field.bounds(), eye, direction)?;
     let length = direction.length();
     let step = STEP * field.shortest() / length;
-    // In the depth of a liquid there is no surface to miss.
+    // Deep in a liquid there is no surface to miss.
     let stride = STRIDE * field.spacing() / length;
     let level = |t: f64| field.value(eye + direction * t) - SURFACE;
     let start = start.max(rays.near);

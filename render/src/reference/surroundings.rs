@@ -1,8 +1,8 @@
-//! What is solid around a liquid.
+//! Solids around a liquid.
 
 use glam::DVec3;
 
-/// What the reference asks of glass, table and floor.
+/// Queries of the reference about glass, table and floor.
 pub trait Surroundings: Sync {
     /// On which side of the glass a particle is: those of one side, a vessel's
     /// or the outside's, have the same solids.
@@ -27,7 +27,7 @@ pub trait Surroundings: Sync {
     fn apart(&self, a: usize, b: usize) -> bool;
 }
 
-/// Nothing around.
+/// Surroundings without any solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Nothing;
 

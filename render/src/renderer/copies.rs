@@ -1,4 +1,4 @@
-//! Copies to the host of what was drawn.
+//! Copies of drawn pictures to the host.
 
 use vitriol_gpu::{Buffer, Image, Recorder};
 
@@ -58,8 +58,8 @@ impl Renderer {
         fluid.read_back(rec, depth(fluid), frame.nears(), spacing)
     }
 
-    /// Records the copies of what each pass left behind to the host, after
-    /// [`Renderer::record`] of that frame, which is as large as the renderer's images.
+    /// Records the copies of each pass's result to the host, after [`Renderer::record`] of that frame, which is as large as the renderer's
+    /// images.
     ///
     /// # Errors
     /// [`RenderError::Extent`] for a smaller frame; as for [`Renderer::read_back_surface`].

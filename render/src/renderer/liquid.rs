@@ -1,4 +1,4 @@
-//! What of a frame's liquid is drawn.
+//! Selects the liquid and drops of a frame that are drawn.
 
 use super::Renderer;
 use crate::RenderError;
@@ -8,13 +8,13 @@ use crate::source::LiquidSource;
 use crate::spray::Flights;
 
 impl Renderer {
-    /// The drops of a frame that has them, in that slot.
+    /// The flights of drops in that slot, if the frame has any.
     pub(super) fn flights(
         &self,
         frame: &FrameDesc<'_>,
         slot: usize,
     ) -> Result<Option<Flights<'_>>, RenderError> {
-        // Coloured particles are seen in their place.
+        // Coloured particles are drawn in place of drops.
         if frame.particles.is_some() {
             return Ok(None);
         }
@@ -30,7 +30,7 @@ impl Renderer {
         }))
     }
 
-    /// The liquid surface of a frame that has one.
+    /// The liquid surface and its source, if the frame has a liquid.
     pub(super) fn liquid<'a>(
         &self,
         frame: &FrameDesc<'a>,

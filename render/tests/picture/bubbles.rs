@@ -99,7 +99,7 @@ fn bent(way: DVec3, normal: DVec3, from: f64, to: f64) -> Option<DVec3> {
     (rest > 0.0).then(|| across - rest.sqrt() * normal)
 }
 
-/// Where a ray of the picture goes on in the liquid, from the tank's middle.
+/// Where a ray of the picture enters the liquid and its direction there, from the tank's middle.
 fn entered(x: u32, y: u32) -> (DVec3, DVec3) {
     let view = above();
     let way = ray(&view, EXTENT, x, y);
@@ -126,7 +126,8 @@ fn all_over() -> Vec<Ball> {
         .collect()
 }
 
-/// A scene whose unit is drawn as 5 cm, and one drawn at twice its size, have the same bubbles and foam at the same pixels as one at real size.
+/// A scene whose unit is drawn as 5 cm, and one drawn at twice its size, have the same bubbles and foam at the same pixels as one at real
+/// size.
 #[test]
 fn bubbles_are_seen_at_every_scale() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
@@ -149,7 +150,7 @@ fn bubbles_are_seen_at_every_scale() {
     let seen = differ(plain, real, 3);
     assert!(seen > 3000, "{seen} pixels of bubbles");
     for [other_plain, other] in others {
-        // Rays may pass an edge on either side by rounding, and what is behind it is far from what is beside it.
+        // Rays may pass an edge on either side by rounding, and the light behind it is far from that beside it.
         let of_liquid = differ(plain, other_plain, 3);
         let of_bubbles = differ(real, other, 3);
         eprintln!("{of_bubbles} of {seen} pixels differ, {of_liquid} without bubbles");
@@ -157,8 +158,8 @@ fn bubbles_are_seen_at_every_scale() {
     }
 }
 
-/// Among bubbles all over the tank, beyond the radius over n a bubble mirrors all, and its ring differs from the liquid; beside all of them
-/// nothing does.
+/// Among bubbles all over the tank, beyond the radius over n a bubble mirrors all light, and its ring differs from the liquid; beside all
+/// of them nothing differs.
 #[test]
 fn rays_find_the_bubbles_that_they_meet_and_no_others() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
@@ -225,7 +226,8 @@ fn ends(x: u32, y: u32, ball: Option<Ball>) -> Option<DVec3> {
 /// Height of the table's top, m, well under the tank.
 const TABLE: f64 = 0.62;
 
-/// Through a bubble the table's edge is seen where Snell's law at its two faces, at the surface and under the base puts it: a lens that diverges.
+/// Through a bubble the table's edge is seen where Snell's law at its two faces, at the surface and under the base puts it: the bubble is
+/// a lens that diverges.
 #[test]
 fn a_bubble_is_a_lens() {
     let mut rig = rig(EXTENT, 1, SurfaceFilter::NarrowRange);
@@ -264,7 +266,7 @@ fn a_bubble_is_a_lens() {
                 else {
                     panic!("row {y} passes by the bubble");
                 };
-                // Half way between what floor and table send up at either end.
+                // Half way between the light of floor and table at either end.
                 let between = 0.5 * (red(first, y) + red(last, y));
                 let crossing = |beyond: &dyn Fn(u32) -> bool| {
                     row.iter().position(|&x| beyond(x)).unwrap() as f64
@@ -290,7 +292,7 @@ fn sky(up: f64) -> f64 {
     LIGHT[0] + (LIGHT[1] - LIGHT[0]) * (0.5 + 0.5 * up)
 }
 
-/// As it is displayed: K. Narkowicz's fit of ACES.
+/// Light as it is displayed: K. Narkowicz's fit of ACES.
 fn displayed(light: f64) -> f64 {
     light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
 }
@@ -326,7 +328,7 @@ fn foam_is_a_film_over_a_hollow() {
             let way = ray(&view, EXTENT, x, y);
             let along = (middle - eye).dot(way);
             let apart = miss(eye, way, middle);
-            // Film and hollow show the window towards it and away from it: aside of that. And not where a pixel has both film and none.
+            // Film and hollow show the window towards it and away from it: compared aside of that, and not where a pixel has film in part.
             let at = eye + way * along - middle;
             let to_window = DVec3::new(-0.905, 0.0, 0.425).dot(at);
             if !(0.1 * radius..0.92 * radius).contains(&apart) || to_window.abs() > 0.4 * apart {

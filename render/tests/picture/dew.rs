@@ -1,4 +1,4 @@
-//! Dew on glass: what it hides, and what it does not touch.
+//! Dew on glass: what it hides, and what it leaves unchanged.
 
 use crate::rig::{Rig, linear, ray, without_particles};
 use crate::steam::even;
@@ -29,7 +29,7 @@ fn rig() -> Rig {
     rig
 }
 
-/// Looks at its middle from +Z, level.
+/// A level view of its middle from +Z.
 fn view() -> View {
     let middle = FOOT + Vec3::Y * 0.05;
     View::look_at(
@@ -121,7 +121,7 @@ fn dew_hides_what_its_drops_cover() {
                 (found - expected).abs() < 0.03,
                 "{film}, {cosine}: {found} for {expected}"
             );
-            // And they are lit.
+            // And the drops are lit.
             assert!(
                 dewy[1] > clear[1] + 0.1 * (1.0 - expected),
                 "{film}: {dewy:?} {clear:?}"
@@ -132,7 +132,7 @@ fn dew_hides_what_its_drops_cover() {
     }
 }
 
-/// Glass without dew has the bits that it has where none is known of.
+/// Glass without dew has the bits of glass in a frame that has no dew at all.
 #[test]
 fn glass_without_dew_is_as_it_was() {
     let rig = rig();

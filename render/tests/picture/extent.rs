@@ -10,7 +10,7 @@ use vitriol_render::{
 use vitriol_shaders::layout::Puff;
 
 const SMALL: [u32; 2] = [200, 150];
-/// Twice as large, so that a mask's pixels fall together; and by no whole number, nor of whole tiles.
+/// Twice as large, so that a mask's pixels fall together; and larger by no whole factor, nor of whole tiles.
 const LARGE: [u32; 2] = [400, 300];
 const ODD: [u32; 2] = [333, 251];
 
@@ -92,8 +92,8 @@ fn pictures(held: [u32; 2], extent: [u32; 2], masked: bool) -> Picture {
 /// rounds them to 1/256 of a pixel at best (`subTexelPrecisionBits`), which is another place in another image.
 const SAMPLED: u8 = 2;
 
-/// Its upper left corner is what a renderer of its own size draws, depths to the last bit: nothing of what lies
-/// beside it is read, and every pass finds its pixels.
+/// The upper left corner is what a renderer of its own size draws, depths to the last bit: no pass reads pixels beside it, and every pass
+/// finds its own.
 fn is_that_of_a_smaller_renderer(cases: &[([u32; 2], bool)]) {
     for &(held, masked) in cases {
         let alone = pictures(SMALL, SMALL, masked);

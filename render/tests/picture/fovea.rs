@@ -12,13 +12,13 @@ use crate::liquid::{Liquid, frame, lattice, rig_of};
 use crate::panel::image;
 use crate::rig::{LEFT_QUARTER, Picture, Rig, ray, without_particles};
 
-/// Nor of whole tiles or blocks.
+/// Of no whole number of tiles or blocks.
 pub const EXTENT: [u32; 2] = [635, 467];
 pub const TILE: u32 = 32;
-/// Where the middle one of three beakers stands.
+/// Foot of the middle one of three beakers.
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
 
-/// A bench with three beakers, of which one has liquid in it, a hand and steam.
+/// A bench with three beakers, of which one holds liquid, a hand and steam.
 pub struct Bench {
     pub rig: Rig,
     vessels: Vec<Affine3A>,
@@ -167,7 +167,7 @@ fn apart(a: [u8; 4], b: [u8; 4]) -> u8 {
     apart.max().unwrap()
 }
 
-/// Wherever it is, in both eyes; and without one the renderer draws as one that has no coarse passes at all.
+/// Wherever the fovea is, in both eyes; and without one the renderer draws as a renderer without coarse passes does.
 #[test]
 fn within_the_fovea_every_pixel_is_the_same() {
     let bench = Bench::new();
@@ -204,8 +204,8 @@ fn within_the_fovea_every_pixel_is_the_same() {
     }
 }
 
-/// Side of the blocks of a tile that was foveated to `towards`, by angles taken anew at each pixel around it. `None` where a tenth
-/// of a degree decides.
+/// Side of the blocks of a tile that was foveated to `towards`, by angles computed anew at each pixel around it. `None` where a tenth of a
+/// degree decides.
 fn side(
     view: &View,
     foveation: &Foveation,
@@ -250,8 +250,8 @@ impl Bench {
     }
 }
 
-/// Beyond the fovea a tile has every second pixel of the full picture in each direction, or where there is only the room every
-/// fourth, and between them what lies between them.
+/// Beyond the fovea a tile has every second pixel of the full picture in each direction, or every fourth where only the room is seen, and
+/// interpolated colours between them.
 #[test]
 fn beyond_it_pixels_lie_between_those_that_are_shaded() {
     let mut bench = Bench::new();
@@ -317,7 +317,7 @@ fn beyond_it_pixels_lie_between_those_that_are_shaded() {
                 let [Some(plain), Some(marked)] = allowed else {
                     continue;
                 };
-                // What is in it, the renderer knows.
+                // The renderer marks what is in the tile.
                 assert!([plain, marked].contains(&found), "eye {eye}, {tile:?}");
                 // Edges are smoothed where all is sharp.
                 assert!(found == 1 || is(found), "eye {eye}, {tile:?}: {found}");
@@ -332,7 +332,7 @@ fn beyond_it_pixels_lie_between_those_that_are_shaded() {
     );
 }
 
-/// What the lens hides stays black, and nothing of it gets into what is seen beside it.
+/// Pixels that the lens hides stay black, and do not darken pixels beside them.
 #[test]
 fn hidden_pixels_are_black_and_darken_no_other() {
     let mut bench = Bench::new();
@@ -344,7 +344,7 @@ fn hidden_pixels_are_black_and_darken_no_other() {
     bench.rig.renderer.set_visibility_mask(&masks).unwrap();
     let full = bench.rig.draw(&bench.frame(&views, None));
     let masked = bench.rig.draw(&bench.frame(&views, foveation));
-    // A frame that the mask is not of knows nothing of it.
+    // A frame of other views is not masked.
     let other = bench.rig.draw(&FrameDesc {
         part_of: Some(&views),
         ..bench.frame(&views, foveation)
@@ -363,7 +363,7 @@ fn hidden_pixels_are_black_and_darken_no_other() {
                 );
                 hidden += 1;
             } else {
-                // Next to it the block's own pixel stands for those that no eye sees.
+                // Next to the mask the block's own pixel stands for those that no eye sees.
                 let apart = apart(at(&open), at(&masked));
                 assert!(apart <= 60, "eye {eye}, ({x}, {y}): {apart}");
                 assert!(depth(&masked) < 1.0);
@@ -373,7 +373,7 @@ fn hidden_pixels_are_black_and_darken_no_other() {
     }
 }
 
-/// Text is read wherever it is: panel and sign have every pixel, also beside the fovea.
+/// Text can be read wherever it is: panel and sign have every pixel, also beside the fovea.
 #[test]
 fn a_panel_is_sharp_beside_the_fovea() {
     let bench = Bench::new();

@@ -1,4 +1,4 @@
-//! How foveated pictures look beside those of which every pixel is shaded.
+//! Foveated pictures as an eye sees them, against pictures of which every pixel is shaded.
 
 use vitriol_render::{Foveation, FrameDesc};
 
@@ -29,8 +29,7 @@ fn at_border(x: u32, y: u32) -> bool {
     [x, y].iter().any(|at| (at + 3) % TILE < 6)
 }
 
-/// In the eye's resolution the foveated picture is the full one, with steam, and not less so where tiles of one side meet those of
-/// another.
+/// At the eye's resolution the foveated picture is the full one, with steam, also where tiles of one side meet those of another.
 #[test]
 fn it_is_the_full_picture_a_little_blurred() {
     let mut bench = Bench::new();
@@ -60,9 +59,9 @@ fn it_is_the_full_picture_a_little_blurred() {
     }
 }
 
-/// What the mean of four by four pixels may differ by, levels of 255, on the mean, in a room with furniture and in one without: blocks of four by
-/// four pixels at outlines too had 0.33 there where these had 0.285. Furniture has finer things. The window in glass and water adds 0.02 to that. Since
-/// boards that are seen slantwise have sharp ends in both pictures, furniture has 0.51 and not 0.48.
+/// Most that the mean of four by four pixels may differ by, levels of 255, on the mean, in a room with furniture and in one without:
+/// blocks of four by four pixels at outlines too had 0.33 there where these had 0.285. Furniture has finer things. The window in glass and
+/// water adds 0.02 to that. Since boards that are seen slantwise have sharp ends in both pictures, furniture has 0.51 and not 0.48.
 const BLURRED: [(bool, f64); 2] = [(true, 0.52), (false, 0.32)];
 
 /// While the head turns slowly by even steps, light away from the fovea goes up and down more than in the full picture, but not by

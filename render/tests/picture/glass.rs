@@ -42,8 +42,8 @@ fn meets(origin: DVec3, along: DVec3) -> bool {
     enters < leaves
 }
 
-/// There is glass wherever a ray meets the beaker, upright, tipped over and upside down, from aside, from above and
-/// through an asymmetric frustum; and nowhere else.
+/// There is glass wherever a ray meets the beaker, upright, tipped over and upside down, from aside, from above and through an asymmetric
+/// frustum; and nowhere else.
 #[test]
 fn glass_is_where_its_cylinder_is() {
     let mut rig = Rig::new(EXTENT, 1);
@@ -72,9 +72,9 @@ fn glass_is_where_its_cylinder_is() {
         (Vec3::new(-0.12, 0.09, 0.1), beside),
     ] {
         let view = View::look_at(middle + from, middle, fov);
-        // A scene of no vessels would be another: this one's stands behind the eye.
+        // The scene keeps one vessel: it stands behind the eye.
         let away = [Affine3A::from_translation(middle + 10.0 * from)];
-        // Glass is clear, and what it mirrors may be as bright as what is behind. Over a panel that is seen through, alpha tells.
+        // Glass is clear, and its reflection may be as bright as the background. Over a panel that is seen through, alpha shows it.
         let behind = Affine3A::from_translation(-Vec3::Z);
         let panel = Some(Panel {
             image: &image,
@@ -130,7 +130,7 @@ fn glass_is_where_its_cylinder_is() {
     }
 }
 
-/// The picture of two vessels with marks and a label, of which each pixel's rays to the glass are as `edit` says.
+/// The picture of two vessels with marks and a label, with the shaders changed by `edit`, which sets each pixel's rays to the glass.
 fn with_rays(edit: impl Fn(String) -> String) -> Vec<u8> {
     let mut rig = Rig::edited(EXTENT, |name, text| match name {
         "common/picture/glass_light.wgsl" => edit(text),
@@ -169,10 +169,10 @@ fn with_rays(edit: impl Fn(String) -> String) -> Vec<u8> {
     picture.colour[0].clone()
 }
 
-/// A GPU traces four rays where a pixel has an edge of glass or print and one elsewhere: what that saves is not seen.
+/// A GPU traces four rays where a pixel has an edge of glass or print and one elsewhere: the rays that it saves are not missed.
 #[test]
 fn edges_are_as_smooth_as_by_four_rays_everywhere() {
-    // The software driver traces one, so the shader is told to trace more.
+    // The software driver traces one, so its shader is changed to trace more.
     let four = |text: String| {
         let text = text.replace("GLASS_RAYS == 1u || !ray.edge", "!ray.edge");
         text.replace("n < GLASS_RAYS", "n < 4u")

@@ -18,7 +18,7 @@ const EXTENT: [u32; 2] = [320, 240];
 /// Where the beaker stands.
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
 
-/// Its inner radius.
+/// Its inner radius, m.
 const RADIUS: f32 = 0.02;
 
 /// From before the beaker and above it.
@@ -85,9 +85,8 @@ fn beaker(
 /// How far a border is felt, pixels: a radius of the surface's filter.
 const BORDER: usize = 16;
 
-/// What an asymmetric frustum shows is a part of what the symmetric one around
-/// it does: light, refraction and cuts at the glass know its whole
-/// projection.
+/// A picture of an asymmetric frustum is a part of that of the symmetric one around it: light, refraction and cuts at the glass use its
+/// whole projection.
 #[test]
 fn asymmetric_frustum_is_a_part_of_a_symmetric_one() {
     let angle = |slope: f32| slope.atan();
@@ -121,7 +120,7 @@ fn asymmetric_frustum_is_a_part_of_a_symmetric_one() {
     }
     // Pixels of half thickness and tiles fall alike; rounding decides at edges.
     assert!(off[0] < 30, "{off:?} of 89600 pixels differ");
-    // The smaller picture knows no liquid beyond its border: filters end there, and rays that are bent find none where they turn.
+    // The smaller picture has no liquid beyond its border: filters end there, and bent rays find none.
     assert!(off[1] < 150, "{off:?} of 89600 pixels differ");
 }
 
@@ -158,9 +157,8 @@ fn path(name: &str) -> PathBuf {
     folder.join(format!("{name}.png"))
 }
 
-/// Mean and greatest difference of two pictures' levels (0 to 255), blurred;
-/// of the mean's what is more than one level: drivers encode and dither to the
-/// next level or to that below.
+/// Mean and greatest difference of two pictures' levels (0 to 255), blurred; of the mean, the part above one level: drivers encode and
+/// dither to the next level or to that below.
 fn difference(a: &[u8], b: &[u8]) -> (f64, f64) {
     let [width, height] = EXTENT.map(|side| side as usize);
     let blurred = |picture: &[u8], x: usize, y: usize, channel: usize| {
@@ -215,7 +213,7 @@ fn still_beaker_looks_as_it_did() {
             "{name}: {mean} levels on the mean, {most} at most"
         );
     }
-    // What the comparison is worth: no filter, and it fails.
+    // The comparison can fail: without the filter it does.
     let rough = still(SurfaceFilter::None);
     let kept = image::open(path("narrow-range"))
         .unwrap()

@@ -1,4 +1,4 @@
-//! The depth that a runtime is handed: the nearest of each two by two pixels.
+//! The halved depth for a runtime: the nearest of each two by two pixels.
 
 use glam::Vec3;
 use vitriol_gpu::QueueKind;
@@ -9,7 +9,7 @@ use crate::rig::{Rig, without_particles};
 
 const EXTENT: [u32; 2] = [94, 71];
 
-/// Of a bench that two eyes look at, whole and smaller, with sides that are even and odd, and of what the lenses do not hide.
+/// For a bench that two eyes look at, whole and smaller, with even and odd sides, and for the pixels that the lenses do not hide.
 #[test]
 fn it_is_the_nearest_of_each_two_by_two() {
     let mut rig = Rig::new(EXTENT, 2);
@@ -22,7 +22,7 @@ fn it_is_the_nearest_of_each_two_by_two() {
         View::look_at(Vec3::new(x, 1.1, 0.1), Vec3::new(0.0, 0.75, -0.4), fov)
     };
     let views = [look(-0.03), look(0.04)];
-    // The last for an image of a smaller picture.
+    // The last is for an image of a smaller picture.
     for (drawn, whole) in [
         (EXTENT, EXTENT),
         ([60, 44], EXTENT),
@@ -45,7 +45,7 @@ fn it_is_the_nearest_of_each_two_by_two() {
         for (eye, full) in (0..2).zip(&full) {
             let [width, height] = drawn.map(|side| side.div_ceil(2));
             for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-                // Every pixel of the picture that is in it at all, by its share of the field of view.
+                // Every pixel of the picture that overlaps it at all, by its share of the field of view.
                 let within = |at: u32, side: usize, pixel: u32| {
                     let count = f64::from(drawn[side].div_ceil(2));
                     let scale = f64::from(drawn[side]) / count;
@@ -67,7 +67,7 @@ fn it_is_the_nearest_of_each_two_by_two() {
                 steps += u32::from(pixels.iter().any(|depth| *depth != nearest));
             }
         }
-        // It is not even anywhere that mattered.
+        // The depth is not even where it matters.
         assert!(steps > 200, "{steps}");
         assert!(all_hidden > 20, "{all_hidden}");
     }

@@ -9,8 +9,8 @@ use vitriol_render::{
 
 const EXTENT: [u32; 2] = [320, 240];
 
-/// How far from the surface the shader's march may end, pixels (`CLOSE` in `render/hands/light.wgsl`), and what the
-/// ray makes of that where it meets the surface at the flattest angle that is compared.
+/// How far from the surface the shader's march may end, pixels (`CLOSE` in `render/hands/light.wgsl`), and the flattest angle between ray
+/// and surface that is compared.
 const CLOSE: f64 = 0.01;
 const FLATTEST: f64 = 0.2;
 
@@ -45,7 +45,7 @@ fn hand(view: &View, place: Vec3, turn: f32) -> Vec<Bone> {
         bone([0.0, 0.0, 0.0], [0.0, 75.0, 0.0], [14.0, 12.0], false),
         bone([14.0, 0.0, 0.0], [20.0, 70.0, 0.0], [14.0, 12.0], false),
         bone([0.0, -10.0, 0.0], [0.0, -60.0, 5.0], [22.0, 26.0], true),
-        // Of one ball, and of two of which one holds the other.
+        // A bone of one ball, and one of two balls of which one holds the other.
         bone(
             [-30.0, 20.0, 20.0],
             [-30.0, 20.0, 20.0],
@@ -111,7 +111,7 @@ fn hand_distance(bones: &[Bone], at: DVec3) -> f64 {
     nearest - near * near / (4.0 * joined)
 }
 
-/// What an eye sees of the hands.
+/// Depth that an eye sees of the hands.
 fn reference(view: &View, extent: [u32; 2], hands: [&[Bone]; 2]) -> Reference {
     let eye = view.stage_from_eye.translation.as_dvec3();
     let mut reference = Reference {
@@ -210,8 +210,8 @@ fn gloves_lie_where_the_surface_is() {
     }
 }
 
-/// Palm, thumb, first finger bones and cuff of an open glove, in a hand's frame (x to the fingers, y out of the palm, z to the thumb, mm), with
-/// radii: as `experiment/src/hands/bones.rs` makes them, so that up to eight are close to one place.
+/// Palm, thumb, first finger bones and cuff of an open glove, in a hand's frame (x to the fingers, y out of the palm, z to the thumb, mm),
+/// with radii: as `run/src/hands/bones.rs` makes them, so that up to eight are close to one place.
 const PALM: [([i8; 3], [i8; 3], [f32; 2]); 18] = [
     ([-34, -10, 22], [-1, 7, 51], [15.0, 12.5]),
     ([-1, 7, 51], [24, 27, 70], [12.5, 10.8]),
@@ -238,7 +238,7 @@ const PALM: [([i8; 3], [i8; 3], [f32; 2]); 18] = [
 #[test]
 fn no_ray_goes_through_a_palm() {
     const EXTENT: [u32; 2] = [128, 128];
-    /// What f32 makes of a depth: some ten roundings of half of 2⁻²³ in the ray, the way and the ratio.
+    /// Rounding of a depth in f32: some ten roundings of half of 2⁻²³ in the ray, the way and the ratio.
     const ROUNDED: f64 = 1e-6;
     let rig = Rig::new(EXTENT, 1);
     let view = View {
@@ -290,7 +290,7 @@ fn each_eye_sees_its_own_gloves() {
     assert!(picture.depth[0] != picture.depth[1]);
 }
 
-/// Of a picture smaller than the images, whose tiles lie elsewhere.
+/// In a picture smaller than the images, whose tiles lie elsewhere.
 #[test]
 fn gloves_in_a_smaller_picture() {
     const SMALL: [u32; 2] = [201, 150];
@@ -318,7 +318,7 @@ fn where_there_is_no_hand_there_is_nothing() {
     let view = turned_eye();
     let near = hand(&view, Vec3::new(0.0, 0.0, -0.3), 0.0);
     draw(&rig, &[view], [&near, &near]);
-    // What a frame before has left is not seen.
+    // Hands of the frame before are not seen.
     let empty = rig.draw(&without_particles(&[view]));
     assert!(empty.depth[0].iter().all(|depth| *depth == 0.0));
     let behind = hand(&view, Vec3::new(0.0, 0.0, 0.4), 0.0);
@@ -400,13 +400,13 @@ fn acid_blackens_the_bone_that_it_came_to() {
         }
     }
     assert!(counts.into_iter().all(|count| count > 150), "{counts:?}");
-    // Highlights stay: what is reflected at the surface has the lamp's colour.
+    // Highlights stay: light that is reflected at the surface has the lamp's colour.
     let [[red, _, blue], [charred_red, _, charred_blue]] = sums;
     assert!(blue > red && charred_red > charred_blue, "{sums:?}");
     assert!(2 * charred_blue < blue, "{sums:?}");
 }
 
-/// Hands among coloured spheres: each pixel has what is nearer.
+/// Hands among coloured spheres: each pixel shows the nearer one.
 #[test]
 fn gloves_and_spheres_hide_each_other() {
     let rig = Rig::new(EXTENT, 1);

@@ -1,4 +1,5 @@
-//! The laboratory about the bench against geometry and light in f64: where sink, tray and a sign are seen, where a number stands, and how bright rooms are.
+//! The laboratory about the bench against geometry and light in f64: where sink, tray and a sign are seen, where a number stands, and how
+//! bright rooms are.
 
 use crate::rig::{Picture, Rig, linear, without_particles};
 use glam::{Affine3A, Vec3};
@@ -51,7 +52,7 @@ fn sink_and_tray_are_at_the_far_edge() {
     let dark = |[_, green, _]: [f64; 3]| green < 0.16;
     let found = columns(&picture, y, [0.0, 639.0], dark);
     let edges = [0.0, 0.30].map(|x| seen(&view, Vec3::new(sink[0] + x, TOP, middle.z))[0]);
-    // What the window lights of the wall to the right is not dark.
+    // The part of the right wall that the window lights is not dark.
     assert!((found[0] - edges[0]).abs() < 2.0, "{found:?} {edges:?}");
     assert!(found[1] < edges[1] + 1.0, "{found:?} {edges:?}");
     let rim = columns(&picture, y, [0.0, edges[0] - 0.5], |[_, green, _]| {
@@ -111,7 +112,7 @@ fn numbers_and_labels_are_printed_at_their_heights() {
         angles: [-0.7, 0.3],
     };
     let vessels = [Affine3A::from_translation(foot)];
-    // Level with what is looked at.
+    // Level with the point that it looks at.
     let mut draw = |height: f32, volumes: &[u32], label: Option<&Label>| {
         let eye = foot + Vec3::new(0.0, height, 0.3);
         let view = look(eye, eye - Vec3::Z, 0.2);
@@ -201,7 +202,7 @@ fn rooms_are_as_bright_as_they_say() {
     }
 }
 
-/// Panes, bar and wall of the window, where geometry has them, with their own light; in sight, and in still water's mirror.
+/// Panes, bar and wall of the window, where geometry has them, with their own light; seen directly, and in still water's mirror.
 #[test]
 fn the_window_is_seen_and_mirrored() {
     let displayed =
@@ -219,7 +220,7 @@ fn the_window_is_seen_and_mirrored() {
             let at = seen(&view, window + Vec3::new(0.0, up, across));
             rgb(&picture, at[0] as usize, at[1] as usize)[1]
         };
-        // Panes are as bright as can be shown; what is beside and between them has the ambient light alone.
+        // Panes are as bright as can be shown; the parts beside and between them have the ambient light alone.
         for (up, across) in [
             (0.4, 0.6),
             (-0.4, 0.6),

@@ -1,5 +1,5 @@
-//! Any number of lanes that this device has draws the same liquid: so what a GPU takes is tested
-//! on a software driver too, which by itself takes others.
+//! Any number of lanes that this device has draws the same liquid: so lanes that a GPU takes are tested on a software driver too, which by
+//! itself takes others.
 
 use crate::liquid::{Liquid, SPACING, draw, ellipsoids, frame, lattice, rig_of_lanes};
 use crate::rig::{Picture, without_particles};
@@ -14,11 +14,11 @@ use vitriol_shaders::layout::Ellipsoid;
 use vitriol_tests::gpu;
 
 const EXTENT: [u32; 2] = [320, 240];
-/// Lanes of pixels: what a CPU takes, what a GPU takes of ellipsoids, a whole workgroup, and what a GPU takes of few
-/// spheres, which is many workgroups.
+/// Lanes of pixels: those of a CPU, those of a GPU for ellipsoids, a whole workgroup, and those of a GPU for few spheres, which is many
+/// workgroups.
 const OF_PIXELS: [u32; 5] = [8, 16, 32, 64, 1024];
 
-/// Lanes of neighbours that the device has, 1 first. Those that it does not have are named.
+/// Lanes of neighbours that the device has, 1 first. It prints those that the device does not have.
 pub fn of_neighbours(gpu: &Gpu) -> Vec<u32> {
     let info = gpu.info();
     let (has, lacks): (Vec<u32>, Vec<u32>) = [1, 2, 4, 8, 16, 32].into_iter().partition(|lanes| {

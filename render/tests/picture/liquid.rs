@@ -28,11 +28,11 @@ pub struct Liquid {
     counts: Buffer,
     list: Buffer,
     count: u32,
-    /// Metres that its unit is drawn as.
+    /// Metres as which its unit is drawn.
     unit: f32,
     pub table: Option<BoxDesc>,
     pub volumes: Option<Buffer>,
-    /// Places of bubbles, how many, and drops that they threw up.
+    /// Bubbles and their number, and drops that they threw up.
     pub bubbles: Option<(Buffer, u32)>,
     pub drops: Option<Buffer>,
 }
@@ -42,7 +42,8 @@ impl Liquid {
         Self::in_units(rig, positions, acid, 1.0)
     }
 
-    /// The same liquid, in a scene whose unit is drawn as so many metres.
+    /// Particles at `positions` (metres) with the acid fraction `acid`, in a scene whose unit is drawn as `unit` metres. [`Liquid::new`]
+    /// has a unit of one metre.
     pub fn in_units(rig: &Rig, positions: &[Vec3], acid: impl Fn(Vec3) -> f32, unit: f32) -> Self {
         let n = positions.len();
         let mut counts = vec![0_u32; n.max(1)];
@@ -113,12 +114,12 @@ impl Liquid {
     }
 }
 
-/// A renderer of liquid.
+/// A rig with a renderer of liquid.
 pub fn rig(extent: [u32; 2], views: u32, filter: SurfaceFilter) -> Rig {
     rig_of_lanes(extent, views, filter, Lanes::CHOSEN)
 }
 
-/// The same, whose invocations share particles like that.
+/// A rig as of [`rig`], whose passes share particles between `lanes` invocations.
 pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: Lanes) -> Rig {
     rig_of(&RenderDesc {
         views,
@@ -132,7 +133,7 @@ pub fn rig_of_lanes(extent: [u32; 2], views: u32, filter: SurfaceFilter, lanes: 
     })
 }
 
-/// A renderer of liquid that has no tint.
+/// A rig with a renderer of liquid that has no tint.
 pub fn clear_rig(extent: [u32; 2]) -> Rig {
     rig_of(&RenderDesc {
         liquid: Some(LiquidDesc {
@@ -144,7 +145,7 @@ pub fn clear_rig(extent: [u32; 2]) -> Rig {
     })
 }
 
-/// A renderer that is made for that.
+/// A rig with a renderer made for `desc`.
 pub fn rig_of(desc: &RenderDesc) -> Rig {
     let gpu = gpu::device();
     let renderer = Renderer::new(&gpu, &Library::watching(), desc).unwrap();
@@ -155,7 +156,7 @@ pub fn rig_of(desc: &RenderDesc) -> Rig {
     }
 }
 
-/// A frame of that liquid.
+/// A frame that shows `liquid`.
 pub fn frame<'a>(views: &'a [View], vessels: &'a [Affine3A], liquid: &'a Liquid) -> FrameDesc<'a> {
     FrameDesc {
         vessels,
@@ -164,7 +165,7 @@ pub fn frame<'a>(views: &'a [View], vessels: &'a [Affine3A], liquid: &'a Liquid)
     }
 }
 
-/// Draws it; the picture and each view's surface.
+/// Draws a frame; the picture and each view's surface.
 pub fn draw(rig: &Rig, frame: &FrameDesc<'_>) -> (Picture, Vec<Surface>) {
     let picture = rig.draw(frame);
     let mut rec = rig.gpu.recorder(QueueKind::Main).unwrap();
@@ -180,8 +181,7 @@ pub fn ellipsoids(rig: &Rig, count: usize) -> Vec<layout::Ellipsoid> {
     all
 }
 
-/// Places of a cubic lattice within `reach` spacings, jittered by up to
-/// `jitter` of one, that `inside` takes (in spacings).
+/// Places of a cubic lattice within `reach` spacings, jittered by up to `jitter` of one, where `inside` (in spacings) is true.
 pub fn lattice(reach: i32, jitter: f32, inside: impl Fn(Vec3) -> bool) -> Vec<Vec3> {
     let mut noise = 1_u32;
     let mut shake = || {

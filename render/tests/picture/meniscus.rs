@@ -1,5 +1,5 @@
-//! The meniscus at a vessel's wall, against Young and Laplace's equation integrated in f64: what lies under a vessel is seen from above, through
-//! a surface that climbs its wall.
+//! The meniscus at a vessel's wall, against Young and Laplace's equation integrated in f64: a panel under a vessel is seen from above,
+//! through a surface that climbs its wall.
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
 use crate::panel::image;
@@ -19,14 +19,14 @@ const SIDE: f32 = 0.06;
 /// Layers of particles.
 const LAYERS: u32 = 5;
 const WATER: f64 = 1.333;
-/// Of light from below, what a level surface of water lets through.
+/// Share of light from below that a level surface of water lets through.
 const PASSES: f64 = 0.98;
 /// √(σ/(ρ g)) of water at 20 °C, m; the contact angle.
 const CAPILLARY: f64 = 0.00273;
 const CONTACT: f64 = std::f64::consts::FRAC_PI_6;
 
-/// Slopes (rad) by the distance from an upright wall, each 1 µm: z'' = z (1 + z'²)^(3/2) / a², from far out, where z dies down, until the wall's
-/// contact angle is there.
+/// Slopes (rad) by the distance from an upright wall, each 1 µm: z'' = z (1 + z'²)^(3/2) / a², from far out, where z dies down, until the
+/// wall's contact angle is reached.
 fn slopes() -> Vec<f64> {
     let step = 1e-6;
     let bend = |z: f64, rise: f64| z * (1.0 + rise * rise).powf(1.5) / (CAPILLARY * CAPILLARY);
@@ -44,7 +44,7 @@ fn slopes() -> Vec<f64> {
 }
 
 /// Where a ray from above that meets the surface at `across` from the axis comes to the panel: refracted by the meniscus, mirrored by the
-/// wall where it comes to that, and refracted at the floor.
+/// wall where it meets that, and refracted at the floor.
 fn arrives(across: f64, height: f64, slope: f64) -> f64 {
     let down = (across / (EYE - FLOOR - height)).atan();
     // Angles from straight down, outwards; the surface's normal leans inwards by its slope.
@@ -105,7 +105,7 @@ fn a_meniscus_is_young_and_laplaces() {
         depth * along.x / along.y
     };
     let depth = |x: u32| f64::from(surfaces[0].depth[(row * EXTENT[0] + x) as usize]);
-    // Red grows to the right; blue is even, and says what the surface mirrors.
+    // Red grows to the right; blue is even, and shows what the surface mirrors.
     let red_from = |x: u32| {
         let at = 4 * (row * EXTENT[0] + x) as usize;
         let level = |channel: usize| linear(picture.colour[0][at + channel]);
@@ -132,7 +132,7 @@ fn a_meniscus_is_young_and_laplaces() {
         }
     }
     assert!(flat.len() > 30 && bent.len() > 30);
-    // In the middle, without a meniscus, a colour's place is calibrated: what the surface keeps of it is not exactly known.
+    // In the middle, without a meniscus, a colour's place is calibrated: the share of light that the surface keeps is not exactly known.
     let mean =
         |of: &dyn Fn(&(f64, f64)) -> f64| flat.iter().map(of).sum::<f64>() / flat.len() as f64;
     let (found, expected) = (mean(&|pair| pair.0), mean(&|pair| pair.1));

@@ -1,15 +1,15 @@
-//! A pane of glass against Fresnel's equations: what it lets through, whatever it mirrors.
+//! The transmittance of a pane of glass against Fresnel's equations, whatever it mirrors.
 
 use crate::panel::{EXTENT, image, on_panel, panel, pixels, rgba, view};
 use crate::rig::{Rig, linear, ray, without_particles};
 use glam::{Affine3A, DVec3, Quat, Vec3};
 use vitriol_render::{FrameDesc, Pane};
 
-/// Index of soda-lime glass, and what 6 mm of float glass take of green light: EN 410's 88 % through, of which 8 % are mirrored.
+/// Index of soda-lime glass, and the share of green light that 6 mm of float glass absorb: EN 410's 88 % pass, and 8 % are mirrored.
 const INDEX: f64 = 1.52;
 const TAKES: f64 = 0.03;
 
-/// Share of light that comes through a plate of two faces, by the amplitudes of both polarisations.
+/// Share of light that passes a plate of two faces, by the amplitudes of both polarisations.
 fn through(cosine: f64) -> f64 {
     let within = (1.0 - (1.0 - cosine * cosine) / (INDEX * INDEX)).sqrt();
     let s = (cosine - INDEX * within) / (cosine + INDEX * within);
@@ -19,8 +19,8 @@ fn through(cosine: f64) -> f64 {
     (1.0 - face).powi(2) / (1.0 - face * face) * (1.0 - TAKES)
 }
 
-/// Before a panel and before nothing: the difference of the two is the light behind, of which the pane lets its share through. It is seen from either face,
-/// nearly along its normal and askew.
+/// Before a panel and before nothing: the difference of the two is the light behind, of which the pane lets its share through. It is seen
+/// from either face, nearly along its normal and askew.
 #[test]
 fn a_pane_lets_through_what_fresnel_says() {
     let rig = Rig::new(EXTENT, 1);
@@ -62,7 +62,7 @@ fn a_pane_lets_through_what_fresnel_says() {
                 }
                 let green = |picture| linear(rgba(picture, index)[1]);
                 let light = green(&clear) - green(&nothing);
-                // A level is up to 0.009 of linear light there; white is where levels end, and edges are smoothed.
+                // A level is up to 0.009 of linear light there; levels end at white, and edges are smoothed.
                 let axis = -view.stage_from_eye.matrix3.z_axis.as_dvec3();
                 let depth = way * direction.dot(axis);
                 let within = on_panel(&view, &panel, x, y)

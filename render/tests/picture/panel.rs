@@ -1,4 +1,4 @@
-//! The panel against rays in f64, what is before it, and how the picture fades.
+//! The panel against rays in f64, objects before it, and the fading of the picture.
 
 use crate::rig::{Picture, Rig, ray, without_particles};
 use glam::{Affine3A, DVec3, EulerRot, Quat, Vec3};
@@ -35,7 +35,7 @@ pub fn image(rig: &Rig) -> Image {
     image
 }
 
-/// An eye that looks askew.
+/// An eye with an oblique line of sight.
 pub fn view() -> View {
     let turn = Quat::from_euler(EulerRot::YXZ, 0.2, -0.1, 0.15);
     View {
@@ -92,8 +92,8 @@ pub fn rgba(picture: &Picture, index: usize) -> [u8; 4] {
     picture.colour[0][4 * index..][..4].try_into().unwrap()
 }
 
-/// Where a ray meets the panel, the picture has the panel's colour there, its depth, and lets a layer under it be seen. The
-/// gradient's own filter is less than a level, but darker than the mean in light.
+/// Where a ray meets the panel, the picture has the panel's colour and depth there, and lets a layer under it be seen. The gradient's own
+/// filter is less than a level, but darker than the mean in light.
 #[test]
 fn each_pixel_has_what_its_ray_meets() {
     let rig = Rig::new(EXTENT, 1);
@@ -180,7 +180,7 @@ fn a_glove_is_seen_before_it() {
         }
         assert_eq!(both.depth[0][index], finger.max(plane));
         if finger > 1.02 * plane && plane > 0.0 {
-            // Not seen through; at its outline it is smoothed together with the panel.
+            // The layer is not seen through it; at its outline it is smoothed together with the panel.
             before += usize::from(rgba(&both, index) == rgba(&alone, index));
             assert!(rgba(&both, index)[3] > 0);
         } else if plane > 1.02 * finger {
@@ -191,7 +191,7 @@ fn a_glove_is_seen_before_it() {
     assert!(before > 200 && behind > 200, "{before} {behind}");
 }
 
-/// Glass is over the picture's panel: no layer that is under it may be seen there.
+/// Glass is over the picture's panel: no layer that is under the picture may be seen there.
 #[test]
 fn glass_is_seen_before_it() {
     let mut rig = Rig::new(EXTENT, 1);
@@ -237,7 +237,7 @@ fn glass_is_seen_before_it() {
             dimmed += usize::from(rgba(&before, index)[..3] != rgba(&behind, index)[..3]);
         }
     }
-    // What a wall takes from the light is some levels everywhere.
+    // A wall dims the light by some levels everywhere.
     assert!(
         covered > 1000 && dimmed > covered * 9 / 10,
         "{covered} {dimmed}"

@@ -10,7 +10,7 @@ use vitriol_render::{ColourBy, FrameDesc, ParticleSource, RenderDesc, Renderer, 
 use vitriol_shaders::Library;
 use vitriol_tests::gpu::{self, Watched};
 
-/// What a frame left on the device: a layer a view.
+/// The pictures of a frame: a layer a view.
 pub struct Picture {
     /// sRGB, four bytes a pixel.
     pub colour: Vec<Vec<u8>>,
@@ -30,7 +30,7 @@ impl Rig {
         Self::of(&Library::watching(), extent, views)
     }
 
-    /// One whose shaders are those of the folder, each changed by `edit`.
+    /// A rig whose shaders are those of the folder, each changed by `edit`.
     pub fn edited(extent: [u32; 2], edit: impl Fn(&str, String) -> String) -> Self {
         let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders/wgsl"));
         let mut folders = vec![root.to_path_buf()];
@@ -114,7 +114,7 @@ impl Rig {
         })
     }
 
-    /// What `draw_spheres` should leave in one view.
+    /// Reference of one view of `draw_spheres`.
     pub fn reference(&self, view: &View, positions: &[[f32; 4]], radius: f32) -> Reference {
         let [width, height] = self.extent;
         let mut depth = Vec::new();
@@ -145,7 +145,7 @@ impl Rig {
     }
 }
 
-/// The left quarter of a picture, as a mesh of what a lens hides.
+/// The left quarter of a picture, as a mesh of the part that a lens hides.
 pub const LEFT_QUARTER: [[f32; 2]; 6] = [
     [0.0, 0.0],
     [0.25, 0.0],
@@ -155,7 +155,7 @@ pub const LEFT_QUARTER: [[f32; 2]; 6] = [
     [0.0, 1.0],
 ];
 
-/// Of a level of sRGB (IEC 61966-2-1).
+/// Linear light of a level of sRGB (IEC 61966-2-1).
 pub fn linear(level: u8) -> f64 {
     let share = f64::from(level) / 255.0;
     if share <= 0.040_45 {
@@ -219,17 +219,14 @@ fn enter(centre: DVec3, radius: f64, ray: DVec3) -> Option<(f64, f64)> {
 pub struct Reference {
     /// Reversed depth, 0 where there is nothing.
     pub depth: Vec<f64>,
-    /// Cosine between view ray and normal of what is seen.
+    /// Cosine between view ray and normal of the sphere that is seen.
     pub facing: Vec<f64>,
 }
 
 impl Reference {
-    /// Compares a view with this: silhouettes to a pixel, and depth where the
-    /// surface faces the eye by more than 0.2, to `tolerance` (relative) and
-    /// what it changes in a 256th of a pixel: corners of triangles are snapped
-    /// to that grid (Vulkan asks for a 16th at least; every driver here has
-    /// eight bits).
-    /// Gives the number of pixels whose depth was compared.
+    /// Compares a view with this: silhouettes to a pixel, and depth where the surface faces the eye by more than 0.2, to `tolerance`
+    /// (relative) and its change in a 256th of a pixel: corners of triangles are snapped to that grid (Vulkan asks for a 16th at least;
+    /// every driver here has eight bits). Returns the number of pixels whose depth was compared.
     pub fn compare(&self, drawn: &[f32], extent: [u32; 2], tolerance: f64) -> usize {
         let [width, height] = extent.map(|size| size as i32);
         let mut compared = 0;

@@ -1,4 +1,5 @@
-//! Tiles that see one part of the room are drawn by a pipeline that knows no other: the picture is the same as by the one that knows all.
+//! Tiles that see one part of the room are drawn by a pipeline without the others: the picture is the same as by the pipeline of the whole
+//! room.
 
 use crate::rig::{Rig, without_particles};
 use glam::{Affine3A, Vec3};
@@ -6,7 +7,7 @@ use vitriol_render::{BoxDesc, Fov, FrameDesc, Pane, SceneDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
 
-/// A pane behind all walls, before which everything is: each tile may see it, so none is drawn by a pipeline for a part.
+/// A pane behind all walls, which is never seen: each tile may see it, so none is drawn by a pipeline for a part.
 fn pane_behind(view: &View) -> Pane {
     Pane {
         stage_from_pane: view.stage_from_eye
@@ -49,7 +50,7 @@ fn along_planes() -> impl Iterator<Item = View> {
     })
 }
 
-/// Of how many pixels colour (by more than one level, by which two programs may round) or depth are not the same.
+/// Number of pixels whose colour (by more than one level, by which two programs may round) or depth differs.
 fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
     let views = [view];
     let frame = FrameDesc {
@@ -72,7 +73,7 @@ fn differ(rig: &Rig, view: View, length_scale: f32) -> usize {
         .count()
 }
 
-/// By every so many of the views.
+/// Compares the pictures of every `every`th view.
 fn a_part_is_as_the_whole(every: usize) {
     let mut rig = Rig::new(EXTENT, 1);
     let whole = SceneDesc::laboratory(Vec::new(), 0.75, 1.0);
@@ -91,7 +92,7 @@ fn a_part_is_as_the_whole(every: usize) {
         room: None,
         ..whole.clone()
     };
-    // Twenty times as large, as solved.
+    // Twenty times as large, as scenes are solved.
     let scaled = SceneDesc::laboratory(Vec::new(), 0.75, 0.05);
     for (name, scene, scale) in [
         ("whole", &whole, 1.0),

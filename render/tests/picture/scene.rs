@@ -89,7 +89,7 @@ fn colour_follows_speed_and_stays_at_its_end() {
     assert_eq!(centre(2.0), centre(50.0));
 }
 
-/// Of one buffer, what is asked for is shown, from its own start to its own end.
+/// Of one buffer, the attribute that is asked for is shown, from its own start to its own end.
 #[test]
 fn colour_follows_temperature_or_acid() {
     let rig = Rig::new(EXTENT, 1);
@@ -150,8 +150,8 @@ fn glass_shows_but_hides_nothing() {
         ..without_particles(&views)
     });
     assert_eq!(with.depth, without.depth);
-    // The beaker's projection: what it changes lies in it, or in its shadow
-    // on the bench to the right; left of it and above it nothing changes.
+    // The beaker's projection: the pixels that it changes lie in it, or in its shadow on the bench to the right; left of it and above it
+    // nothing changes.
     let clip_from_stage = views[0].clip_from_scaled(1.0);
     let rim = clip_from_stage.project_point3(Vec3::new(0.12 - 0.035, 0.846, -0.40));
     let left = ((0.5 + 0.5 * rim.x) * EXTENT[0] as f32) as usize;

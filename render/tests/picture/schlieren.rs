@@ -1,4 +1,4 @@
-//! What is seen through a liquid whose acid changes from place to place, against rays in f64: d/ds (n dr/ds) = ∇n, by Runge and Kutta's
+//! A panel seen through a liquid whose acid changes from place to place, against rays in f64: d/ds (n dr/ds) = ∇n, by Runge and Kutta's
 //! fourth order.
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame};
@@ -9,16 +9,16 @@ use vitriol_gpu::Image;
 use vitriol_render::{Fov, FrameDesc, Panel, SceneDesc, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
-/// Of the liquid, and of the glass, m.
+/// Radius of the liquid, and of the glass, m.
 const RADIUS: f64 = 0.02;
 const OUTER: f64 = 0.022;
 const FLOOR: f64 = 0.002;
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
 /// The eye, from the foot: up and towards the user.
 const EYE: DVec2 = DVec2::new(0.015, 0.3);
-/// Height and width of what is behind, m.
+/// Height and width of the panel behind, m.
 const SIDE: f32 = 0.08;
-/// Of borosilicate glass, of water at 20 °C, and what acid of 98 % has more.
+/// Refractive index of borosilicate glass, of water at 20 °C, and the difference to that of acid of 98 %.
 const GLASS: f64 = 1.47;
 const WATER: f64 = 1.333;
 const ACID: f64 = 0.0975 / 0.98;
@@ -55,14 +55,14 @@ fn places(jitter: f32) -> Vec<Vec3> {
     places
 }
 
-/// By Snell at a face across the second axis: the direction (up, on) of length 1.
+/// Snell's law at a face across the second axis: the direction (up, on) of length 1.
 fn refracted(direction: DVec2, from: f64, to: f64) -> DVec2 {
     let up = direction.x * from / to;
     DVec2::new(up, direction.y.signum() * (1.0 - up * up).sqrt())
 }
 
-/// The height above the foot at which a ray in the plane through the axis comes to what is `behind` the axis: glass of 2 mm, 40 mm of liquid
-/// whose acid changes with height, and glass again. None where it does not stay in the liquid.
+/// The height above the foot at which a ray in the plane through the axis comes to a plane `behind` the axis: through glass of 2 mm, 40 mm
+/// of liquid whose acid changes with height, and glass again. None where it does not stay in the liquid.
 fn arrives(slope: f64, behind: f64, acid: &dyn Fn(f64) -> f64) -> Option<f64> {
     let mut at = EYE;
     let on = |at: &mut DVec2, way: DVec2, z: f64| *at += way * ((z - at.y) / way.y);
@@ -113,7 +113,7 @@ fn seen(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> V
     draw(rig, &frame).0.colour.swap_remove(0)
 }
 
-/// Green of each row in the middle of that.
+/// Green of each row in the middle of [`seen`].
 fn rows(rig: &Rig, view: View, image: &Image, behind: f32, liquid: &Liquid) -> Vec<f64> {
     let picture = seen(rig, view, image, behind, liquid);
     let [width, height] = EXTENT;
@@ -147,13 +147,13 @@ fn a_gradient_bends_as_rays_are() {
             let liquid = Liquid::new(&rig, &places(jitter), |x| acid(height(x)) as f32);
             rows(&rig, view, &image, behind as f32, &liquid)
         };
-        // What glass and liquid keep of the panel's light is the same: so a level stands for a height.
+        // Glass and liquid keep the same share of the panel's light: so a level stands for a height.
         let plain = with(&uniform, 0.0);
         let scale: Vec<(f64, f64)> = (0..plain.len())
             .filter_map(|y| Some((plain[y], arrives(slopes[y], behind, &uniform)?)))
             .collect();
         assert!(scale.len() > 80, "{}", scale.len());
-        // However particles lie, what is mixed bends nothing: 0.01 of light is 1 mm at the panel.
+        // However particles lie, mixed liquid bends no light: 0.01 of light is 1 mm at the panel.
         let shaken = with(&uniform, 0.3);
         for (y, (a, b)) in plain.iter().zip(&shaken).enumerate() {
             if arrives(slopes[y], behind, &uniform).is_some() {
@@ -191,8 +191,8 @@ fn a_gradient_bends_as_rays_are() {
     }
 }
 
-/// Without the tints both liquids let through what is behind: of red light 40 mm of water keep 98.9 % (Pope and Fry), of the rest more. Before
-/// that stands glass, which mirrors some 4 % of some of the room at each face.
+/// Without the tints both liquids are clear: of red light 40 mm of water keep 98.9 % (Pope and Fry), of other light more. Before them
+/// stands glass, which mirrors some 4 % of some of the room at each face.
 #[test]
 fn untinted_liquids_are_clear() {
     let rig = tank();

@@ -1,4 +1,4 @@
-//! Shards against the whole that they are of.
+//! Shards against the whole vessel.
 
 use crate::glass::beaker;
 use crate::rig::{Picture, Rig, ray, without_particles};
@@ -21,7 +21,7 @@ fn rig() -> Rig {
     rig
 }
 
-/// Nowhere, as a broken one is.
+/// Nowhere, as the pose of a broken vessel is.
 fn away() -> Affine3A {
     Affine3A::from_translation(Vec3::new(0.0, -1000.0, 0.0))
 }
@@ -43,13 +43,13 @@ fn drawn(rig: &mut Rig, view: View, vessel: Affine3A, shards: &[ShardDesc]) -> P
     })
 }
 
-/// Where two pictures are not the same.
+/// Pixels at which two pictures differ.
 fn differs(a: &Picture, b: &Picture) -> Vec<bool> {
     let pixels = a.colour[0].chunks(4).zip(b.colour[0].chunks(4));
     pixels.map(|(a, b)| a != b).collect()
 }
 
-/// Pixels that two pictures' glass does not share, but for those within so many of an outline, where smoothing moves it.
+/// Pixels of which only one of two pictures has glass, except those within some pixels of an outline, where smoothing moves it.
 fn beside(found: &[bool], glass: &[bool]) -> usize {
     const SMOOTHED: i32 = 4;
     let side = EXTENT[0] as i32;
@@ -67,8 +67,8 @@ fn beside(found: &[bool], glass: &[bool]) -> usize {
         .count()
 }
 
-/// Together they are where the whole was, and nowhere else; without one of them something is missing. Of a vessel that is not there
-/// nothing is drawn, and of more than there is room for the first.
+/// Together shards are where the whole was, and nowhere else; without one of them something is missing. Shards of a vessel that does not
+/// exist are not drawn, and of too many the first are.
 #[test]
 fn shards_are_the_whole() {
     let mut rig = rig();
@@ -89,7 +89,7 @@ fn shards_are_the_whole() {
         let left = differs(&without, &nothing);
         let both: Vec<bool> = left.iter().zip(&glass).map(|(a, b)| *a || *b).collect();
         assert_eq!(beside(&both, &glass), 0, "{missing}");
-        // Behind one of the wall's there is another.
+        // Behind a shard of the wall there is another.
         let other = differs(&without, &shards).iter().filter(|it| **it).count();
         assert!(other > 300, "{missing}: {other}");
     }
@@ -101,8 +101,8 @@ fn shards_are_the_whole() {
     assert!(!differs(&shards, &nothing).contains(&true));
 }
 
-/// Seen down the axis, each of the wall's is within its third of a turn, but for cracks that stray by up to 0.224 rad, and fills the rest of
-/// that; the base is seen from everywhere, and from the side it is low.
+/// Seen down the axis, each shard of the wall is within its third of a turn, but for cracks that stray by up to 0.224 rad, and fills the
+/// rest of that; the base is seen from everywhere, and from the side it is low.
 #[test]
 fn each_has_its_part() {
     let mut rig = rig();
@@ -139,7 +139,7 @@ fn each_has_its_part() {
             "{wall}: {filled:?}"
         );
     }
-    // From the side, elsewhere: as high as its base and 0.15 of the radius.
+    // From the side, elsewhere: it is as high as its base and 0.15 of the radius.
     let aside = Vec3::new(0.15, 0.0, 0.0);
     let eye = PLACE + aside + Vec3::Z * 0.4 + Vec3::Y * 0.001;
     let view = View::look_at(

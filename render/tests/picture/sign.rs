@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec3};
 use vitriol_render::camera::NEAR;
 use vitriol_render::{FrameDesc, Panel};
 
-/// Nine tenths of its radius are within, eleven beside: what is between is smoothed.
+/// A disc of nine tenths of its radius is in it, one of eleven beside it: the edge between is smoothed.
 #[test]
 fn a_sign_is_the_disc_of_its_image() {
     let rig = Rig::new(EXTENT, 1);
@@ -54,7 +54,7 @@ fn a_sign_is_the_disc_of_its_image() {
         }
         assert!(within > 500 && beside > 3000, "{within} {beside}");
     }
-    // What stands behind the panel is not seen.
+    // A sign behind the panel is not seen.
     let behind = Affine3A::from_translation(Vec3::new(0.05, 0.02, -0.1));
     let hidden = Panel {
         stage_from_panel: panel.stage_from_panel * behind,

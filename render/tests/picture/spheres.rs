@@ -25,7 +25,7 @@ fn turned_eye() -> View {
     }
 }
 
-/// A sphere's centre in the stage, given where the eye sees it.
+/// A sphere's centre in the stage, given by the slopes and the distance at which the eye sees it.
 fn seen_at(view: &View, slope_x: f32, slope_y: f32, distance: f32) -> [f32; 4] {
     let in_eye = Vec3::new(slope_x, slope_y, -1.0) * distance;
     view.stage_from_eye

@@ -9,7 +9,7 @@ use vitriol_render::{Bone, Finish, Fov, FrameDesc, SceneDesc, SurfaceFilter, Vie
 use vitriol_shaders::layout::{Bubble, Drops};
 
 const EXTENT: [u32; 2] = [320, 240];
-/// Of the flights from the eye, m, and pixels over the tangent.
+/// Distance of the flights from the eye, m, and pixels per unit of the tangent.
 const DISTANCE: f32 = 0.4;
 const FOCAL: f64 = 120.0 / 0.1;
 
@@ -19,16 +19,16 @@ fn view() -> View {
     View::look_at(eye, eye - Vec3::Z, Fov::symmetric(field, 4.0 / 3.0))
 }
 
-/// Of jets and of films, as records lie.
+/// Index of jets and of films among the two flights of a bubble.
 const JET: usize = 0;
 const FILM: usize = 1;
 
-/// A picture of flights of jets: places (m, from the middle), radius of a drop (m) and how many there are in each.
+/// A picture of flights of jets: places (m, from the middle), radius of a drop (m) and number of drops in each.
 fn drawn(rig: &Rig, places: &[[f32; 2]], radius: f32, number: f32) -> Picture {
     drawn_before(rig, &[], JET, places, radius, number)
 }
 
-/// The same of one kind, before a hand.
+/// A picture of flights of one `kind`, [`JET`] or [`FILM`], behind a hand; parameters are those of [`drawn`].
 fn drawn_before(
     rig: &Rig,
     hand: &[Bone],
@@ -40,7 +40,7 @@ fn drawn_before(
     drawn_in(rig, &[view()], hand, kind, places, (radius, number))
 }
 
-/// The same in those views.
+/// A picture as of [`drawn_before`], in the views `views`.
 fn drawn_in(
     rig: &Rig,
     views: &[View],
@@ -79,7 +79,7 @@ fn drawn_in(
     draw(rig, &frame).0
 }
 
-/// Sum over the picture of the share that is hidden, pixels: `dark` is what is seen there of a drop that fills pixels.
+/// Sum over the picture of the share that is hidden, pixels: `dark` is the light of a drop that fills pixels.
 fn hidden(picture: &Picture, plain: &Picture) -> f64 {
     let levels = picture.colour[0].chunks(4).zip(plain.colour[0].chunks(4));
     levels
@@ -94,7 +94,7 @@ fn drops_hide_their_own_area() {
         furnished: false,
         ..SceneDesc::laboratory(Vec::new(), 0.75, 1.0)
     });
-    // Over many places within a pixel; apart, and not where the window is mirrored alone.
+    // Over many places within a pixel; apart, and not where only the window is mirrored.
     let places: Vec<[f32; 2]> = (0..180)
         .map(|n| {
             let [x, y] = [(n % 15) as f32 - 7.0, (n / 15) as f32 - 5.5];
@@ -231,7 +231,7 @@ fn a_fine_drop_makes_no_hole_in_a_glove() {
     let places = changed(&drops, &glove);
     assert!((1..20).contains(&places.len()), "{places:?}");
     for place in &places {
-        // A share of 0.07 of what is at most 255 levels brighter; what is behind the glove is 100 and more.
+        // A share of 0.07 of at most 255 levels is brighter; the background behind the glove is 100 and more.
         assert!(place[2] < 40.0, "{places:?}");
     }
     assert_eq!(drops.depth, glove.depth);

@@ -19,7 +19,7 @@ fn middle(picture: &[u8]) -> [u8; 3] {
     [picture[index], picture[index + 1], picture[index + 2]]
 }
 
-/// In the open a puff brightens what is behind it by its opacity, softly; half in the bench as one of half the depth; behind it or without
+/// In the open a puff brightens the background by its opacity, softly; half in the bench as a puff of half the depth; behind it or without
 /// radius not at all.
 #[test]
 fn puffs_fade_against_what_is_there() {
@@ -76,8 +76,8 @@ fn puffs_fade_against_what_is_there() {
     assert!((0.6..1.05).contains(&share), "{share} of the disc");
 }
 
-/// What is drawn of one puff, number `index` of six, before a panel that is black or white: per pixel the light that the puff adds, and the share that it
-/// lets through, of red.
+/// The effect of one puff, number `index` of six, before a panel that is black or white: per pixel the light that the puff adds, and the
+/// share that it lets through, of red.
 fn before_panels(rig: &Rig, view: View, puff: Puff, index: usize) -> Vec<(f64, f64)> {
     let mut all = [Puff::default(); 6];
     all[index] = puff;
@@ -125,7 +125,7 @@ pub fn even(rig: &Rig, colour: u32) -> Image {
     image
 }
 
-/// Over its disc a puff has on the mean the optical depth that it says, and at one distance from its middle here more and there less.
+/// Over its disc a puff has on the mean its own optical depth, and at one distance from its middle here more and there less.
 #[test]
 fn a_puff_is_as_deep_as_it_says_and_not_round() {
     let rig = rig();
@@ -170,8 +170,8 @@ fn a_puff_is_as_deep_as_it_says_and_not_round() {
     assert!((mean / f64::from(depth) - 1.0).abs() < 0.1, "{mean}");
 }
 
-/// A thin veil sends on the hemispheres' light from all sides alike, and the window's by Henyey and Greenstein's law with g = 0.85: blurred by the
-/// window's own size, and by a second drop, it is somewhat less forward.
+/// A thin veil scatters the hemispheres' light from all sides alike, and the window's by Henyey and Greenstein's law with g = 0.85:
+/// blurred by the window's own size, and by a second drop, it is somewhat less forward.
 #[test]
 fn mist_is_bright_against_the_window() {
     let rig = rig();
@@ -179,7 +179,7 @@ fn mist_is_bright_against_the_window() {
     let to_window = Vec3::new(-1.5, 1.9, 0.5) - place;
     let window = 7.4 / (1.0 + f64::from(to_window.length_squared()));
     for turned in [0.6_f32, 1.2, 1.8] {
-        // The eye is where light of the window comes to that is turned by that angle.
+        // The eye is where light of the window arrives that is turned by that angle.
         let on = -to_window.normalize();
         let aside = on.cross(Vec3::Y).normalize();
         let eye = place + 0.25 * (turned.cos() * on + turned.sin() * aside);
@@ -266,7 +266,7 @@ fn steam_stays_in_its_vessel() {
     assert!(within > 100 && beside > 100, "{within} {beside}");
 }
 
-/// What is hidden is black and nearest; the rest is as without a mask.
+/// Hidden pixels are black and nearest; the rest is as without a mask.
 #[test]
 fn hidden_area_is_black_and_costs_no_light() {
     let mut rig = rig();

@@ -1,4 +1,4 @@
-//! The filtered surface against shapes that are known.
+//! The filtered surface against known shapes.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, lattice, rig};
 use crate::rig::{Rig, ray, without_particles};
@@ -43,7 +43,7 @@ fn before(view: &View, distance: f32) -> Vec3 {
         .transform_point3(Vec3::new(0.0, 0.0, -distance))
 }
 
-/// What is seen at a pixel, in the stage.
+/// The point of the stage that is seen at a pixel.
 fn point(view: &View, surface: &Surface, x: u32, y: u32) -> Option<DVec3> {
     let depth = f64::from(surface.depth[(y * EXTENT[0] + x) as usize]);
     let ray = ray(view, EXTENT, x, y);
@@ -86,8 +86,7 @@ fn against_ball(view: &View, surface: &Surface, centre: Vec3) -> (f64, f64, usiz
     )
 }
 
-/// For each filter, in either eye of a headset; and without a filter it is
-/// not so.
+/// For each filter, in either eye of a headset; without a filter the test fails.
 #[test]
 fn ball_of_particles_is_a_sphere() {
     let left = turned_eye();
@@ -145,7 +144,7 @@ fn thickness_holds_the_volume() {
     assert!((acid / volume - 0.5).abs() < 0.02, "{}", acid / volume);
 }
 
-/// The picture of one frame, drawn while the next one is written over what it was made of.
+/// The picture of one frame, drawn while the next one overwrites the particles that it was made from.
 #[test]
 fn two_queues_draw_what_one_does() {
     let view = turned_eye();
@@ -195,8 +194,7 @@ fn nothing_taken_out_behind_or_not_a_number_is_seen() {
     }
 }
 
-/// From within, the far side of the ball is seen, all around, and nothing is
-/// not a number.
+/// From within, the far side of the ball is seen, all around, and every value is a number.
 #[test]
 fn eye_inside_the_liquid() {
     let view = turned_eye();
@@ -212,8 +210,7 @@ fn eye_inside_the_liquid() {
     assert!(picture.depth[0].iter().all(|depth| depth.is_finite()));
 }
 
-/// A frozen liquid stays where it is as the head moves: what one place sees
-/// is what a place 5 mm beside it sees.
+/// A frozen liquid stays in place as the head moves: two places 5 mm apart see the same.
 #[test]
 fn surface_stays_as_the_head_moves() {
     let view = turned_eye();

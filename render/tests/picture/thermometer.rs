@@ -1,4 +1,4 @@
-//! A thermometer's scale, read off a picture as one reads it: by its marks and by its numbers.
+//! A thermometer's scale, read off a picture as a person reads it: by its marks and by its numbers.
 
 use crate::rig::{Rig, linear, without_particles};
 use glam::{Quat, Vec3};
@@ -28,7 +28,7 @@ fn stem(reading: f32, turn: Quat) -> Bone {
     }
 }
 
-/// Where that many degrees are, by a rule of equal parts.
+/// The place of a temperature on the stem, by a rule of equal parts.
 fn place(celsius: f32, turn: Quat) -> Vec3 {
     let share = (celsius - ENDS[0]) / (ENDS[1] - ENDS[0]);
     FOOT + turn * ((0.5 * (LENGTH - SCALE) + share * SCALE) * Vec3::Y)
@@ -41,7 +41,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// From `eye` past the stem's point of so many degrees, of a picture that is so many metres high there.
+    /// A picture from `eye` past the stem's point `target`, which is `high` metres high there.
     fn of(rig: &Rig, bone: Bone, eye: Vec3, target: Vec3, high: f32) -> Self {
         let [width, height] = rig.extent;
         let field = 2.0 * (0.5 * high / eye.distance(target)).atan();
@@ -86,7 +86,7 @@ impl Seen {
                 sum += ink(y);
                 moment += ink(y) * (y as f64 + 0.5);
             } else {
-                // A mark is two pixels wide; what is behind the thermometer is darker than its plate as well.
+                // A mark is two pixels wide; the background is darker than the thermometer's plate as well.
                 if (1.0..=6.0).contains(&rows) {
                     lines.push(moment / sum);
                 }
@@ -96,7 +96,7 @@ impl Seen {
         lines
     }
 
-    /// What it shows, °C, by the long marks, of which the lowest is −10 °C.
+    /// The reading, °C, by the long marks, of which the lowest is −10 °C.
     fn reading(&self) -> f64 {
         let [width, height] = self.extent;
         let is_red = |x: usize, y: usize| {
@@ -121,7 +121,7 @@ impl Seen {
     }
 }
 
-/// The column ends at the mark of what it shows, seen from before, from above, and while the thermometer leans.
+/// The column ends at the mark of its reading, seen from before, from above, and while the thermometer leans.
 #[test]
 fn a_column_ends_at_the_mark_of_its_reading() {
     let rig = Rig::new([260, 1300], 1);
@@ -140,7 +140,7 @@ fn a_column_ends_at_the_mark_of_its_reading() {
         eprintln!("{reading} °C is read as {seen:.2}");
         assert!((seen - f64::from(reading)).abs() < 1.0, "{reading}: {seen}");
     }
-    // Beyond its ends it shows them.
+    // Beyond the scale it shows the scale's end.
     for (reading, end) in [(-40.0, -10.0), (400.0, 150.0)] {
         let middle = place(70.0, Quat::IDENTITY);
         let eye = middle + 0.4 * Vec3::Z;

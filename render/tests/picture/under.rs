@@ -1,4 +1,5 @@
-//! The window's light on the bench under a vessel of water against rays in f64, and what the vessel's base mirrors against Snell's law.
+//! The window's light on the bench under a vessel of water against rays in f64, and the reflection at the vessel's base against Snell's
+//! law.
 
 use crate::liquid::{Liquid, SPACING, clear_rig, draw, frame, rig};
 use crate::rig::{Picture, linear, ray};
@@ -7,7 +8,7 @@ use std::f64::consts::TAU;
 use vitriol_render::{Fov, SceneDesc, SurfaceFilter, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
-/// Of the water, and of the glass, m.
+/// Radius of the water, and of the glass, m.
 const RADIUS: f64 = 0.02;
 const OUTER: f64 = 0.022;
 const TOP: f32 = 0.75;
@@ -35,7 +36,7 @@ fn water(foot: Vec3, base: f64, layers: usize) -> Vec<Vec3> {
     places
 }
 
-/// The light of which a picture shows so much: the tone mapping, undone.
+/// The light that a picture shows as `shown`: the tone mapping, undone.
 fn undone(shown: f64) -> f64 {
     let mut ends = [0.0, 40.0];
     for _ in 0..60 {
@@ -69,14 +70,15 @@ fn panes(from: DVec3, along: DVec3) -> f64 {
     f64::from(u8::from(inside))
 }
 
-/// What a face lets pass of unpolarised light from air at that cosine: Fresnel's equations by sines and tangents.
+/// Share of unpolarised light that a face lets pass from air at that cosine: Fresnel's equations by sines and tangents.
 fn passes(cosine: f64) -> f64 {
     let (outside, inside) = (cosine.acos(), (cosine.acos().sin() / INDEX).asin());
     let (less, more) = (outside - inside, outside + inside);
     1.0 - 0.5 * ((less.sin() / more.sin()).powi(2) + (less.tan() / more.tan()).powi(2))
 }
 
-/// Irradiance by the window of a place under water of that depth over that of the open bench: all directions of the hemisphere, each followed up.
+/// Irradiance by the window of a place under water of that depth over that of the open bench: all directions of the hemisphere, each
+/// followed up.
 fn share(foot: DVec2, depth: f64, stage: DVec3) -> f64 {
     let (mut under, mut open) = (0.0, 0.0);
     let (heights, turns) = (120, 720);
@@ -167,14 +169,14 @@ fn the_bench_under_water_has_the_light_that_comes_down() {
             most = most.max(expected);
         }
     }
-    // The shader's window is a lobe of the same width as the real one, and has two heights: where light is gathered it is 12 % too dim, and a shadow's
-    // edge is too soft.
+    // The shader's window is a lobe of the same width as the real one, and has two heights: where light is gathered it is 12 % too dim,
+    // and a shadow's edge is too soft.
     assert!(worst < 1.0, "{worst}");
-    // It is no matter of a mean.
+    // Places differ widely, so no mean value would pass.
     assert!(most > least + 0.8, "{least} {most}");
 }
 
-/// From aside, the far wall ends below in the mirror of the base: where a ray that goes through it comes back within the wall.
+/// From aside, the far wall ends below in the mirror of the base, at the ray that goes through it and comes back within the wall.
 #[test]
 fn a_base_mirrors_at_its_underside() {
     let foot = Vec3::new(0.0, TOP, -0.4);

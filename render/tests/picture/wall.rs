@@ -1,5 +1,6 @@
-//! Liquid behind a vessel's wall, against Snell's and Beer's laws. A ray that goes level through a cylinder keeps n times its distance from the axis
-//! (Bouguer), whatever glass is between: at x from the axis it passes through 2 √(r² − (x/n)²) of liquid, up to the glass's own outline.
+//! Liquid behind a vessel's wall, against Snell's and Beer's laws. A ray that goes level through a cylinder keeps n times its distance
+//! from the axis (Bouguer), whatever glass is between: at x from the axis it passes through 2 √(r² − (x/n)²) of liquid, up to the glass's
+//! own outline.
 
 use crate::liquid::{Liquid, SPACING, draw, frame, rig};
 use crate::rig::{linear, ray, without_particles};
@@ -7,13 +8,13 @@ use glam::{Affine3A, Vec3};
 use vitriol_render::{Fov, FrameDesc, SceneDesc, SurfaceFilter, VesselDesc, View};
 
 const EXTENT: [u32; 2] = [320, 240];
-/// Of the liquid, and of the glass, m.
+/// Radius of the liquid, and of the glass, m.
 const RADIUS: f64 = 0.02;
 const OUTER: f64 = 0.022;
 const FOOT: Vec3 = Vec3::new(0.0, 0.75, -0.4);
-/// Of water at 20 °C, and of sulfuric acid of 98 %.
+/// Refractive index of water at 20 °C, and of sulfuric acid of 98 %.
 const INDICES: [f64; 2] = [1.333, 1.4305];
-/// What 60 mm let through of red, and of blue.
+/// Share that 60 mm let through of red, and of blue light.
 const TINTS: [[f64; 2]; 2] = [[0.40, 0.92], [0.96, 0.22]];
 /// Red and blue light of the hemispheres about a level ray: half of the ceiling's and half of the floor's.
 const LIGHT: [f64; 2] = [0.38, 0.40];
@@ -60,7 +61,7 @@ fn a_full_cylinder_is_a_lens() {
             let apart = 0.3 * along.x.abs() / along.x.hypot(along.z);
             let pixel = 4 * (row * EXTENT[0] + x) as usize;
             if apart < 0.85 * OUTER {
-                // What the glass before it mirrors, which may be nothing or a window: Schlick, n = 1.47.
+                // Reflection of the glass before it, which may be of nothing or of a window: Schlick, n = 1.47.
                 let rest = 1.0 - (1.0 - (apart / OUTER).powi(2)).sqrt();
                 let mirrors = 0.036 + 0.964 * rest.powi(5);
                 let way = 2.0 * (RADIUS * RADIUS - (apart / index).powi(2)).sqrt();

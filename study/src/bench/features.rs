@@ -1,7 +1,7 @@
 //! The cost of each feature of a scene.
 
-use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Failure, scenes};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
 

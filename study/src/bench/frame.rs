@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use vitriol_experiment::passes::{PassRow, Tally, Timing, solve};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::passes::{PassRow, Tally, Timing, solve};
+use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;

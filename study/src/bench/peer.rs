@@ -8,7 +8,7 @@ use std::process::{Command, ExitStatus};
 
 use serde::Deserialize;
 use thiserror::Error;
-use vitriol_experiment::{Failure, in_a_line};
+use vitriol_run::{Failure, in_a_line};
 
 /// Most characters of a peer's output that a message repeats.
 const LONGEST: usize = 300;

@@ -4,10 +4,10 @@ use std::f32::consts::FRAC_PI_2;
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
-use vitriol_experiment::scenery::drawn_liquid;
-use vitriol_experiment::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_gpu::{Gpu, QueueKind, Ticket};
 use vitriol_render::{Fov, Foveation, View};
+use vitriol_run::scenery::drawn_liquid;
+use vitriol_run::{Blame, Camera, Colour, Failure, Shot, scenes};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::World;
@@ -16,7 +16,7 @@ use vitriol_xr::{Hand, Pose};
 use super::frame::{QUEUED, milliseconds};
 use super::report::RenderRow;
 use crate::cli::BenchArgs;
-use vitriol_experiment::passes::{PassRow, Tally, Timing, solve};
+use vitriol_run::passes::{PassRow, Tally, Timing, solve};
 
 /// Number of views, and width and height of each.
 const SIZES: [(u32, [u32; 2]); 3] = [(2, [1440, 1584]), (2, [2064, 2208]), (1, [1920, 1080])];

@@ -4,9 +4,9 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::DeviceStatement;
-use vitriol_experiment::passes::{PassRow, Timing};
-use vitriol_experiment::units::{grouped, percent};
+use vitriol_run::DeviceStatement;
+use vitriol_run::passes::{PassRow, Timing};
+use vitriol_run::units::{grouped, percent};
 
 /// Results of `vitriol bench`.
 #[derive(Debug, Clone, Serialize)]

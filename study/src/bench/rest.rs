@@ -1,14 +1,14 @@
 //! A frame's time of a scene at rest, and in turn with it that of peers.
 
-use vitriol_experiment::units::percent;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, vk};
+use vitriol_run::units::percent;
+use vitriol_run::{Blame, Failure};
 use vitriol_sim::scene::Scene;
 
 use super::frame::{QUEUED, queued, settled};
 use super::peer::{Answer, Asked, Peer};
 use super::report::PeerRow;
-use vitriol_experiment::passes::Timing;
+use vitriol_run::passes::Timing;
 
 /// Rounds in which ours and the peers take turns, so that other work of the machine affects all alike.
 const ROUNDS: usize = 2;

@@ -4,10 +4,10 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-use vitriol_experiment::passes::Timing;
-use vitriol_experiment::units::{grouped, percent};
-use vitriol_experiment::{Blame, Failure, output};
 use vitriol_gpu::{Gpu, GpuError};
+use vitriol_run::passes::Timing;
+use vitriol_run::units::{grouped, percent};
+use vitriol_run::{Blame, Failure, output};
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::WorldError;
 

@@ -1,8 +1,8 @@
 //! A frame's time over the number of particles, both logarithmic, as SVG.
 
 use plotters::prelude::*;
-use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
-use vitriol_experiment::units::{grouped, three_digits};
+use vitriol_run::page::{AXIS, CURVE_COLOURS, GRID};
+use vitriol_run::units::{grouped, three_digits};
 
 use super::report::ScalingRow;
 use crate::trade::plot::{span, ticks};

@@ -1,7 +1,7 @@
 //! The time of a frame's solution, of a scene at rest in its flasks.
 
-use vitriol_experiment::{Failure, scenes};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Failure, scenes};
 use vitriol_sim::scene::{Boundary, Scene};
 
 use super::frame::passes;

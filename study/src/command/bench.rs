@@ -1,7 +1,7 @@
 //! `vitriol bench`: the time of each pass.
 
-use vitriol_experiment::{Failure, Format, device, emit};
 use vitriol_gpu::Timestamps;
+use vitriol_run::{Failure, Format, device, emit};
 
 use crate::bench::peer::Peer;
 use crate::bench::report::{Benchmark, TABLE_2, describe};

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use vitriol_experiment::units::{grouped, three_digits};
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit};
+use vitriol_run::units::{grouped, three_digits};
+use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit};
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::scene::Preset;
 

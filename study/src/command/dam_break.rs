@@ -3,9 +3,9 @@
 
 use plotters::prelude::*;
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
-use vitriol_experiment::{Blame, DeviceStatement, Failure, Format, device, emit, output};
 use vitriol_gpu::Gpu;
+use vitriol_run::page::{AXIS, CURVE_COLOURS, GRID};
+use vitriol_run::{Blame, DeviceStatement, Failure, Format, device, emit, output};
 use vitriol_sim::scene::{Preset, Scene};
 
 use crate::cli::DamBreakArgs;

@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
-use vitriol_experiment::{Blame, Failure, Format, device, emit, output};
+use vitriol_run::{Blame, Failure, Format, device, emit, output};
 use vitriol_shaders::Library;
 
 use crate::cli::ExtremesArgs;
 use crate::extremes::{Extremes, Finding, Verdict, cases, describe, judge, merge, summary};
 use crate::merge::read;
-use vitriol_experiment::several::at_a_time;
+use vitriol_run::several::at_a_time;
 
 /// The numbers' name in the folder.
 const NUMBERS: &str = "extremes.json";

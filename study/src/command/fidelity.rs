@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use vitriol_experiment::output::ColorType;
-use vitriol_experiment::{Failure, Format, device, emit, output};
+use vitriol_run::output::ColorType;
+use vitriol_run::{Failure, Format, device, emit, output};
 use vitriol_shaders::Library;
 
 use crate::cli::FidelityArgs;

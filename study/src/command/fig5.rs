@@ -6,11 +6,9 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use serde::Serialize;
-use vitriol_experiment::output::ColorType;
-use vitriol_experiment::{
-    Blame, Camera, Colour, FILM_SIZE, Failure, Format, Shot, device, emit, output,
-};
 use vitriol_gpu::Gpu;
+use vitriol_run::output::ColorType;
+use vitriol_run::{Blame, Camera, Colour, FILM_SIZE, Failure, Format, Shot, device, emit, output};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::flask::Region;

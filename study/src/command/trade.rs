@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use vitriol_experiment::{Blame, Failure, Format, device, emit, output, track};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure, Format, device, emit, output, track};
 use vitriol_sim::scene::{Feature, Preset, Scene, SolverSettings};
 use vitriol_xr::track::Track;
 
@@ -17,7 +17,7 @@ use crate::trade::{
     Errors, Point, Seeds, Setting, Tipped, Trade, boil, convergence, describe, finest, merge, page,
     rest, sweep, tip, vouch,
 };
-use vitriol_experiment::several::at_a_time;
+use vitriol_run::several::at_a_time;
 
 /// File names in the folder.
 const NUMBERS: &str = "trade.json";

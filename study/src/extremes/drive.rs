@@ -1,8 +1,8 @@
 //! Runs a case and collects the figures by which it is judged.
 
 use glam::{DVec3, Vec3};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::measure::Ledger;
@@ -140,7 +140,7 @@ fn crowd(world: &mut World, case: &Case) -> Result<(), Failure> {
     world.restore(&state).other()
 }
 
-/// A particle's energies, by identity.
+/// A particle's energy of motion and height, and whether it is the flask's; indexed by identity.
 #[derive(Clone, Copy, Default)]
 struct Held {
     member: bool,

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::DeviceStatement;
+use vitriol_run::DeviceStatement;
 
 use super::judge::{Finding, Verdict};
 use crate::merge::{MergeError, alike, devices, in_order, largest, numbers};

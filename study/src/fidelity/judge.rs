@@ -1,15 +1,15 @@
 //! Compares the renderer's picture with the reference surface.
 
 use glam::DVec3;
-use vitriol_experiment::Failure;
-use vitriol_experiment::glassware::Glassware;
 use vitriol_render::View;
 use vitriol_render::reference::{
     Anisotropy, Difference, Field, Interior, Picture, Rays, Seen, Shape, difference, reprojection,
     silhouette_iou, volume,
 };
+use vitriol_run::Failure;
+use vitriol_run::glassware::Glassware;
 
-use super::report::{self, Figures, Manner, DrawnRow};
+use super::report::{self, DrawnRow, Figures, Manner};
 use super::states::State;
 use super::views::{STANDS, Stand};
 

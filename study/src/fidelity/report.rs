@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::DeviceStatement;
-use vitriol_experiment::units::grouped;
+use vitriol_run::DeviceStatement;
+use vitriol_run::units::grouped;
 
 /// Results of `vitriol fidelity`.
 #[derive(Debug, Clone, Serialize)]

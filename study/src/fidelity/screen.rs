@@ -1,13 +1,13 @@
 //! The renderer, for the judge.
 
 use glam::Affine3A;
-use vitriol_experiment::scenery::{affine, laboratory, liquid_of};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_render::{
     ColourBy, FrameDesc, LiquidDesc, LiquidSource, RenderDesc, RenderError, Renderer, SceneDesc,
     Surface, SurfaceFilter, View,
 };
+use vitriol_run::scenery::{affine, laboratory, liquid_of};
+use vitriol_run::{Blame, Failure};
 use vitriol_shaders::Library;
 
 use super::judge::{Draw, Drawn};

@@ -1,9 +1,9 @@
 //! The liquids that are compared: built-in scenes and tracks, run through the solver to stated times.
 
 use glam::DVec3;
-use vitriol_experiment::glassware::Glassware;
-use vitriol_experiment::{Blame, Failure, Liquid, Span, stage, track};
 use vitriol_gpu::Gpu;
+use vitriol_run::glassware::Glassware;
+use vitriol_run::{Blame, Failure, Liquid, Span, stage, track};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_sim::world::{StepInput, World};

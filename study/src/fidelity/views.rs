@@ -20,7 +20,7 @@ const HEAD_STEP: f32 = 0.0022;
 pub struct Stand {
     /// Its name.
     pub name: &'static str,
-    /// From the target to between the eyes, metres.
+    /// Offset from the target to the point between the eyes, metres.
     offset: [f32; 3],
 }
 

@@ -1,8 +1,8 @@
 //! Water poured into acid: chaotic, so seeds are compared by medians and quartiles, never by trajectories.
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Blame, Failure, stage};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure, stage};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_sim::chemistry::{Chemistry, Paper, PaperDilution};
 use vitriol_sim::parameters::{Parameters, Relaxation};
 use vitriol_sim::solver::{Particle, SolverState};

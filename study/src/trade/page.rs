@@ -1,8 +1,8 @@
 //! `trade.html`: each error over a frame's time, with the front.
 
 use maud::{Markup, PreEscaped, html};
-use vitriol_experiment::page::page as whole_page;
-use vitriol_experiment::units::{grouped, percent, three_digits};
+use vitriol_run::page::page as whole_page;
+use vitriol_run::units::{grouped, percent, three_digits};
 
 use super::boil::{Quartiles, Seeds};
 use super::plot::{self, Dot};

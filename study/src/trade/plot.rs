@@ -2,8 +2,8 @@
 
 use maud::html;
 use plotters::prelude::*;
-use vitriol_experiment::page::{AXIS, CURVE_COLOURS, GRID};
-use vitriol_experiment::units::{percent, three_digits};
+use vitriol_run::page::{AXIS, CURVE_COLOURS, GRID};
+use vitriol_run::units::{percent, three_digits};
 
 use super::front::front;
 

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::DeviceStatement;
-use vitriol_experiment::units::percent;
+use vitriol_run::DeviceStatement;
+use vitriol_run::units::percent;
 
 use super::boil::{Quartiles, Seeds};
 use super::constants::Change;

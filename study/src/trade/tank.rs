@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Blame, Failure, Ranks};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure, Ranks};
 use vitriol_sim::fill::{count_for_volume, fill};
 use vitriol_sim::flask::{Profile, glass, particles::sample};
 use vitriol_sim::pose::Pose;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::{Blame, Failure};
 use vitriol_gpu::Gpu;
+use vitriol_run::{Blame, Failure};
 use vitriol_sim::fill::fill;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;

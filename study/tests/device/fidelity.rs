@@ -1,13 +1,13 @@
 //! The drawn surface of a coarse beaker of water against the truth.
 
-use vitriol_experiment::Failure;
 use vitriol_render::View;
+use vitriol_run::Failure;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::world::{StepInput, World};
 use vitriol_study::fidelity::judge::{self, Draw, Drawn, Task};
-use vitriol_study::fidelity::report::{Manner, DrawnRow, rows};
+use vitriol_study::fidelity::report::{DrawnRow, Manner, rows};
 use vitriol_study::fidelity::screen::{MANNERS, Screen};
 use vitriol_study::fidelity::states::{State, StateSpec};
 use vitriol_tests::gpu;

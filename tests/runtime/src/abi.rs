@@ -1,18 +1,18 @@
-//! OpenXR's arguments as Rust sees them.
+//! OpenXR's arguments as Rust types.
 //!
-//! Entry points are declared with references where OpenXR has pointers to one structure: the two are passed
-//! alike, null is `None`, and that the pointer is good is what OpenXR asks of its caller. What is to be
-//! filled in is plain numbers, for which any bits that lie there are values.
+//! Entry points are declared with references where OpenXR has pointers to one structure: the two are passed alike, null is `None`, and
+//! OpenXR requires valid pointers of its callers. Structures that are to be filled in are plain numbers, for which any bits that lie there
+//! are values.
 
 use std::ffi::{CStr, c_char};
 
 use openxr::sys;
 use sys::Result as R;
 
-/// What an entry point answers; an error leaves nothing changed.
+/// The result of an entry point; an error leaves nothing changed.
 pub(crate) type Answer = Result<R, R>;
 
-/// An array of the caller that is to be filled.
+/// An array of the caller, which is to be filled.
 #[repr(transparent)]
 pub(crate) struct Buffer<T>(pub *mut T);
 
@@ -21,7 +21,7 @@ pub(crate) struct Buffer<T>(pub *mut T);
 pub(crate) struct Text(*const c_char);
 
 impl Text {
-    /// What it says.
+    /// The string's text.
     pub(crate) fn read(&self) -> Result<String, R> {
         if self.0.is_null() {
             return Err(R::ERROR_VALIDATION_FAILURE);
@@ -33,7 +33,7 @@ impl Text {
     }
 }
 
-/// OpenXR's two-call idiom: how many there are, and then, where there is room, what they are.
+/// OpenXR's two-call idiom: writes the number of elements, and then, where there is room, the elements.
 pub(crate) fn fill<T>(
     capacity: u32,
     count: Option<&mut u32>,
@@ -59,7 +59,7 @@ pub(crate) fn fill<T>(
     Ok(R::SUCCESS)
 }
 
-/// The same for values.
+/// [`fill`] with the values `items`.
 pub(crate) fn fill_with<T: Copy>(
     capacity: u32,
     count: Option<&mut u32>,
@@ -71,7 +71,7 @@ pub(crate) fn fill_with<T: Copy>(
     })
 }
 
-/// The same for a string and its end.
+/// [`fill`] with a string and its terminating 0.
 pub(crate) fn fill_text(
     capacity: u32,
     count: Option<&mut u32>,
@@ -82,7 +82,7 @@ pub(crate) fn fill_text(
     fill_with(capacity, count, buffer, &bytes)
 }
 
-/// An array of the caller.
+/// An array of the caller, as a slice.
 ///
 /// # Safety
 /// `first` is the first of `count` elements that live as long as the result, or `count` is 0.
@@ -95,7 +95,7 @@ pub(crate) unsafe fn list<'a, T>(count: u32, first: *const T) -> Result<&'a [T],
     }
 }
 
-/// The structure of that type in a chain of inputs.
+/// The first structure of type `ty` in a chain of inputs.
 ///
 /// # Safety
 /// `next` begins a chain of OpenXR's structures that live as long as the result, and `T` is the structure
@@ -116,20 +116,20 @@ pub(crate) unsafe fn chained<'a, T>(
     None
 }
 
-/// Puts a string and its end into a field that is long enough for it.
+/// Writes a string and its terminating 0 into a field that is long enough for it.
 pub(crate) fn put_text(field: &mut [c_char], text: &str) {
     for (slot, byte) in field.iter_mut().zip(text.bytes().chain([0])) {
         *slot = byte as c_char;
     }
 }
 
-/// Takes a string out of a field.
+/// Reads a string from a field.
 pub(crate) fn text_of(field: &[c_char]) -> String {
     let bytes = field.iter().map(|byte| *byte as u8);
     String::from_utf8_lossy(&bytes.take_while(|byte| *byte != 0).collect::<Vec<_>>()).into_owned()
 }
 
-/// The structure that a pointer gave, if it says that it is one of its type.
+/// The structure behind a pointer, if its type field is right.
 macro_rules! given {
     ($pointer:expr, $structure:ty) => {
         match $pointer {
@@ -139,7 +139,7 @@ macro_rules! given {
     };
 }
 
-/// What a pointer to a plain value gave.
+/// The plain value behind a pointer.
 macro_rules! place {
     ($pointer:expr) => {
         match $pointer {

@@ -1,4 +1,4 @@
-//! Actions: made, bound by what is suggested for the controller that a hand holds, and synced.
+//! Actions: made, bound by the suggestions for the controller that a hand holds, and synced.
 
 use std::collections::BTreeMap;
 use std::ffi::c_char;
@@ -13,13 +13,13 @@ use crate::script::{HandState, Known, Pose};
 use crate::space::side_of;
 use crate::state::{State, call};
 
-/// What XrActionSet names.
+/// Target of an XrActionSet handle.
 pub(crate) struct ActionSet {
     pub instance: u64,
     name: String,
 }
 
-/// What XrAction names.
+/// Target of an XrAction handle.
 pub(crate) struct Action {
     pub set: u64,
     name: String,
@@ -28,7 +28,7 @@ pub(crate) struct Action {
     pub hands: Vec<sys::Path>,
 }
 
-/// What was suggested for each profile: actions, and the paths of what drives them.
+/// The suggested bindings of each profile: actions, and the paths of their controls.
 pub(crate) type Bindings = BTreeMap<String, Vec<(u64, String)>>;
 
 /// A hand's state with the control that drives an action, now and at the sync before.
@@ -41,7 +41,7 @@ pub(crate) struct Driven {
 /// The hands' user paths.
 const HANDS: [&str; 2] = ["/user/hand/left", "/user/hand/right"];
 
-/// Which hand a path begins with, and what follows.
+/// The hand that a path begins with, and the rest of the path.
 pub(crate) fn hand_of(path: &str) -> Option<(usize, &str)> {
     let after = |side: usize| {
         let rest = path.strip_prefix(HANDS[side])?;
@@ -54,7 +54,7 @@ pub(crate) fn hand_of(path: &str) -> Option<(usize, &str)> {
 }
 
 impl State {
-    /// The action, if it is one of a set that is attached to the session.
+    /// The action, if it belongs to a set that is attached to the session.
     pub(crate) fn attached(
         &mut self,
         session: sys::Session,
@@ -69,7 +69,7 @@ impl State {
         }
     }
 
-    /// What drives the action by that hand, or by any for the null path.
+    /// The control that drives the action by that hand, or by any for the null path.
     pub(crate) fn driven(
         &mut self,
         session: sys::Session,
@@ -116,7 +116,7 @@ impl State {
         })
     }
 
-    /// Where the wearer looks, where the action is bound to that.
+    /// The gaze, where the action is bound to it.
     fn gaze(&self, session: u64, action: u64) -> Option<(Pose, Known)> {
         let session = self.sessions.get(&session)?;
         let set = self.actions.get(&action)?.set;
@@ -131,7 +131,7 @@ impl State {
         Some((gaze, Known::TRACKED))
     }
 
-    /// Where a pose action's hand is, or the eyes.
+    /// Pose of a pose action's hand, or of the gaze.
     pub(crate) fn action_pose(
         &self,
         session: u64,
@@ -146,7 +146,7 @@ impl State {
             Some(side) => side,
             None => (0..2).find(|side| self.sessions[&session].hands[*side].is_some())?,
         };
-        // Poses are not those of the sync.
+        // Poses are current, not those of the sync.
         let now = self.world.hands[side].as_ref()?;
         let pose = match driven.control.starts_with("input/aim") {
             true => now.aim,
@@ -180,7 +180,7 @@ pub(crate) extern "system" fn create_action_set(
     })
 }
 
-/// A name of the specification's characters.
+/// Checks a name for the specification's characters.
 fn name(name: &[c_char], shown: &[c_char]) -> Result<String, R> {
     let name = text_of(name);
     let known =
@@ -370,7 +370,7 @@ pub(crate) extern "system" fn sync_actions(
         }
         let (before, instance) = (held.profiles.clone(), held.instance);
         let bindings = &state.instance(sys::Instance::from_raw(instance))?.bindings;
-        // A controller for which nothing was suggested is none.
+        // A controller without suggested bindings counts as none.
         let profiles = [0, 1].map(|side: usize| {
             let profile = &hands[side].as_ref()?.profile;
             bindings.contains_key(profile).then(|| profile.clone())

@@ -1,4 +1,4 @@
-//! What the runtime tells a test: lines of JSON in the file `calls`, each a [`Call`].
+//! The runtime's log of calls: lines of JSON in the file `calls`, each a [`Call`].
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -13,14 +13,14 @@ pub struct Call {
     pub frame: Option<u64>,
     /// OpenXR's name of it.
     pub call: String,
-    /// What it was called with; floats that are not finite are the strings `inf`, `-inf` and `NaN`.
+    /// Its arguments; floats that are not finite are the strings `inf`, `-inf` and `NaN`.
     pub with: Value,
     /// The XrResult.
     pub answer: i32,
 }
 
 impl Call {
-    /// What an xrEndFrame ended; `None` for other calls.
+    /// The arguments of an xrEndFrame; `None` for other calls.
     #[must_use]
     pub fn ended(&self) -> Option<Ended> {
         (self.call == "xrEndFrame")
@@ -40,7 +40,7 @@ pub struct Ended {
     pub layers: Vec<Layer>,
 }
 
-/// A composition layer. `space` is `None` for a handle that is none.
+/// A composition layer. `space` is `None` for an invalid handle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Layer {
     /// XrCompositionLayerProjection
@@ -68,7 +68,7 @@ pub enum Layer {
         #[serde(with = "two")]
         size: [f32; 2],
     },
-    /// Some other layer, which the runtime has not.
+    /// Some other layer, which the runtime does not support.
     Other {
         /// XrStructureType
         kind: i32,
@@ -91,11 +91,11 @@ pub struct ProjectionView {
 /// XrSwapchainSubImage
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Part {
-    /// Its handle, as the call xrCreateSwapchain was answered with it.
+    /// Its handle, as xrCreateSwapchain returned it.
     pub swapchain: u64,
     /// x, y, width, height, pixels.
     pub rect: [i32; 4],
-    /// Which layer of the image.
+    /// Index of the image's layer.
     pub layer: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The display: its rates (XR_FB_display_refresh_rate) and what no eye sees of it (XR_KHR_visibility_mask).
+//! The display: its rates (XR_FB_display_refresh_rate) and the part of it that no eye sees (XR_KHR_visibility_mask).
 
 use openxr::sys;
 use serde_json::json;

@@ -18,7 +18,7 @@ pub(crate) enum Event {
         session: u64,
         space: SpaceKind,
         time: i64,
-        /// In the previous space, where it is told.
+        /// In the previous space, if it is given.
         pose: Option<Pose>,
     },
     Mask {
@@ -168,7 +168,7 @@ pub(crate) fn step(
 }
 
 impl State {
-    /// The next step of a session of the instance, which is told with it.
+    /// The next step of a session of the instance; returns its event.
     fn step(&mut self, instance: u64) -> Option<sys::EventDataSessionStateChanged> {
         let mine = |session: &&crate::state::Session| session.instance == instance && !session.lost;
         let (&raw, session) = self.sessions.iter_mut().find(|(_, s)| mine(&&**s))?;
@@ -218,7 +218,7 @@ pub(crate) extern "system" fn poll_event(
 mod tests {
     use super::*;
 
-    /// Steps until there is none, with a client that begins and ends as it should.
+    /// Steps until there is none, with a client that begins and ends sessions as it should.
     fn way(mut now: SessionState, goal: Goal) -> Vec<SessionState> {
         let mut way = Vec::new();
         let mut running = now != SessionState::UNKNOWN;

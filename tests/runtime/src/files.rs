@@ -1,4 +1,4 @@
-//! The folder that a test and the runtime share: `script`, which is read, and `calls`, which is written.
+//! The folder that a test and the runtime share: `script`, which the runtime reads, and `calls`, which it writes.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -9,17 +9,17 @@ use serde_json::Value;
 use crate::calls::Call;
 use crate::script::Cue;
 
-/// Names the folder.
+/// Environment variable with the folder's path.
 pub const FOLDER: &str = "VITRIOL_MOCK_RUNTIME";
-/// The script's name in it.
+/// File name of the script.
 pub const SCRIPT: &str = "script";
-/// The calls' name in it.
+/// File name of the calls.
 pub const CALLS: &str = "calls";
 
-/// Both files; without a folder neither is there.
+/// Both files; without a folder there are none.
 pub(crate) struct Files {
     folder: Option<PathBuf>,
-    /// Bytes of the script that were read.
+    /// Bytes of the script that have been read.
     heard: u64,
     calls: Option<File>,
 }
@@ -33,7 +33,7 @@ impl Files {
         }
     }
 
-    /// The lines of the script that are new and whole.
+    /// Reads the new whole lines of the script.
     pub(crate) fn hear(&mut self) -> Vec<Cue> {
         let Some(folder) = &self.folder else {
             return Vec::new();
@@ -53,7 +53,7 @@ impl Files {
         text[..whole].lines().map(cue).collect()
     }
 
-    /// Writes a call down, as one piece: other processes write too.
+    /// Writes a call, as one piece: other processes write too.
     pub(crate) fn tell(&mut self, frame: Option<u64>, name: &str, with: Value, answer: i32) {
         let Some(folder) = &self.folder else {
             return;

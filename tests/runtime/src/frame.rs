@@ -1,4 +1,4 @@
-//! The frame loop: waited for, begun, ended. Time goes on with it and not with any clock.
+//! The frame loop: frames are waited for, begun, ended. Time advances with them and not with any clock.
 
 use std::time::Duration;
 
@@ -10,12 +10,12 @@ use crate::abi::{Answer, given};
 use crate::layers;
 use crate::state::{State, call, locked, told};
 
-/// How long an xrWaitFrame waits for the frame before to begin, which another thread may do. A runtime would wait for
-/// ever; here it is refused then.
+/// How long an xrWaitFrame waits for the frame before to begin, which another thread may do, ms. A runtime would wait for ever; here it is
+/// refused then.
 const PATIENCE_MS: u32 = 2000;
 
 impl State {
-    /// Whether the time is one of which the runtime knows poses.
+    /// Checks that the runtime has poses for the time.
     pub(crate) fn check_time(&self, time: sys::Time) -> Result<(), R> {
         // From the first frame to a second after the last.
         let known = crate::world::EPOCH..=self.time + 1_000_000_000;
@@ -59,7 +59,7 @@ pub(crate) extern "system" fn wait_frame(
         let with = json!({ "cause": "the frame before has not begun" });
         return told("xrWaitFrame", with, |_, _| Err(R::ERROR_CALL_ORDER_INVALID));
     }
-    // A program that is not seen does not turn as fast as it can.
+    // A program that is not shown would otherwise turn as fast as it can.
     pause();
     locked(|state| {
         state.begin_wait();
@@ -103,7 +103,7 @@ pub(crate) extern "system" fn end_frame(
             }
             let begun = held.begun.ok_or(R::ERROR_CALL_ORDER_INVALID)?;
             let ended = ended.ok_or(R::ERROR_VALIDATION_FAILURE)?;
-            // The specification lets it be any time; a picture of another one is an error of ours.
+            // The specification allows any time; a picture of another one is an error of ours.
             if ended.time != begun {
                 return Err(R::ERROR_TIME_INVALID);
             }

@@ -1,4 +1,4 @@
-//! Hands that are seen (XR_EXT_hand_tracking).
+//! Hands that are tracked (XR_EXT_hand_tracking).
 
 use openxr::sys;
 use sys::{Handle as _, Result as R};
@@ -7,7 +7,7 @@ use crate::abi::{given, place};
 use crate::script::{Joint, Known, Pose};
 use crate::state::{State, call};
 
-/// What XrHandTrackerEXT names.
+/// Target of an XrHandTrackerEXT handle.
 pub(crate) struct Tracker {
     pub session: u64,
     side: usize,
@@ -45,7 +45,7 @@ pub(crate) extern "system" fn destroy_hand_tracker(tracker: sys::HandTrackerEXT)
 }
 
 impl State {
-    /// A joint as it is in the space.
+    /// A joint in the frame of the space.
     fn joint_from(
         &mut self,
         info: &sys::HandJointsLocateInfoEXT,
@@ -90,7 +90,7 @@ pub(crate) extern "system" fn locate_hand_joints(
         }
         for (index, joint) in joints.iter().enumerate() {
             let location = state.joint_from(info, session, joint)?;
-            // SAFETY: OpenXR's callers pass room for as many joints as they say, which are as many as these.
+            // SAFETY: OpenXR's callers pass room for as many joints as they state, which are as many as these.
             unsafe { locations.joint_locations.add(index).write(location) };
         }
         Ok(R::SUCCESS)

@@ -1,4 +1,4 @@
-//! What hands are to feel: it is written down.
+//! Vibrations of hands: they are written to the log of calls.
 
 use openxr::sys;
 use serde_json::json;
@@ -9,7 +9,7 @@ use crate::number::Number;
 use crate::space::side_of;
 use crate::state::{State, told};
 
-/// The hands that a haptic action shakes, and whether it does now.
+/// Checks a haptic action; `SESSION_NOT_FOCUSED` where the session does not have the input focus.
 fn shaken(state: &mut State, session: sys::Session, info: &sys::HapticActionInfo) -> Result<R, R> {
     let kind = sys::ActionType::VIBRATION_OUTPUT;
     state.driven(session, info.action, info.subaction_path, kind)?;

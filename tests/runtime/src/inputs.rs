@@ -1,4 +1,4 @@
-//! What actions read.
+//! Values of input actions.
 
 use std::ffi::c_char;
 
@@ -10,7 +10,7 @@ use crate::profiles;
 use crate::script::HandState;
 use crate::state::{State, call};
 
-/// Time of the last sync, in whose frame a value changed, as far as it is known.
+/// Time of the last sync, as the time at which a value changed; a better one is not known.
 fn changed(state: &State) -> sys::Time {
     sys::Time::from_nanos(state.time)
 }

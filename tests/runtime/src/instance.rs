@@ -1,4 +1,4 @@
-//! Instances, the headset, and what can be asked of both.
+//! Instances, the headset, and queries of both.
 
 use std::ffi::c_char;
 
@@ -13,15 +13,15 @@ use crate::state::{Instance, State, call, locked, told};
 
 /// The one headset.
 pub(crate) const SYSTEM: u64 = 1;
-/// Most of width and height of a swapchain's images.
+/// Greatest width and height of a swapchain's images.
 pub(crate) const LARGEST: u32 = 4096;
 /// Most layers of a frame.
 pub(crate) const LAYERS: u32 = 16;
-/// What the runtime says of itself.
+/// The runtime's name.
 const NAME: &str = "Mock";
 
 impl State {
-    /// Whether the instance is one and the system is the headset.
+    /// Checks that the instance is valid and the system is the headset.
     pub(crate) fn system(
         &mut self,
         instance: sys::Instance,

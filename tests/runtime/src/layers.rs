@@ -1,4 +1,4 @@
-//! What a frame ends with: read, named, and checked as a strict runtime does.
+//! The arguments of a frame's end: read, and checked as a strict runtime does.
 
 use openxr::sys;
 use sys::{Handle as _, Result as R};
@@ -10,7 +10,7 @@ use crate::pictures::is_depth;
 use crate::script::{Fov, Pose};
 use crate::state::State;
 
-/// What the caller said.
+/// Reads the caller's arguments.
 pub(crate) fn read(state: &State, info: &sys::FrameEndInfo) -> Ended {
     // SAFETY: OpenXR's callers pass an array of so many pointers.
     let layers: &[Option<&sys::CompositionLayerBaseHeader>] =
@@ -92,7 +92,7 @@ fn part(image: &sys::SwapchainSubImage) -> Part {
     }
 }
 
-/// On what a refusal can depend.
+/// Properties of a frame on which a refusal can depend.
 pub(crate) fn facts(ended: &Ended) -> Vec<String> {
     let mut facts = Vec::new();
     for layer in &ended.layers {
@@ -118,7 +118,7 @@ pub(crate) fn facts(ended: &Ended) -> Vec<String> {
     facts
 }
 
-/// Whether the frame can be shown.
+/// Checks that the frame can be shown.
 pub(crate) fn check(state: &mut State, session: sys::Session, ended: &Ended) -> Result<(), R> {
     if !state.world.blends.contains(&ended.blend) {
         return Err(R::ERROR_ENVIRONMENT_BLEND_MODE_UNSUPPORTED);
@@ -183,7 +183,7 @@ fn check_view(
         return Err(R::ERROR_VALIDATION_FAILURE);
     }
     check_part(state, session, &view.image, false)?;
-    // A structure of an extension that is off is no structure that is known.
+    // A structure of an extension that is off is ignored.
     let Some(depth) = view.depth.filter(|_| depth_on) else {
         return Ok(());
     };

@@ -1,13 +1,13 @@
-//! An OpenXR runtime without a headset and without a clock, for tests: a script says what it does, and
-//! what is called is written down. It is strict: what the specification forbids is refused.
+//! An OpenXR runtime without a headset and without a clock, for tests: a script controls it, and it writes calls to a log. It is strict:
+//! it refuses calls that the specification forbids.
 //!
-//! Tests load it by OpenXR's own loader (`vitriol_tests::mock` says how) and talk to it by two files in
-//! the folder that the environment's [`FOLDER`] names: [`script`] is read on at each xrPollEvent,
-//! xrGetSystem, xrEnumerateInstanceExtensionProperties, xrCreateInstance and xrWaitFrame, and [`calls`]
-//! is written at each call that is of interest. So a test may be in the client's process or in another.
+//! Tests load it by OpenXR's own loader (`vitriol_tests::mock` has the details) and exchange data with it by two files in the folder that
+//! the environment's [`FOLDER`] names: [`script`] is read on at each xrPollEvent, xrGetSystem, xrEnumerateInstanceExtensionProperties,
+//! xrCreateInstance and xrWaitFrame, and [`calls`] is written at each call that is of interest. So a test may be in the client's process
+//! or in another.
 //!
-//! Each xrWaitFrame takes the time one period on and sleeps for a millisecond.
-// Test code: where the script or the files are not as they should be, it ends with a word.
+//! Each xrWaitFrame advances the time by one period and sleeps for a millisecond.
+// Test code: where the script or the files are wrong, it ends with a message.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 // OpenXR and Vulkan are unsafe interfaces; every block states why its call is valid.
 #![allow(unsafe_code)]
@@ -45,11 +45,11 @@ pub use files::{CALLS, FOLDER, SCRIPT};
 use openxr::sys;
 use sys::Result as R;
 
-/// The version of the loader's interface and of OpenXR that the runtime is of.
+/// The supported version of the loader's interface and of OpenXR.
 const INTERFACE: u32 = 1;
 const API: sys::Version = sys::Version::new(1, 0, 34);
 
-/// Where OpenXR's loader begins.
+/// The entry point of OpenXR's loader.
 ///
 /// # Safety
 /// As the loader's interface has it: `info` and `request` are structures of their types.

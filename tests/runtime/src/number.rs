@@ -17,7 +17,7 @@ impl Serialize for Number {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self.0.is_finite() {
             true => Written::Finite(self.0),
-            // Rust's own words for them, which it reads too.
+            // Rust's own spelling of them, which it parses too.
             false => Written::Other(self.0.to_string()),
         }
         .serialize(to)

@@ -1,8 +1,7 @@
 //! Images of swapchains, on the session's device.
 //!
-//! An image that is released is looked at as a compositor would: commands on the session's queue take it out
-//! of the layout in which the application has to give it back, and into it again. So Vulkan's validation tells
-//! of one that is given back in another.
+//! A released image is used as a compositor would: commands on the session's queue take it out of the layout in which the application has
+//! to give it back, and into it again. So Vulkan's validation reports one that is given back in another layout.
 
 use ash::vk;
 use openxr::sys;
@@ -20,19 +19,19 @@ pub(crate) struct Pictures {
     pool: vk::CommandPool,
 }
 
-/// One of them.
+/// One image of a swapchain.
 #[derive(Default)]
 pub(crate) struct Picture {
     pub image: vk::Image,
     memory: vk::DeviceMemory,
-    /// The commands that look at it.
+    /// The commands that use it as a compositor would.
     look: vk::CommandBuffer,
-    /// Signalled where no look is under way. A runtime waits for its own work before it destroys an image: the application
-    /// can not.
+    /// Signalled where these commands are not under way. A runtime waits for its own work before it destroys an image: the application
+    /// cannot.
     looked: vk::Fence,
 }
 
-/// Vulkan's usage of OpenXR's.
+/// The Vulkan usage for an OpenXR usage.
 fn usage(flags: sys::SwapchainUsageFlags) -> vk::ImageUsageFlags {
     use sys::SwapchainUsageFlags as X;
     use vk::ImageUsageFlags as V;
@@ -48,7 +47,7 @@ fn usage(flags: sys::SwapchainUsageFlags) -> vk::ImageUsageFlags {
     asked.fold(V::SAMPLED, |all, (_, usage)| all | *usage)
 }
 
-/// Whether it holds depths.
+/// Whether the format is one of depth.
 pub(crate) fn is_depth(format: i64) -> bool {
     [
         vk::Format::D16_UNORM,
@@ -60,7 +59,7 @@ pub(crate) fn is_depth(format: i64) -> bool {
     .any(|depth| i64::from(depth.as_raw()) == format)
 }
 
-/// The layout in which the application has an image, and what there is of one.
+/// The layout in which the application has an image, and its aspects.
 fn home(format: i64) -> (vk::ImageLayout, vk::ImageAspectFlags) {
     use vk::ImageAspectFlags as A;
     let with_stencil = [
@@ -112,8 +111,8 @@ impl Device {
             picture.look = self.record(pictures.pool, &looks)?;
         }
         let begin = self.record(pictures.pool, &begin)?;
-        // SAFETY: while a swapchain is made, nothing else is submitted to the queue (as Monado asks of its
-        // clients too). What was begun is waited for: the application need not.
+        // SAFETY: while a swapchain is made, nothing else is submitted to the queue (as Monado requires of its clients too). It waits for
+        // submitted work: the application need not.
         unsafe {
             self.submit(begin, vk::Fence::null())?;
             self.device.queue_wait_idle(self.queue)
@@ -251,10 +250,10 @@ impl Device {
         unsafe { self.device.queue_submit(self.queue, &[submit], done) }
     }
 
-    /// Looks at an image that is released.
+    /// Uses a released image as a compositor would.
     pub(crate) fn look(&self, picture: &Picture) -> Result<(), R> {
-        // SAFETY: XR_KHR_vulkan_enable2 has the application leave the queue alone meanwhile.
-        // The fence is this image's own, and signalled once its last look is over.
+        // SAFETY: XR_KHR_vulkan_enable2 has the application leave the queue alone meanwhile. The fence is this image's own, and signalled
+        // once its last use is over.
         let submitted = unsafe {
             self.device
                 .wait_for_fences(&[picture.looked], true, u64::MAX)
@@ -264,14 +263,14 @@ impl Device {
         submitted.map_err(|_| R::ERROR_RUNTIME_FAILURE)
     }
 
-    /// Destroys images, with which the application is done.
+    /// Destroys images that the application does not use any more.
     pub(crate) fn destroy(&self, pictures: &Pictures) {
-        // SAFETY: all of it was made of this device, and OpenXR asks of its callers that the device is done
-        // with a swapchain's images before it is destroyed.
+        // SAFETY: all of it was made of this device, and OpenXR requires of its callers that the device is done with a swapchain's images
+        // before it is destroyed.
         unsafe {
             let looks: Vec<_> = pictures.all.iter().map(|picture| picture.looked).collect();
             if !looks.is_empty() {
-                // It fails where the device is lost, which looks at nothing any more.
+                // It fails on a lost device, which executes nothing any more.
                 let _ = self.device.wait_for_fences(&looks, true, u64::MAX);
             }
             self.device.destroy_command_pool(pictures.pool, None);

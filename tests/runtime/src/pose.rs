@@ -1,4 +1,4 @@
-//! Poses of the script and of the calls.
+//! Poses in the script and in the log of calls.
 
 use glam::{Quat, Vec3};
 use openxr::sys;
@@ -6,14 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::Number;
 
-/// Where something is, and how it is turned. In JSON seven numbers: x, y, z in m, then the quaternion's
-/// x, y, z, w.
+/// Position and orientation. In JSON seven numbers: x, y, z in m, then the quaternion's x, y, z, w.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[Number; 7]", into = "[Number; 7]")]
 pub struct Pose {
-    /// m.
+    /// Position, m.
     pub position: Vec3,
-    /// Of length 1, unless a test wants it otherwise.
+    /// Unit quaternion, unless a test needs an invalid one.
     pub orientation: Quat,
 }
 
@@ -21,7 +20,7 @@ impl Pose {
     /// No shift, no turn.
     pub const IDENTITY: Self = Self::new(Vec3::ZERO, Quat::IDENTITY);
 
-    /// Of its parts.
+    /// A pose from its parts.
     #[must_use]
     pub const fn new(position: Vec3, orientation: Quat) -> Self {
         Self {
@@ -30,13 +29,13 @@ impl Pose {
         }
     }
 
-    /// Not turned.
+    /// A pose at (x, y, z), not rotated.
     #[must_use]
     pub const fn at(x: f32, y: f32, z: f32) -> Self {
         Self::new(Vec3::new(x, y, z), Quat::IDENTITY)
     }
 
-    /// What is at `inner` in this pose's frame.
+    /// The pose `inner`, given in this pose's frame, in the outer frame.
     #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {
         Self {
@@ -45,7 +44,7 @@ impl Pose {
         }
     }
 
-    /// The frame outside, seen from within.
+    /// The inverse pose.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let back = self.orientation.conjugate();
@@ -55,7 +54,7 @@ impl Pose {
         }
     }
 
-    /// Finite, and turned by a unit quaternion.
+    /// Whether it is finite, with a unit quaternion.
     pub(crate) fn is_proper(&self) -> bool {
         let length = self.orientation.length();
         self.position.is_finite() && length.is_finite() && (length - 1.0).abs() < 1e-3
@@ -101,7 +100,7 @@ impl From<Pose> for [Number; 7] {
     }
 }
 
-/// What of a pose is valid and what is measured.
+/// Which parts of a pose are valid, and which are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Known {
     /// XR_SPACE_LOCATION_POSITION_VALID_BIT
@@ -115,26 +114,26 @@ pub struct Known {
 }
 
 impl Known {
-    /// All of it is measured.
+    /// All parts are measured.
     pub const TRACKED: Self = Self {
         position_valid: true,
         orientation_valid: true,
         position_tracked: true,
         orientation_tracked: true,
     };
-    /// All of it is guessed.
+    /// All parts are guessed.
     pub const GUESSED: Self = Self {
         position_tracked: false,
         orientation_tracked: false,
         ..Self::TRACKED
     };
-    /// The orientation is measured; of the position nothing is known.
+    /// The orientation is measured; the position is unknown.
     pub const TURNED: Self = Self {
         position_valid: false,
         position_tracked: false,
         ..Self::TRACKED
     };
-    /// Nothing.
+    /// All parts are unknown.
     pub const NOTHING: Self = Self {
         position_valid: false,
         orientation_valid: false,
@@ -142,9 +141,9 @@ impl Known {
         orientation_tracked: false,
     };
 
-    /// Of a pose that follows from two.
+    /// Knowledge of a pose that is composed of two.
     pub(crate) fn and(self, other: Self) -> Self {
-        // A place in a frame that is turned in an unknown way is unknown too.
+        // A position in a frame of unknown orientation is unknown too.
         let orientation_valid = self.orientation_valid && other.orientation_valid;
         Self {
             position_valid: self.position_valid && other.position_valid && orientation_valid,
@@ -154,7 +153,7 @@ impl Known {
         }
     }
 
-    /// Flags of a location, and the pose with rubbish in place of what is not valid.
+    /// Flags of a location, and the pose with rubbish in place of its invalid parts.
     pub(crate) fn show(self, pose: &Pose) -> (sys::SpaceLocationFlags, sys::Posef) {
         use sys::SpaceLocationFlags as F;
         let mut flags = F::EMPTY;

@@ -1,8 +1,8 @@
-//! The controllers that are known, and what they have (OpenXR specification, "Interaction Profile Paths").
+//! The supported controllers and their controls (OpenXR specification, "Interaction Profile Paths").
 
 use crate::script::HandState;
 
-/// Both hands, left and right alone.
+/// Paths of both hands, of the left and of the right alone.
 type Controls = [&'static [&'static str]; 3];
 
 const TOUCH: Controls = [
@@ -40,7 +40,7 @@ const TOUCH: Controls = [
     ],
 ];
 
-/// What a profile has; `None` for one that is not known with these extensions.
+/// Controls of a profile; `None` for one that is not supported with these extensions.
 fn controls(profile: &str, extensions: &[String]) -> Option<Controls> {
     let on = |name: &str| extensions.iter().any(|on| on == name);
     let both: &[&str] = match profile.strip_prefix("/interaction_profiles/")? {
@@ -129,12 +129,12 @@ fn controls(profile: &str, extensions: &[String]) -> Option<Controls> {
 pub(crate) const GAZE: &str = "/interaction_profiles/ext/eye_gaze_interaction";
 const GAZE_POSE: &str = "/user/eyes_ext/input/gaze_ext/pose";
 
-/// Whether that path is one of the profile and of no hand.
+/// Whether that path belongs to the gaze's profile.
 pub(crate) fn is_gaze(profile: &str, path: &str) -> bool {
     (profile, path) == (GAZE, GAZE_POSE)
 }
 
-/// What every hand's profile has.
+/// Poses of every hand's profile.
 const POSES: [&str; 4] = [
     "input/grip",
     "input/grip/pose",
@@ -142,7 +142,7 @@ const POSES: [&str; 4] = [
     "input/aim/pose",
 ];
 
-/// Whether the profile is known.
+/// Whether the profile is supported.
 pub(crate) fn is_known(profile: &str, extensions: &[String]) -> bool {
     controls(profile, extensions).is_some()
 }

@@ -1,4 +1,4 @@
-//! What a test tells the runtime: lines of JSON in the file `script`, each a [`Cue`].
+//! The script: lines of JSON in the file `script`, each a [`Cue`].
 
 use serde::{Deserialize, Serialize};
 
@@ -11,18 +11,18 @@ pub struct Cue {
     /// As the xrWaitFrame of that number begins, counted from 0 over all sessions of the process; at
     /// once where it has begun already, and for `None`.
     pub at: Option<u64>,
-    /// What changes.
+    /// The change.
     pub change: Change,
 }
 
-/// What can be changed.
+/// A change of the mock headset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Change {
     /// The head moves.
     Head {
-        /// In the runtime's own world.
+        /// Pose in the runtime's own world.
         pose: Pose,
-        /// What of it is known.
+        /// Its known parts.
         known: Known,
     },
     /// A controller moves, is pressed, comes or goes.
@@ -32,21 +32,21 @@ pub enum Change {
         /// `None` without a controller.
         state: Option<HandState>,
     },
-    /// A hand is seen (XR_EXT_hand_tracking).
+    /// A hand is tracked (XR_EXT_hand_tracking).
     Joints {
         /// 0 left, 1 right.
         side: usize,
-        /// The 26 joints in the extension's order; `None` for a hand that is not seen.
+        /// The 26 joints in the extension's order; `None` for a hand that is not tracked.
         joints: Option<Vec<Joint>>,
     },
-    /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction, XR_VARJO_foveated_rendering), in the runtime's own
-    /// world; `None` where that is not known.
+    /// The wearer looks from there along -Z (XR_EXT_eye_gaze_interaction, XR_VARJO_foveated_rendering), in the runtime's own world; `None`
+    /// where the gaze is not known.
     Gaze(Option<Pose>),
     /// The inset in each eye's picture, where XR_VARJO_quad_views is offered.
     Inset(Inset),
     /// A reference space gets another origin.
     Move {
-        /// Which: all but VIEW, the gaze's and actions'.
+        /// The space: any but VIEW, the gaze's and actions'.
         space: SpaceKind,
         /// Its new origin in the runtime's own world.
         origin: Pose,
@@ -54,30 +54,30 @@ pub enum Change {
         announced: bool,
         /// The event's `poseValid`.
         pose_valid: bool,
-        /// How many frames after the next one of which the events can be polled before.
+        /// Number of frames to delay the move, after the next one whose events can still be polled.
         later: u32,
     },
     /// The reference spaces that are offered.
     Offer {
-        /// All of them.
+        /// All offered spaces.
         spaces: Vec<SpaceKind>,
     },
     /// The extensions that are offered.
     Extensions(Vec<String>),
     /// Display rates (XR_FB_display_refresh_rate), and with them the period.
     Rates {
-        /// Those that can be chosen, Hz.
+        /// The rates that can be chosen, Hz.
         rates: Vec<f32>,
         /// The present one, Hz.
         now: f32,
     },
     /// Period of the display alone, ns.
     Period(i64),
-    /// Whether a session that is seen is asked for pictures.
+    /// Whether a visible session is asked for pictures.
     ShouldRender(bool),
     /// Whether someone wears the headset (XR_EXT_user_presence).
     Presence(bool),
-    /// What no eye sees (XR_KHR_visibility_mask).
+    /// The part of the picture that no eye sees (XR_KHR_visibility_mask).
     Mask {
         /// 0 left, 1 right.
         eye: usize,
@@ -94,35 +94,35 @@ pub enum Change {
     Views {
         /// Their fields of view.
         fov: [Fov; 2],
-        /// Between them, m.
+        /// Distance between them, m.
         ipd: f32,
     },
     /// Recommended size of an eye's picture, pixels.
     Extent([u32; 2]),
     /// Blend modes that are offered, OpenXR's numbers.
     Blends(Vec<i32>),
-    /// Where the session is led to.
+    /// The state to which the runtime leads the session.
     Goal(Goal),
-    /// What is there now is lost.
+    /// An existing object is lost.
     Lose(Lost),
     /// Whether a headset is connected.
     Headset(bool),
-    /// A call is refused. Where several fit, the earliest that is not used up counts.
+    /// A call is refused. If several refusals apply, the earliest that is not used up counts.
     Refuse {
         /// OpenXR's name of it.
         call: String,
         /// The XrResult.
         answer: i32,
-        /// How often; always for `None`.
+        /// Number of times; always for `None`.
         times: Option<u32>,
-        /// Only where this holds. xrCreateSwapchain: its format's number, its `width x height`, or `layers>1`. xrBeginSession: the
-        /// view configuration's number. xrCreateInstance: the name of an extension that is asked for. xrEndFrame:
-        /// `projection`, `4 views`, `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
+        /// Condition of the refusal. xrCreateSwapchain: its format's number, its `width x height`, or `layers>1`. xrBeginSession: the view
+        /// configuration's number. xrCreateInstance: the name of an extension that is asked for. xrEndFrame: `projection`, `4 views`,
+        /// `quad`, `depth`, or `infinite depth` (a near or far distance is infinite).
         when: Option<String>,
     },
     /// Nothing is refused any more.
     RefuseNothing,
-    /// The events that wait are lost, and the runtime says so (XrEventDataEventsLost).
+    /// The waiting events are lost, and the runtime reports it (XrEventDataEventsLost).
     LoseEvents,
     /// XrEventDataInstanceLossPending is raised.
     InstanceLossPending,
@@ -147,13 +147,13 @@ impl Change {
         }
     }
 
-    /// The runtime offers what it offers by itself, and this extension.
+    /// The runtime offers its default extensions, and this one.
     #[must_use]
     pub fn offer_too(extension: &str) -> Self {
         Self::offer_all_too(&[extension])
     }
 
-    /// The same of several.
+    /// The runtime offers its default extensions, and those of `extensions`; [`Change::offer_too`] takes one.
     #[must_use]
     pub fn offer_all_too(extensions: &[&str]) -> Self {
         let mut all = crate::world::World::default().extensions;
@@ -161,7 +161,7 @@ impl Change {
         Self::Extensions(all)
     }
 
-    /// The space moves with the next frame, and the runtime says so.
+    /// The space moves with the next frame, with an event.
     #[must_use]
     pub fn recentre(space: SpaceKind, origin: Pose) -> Self {
         Self::Move {
@@ -190,14 +190,14 @@ impl Change {
 pub struct Inset {
     /// Recommended size of its pictures, pixels.
     pub extent: [u32; 2],
-    /// Whether the headset lets it follow the gaze (XR_VARJO_foveated_rendering).
+    /// Whether the headset supports that it follows the gaze (XR_VARJO_foveated_rendering).
     pub follows: bool,
-    /// Recommended sizes of the eyes' pictures and of its own where it does.
+    /// Recommended sizes of the eyes' pictures and of its own if it follows the gaze.
     pub following: [[u32; 2]; 2],
-    /// What it sees to the left and to the right of its middle, rad; up and down it is three quarters of that.
+    /// Angle of its field of view to the left and to the right of its middle, rad; up and down it is three quarters of that.
     #[serde(with = "one")]
     pub half: f32,
-    /// How many views there are together: 4, where all is in order.
+    /// Number of views in all: 4, unless a test needs a wrong one.
     pub views: u32,
 }
 
@@ -222,12 +222,12 @@ pub struct HandState {
     pub grip: Pose,
     /// Aim in the runtime's own world.
     pub aim: Pose,
-    /// What of both is known.
+    /// Known parts of both.
     pub known: Known,
-    /// 0 to 1.
+    /// Squeeze, 0 to 1.
     #[serde(with = "one")]
     pub squeeze: f32,
-    /// 0 to 1.
+    /// Trigger, 0 to 1.
     #[serde(with = "one")]
     pub trigger: f32,
     /// Thumbstick or trackpad.
@@ -243,7 +243,7 @@ pub struct HandState {
 pub const TOUCH: &str = "/interaction_profiles/oculus/touch_controller";
 
 impl HandState {
-    /// One of Touch's controllers, 20 cm to its side, 1 m high and 40 cm ahead, with nothing pressed.
+    /// A Touch controller, 20 cm to its side, 1 m high and 40 cm ahead, with nothing pressed.
     #[must_use]
     pub fn touch(side: usize) -> Self {
         let pose = Pose::at(if side == 0 { -0.2 } else { 0.2 }, 1.0, -0.4);
@@ -261,15 +261,15 @@ impl HandState {
     }
 }
 
-/// A joint of a hand that is seen.
+/// A joint of a tracked hand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// In the runtime's own world.
+    /// Pose in the runtime's own world.
     pub pose: Pose,
-    /// m.
+    /// Radius, m.
     #[serde(with = "one")]
     pub radius: f32,
-    /// What of it is known.
+    /// Known parts of the pose.
     pub known: Known,
 }
 
@@ -290,18 +290,18 @@ pub struct Fov {
     pub down: f32,
 }
 
-/// What a space is of.
+/// The object that a space belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum SpaceKind {
     /// The head.
     View,
-    /// Where the eyes were.
+    /// The eyes' first place.
     Local,
-    /// The floor below.
+    /// The floor below it.
     LocalFloor,
-    /// The middle of the floor that is free.
+    /// The middle of the free floor.
     Stage,
-    /// Where the wearer looks (XR_VARJO_foveated_rendering).
+    /// The gaze (XR_VARJO_foveated_rendering).
     Gaze,
     /// A hand; never offered as a reference space.
     Action,
@@ -310,27 +310,27 @@ pub enum SpaceKind {
 /// The state that the runtime leads a session to, step by step: one event in each round of xrPollEvent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Goal {
-    /// The headset sleeps: no session runs.
+    /// The headset sleeps: no session is running.
     Idle,
-    /// Frames, but not seen.
+    /// Frames, but not visible.
     Synchronized,
-    /// Seen, without input.
+    /// Visible, without input.
     Visible,
-    /// Seen, with input.
+    /// Visible, with input.
     Focused,
     /// As [`Goal::Idle`].
     Stopping,
-    /// The end. Once it is told, later sessions are led to the focus.
+    /// The end. After its event, later sessions are led to the focus.
     Exiting,
-    /// A loss that is announced. Once it is told, later sessions are led to the focus.
+    /// A loss that is announced. After its event, later sessions are led to the focus.
     LossPending,
 }
 
-/// What is lost.
+/// The object that is lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Lost {
-    /// The sessions that are there: calls on them answer XR_ERROR_SESSION_LOST.
+    /// The existing sessions: calls on them answer XR_ERROR_SESSION_LOST.
     Session,
-    /// The instances that are there: calls on them and their sessions answer XR_ERROR_INSTANCE_LOST.
+    /// The existing instances: calls on them and their sessions answer XR_ERROR_INSTANCE_LOST.
     Instance,
 }

@@ -10,7 +10,7 @@ use crate::state::{Session, State, locked, told};
 use crate::vulkan::Device;
 
 impl State {
-    /// Ends a session and all that is of it.
+    /// Ends a session and destroys its objects.
     pub(crate) fn drop_session(&mut self, raw: u64) {
         let Some(session) = self.sessions.remove(&raw) else {
             return;
@@ -27,7 +27,7 @@ impl State {
 }
 
 impl Session {
-    /// Of an instance, not running.
+    /// A session of an instance, not running.
     pub(crate) fn new(instance: u64, device: Option<Device>) -> Self {
         Self {
             instance,
@@ -70,7 +70,7 @@ pub(crate) extern "system" fn create_session(
             .ok_or(R::ERROR_GRAPHICS_DEVICE_INVALID)?;
         let device = maker.bind(binding)?;
         let of = instance.into_raw();
-        // A lost one has to go too before there is another.
+        // A lost session has to be destroyed too before there is another.
         if state
             .sessions
             .values()

@@ -1,5 +1,5 @@
-//! Spaces, and where things are in them. At every time things are where the script has them now; only the
-//! origins of spaces change at times of their own.
+//! Spaces, and the positions of objects in them. At every time objects are where the script has them now; only the origins of spaces
+//! change at times of their own.
 
 use openxr::sys;
 use sys::{Handle as _, Result as R};
@@ -11,11 +11,11 @@ use crate::state::{State, call};
 use crate::views::FOLLOWS;
 use crate::world::raw_space;
 
-/// What XrSpace names.
+/// Target of an XrSpace handle.
 pub(crate) struct Space {
     pub session: u64,
     of: Of,
-    /// The space in the frame of what it is of.
+    /// The space in the frame of the object that it belongs to.
     shift: Pose,
 }
 
@@ -34,7 +34,7 @@ impl Space {
 }
 
 impl State {
-    /// The space in the runtime's own world, and what is known of that.
+    /// The space in the runtime's own world, and its known parts.
     fn world_from(&self, space: &Space, time: i64) -> (Pose, Known) {
         let world = &self.world;
         let (pose, known) = match space.of {
@@ -53,7 +53,7 @@ impl State {
         (pose.compose(&space.shift), known)
     }
 
-    /// A pose of the runtime's own world as it is in the space.
+    /// A pose of the runtime's own world in the frame of the space.
     pub(crate) fn seen_from(
         &mut self,
         space: sys::Space,
@@ -102,7 +102,7 @@ pub(crate) extern "system" fn enumerate_reference_spaces(
     })
 }
 
-/// LOCAL_FLOOR and the gaze's are those of their extensions.
+/// The offered reference spaces; LOCAL_FLOOR and the gaze's need their extensions.
 fn offered(state: &mut State, session: sys::Session) -> Vec<SpaceKind> {
     let mut offered = state.world.spaces.clone();
     offered.retain(|kind| match kind {
@@ -189,7 +189,7 @@ pub(crate) extern "system" fn locate_space(
         let there = state.world_from(located, time.as_nanos());
         let (pose, known) = state.seen_from(base, session, time, there)?;
         (location.location_flags, location.pose) = known.show(&pose);
-        // Nothing is known of velocities.
+        // Velocities are never known.
         let mut next = location.next.cast::<sys::BaseOutStructure>();
         while !next.is_null() {
             // SAFETY: OpenXR's callers chain structures, which all begin like this one.

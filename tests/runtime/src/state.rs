@@ -1,4 +1,4 @@
-//! The runtime's one state, and the way of every call through it.
+//! The runtime's one state, and the path of every call through it.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -23,7 +23,7 @@ static STATE: Mutex<Option<State>> = Mutex::new(None);
 /// Everything that is kept between calls.
 pub(crate) struct State {
     files: Files,
-    /// What waits for its frame.
+    /// Changes that wait for their frame.
     cues: Vec<Cue>,
     refusals: Vec<Refusal>,
     pub world: World,
@@ -50,39 +50,39 @@ struct Refusal {
     when: Option<String>,
 }
 
-/// What XrInstance names.
+/// Target of an XrInstance handle.
 #[derive(Default)]
 pub(crate) struct Instance {
     pub extensions: Vec<String>,
     pub lost: bool,
     pub events: VecDeque<Event>,
-    /// A step of the session's state was told in this round of xrPollEvent.
+    /// Whether a session's change of state was sent in this round of xrPollEvent.
     pub stepped: bool,
     pub bindings: Bindings,
-    /// xrGetVulkanGraphicsRequirements2KHR was called.
+    /// Whether xrGetVulkanGraphicsRequirements2KHR was called.
     pub requirements_read: bool,
     pub maker: Option<Maker>,
 }
 
-/// What XrSession names.
+/// Target of an XrSession handle.
 pub(crate) struct Session {
     pub instance: u64,
     pub lost: bool,
     pub state: sys::SessionState,
-    /// Between xrBeginSession and xrEndSession.
+    /// Whether it is between xrBeginSession and xrEndSession.
     pub running: bool,
     /// Frames ended since xrBeginSession.
     pub framed: u64,
-    /// What xrBeginSession was called with.
+    /// The view configuration given to xrBeginSession.
     pub views: sys::ViewConfigurationType,
-    /// xrRequestExitSession was called.
+    /// Whether xrRequestExitSession was called.
     pub leaving: bool,
     /// Display time of a frame that was waited for and has not begun.
     pub waited: Option<i64>,
     /// Display time of the frame that has begun.
     pub begun: Option<i64>,
     pub attached: Option<Vec<u64>>,
-    /// Of the last xrSyncActions.
+    /// Sets of the last xrSyncActions.
     pub active_sets: Vec<u64>,
     pub hands: [Option<HandState>; 2],
     pub earlier: [Option<HandState>; 2],
@@ -120,7 +120,7 @@ pub(crate) fn locked<T>(body: impl FnOnce(&mut State) -> T) -> T {
     body(state.get_or_insert_default())
 }
 
-/// A call that is written down only if the script refuses it.
+/// Runs a call that is logged only if the script refuses it.
 pub(crate) fn call(name: &'static str, body: impl FnOnce(&mut State) -> Answer) -> R {
     locked(|state| match state.refused(name, &[]) {
         Some(answer) => state.tell(name, Value::Null, answer),
@@ -128,7 +128,7 @@ pub(crate) fn call(name: &'static str, body: impl FnOnce(&mut State) -> Answer) 
     })
 }
 
-/// A call that is written down, with what it was called with, to which `body` may add.
+/// Runs a call that is logged with its arguments, to which `body` may add.
 pub(crate) fn told(
     name: &'static str,
     with: Value,
@@ -138,7 +138,7 @@ pub(crate) fn told(
 }
 
 impl State {
-    /// As [`told`]; a refusal may depend on `facts`.
+    /// Runs a call as [`told`] does, whose refusal may depend on `facts`.
     pub(crate) fn told(
         &mut self,
         name: &'static str,
@@ -159,7 +159,7 @@ impl State {
         answer
     }
 
-    /// What the script has the call answer.
+    /// The script's refusal of the call, if there is one.
     fn refused(&mut self, name: &str, facts: &[String]) -> Option<R> {
         let fits = |refusal: &&mut Refusal| {
             let when = refusal.when.as_ref();
@@ -174,13 +174,13 @@ impl State {
         Some(refusal.answer)
     }
 
-    /// A handle that was none before.
+    /// A new handle.
     pub(crate) fn handle(&mut self) -> u64 {
         self.last_handle += 1;
         self.last_handle
     }
 
-    /// The instance, if it is one and is not lost.
+    /// The instance, if the handle is valid and the instance is not lost.
     pub(crate) fn instance(&mut self, handle: sys::Instance) -> Result<&mut Instance, R> {
         self.instance_of(sys::Handle::into_raw(handle))
     }
@@ -194,12 +194,12 @@ impl State {
         }
     }
 
-    /// The session, if it is one and neither it nor its instance is lost.
+    /// The session, if the handle is valid and neither session nor instance is lost.
     pub(crate) fn session(&mut self, handle: sys::Session) -> Result<&mut Session, R> {
         self.session_of(sys::Handle::into_raw(handle))
     }
 
-    /// The same by its number.
+    /// The session of that raw handle, checked as by [`State::session`].
     pub(crate) fn session_of(&mut self, raw: u64) -> Result<&mut Session, R> {
         let instance = self.sessions.get(&raw).map(|session| session.instance);
         self.instance_of(instance.ok_or(R::ERROR_HANDLE_INVALID)?)?;
@@ -237,12 +237,12 @@ impl State {
         sys::Path::from_raw(index as u64 + 1)
     }
 
-    /// Reads the script on; what is not due waits for its frame.
+    /// Reads the script on; changes that are not due wait for their frame.
     pub(crate) fn listen(&mut self) {
         self.take_cues(false);
     }
 
-    /// The same as an xrWaitFrame begins, which is counted and has the next display time.
+    /// [`State::listen`] at the beginning of an xrWaitFrame, which it also counts, with the next display time.
     pub(crate) fn begin_wait(&mut self) {
         self.take_cues(true);
         self.frames += 1;
@@ -261,7 +261,7 @@ impl State {
         let (now, later) = std::mem::take(&mut self.cues).into_iter().partition(due);
         self.cues = later;
         let now: Vec<Cue> = now;
-        // The first frame of which the events can still be polled before.
+        // The first frame whose events can still be polled before it.
         let next = self.time + self.world.period * if within_wait { 2 } else { 1 };
         for cue in now {
             self.apply(cue.change, next);
@@ -384,7 +384,7 @@ impl State {
         }
     }
 
-    /// Tells of another display rate, if it is another one.
+    /// Raises an event of the display rate, if the rate changes.
     pub(crate) fn raise_rate(&mut self, from: f32, to: f32) {
         if from != to {
             self.raise(|_| Event::Rate { from, to });

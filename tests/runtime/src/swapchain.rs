@@ -13,25 +13,25 @@ use crate::state::{State, call, locked, told};
 
 use ash::vk::Handle as _;
 
-/// What XrSwapchain names.
+/// Target of an XrSwapchain handle.
 pub(crate) struct Swapchain {
     pub session: u64,
     pub format: i64,
     pub extent: [u32; 2],
     pub layers: u32,
     pub pictures: Pictures,
-    /// Which is acquired next.
+    /// Index of the image that is acquired next.
     next: usize,
-    /// Acquired and not released, the oldest first.
+    /// Indices of the images that are acquired and not released, the oldest first.
     acquired: VecDeque<usize>,
-    /// The oldest of them was waited for.
+    /// Whether the oldest of them was waited for.
     waited: bool,
-    /// An image was released once.
+    /// Whether an image was released once.
     pub released: bool,
 }
 
 impl Swapchain {
-    /// As it was asked for.
+    /// A swapchain as `info` describes it.
     pub(crate) fn new(session: u64, info: &sys::SwapchainCreateInfo, pictures: Pictures) -> Self {
         Self {
             session,

@@ -13,7 +13,7 @@ use crate::{
     views, vulkan,
 };
 
-/// The function of that name and the extension that it is of, if it is of one.
+/// The function of that name and the extension that it belongs to, if any.
 macro_rules! table {
     ($name:expr, $($entry:literal $extension:literal $function:path;)*) => {
         match $name {
@@ -97,7 +97,7 @@ fn find(name: &str) -> Option<(&'static str, VoidFunction)> {
     )
 }
 
-/// What can be asked for without an instance.
+/// Functions that can be queried without an instance.
 const GLOBAL: [&str; 3] = [
     "xrEnumerateInstanceExtensionProperties",
     "xrEnumerateApiLayerProperties",
@@ -107,7 +107,7 @@ const GLOBAL: [&str; 3] = [
 /// xrGetInstanceProcAddr
 ///
 /// # Safety
-/// As OpenXR has it: `name` is a string, and `function` may be written to.
+/// As OpenXR requires: `name` is a string, and `function` may be written to.
 pub(crate) unsafe extern "system" fn get_instance_proc_addr(
     instance: sys::Instance,
     name: *const c_char,

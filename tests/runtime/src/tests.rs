@@ -43,7 +43,7 @@ fn session(instance: &xr::Instance) -> sys::Session {
     })
 }
 
-/// A swapchain whose images are none, and one of which was released.
+/// A swapchain without images, of which one was released.
 fn chain(session: sys::Session, format: i64, layers: u32) -> sys::Swapchain {
     let info = sys::SwapchainCreateInfo {
         ty: sys::SwapchainCreateInfo::TYPE,
@@ -112,7 +112,7 @@ fn frames_come_in_their_order() {
     let (answer, second) = wait(session);
     assert_eq!(answer, R::SUCCESS);
     let step = second.predicted_display_time - first.predicted_display_time;
-    // Other tests of this process may have taken the time on too.
+    // Other tests of this process may have advanced the time too.
     let period = second.predicted_display_period.as_nanos();
     assert!(step.as_nanos() > 0 && step.as_nanos() % period == 0);
     assert_eq!(frame::begin_frame(session, None), R::FRAME_DISCARDED);
@@ -157,7 +157,7 @@ fn images_come_in_their_order() {
     assert_eq!(acquire(), (wrong, u32::MAX));
 }
 
-/// A frame with one layer, of pictures with depths, that `spoil` spoils.
+/// A frame with one layer, of pictures with depths, changed by `spoil`.
 fn layer(
     session: sys::Session,
     chains: [sys::Swapchain; 2],

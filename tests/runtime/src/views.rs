@@ -11,12 +11,12 @@ use crate::state::{State, call, told};
 
 const STEREO: ViewConfigurationType = ViewConfigurationType::PRIMARY_STEREO;
 const QUAD: ViewConfigurationType = ViewConfigurationType::PRIMARY_QUAD_VARJO;
-/// The extension of the one, and the one by which the inset follows the gaze.
+/// The extension of the inset, and the one by which it follows the gaze.
 const INSET: &str = "XR_VARJO_quad_views";
 pub(crate) const FOLLOWS: &str = "XR_VARJO_foveated_rendering";
 
 impl State {
-    /// How many views that configuration has, where the instance offers it.
+    /// Number of views of that configuration, where the instance offers it.
     pub(crate) fn instance_offers(
         &mut self,
         instance: sys::Instance,
@@ -31,7 +31,7 @@ impl State {
         }
     }
 
-    /// The same of a session's instance.
+    /// Number of views of that configuration, where the instance of the session offers it.
     pub(crate) fn session_offers(
         &mut self,
         session: sys::Session,
@@ -41,13 +41,13 @@ impl State {
         self.instance_offers(sys::Instance::from_raw(instance), views)
     }
 
-    /// How many views a frame of the session has.
+    /// Number of views of a frame of the session.
     pub(crate) fn views_of(&mut self, session: sys::Session) -> Result<usize, R> {
         let views = self.session(session)?.views;
         self.session_offers(session, views)
     }
 
-    /// What the inset of an eye sees, about the gaze where it follows that and it is known.
+    /// Field of view of an eye's inset, about the gaze where it follows that and the gaze is known.
     fn inset(&self, follows: bool) -> Fov {
         let gaze = self.world.gaze.filter(|_| follows);
         let towards = gaze.map_or(glam::Vec3::NEG_Z, |gaze| {
@@ -166,7 +166,7 @@ pub(crate) extern "system" fn locate_views(
             put(view, &head, known, [-0.5, 0.5][index % 2] * ipd, fov);
         })
     };
-    // Written down only where it says something, as there are several of them in a frame.
+    // Logged only where it carries this information, as there are several calls in a frame.
     match active {
         Some(active) => told("xrLocateViews", json!({ "follows": active }), |state, _| {
             locate(state)
@@ -175,7 +175,7 @@ pub(crate) extern "system" fn locate_views(
     }
 }
 
-/// A view so far to the right of the middle of the head, m.
+/// Fills in a view `side` m to the right of the middle of the head.
 fn put(view: &mut sys::View, head: &Pose, known: Known, side: f32, fov: Fov) {
     let eye = head.compose(&Pose::at(side, 0.0, 0.0));
     view.pose = known.show(&eye).1;

@@ -12,9 +12,9 @@ use crate::state::{call, told};
 #[derive(Clone)]
 pub(crate) struct Maker {
     instance: ash::Instance,
-    /// What xrGetVulkanGraphicsDevice2KHR named.
+    /// The device that xrGetVulkanGraphicsDevice2KHR returned.
     physical: Option<vk::PhysicalDevice>,
-    /// Devices that were made of it.
+    /// Devices that were made with it.
     devices: Vec<u64>,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Device {
     pub queue: vk::Queue,
 }
 
-/// The application's way into Vulkan.
+/// The application's Vulkan functions.
 fn entry(loader: Option<sys::platform::VkGetInstanceProcAddr>) -> Result<ash::StaticFn, R> {
     let loader = loader.ok_or(R::ERROR_VALIDATION_FAILURE)?;
     Ok(ash::StaticFn {

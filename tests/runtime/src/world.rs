@@ -1,4 +1,4 @@
-//! What is there: head, hands, origins of the spaces, and what is offered. All of it is the script's.
+//! The mock's state: head, hands, origins of the spaces, and offered features. The script sets all of it.
 
 use openxr::sys;
 
@@ -13,7 +13,7 @@ pub(crate) const ALL: [&str; 12] = [
     "XR_EXT_hand_tracking",
     "XR_EXT_user_presence",
     "XR_FB_display_refresh_rate",
-    // Offered only where the script says so: with it there is no other hand tracking.
+    // Offered only where the script has it: with it there is no other hand tracking.
     "XR_EXT_hand_interaction",
     "XR_BD_controller_interaction",
     "XR_EXT_eye_gaze_interaction",
@@ -27,7 +27,7 @@ const FORMATS: [i64; 2] = [43, 126];
 /// The display's first time is one period after it, ns. Not 0, so that a time is not taken for a span.
 pub(crate) const EPOCH: i64 = 1_000_000_000_000;
 
-/// What no eye sees.
+/// The part of an eye's picture that no eye sees.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Mask {
     pub vertices: Vec<[f32; 2]>,
@@ -43,13 +43,13 @@ impl Origins {
         Self(vec![(i64::MIN, origin)])
     }
 
-    /// The one that holds at that time.
+    /// The origin at that time.
     pub(crate) fn at(&self, time: i64) -> Pose {
         let held = self.0.iter().rfind(|(from, _)| *from <= time);
         held.map_or(Pose::IDENTITY, |(_, origin)| *origin)
     }
 
-    /// Another one from that time on.
+    /// Sets another origin from that time on.
     pub(crate) fn push(&mut self, from: i64, origin: Pose) {
         self.0.retain(|(earlier, _)| *earlier < from);
         self.0.push((from, origin));
@@ -62,7 +62,7 @@ pub(crate) struct World {
     pub head: (Pose, Known),
     pub hands: [Option<HandState>; 2],
     pub joints: [Option<Vec<Joint>>; 2],
-    /// Where the wearer looks, along -Z; `None` where nobody tracks it.
+    /// The gaze, along -Z; `None` where it is not tracked.
     pub gaze: Option<Pose>,
     pub inset: Inset,
     pub local: Origins,
@@ -147,14 +147,14 @@ impl World {
         }
     }
 
-    /// Another display rate and its period.
+    /// Sets another display rate and its period.
     pub(crate) fn set_rate(&mut self, rate: f32) {
         self.rate = rate;
         self.period = period(rate);
     }
 }
 
-/// ns
+/// Period of a rate in Hz, ns.
 fn period(rate: f32) -> i64 {
     (1e9 / f64::from(rate)).round() as i64
 }

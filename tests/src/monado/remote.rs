@@ -35,7 +35,7 @@ pub struct Controller {
 }
 
 impl Default for Controller {
-    /// On, at the origin, with nothing pressed.
+    /// Switched on, at the origin, with nothing pressed.
     fn default() -> Self {
         Self {
             position: Vec3::ZERO,
@@ -50,7 +50,7 @@ impl Default for Controller {
     }
 }
 
-/// A hold on Monado's head and hands. What is set is sent by [`Remote::send`].
+/// A connection that sets Monado's head and hands. [`Remote::send`] sends the values.
 pub struct Remote {
     stream: TcpStream,
     packet: [u8; BYTES],
@@ -125,7 +125,7 @@ impl Remote {
         self.stream.write_all(&self.packet)
     }
 
-    /// Quaternion x y z w, then position.
+    /// Writes a pose: quaternion x y z w, then position.
     fn pose(&mut self, at: usize, position: Vec3, orientation: Quat) {
         self.floats(at, &orientation.to_array());
         self.floats(at + 16, &position.to_array());

@@ -81,7 +81,7 @@ pub(super) fn headset(
     let system = instance
         .system(xr::FormFactor::HEAD_MOUNTED_DISPLAY)
         .map_err(|answer| match answer {
-            // For now, as the specification says: it may be connected or wake at any time.
+            // For now, by the specification: it may be connected or wake at any time.
             xr::sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE => {
                 CallFailure::Fatal(HeadsetError::Asleep {
                     remedy:

@@ -2,10 +2,10 @@
 //! it, since a student could have diluted "acid" in a scene of the same name.
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::track::PRESET;
-use vitriol_experiment::{Action, Blame, Failure, Scenes, in_a_line};
 use vitriol_lesson::{Attempt, Lesson, Mode, Rubric};
 use vitriol_record::Uuid;
+use vitriol_run::track::PRESET;
+use vitriol_run::{Action, Blame, Failure, Scenes, in_a_line};
 use vitriol_sim::scene::Preset;
 use vitriol_xr::track::Track;
 

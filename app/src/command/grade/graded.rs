@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::output::write_over;
-use vitriol_experiment::{Blame, Failure};
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Attempt, Score};
+use vitriol_run::output::write_over;
+use vitriol_run::{Blame, Failure};
 
 use super::agreement::Tolerance;
 use super::expected::Asked;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::{Blame, Failure, in_a_line};
 use vitriol_lesson::{Criterion, What, spreadsheet_text};
+use vitriol_run::{Blame, Failure, in_a_line};
 
 use super::graded::{Found, Graded};
 use super::lesson::{Columns, OfLesson};

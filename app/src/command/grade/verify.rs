@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use vitriol_experiment::progress::Runs;
-use vitriol_experiment::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
 use vitriol_lesson::procedure::{Progress, Verdict as LessonVerdict};
 use vitriol_lesson::{Attempt, Score, Texts};
+use vitriol_run::progress::Runs;
+use vitriol_run::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{Track, TrackSource};
 
@@ -111,7 +111,7 @@ impl Verified {
         }
         let mut observer = Observer::new(plan.span, Vec::new(), bars.of(&name, plan.span));
         let mut source = TrackSource::new(plan.track);
-        vitriol_experiment::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
+        vitriol_run::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
         let outcome = experiment.outcome()?;
         let scene = (plan.name.as_str(), &plan.scenes);
         // What was not yet over where a recording breaks off is not in it.

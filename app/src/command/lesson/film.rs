@@ -5,13 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::Serialize;
-use vitriol_experiment::progress::Runs;
-use vitriol_experiment::{
+use vitriol_lesson::procedure::Verdict;
+use vitriol_lesson::{Attempt, Language, Lesson, Mode, Texts};
+use vitriol_run::progress::Runs;
+use vitriol_run::{
     Blame, Colour, Experiment, FILM_FPS, FILM_SIZE, Failure, Film, Format, Observer, Outcome,
     Setup, Subtitles, emit, in_a_line, output,
 };
-use vitriol_lesson::procedure::Verdict;
-use vitriol_lesson::{Attempt, Language, Lesson, Mode, Texts};
 use vitriol_shaders::Library;
 use vitriol_xr::track::{TrackSource, builtin, load};
 
@@ -19,7 +19,7 @@ use super::subtitles::{JudgedTrack, SubtitleWords, cues};
 use crate::cli::LessonArgs;
 use crate::command::course;
 use crate::command::plan::{Ask, ReplayPlan};
-use crate::texts::Texts as Around;
+use vitriol_run::texts::Texts as Around;
 
 /// How the film goes through a lesson, whatever its modes: each step is shown while it is to be done.
 const MODE: Mode = Mode::Guided;
@@ -92,7 +92,7 @@ pub fn make(
     let shown = Runs::new(format).of(&track, plan.span);
     let mut observer = Observer::new(plan.span, vec![film], shown);
     let mut source = TrackSource::new(plan.track);
-    vitriol_experiment::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
+    vitriol_run::replay(&mut source, experiment.as_mut(), plan.span, &mut observer)?;
     let outcome = experiment.outcome()?;
     let verdict = Verdict::retold(lesson, MODE, &outcome.progress).pop();
     let seconds = plan.span.seconds();

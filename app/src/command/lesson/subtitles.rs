@@ -1,10 +1,10 @@
 //! What a lesson's film says, and when: the title at its beginning, each step while it is to be done, what went wrong, the points.
 
-use vitriol_experiment::Cue;
 use vitriol_lesson::procedure::{LessonTexts, Progress, Verdict, Why};
 use vitriol_lesson::{Attempt, Texts};
+use vitriol_run::Cue;
 
-use crate::texts::SummaryTexts;
+use vitriol_run::texts::SummaryTexts;
 
 /// How long the title stands at the beginning, s. Our choice.
 const TITLE: f64 = 4.0;
@@ -179,9 +179,9 @@ fn notes(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Line> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::texts::Texts as Around;
     use vitriol_lesson::procedure::Procedure;
     use vitriol_lesson::{Language, Lesson, Mode};
+    use vitriol_run::texts::Texts as Around;
 
     fn said(lesson: &Lesson, seconds: f64, over: Option<f64>, language: Language) -> Vec<Cue> {
         let (texts, around) = (Texts::of(language).unwrap(), Around::of(language).unwrap());

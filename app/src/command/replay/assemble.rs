@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use vitriol_experiment::{
-    Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample,
-};
 use vitriol_lesson::Attempt;
+use vitriol_run::{Action, Colour, FILM_FPS, FILM_SIZE, Failure, Observations, Outcome, Sample};
 use vitriol_sim::scene::{Preset, Scene};
 
 use super::film_name;
@@ -14,7 +12,7 @@ use crate::report::{
     AskedStatement, FilmStatement, InstructorStatement, LAYOUT, Report, SceneStatement,
     SolverStatement,
 };
-use crate::texts::Texts;
+use vitriol_run::texts::Texts;
 
 /// The report, without what it says of the recording and without its score.
 ///

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::time::Duration;
 
-use vitriol_experiment::{Blame, Experiment, Failure, Format};
 use vitriol_lesson::Attempt;
 use vitriol_record::{Session, Timestamp};
+use vitriol_run::{Blame, Experiment, Failure, Format};
 use vitriol_xr::track::Track;
 
 use crate::cli::ReplayArgs;
 use crate::command::keeping::{self, Keeper, Kept, Sitting};
-use crate::live::{Live, Serving};
+use vitriol_live::{Live, Serving};
 
 /// The console of a run of the program, where `--live` asks for one.
 pub(super) struct ReplayConsole(Option<Serving>);

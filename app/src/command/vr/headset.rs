@@ -1,21 +1,21 @@
 //! The headset of a session: OpenXR's, where the build has it.
 
-use vitriol_experiment::device;
 use vitriol_gpu::Timestamps;
+use vitriol_run::device;
 use vitriol_xr::{OpenXr, OpenXrOptions};
 
-use crate::vr::blame::blame;
-use crate::vr::foveating::Foveating;
-use crate::vr::panel::PANEL;
+use vitriol_session::blame::blame;
+use vitriol_session::foveating::Foveating;
+use vitriol_session::panel::PANEL;
 
 /// Opens it, and waits for one that is not there yet.
 ///
 /// # Errors
-/// [`vitriol_experiment::Failure::NoDevice`] without runtime or device.
+/// [`vitriol_run::Failure::NoDevice`] without runtime or device.
 pub(super) fn open(
     foveation: Option<Foveating>,
     timestamps: Timestamps,
-) -> Result<OpenXr, vitriol_experiment::Failure> {
+) -> Result<OpenXr, vitriol_run::Failure> {
     let opened = OpenXrOptions {
         gpu: vitriol_gpu::Options {
             timestamps,

@@ -3,21 +3,22 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use vitriol_experiment::units::{grouped, three_digits};
-use vitriol_experiment::{Blame, DeviceStatement, Failure, device};
 use vitriol_lesson::Attempt;
 use vitriol_lesson::procedure::Verdict;
+use vitriol_run::units::{grouped, three_digits};
+use vitriol_run::{Blame, DeviceStatement, Failure, device};
 
 use crate::command::keeping::Kept;
-use crate::live::WatchReport;
-use crate::vr::first_minute::FirstMinuteReport;
-use crate::vr::foveating::Foveating;
-use crate::vr::session::{
+use vitriol_live::WatchReport;
+use vitriol_run::Spread;
+use vitriol_run::run::RecordingStatus;
+use vitriol_session::first_minute::FirstMinuteReport;
+use vitriol_session::foveating::Foveating;
+use vitriol_session::session::{
     Contacts, FramesWith, GovernorReport, SessionOutcome, SoundReport, Spilt, WARM_UP,
 };
-use crate::vr::stand_in::{Ready, StandInSpec};
-use crate::vr::tally::{FramesReport, Holdings, Spread, WaitsReport};
-use vitriol_experiment::run::RecordingStatus;
+use vitriol_session::stand_in::{Ready, StandInSpec};
+use vitriol_session::tally::{FramesReport, Holdings, WaitsReport};
 
 /// What `vitriol vr` prints at the session's end.
 #[derive(Debug, Serialize)]

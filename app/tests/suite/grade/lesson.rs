@@ -7,9 +7,9 @@ use std::path::Path;
 use vitriol::cli::{Cli, Command};
 use vitriol::command::grade::{Status, Verdict};
 use vitriol::command::replay;
-use vitriol_experiment::{Failure, Format, Setup};
 use vitriol_lesson::procedure::{Kind, Progress, Why};
 use vitriol_lesson::{Lesson, Mode};
+use vitriol_run::{Failure, Format, Setup};
 use vitriol_xr::track::Track;
 
 use super::{DEVICE, Made, Toy, VITRIOL, events, graded, line, nobody, put, read, recording};

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use vitriol::cli::{Cli, Command};
 use vitriol::command::grade::{Class, Line, grade};
-use vitriol_experiment::{
-    Counters, DeviceStatement, Experiment, Failure, Format, Heard, Judging, MassByPlace, Outcome,
-    Sample, Setup, Taken,
-};
 use vitriol_lesson::procedure::Progress;
 use vitriol_lesson::{Cause, Content, Ending, Event, Incident, Pour, What};
 use vitriol_render::PassPicture;
+use vitriol_run::{
+    Counters, DeviceStatement, Experiment, Failure, Format, Heard, Judging, MassByPlace, Outcome,
+    Sample, Setup, Taken,
+};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::PoseFrame;
 use vitriol_xr::track::{Existing, Track, save};
@@ -74,7 +74,7 @@ pub(super) fn events(spilt_ml: f64) -> Vec<Event> {
 
 /// A recording of half a second that says this of what happened.
 pub(super) fn recording(events: &[Event]) -> Track {
-    let mut track = vitriol_experiment::track::load("two-flasks").unwrap();
+    let mut track = vitriol_run::track::load("two-flasks").unwrap();
     track.frames.truncate(46);
     track.stage_from_flasks.truncate(46);
     let text = Scene::builtin_text(SCENE).unwrap();

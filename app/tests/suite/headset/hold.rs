@@ -1,6 +1,6 @@
 //! Long sessions, and controllers that fall asleep.
 
-use vitriol::vr::session::WARM_UP;
+use vitriol_session::session::WARM_UP;
 use vitriol_tests::monado;
 use vitriol_xr::Side;
 use vitriol_xr::track::load;

@@ -2,7 +2,7 @@
 //! elsewhere.
 
 use glam::{Quat, Vec3};
-use vitriol_experiment::track::key;
+use vitriol_run::track::key;
 use vitriol_tests::mock::{self, Change, HandState, Lost, Mock, SpaceKind};
 use vitriol_xr::track::load;
 use vitriol_xr::{Hand, PoseFrame, Side};

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use vitriol_experiment::track::key;
-use vitriol_experiment::{Scenes, stage};
 use vitriol_gpu::{Gpu, Options, PlainLoader};
+use vitriol_run::track::key;
+use vitriol_run::{Scenes, stage};
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_sim::world::{StepInput, World};

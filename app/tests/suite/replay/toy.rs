@@ -7,12 +7,12 @@ use std::path::Path;
 use vitriol::cli::{Cli, Command};
 use vitriol::command::replay::run;
 use vitriol::report::Report;
-use vitriol_experiment::{
+use vitriol_lesson::{Cause, Ending, Event, Incident, What};
+use vitriol_render::PassPicture;
+use vitriol_run::{
     Action, Blame, Counters, DeviceStatement, Experiment, Failure, Format, Heard, HeatSample,
     Judging, LedgerSample, MassByPlace, Outcome, Sample, Taken,
 };
-use vitriol_lesson::{Cause, Ending, Event, Incident, What};
-use vitriol_render::PassPicture;
 use vitriol_xr::PoseFrame;
 
 /// Pours 200 g from one flask into another along a smooth curve; every number

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use crate::vr::common::{Trouble, Worn, hash, heard, nobody, options, session_with};
 use crate::vr::loss::replayed;
-use vitriol::vr::session::SessionOutcome;
-use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Cause, What};
+use vitriol_run::track::key;
+use vitriol_session::session::SessionOutcome;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
 use vitriol_xr::track::{Keyframes, Track};

@@ -6,10 +6,10 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
 
 use serde_json::Value;
-use vitriol::live::{Console, start, student};
-use vitriol::vr::session::Options;
 use vitriol_console::Hub;
-use vitriol_experiment::Action;
+use vitriol_live::{Console, start, student};
+use vitriol_run::Action;
+use vitriol_session::session::Options;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::devtools::Tab;
 use vitriol_tests::gpu;

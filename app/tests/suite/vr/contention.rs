@@ -3,11 +3,11 @@
 use std::sync::mpsc::{Sender, channel};
 
 use crate::vr::common::{Trouble, Worn, heard, options, pour, session_with};
-use vitriol::vr::decision::Decision;
-use vitriol::vr::session::WARM_UP;
-use vitriol::vr::stand_in::StandIn;
-use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::Action;
+use vitriol_run::Action;
+use vitriol_session::decision::Decision;
+use vitriol_session::session::WARM_UP;
+use vitriol_session::stand_in::StandIn;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::Turn;
 
@@ -47,7 +47,7 @@ fn frames_beside_a_build_are_reported() {
     options.frames = Some(1_000_000);
     let (outcome, _) = session_with(&mut headset, options, decisions);
     let tally = &outcome.tally;
-    let report = |frames: &vitriol::vr::tally::Frames| {
+    let report = |frames: &vitriol_session::tally::Frames| {
         let report = frames.report().unwrap();
         serde_json::to_value(report).unwrap()
     };

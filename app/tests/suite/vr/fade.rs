@@ -2,10 +2,10 @@
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use vitriol::vr::decision::Decision;
-use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::Action;
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_run::Action;
+use vitriol_session::decision::Decision;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
 use vitriol_xr::track::Track;

@@ -7,9 +7,9 @@ use std::path::Path;
 use std::rc::Rc;
 
 use glam::Vec3;
-use vitriol::vr::session::SessionOutcome;
-use vitriol::vr::stand_in::StandIn;
 use vitriol_gpu::{Gpu, QueueKind};
+use vitriol_session::session::SessionOutcome;
+use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Track;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose, Turn, View};

@@ -1,8 +1,8 @@
 //! A session whose pictures are sharp about the lenses' axes, beside one whose are everywhere.
 
 use glam::{Quat, Vec3};
-use vitriol::vr::foveating::Foveating;
 use vitriol_gpu::Gpu;
+use vitriol_session::foveating::Foveating;
 use vitriol_tests::gpu;
 use vitriol_xr::Pose;
 

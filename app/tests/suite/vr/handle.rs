@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use glam::Vec3;
-use vitriol::vr::session::SessionOutcome;
-use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
+use vitriol_run::track::key;
+use vitriol_session::session::SessionOutcome;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Keyframes, Track};
 

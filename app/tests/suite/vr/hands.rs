@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::vr::common::{Calm, Trouble, Worn, hash, nobody, options, pour, session, session_with};
 use crate::vr::loss::replayed;
 use glam::{Quat, Vec3};
-use vitriol::vr::latch::Grip;
+use vitriol_session::latch::Grip;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{Hand, HeadsetFrame, Joints, Pose};

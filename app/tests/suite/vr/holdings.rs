@@ -1,7 +1,7 @@
 //! What a session holds of memory and of open files does not grow with its frames. `headset::hold` has longer ones, of the program.
 
-use vitriol::vr::session::WARM_UP;
-use vitriol::vr::tally::Holdings;
+use vitriol_session::session::WARM_UP;
+use vitriol_session::tally::Holdings;
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
 

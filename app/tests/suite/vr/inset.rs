@@ -1,8 +1,8 @@
 //! A session whose headset has a second pair of pictures over a part of the first (quad views).
 
-use vitriol::vr::foveating::Foveating;
-use vitriol::vr::session::SessionOutcome;
 use vitriol_gpu::{Gpu, Image, ImageDesc, QueueKind, vk};
+use vitriol_session::foveating::Foveating;
+use vitriol_session::session::SessionOutcome;
 use vitriol_tests::gpu;
 use vitriol_xr::{Fov, Inset, InsetTargets, Pose, View, depth_extent};
 

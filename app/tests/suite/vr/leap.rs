@@ -2,9 +2,9 @@
 //! off and on again elsewhere, or is found again by another session. Nothing is spilt, and the recording replays.
 
 use glam::{Quat, Vec3};
-use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::track::key;
 use vitriol_gpu::Gpu;
+use vitriol_run::track::key;
+use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pause, Pose, PoseFrame, Turn};
 

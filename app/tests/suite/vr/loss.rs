@@ -5,11 +5,11 @@ use crate::vr::common::{
     session_with,
 };
 use std::sync::Arc;
-use vitriol::vr::session::Session;
-use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_device};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
+use vitriol_run::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_device};
+use vitriol_session::session::Session;
+use vitriol_session::stand_in::StandIn;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
@@ -75,7 +75,7 @@ fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, O
         .map(|(_, json)| serde_json::from_str(json).unwrap())
         .collect();
     let mut source = TrackSource::new(track);
-    vitriol_experiment::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
+    vitriol_run::replay(&mut source, experiment.as_mut(), span, &mut observer).unwrap();
     let outcome = experiment.outcome().unwrap();
     assert!(!recorded.is_empty());
     (recorded, outcome)

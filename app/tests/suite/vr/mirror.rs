@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use crate::vr::common::{Trouble, Worn, hash, nobody, options, pour, scene};
 use crate::vr::loss::replayed;
-use vitriol::vr::mirror;
-use vitriol::vr::session::Session;
-use vitriol::vr::stand_in::StandIn;
-use vitriol_experiment::track::key;
 use vitriol_gpu::QueueKind;
+use vitriol_run::track::key;
+use vitriol_session::mirror;
+use vitriol_session::session::Session;
+use vitriol_session::stand_in::StandIn;
 use vitriol_tests::gpu;
 use vitriol_tests::screen::{self, Screen, Window};
 use vitriol_tests::wait::{PATIENCE, until};

@@ -4,11 +4,11 @@ use crate::vr::common::{
     Calm, Worn, apart, carried, hash, nobody, options, pour, session, session_with,
 };
 use std::path::Path;
-use vitriol::vr::clock::MOST_STEPS;
-use vitriol::vr::session::Course;
-use vitriol::vr::stand_in::EPOCH;
 use vitriol_lesson::procedure::Verdict;
 use vitriol_lesson::{Language, Lesson, Mode};
+use vitriol_session::clock::MOST_STEPS;
+use vitriol_session::session::Course;
+use vitriol_session::stand_in::EPOCH;
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;
 use vitriol_sim::pose::Pose;

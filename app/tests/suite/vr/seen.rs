@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use glam::{Quat, Vec3};
-use vitriol::vr::handle::middles;
-use vitriol::vr::panel::{PANEL, SIZE, scene_from_panel};
 use vitriol_gpu::{Gpu, Image, QueueKind};
+use vitriol_session::handle::middles;
+use vitriol_session::panel::{PANEL, SIZE, scene_from_panel};
 use vitriol_sim::scene::{PictureRoom, Scene};
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;

@@ -8,12 +8,12 @@ use crate::vr::common::{Calm, Trouble, Worn, hash, heard, nobody, options, sessi
 use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
 use glam::{Quat, Vec3};
-use vitriol::vr::decision::Decision;
-use vitriol::vr::session::Contacts;
-use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::{Action, Scenes};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Attempt, Cause, Incident, Skin as SkinOf, Surface, What};
+use vitriol_run::{Action, Scenes};
+use vitriol_session::decision::Decision;
+use vitriol_session::session::Contacts;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{HeadsetFrame, Pose};

@@ -5,10 +5,10 @@ use std::sync::mpsc::{Sender, channel};
 use crate::vr::common::{Trouble, Worn, hash, heard, options, pour, session_with};
 use crate::vr::loss::replayed;
 use glam::{Quat, Vec3};
-use vitriol::vr::decision::Decision;
-use vitriol::vr::workbench::TAKEN_UP;
-use vitriol_experiment::Action;
-use vitriol_experiment::track::key;
+use vitriol_run::Action;
+use vitriol_run::track::key;
+use vitriol_session::decision::Decision;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::{HeadsetFrame, Pose};
 

@@ -33,8 +33,7 @@ fn eye(x: f32) -> Rays {
     Rays::new(&view, [200, 180], 1.0)
 }
 
-/// A picture by the depth of what each ray hits and its way through it, as view
-/// depths.
+/// A picture from the depth at which each ray hits and its way through the liquid, as view depths.
 fn draw(rays: &Rays, hit: impl Fn(DVec3, DVec3) -> Option<(f64, f64)>) -> Picture {
     let [width, height] = rays.size();
     let hits: Vec<_> = (0..width * height)

@@ -7,7 +7,7 @@ use crate::chemistry::thomsen;
 use crate::parameters::Parameters;
 use crate::pose::Pose;
 use crate::reference::Reference;
-use crate::reference::chemistry::{ReferenceChemistry, DilutionLaw, ReferencePaper};
+use crate::reference::chemistry::{DilutionLaw, ReferenceChemistry, ReferencePaper};
 use crate::reference::dilution::{Weight, diffuse};
 use crate::scene::Scene;
 use glam::DVec3;
@@ -140,7 +140,8 @@ fn heat_in_the_glass_is_the_enthalpy_of_dilution() {
     let after = paper(&reference);
     let drift = sum(&after.acid) / sum(&before.acid) - 1.0;
     assert!(drift.abs() < 1e-12, "{drift}");
-    let heat = |paper: &ReferencePaper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
+    let heat =
+        |paper: &ReferencePaper| -> f64 { paper.acid.iter().map(|&c| law.heat.heat(c)).sum() };
     let released = heat(after) - heat(&before);
     let warming = (sum(&after.temperatures) - sum(&before.temperatures)) * law.heat.heat_capacity();
     assert!(released > 0.0);
@@ -274,5 +275,7 @@ fn scenes_of_the_paper_start_with_their_chemistry() {
     if let Some(paper) = &mut scene.paper {
         paper.T_B = Some(-5.0);
     }
-    assert!(ReferencePaper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err());
+    assert!(
+        ReferencePaper::of_scene(&scene, None, Diffusion::default(), Boiling::default()).is_err()
+    );
 }

@@ -1,0 +1,340 @@
+//! The students and pages that are connected, and the messages between them. Everything here is short: a lock is held for no longer than a
+//! walk through the class takes, and no frame ever waits for it.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
+
+use axum::body::Bytes;
+use axum::extract::ws::Utf8Bytes;
+
+use super::mailbox::{Load, Looks, Mailbox, text};
+use crate::auth::SessionId;
+use crate::bounded::Text;
+use crate::command::{Command, Order};
+use crate::lock;
+use crate::picture::{Codec, EncodedPicture};
+use crate::port::{Inbox, Wanted};
+use crate::student::{NAME, State, Student};
+use crate::wire::{Brief, FromPage, ToPage};
+
+/// Students at a time. Our choice: more than a class has.
+pub(super) const STUDENTS: usize = 64;
+
+/// A student's connection: the student's number, and the connection's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Seat {
+    student: u32,
+    connection: u64,
+}
+
+struct Entry {
+    instance: Text<NAME>,
+    is: Student,
+    inbox: Arc<Inbox>,
+    /// `None` while it is not connected.
+    connection: Option<u64>,
+    state: Option<State>,
+    ordered: u64,
+}
+
+struct Page {
+    session: SessionId,
+    looks: Looks,
+    mailbox: Arc<Mailbox>,
+}
+
+#[derive(Default)]
+struct Inner {
+    students: BTreeMap<u32, Entry>,
+    pages: BTreeMap<u64, Page>,
+    /// The last number given to a student, to a connection and to a page.
+    numbers: [u64; 3],
+    class: Utf8Bytes,
+}
+
+/// The students and pages of a hub; routes states, pictures and orders between them.
+#[derive(Default)]
+pub(super) struct Registry(Mutex<Inner>);
+
+impl Registry {
+    /// Registers a student's program that has connected, or has connected again; `None` where there are too many.
+    pub fn join(&self, instance: Text<NAME>, is: Student, inbox: Arc<Inbox>) -> Option<Seat> {
+        let inner = &mut *lock(&self.0);
+        let known = inner.students.iter();
+        let known = known.filter(|(_, entry)| entry.instance == instance);
+        let known = known.map(|(student, _)| *student).next();
+        if known.is_none() && inner.students.len() >= STUDENTS {
+            // A student that is not connected makes place.
+            let mut away = inner
+                .students
+                .iter()
+                .filter(|(_, e)| e.connection.is_none());
+            let gone = away.next().map(|(student, _)| *student)?;
+            inner.students.remove(&gone);
+        }
+        inner.numbers[1] += 1;
+        let connection = inner.numbers[1];
+        let student = known.unwrap_or_else(|| {
+            inner.numbers[0] += 1;
+            inner.numbers[0] as u32
+        });
+        let entry = Entry {
+            instance,
+            is,
+            inbox,
+            connection: Some(connection),
+            state: None,
+            // A program's states have the number of the last order that it did, over all its connections.
+            ordered: inner.students.get(&student).map_or(0, |e| e.ordered),
+        };
+        inner.students.insert(student, entry);
+        inner.open_again(student);
+        inner.settle(student);
+        Some(Seat {
+            student,
+            connection,
+        })
+    }
+
+    /// Marks a student's program as not connected.
+    pub fn left(&self, seat: Seat) {
+        let inner = &mut *lock(&self.0);
+        if let Some(entry) = inner.at(seat) {
+            entry.connection = None;
+        }
+    }
+
+    /// Takes a student's state. Returns whether this is still the student's present connection.
+    pub fn state(&self, seat: Seat, state: State) -> bool {
+        let inner = &mut *lock(&self.0);
+        let Some(entry) = inner.at(seat) else {
+            return false;
+        };
+        entry.state = Some(state.clone());
+        let student = seat.student;
+        let state = Box::new(state);
+        let mut said = None;
+        for page in inner.pages.values() {
+            if page.looks.student == Some(student) {
+                let said = said.get_or_insert_with(|| {
+                    let state = state.clone();
+                    text(&ToPage::State { student, state })
+                });
+                page.mailbox.state(said.clone());
+            }
+        }
+        true
+    }
+
+    /// Takes a picture of a student's view; `gap`: one of H.264 is missing before it. Returns whether this is still the student's present
+    /// connection.
+    pub fn picture(&self, seat: Seat, gap: bool, picture: &EncodedPicture) -> bool {
+        let inner = &mut *lock(&self.0);
+        if inner.at(seat).is_none() {
+            return false;
+        }
+        let mut message = None;
+        let mut needs_key = false;
+        for page in inner.pages.values() {
+            let looks = Looks {
+                student: Some(seat.student),
+                codec: Some(picture.codec),
+            };
+            if page.looks == looks {
+                let message = message.get_or_insert_with(|| Bytes::from(picture.to_message()));
+                needs_key |= page.mailbox.picture(gap, picture, message.clone());
+            }
+        }
+        if needs_key && let Some(entry) = inner.at(seat) {
+            entry.inbox.ask_key();
+        }
+        true
+    }
+
+    /// Registers a page.
+    pub fn open(&self, session: SessionId) -> (u64, Arc<Mailbox>) {
+        let inner = &mut *lock(&self.0);
+        inner.numbers[2] += 1;
+        let mailbox = Arc::new(Mailbox::default());
+        mailbox.class(inner.class());
+        let page = Page {
+            session,
+            looks: Looks::default(),
+            mailbox: mailbox.clone(),
+        };
+        inner.pages.insert(inner.numbers[2], page);
+        (inner.numbers[2], mailbox)
+    }
+
+    /// Removes a page.
+    pub fn close(&self, page: u64) {
+        let inner = &mut *lock(&self.0);
+        if let Some(page) = inner.pages.remove(&page)
+            && let Some(student) = page.looks.student
+        {
+            inner.settle(student);
+        }
+    }
+
+    /// Handles a message of a page, other than [`FromPage::Invite`].
+    pub fn said(&self, page: u64, said: FromPage) {
+        let inner = &mut *lock(&self.0);
+        let Some(looks) = inner.pages.get(&page).map(|page| page.looks) else {
+            return;
+        };
+        match said {
+            FromPage::Open { student } => inner.looks(page, Some(student), looks.codec),
+            FromPage::Close {} => inner.looks(page, None, looks.codec),
+            FromPage::Pictures { codec } => inner.looks(page, looks.student, codec),
+            FromPage::Lost {} => inner.looks(page, looks.student, looks.codec),
+            FromPage::Order {
+                echo,
+                student,
+                command,
+            } => inner.order(page, echo, student, command),
+            FromPage::Invite {} => {}
+        }
+    }
+
+    /// Sends the class to all pages if it has changed, and closes those whose session is not open any more.
+    pub fn tick(&self, is_open: impl Fn(SessionId) -> bool) {
+        let inner = &mut *lock(&self.0);
+        let class = inner.class();
+        let changed = class != inner.class;
+        for page in inner.pages.values() {
+            if !is_open(page.session) {
+                page.mailbox.close();
+            } else if changed {
+                page.mailbox.class(class.clone());
+            }
+        }
+        inner.class = class;
+    }
+
+    /// Number of students, number of pages, and the load of each page.
+    pub fn counts(&self) -> (usize, usize, Vec<Load>) {
+        let inner = lock(&self.0);
+        let here = inner.students.values().filter(|e| e.connection.is_some());
+        let loads: Vec<_> = inner
+            .pages
+            .values()
+            .map(|page| page.mailbox.load())
+            .collect();
+        (here.count(), loads.len(), loads)
+    }
+}
+
+impl Inner {
+    /// The entry of a connection that has not been superseded.
+    fn at(&mut self, seat: Seat) -> Option<&mut Entry> {
+        let entry = self.students.get_mut(&seat.student)?;
+        (entry.connection == Some(seat.connection)).then_some(entry)
+    }
+
+    fn class(&self) -> Utf8Bytes {
+        let brief = |(student, entry): (&u32, &Entry)| {
+            let here = entry.connection.is_some();
+            Brief::new(*student, entry.is.name.clone(), here, entry.state.as_ref())
+        };
+        text(&ToPage::Class {
+            students: self.students.iter().map(brief).collect(),
+        })
+    }
+
+    /// Sets which pictures of a student are wanted, by the pages that show it.
+    fn settle(&self, student: u32) {
+        let Some(entry) = self.students.get(&student) else {
+            return;
+        };
+        let looked_at = |codec| {
+            let looks = Looks {
+                student: Some(student),
+                codec: Some(codec),
+            };
+            self.pages.values().any(|page| page.looks == looks)
+        };
+        entry.inbox.want(Wanted {
+            h264: looked_at(Codec::H264),
+            jpeg: looked_at(Codec::Jpeg),
+        });
+    }
+
+    /// Sets the student and the pictures that a page shows from now on.
+    fn looks(&mut self, page: u64, student: Option<u32>, codec: Option<Codec>) {
+        let Some(page) = self.pages.get_mut(&page) else {
+            return;
+        };
+        let before = std::mem::replace(&mut page.looks, Looks { student, codec });
+        page.mailbox.restart();
+        let entry = student.and_then(|student| Some((student, self.students.get(&student)?)));
+        if let Some((student, entry)) = entry {
+            if before.student != Some(student) {
+                page.mailbox.answer(&opened(student, entry));
+            }
+            if let Some(state) = entry.state.clone() {
+                let state = Box::new(state);
+                page.mailbox.state(text(&ToPage::State { student, state }));
+            }
+            if codec == Some(Codec::H264) {
+                entry.inbox.ask_key();
+            }
+        } else if student.is_some() {
+            page.looks.student = None;
+            page.mailbox.answer(&ToPage::Refused {
+                echo: None,
+                why: "there is no such student any more",
+            });
+        }
+        for student in [before.student, student].into_iter().flatten() {
+            self.settle(student);
+        }
+    }
+
+    /// Opens a student that has connected again anew: it has a new stream, and may be another version.
+    fn open_again(&self, student: u32) {
+        let Some(entry) = self.students.get(&student) else {
+            return;
+        };
+        for page in self.pages.values() {
+            if page.looks.student == Some(student) {
+                page.mailbox.restart();
+                page.mailbox.answer(&opened(student, entry));
+                entry.inbox.ask_key();
+            }
+        }
+    }
+
+    fn order(&mut self, page: u64, echo: u32, student: u32, command: Command) {
+        let entry = self.students.get_mut(&student);
+        let answer = match entry.filter(|entry| entry.connection.is_some()) {
+            None => Err("this student is not connected"),
+            Some(entry) => command.check(&entry.is).and_then(|()| {
+                // A program may have had orders of another hub before.
+                let done = entry.state.as_ref().map_or(0, |state| state.done);
+                let number = entry.ordered.max(done).saturating_add(1);
+                let order = Order { number, command };
+                let queued = entry.inbox.order(order);
+                queued.map_err(|_| "the student's program takes no orders at the moment")?;
+                entry.ordered = number;
+                Ok(number)
+            }),
+        };
+        let answer = match answer {
+            Ok(number) => ToPage::Ordered { echo, number },
+            Err(why) => ToPage::Refused {
+                echo: Some(echo),
+                why,
+            },
+        };
+        if let Some(page) = self.pages.get(&page) {
+            page.mailbox.answer(&answer);
+        }
+    }
+}
+
+fn opened(student: u32, entry: &Entry) -> ToPage {
+    ToPage::Opened {
+        student,
+        is: entry.is.clone(),
+    }
+}

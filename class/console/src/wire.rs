@@ -1,0 +1,196 @@
+//! Messages on sockets: between page and hub, and between student's program and hub. JSON, each message bounded in length before it is
+//! parsed and in its parts while it is.
+
+use serde::{Deserialize, Serialize};
+
+use crate::bounded::{List, Text};
+use crate::command::{Command, Order};
+use crate::picture::Codec;
+use crate::port::ORDERS;
+use crate::student::{NAME, SENTENCE, State, Student};
+
+/// Version of the messages between student's program and hub. Another one is refused.
+pub const PROTOCOL: u32 = 1;
+/// Most bytes of a message from a page. The longest valid one is a message of [`MESSAGE`](crate::MESSAGE) characters, each escaped as 12
+/// bytes.
+pub const MOST_FROM_PAGE: usize = 4 << 10;
+/// Most bytes of a text from a student's program. A state in which every field is as long as it can be has fewer.
+pub const MOST_STATE: usize = 256 << 10;
+
+/// A message from a page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "say", rename_all = "kebab-case", deny_unknown_fields)]
+pub(crate) enum FromPage {
+    /// Show this student's state and pictures from now on.
+    Open {
+        /// The student's number.
+        student: u32,
+    },
+    /// Show no student.
+    Close {},
+    /// Send pictures of this kind, or none: the mirror is hidden.
+    Pictures {
+        /// The kind.
+        codec: Option<Codec>,
+    },
+    /// A picture was lost or could not be decoded: go on with a key frame.
+    Lost {},
+    /// An order.
+    Order {
+        /// The page's own number of it.
+        echo: u32,
+        /// The student's number.
+        student: u32,
+        /// The command.
+        command: Command,
+    },
+    /// Make a new code, for another browser.
+    Invite {},
+}
+
+/// A message to a page.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "say", rename_all = "kebab-case")]
+pub(crate) enum ToPage {
+    /// All students at a glance.
+    Class {
+        /// In the order in which they connected.
+        students: Vec<Brief>,
+    },
+    /// From here on, state and pictures are of this student.
+    Opened {
+        /// The student's number.
+        student: u32,
+        /// The student's program.
+        is: Student,
+    },
+    /// A state of the opened student.
+    State {
+        /// The student's number.
+        student: u32,
+        /// The state.
+        state: Box<State>,
+    },
+    /// An order went to the student.
+    Ordered {
+        /// The page's own number of it.
+        echo: u32,
+        /// The hub's number of it, which a state has once it has taken effect.
+        number: u64,
+    },
+    /// An order or a message was refused.
+    Refused {
+        /// The page's own number, if an order was refused.
+        echo: Option<u32>,
+        /// The reason.
+        why: &'static str,
+    },
+    /// A new code.
+    Invited {
+        /// The address that has the code.
+        address: String,
+        /// The code alone.
+        code: String,
+        /// The address as a QR code: rows of `#` and blanks.
+        rows: Vec<String>,
+    },
+}
+
+/// A student at a glance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Brief {
+    /// The student's number.
+    pub student: u32,
+    /// The student's name.
+    pub name: Text<NAME>,
+    /// Whether its program is connected.
+    pub here: bool,
+    /// The scene's title.
+    pub scene: Text<NAME>,
+    /// The step of the procedure: its number, and the number of steps.
+    pub step: Option<[u16; 2]>,
+    /// Temperature of the hottest particle, °C.
+    pub hottest_c: Option<f64>,
+    /// Number of incidents.
+    pub incidents: u32,
+    /// The last incident.
+    pub last: Option<Text<SENTENCE>>,
+    /// Whether simulated time is held.
+    pub paused: bool,
+}
+
+impl Brief {
+    /// A student in this state, at a glance.
+    pub fn new(student: u32, name: Text<NAME>, here: bool, state: Option<&State>) -> Self {
+        let hottest = |state: &State| {
+            let flasks = state.readings.flasks.iter();
+            flasks.filter_map(|flask| flask.hottest_c).reduce(f64::max)
+        };
+        Self {
+            student,
+            name,
+            here,
+            scene: state.map(|state| state.scene.clone()).unwrap_or_default(),
+            step: state
+                .and_then(|state| state.step.as_ref())
+                .map(|step| [step.number, step.of]),
+            // A tenth is what people read, and an unchanged class is not sent again.
+            hottest_c: state
+                .and_then(hottest)
+                .map(|hottest| (10.0 * hottest).round() / 10.0),
+            incidents: state.map_or(0, |state| state.incidents_so_far),
+            last: state
+                .and_then(|state| state.incidents.last())
+                .map(|incident| incident.text.clone()),
+            paused: state.is_some_and(|state| state.controls.paused),
+        }
+    }
+}
+
+/// A message from a student's program, beside pictures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "say", rename_all = "kebab-case", deny_unknown_fields)]
+pub(crate) enum FromStudent {
+    /// The first message.
+    Hello {
+        /// [`PROTOCOL`].
+        protocol: u32,
+        /// Random number of the program's run: a program whose connection was cut off is recognised by it.
+        instance: Text<NAME>,
+        /// The program's description.
+        student: Student,
+    },
+    /// A state of the program.
+    State {
+        /// The state.
+        state: Box<State>,
+    },
+}
+
+/// A message to a student's program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "say", rename_all = "kebab-case", deny_unknown_fields)]
+pub(crate) enum ToStudent {
+    /// Orders, oldest first.
+    Orders {
+        /// The orders.
+        orders: List<Order, ORDERS>,
+    },
+    /// Which kinds of pictures some page shows.
+    Wanted {
+        /// Whether pictures in H.264 are wanted.
+        h264: bool,
+        /// Whether pictures in JPEG are wanted.
+        jpeg: bool,
+        /// Whether the next picture in H.264 must be a key frame.
+        key: bool,
+    },
+}
+
+/// Parses an untrusted text of at most `most` bytes as a message; `None` if it is longer or anything else.
+pub(crate) fn read<'a, T: Deserialize<'a>>(text: &'a str, most: usize) -> Option<T> {
+    if text.len() > most {
+        return None;
+    }
+    serde_json::from_str(text).ok()
+}

@@ -1,0 +1,13 @@
+//! The hub against real browsers and against clients that behave as no browser would.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod client;
+mod crowd;
+#[cfg(target_os = "linux")]
+mod distant;
+#[cfg(target_os = "linux")]
+mod page;
+#[cfg(target_os = "linux")]
+mod proxy;
+mod security;
+mod student;

@@ -1,0 +1,162 @@
+//! Codes pictures for the console on a thread of its own: a picture takes longer than a frame may.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use vitriol_console::{Codec, EncodedPicture, Port};
+use vitriol_run::{Blame, Failure, H264};
+
+use vitriol_gpu::Buffer;
+
+/// Longest side of the view, pixels. Our choice: the panel's text is read in it, and a core codes one in a tenth of its time.
+pub const VIEW_SIDE: u32 = 720;
+
+/// Pictures a second at most. Our choice: a pour takes half a second.
+pub const VIEW_FPS: u32 = 30;
+
+/// A picture to be coded.
+pub enum RawPicture {
+    /// 0x00RRGGBB, rows from the top, in memory that the device has written and the host reads, and its width and height.
+    Device(Arc<Buffer>, [u32; 2]),
+    /// RGBA, rows from the top, and its width and height.
+    Rgba(Vec<u8>, [u32; 2]),
+}
+
+/// See the module. It ends when it is dropped.
+pub struct Coder {
+    port: Port,
+    /// One waits at most: what is older than that is not live.
+    pictures: Option<SyncSender<(RawPicture, u64)>>,
+    thread: Option<std::thread::JoinHandle<()>>,
+}
+
+impl Coder {
+    /// For who looks at that port's student.
+    ///
+    /// # Errors
+    /// Where no thread can be started.
+    pub fn new(port: &Port) -> Result<Self, Failure> {
+        let (pictures, queue) = sync_channel(1);
+        let own = port.clone();
+        let thread = std::thread::Builder::new()
+            .name("console-view".to_owned())
+            .spawn(move || code_all(&own, &queue))
+            .other()?;
+        Ok(Self {
+            port: port.clone(),
+            pictures: Some(pictures),
+            thread: Some(thread),
+        })
+    }
+
+    /// Whether somebody looks.
+    pub fn is_wanted(&self) -> bool {
+        let wanted = self.port.wanted();
+        wanted.h264 || wanted.jpeg
+    }
+
+    /// Hands in the picture of that time (µs) since the view began; one that comes too soon after another is left out. Does not wait.
+    pub fn give(&self, picture: RawPicture, time_us: u64) {
+        if let Some(pictures) = &self.pictures {
+            let _ = pictures.try_send((picture, time_us));
+        }
+    }
+}
+
+impl Drop for Coder {
+    fn drop(&mut self) {
+        self.pictures = None;
+        if let Some(thread) = self.thread.take() {
+            // One that panicked has said so itself.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn code_all(port: &Port, queue: &Receiver<(RawPicture, u64)>) {
+    let mut coding = Coding::default();
+    let mut told = false;
+    for (picture, time_us) in queue {
+        if let Err(failure) = coding.code(port, &picture, time_us)
+            && !std::mem::replace(&mut told, true)
+        {
+            tracing::warn!("the console's view stands still: {failure}");
+        }
+    }
+}
+
+#[derive(Default)]
+struct Coding {
+    rgba: Vec<u8>,
+    /// For pictures of that size.
+    encoder: Option<([u32; 2], H264)>,
+}
+
+impl Coding {
+    fn code(&mut self, port: &Port, picture: &RawPicture, time_us: u64) -> Result<(), Failure> {
+        let wanted = port.wanted();
+        if !wanted.h264 && !wanted.jpeg {
+            return Ok(());
+        }
+        let Some(size) = self.unpack(picture)? else {
+            return Ok(());
+        };
+        let sides = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
+        if wanted.h264 {
+            let (coded_size, mut encoder) = match self.encoder.take() {
+                Some(kept) if kept.0 == size => kept,
+                _ => (size, H264::live(size, VIEW_FPS).other()?),
+            };
+            if port.take_key_request() {
+                encoder.begin_anew();
+            }
+            if let Some(coded) = encoder.encode(&self.rgba).other()? {
+                port.picture(Arc::new(EncodedPicture {
+                    codec: Codec::H264,
+                    is_key: coded.is_key,
+                    size: sides,
+                    time_us,
+                    bytes: coded.bytes.to_vec(),
+                }));
+            }
+            self.encoder = Some((coded_size, encoder));
+        }
+        if wanted.jpeg {
+            let coded = EncodedPicture::jpeg(&self.rgba, sides, time_us).other()?;
+            port.picture(Arc::new(coded));
+        }
+        Ok(())
+    }
+
+    /// Its pixels as RGBA, and width and height, which H.264 wants even; `None` of one that is too small for it.
+    fn unpack(&mut self, picture: &RawPicture) -> Result<Option<[u32; 2]>, Failure> {
+        let extent = match picture {
+            RawPicture::Device(_, extent) | RawPicture::Rgba(_, extent) => *extent,
+        };
+        let size = extent.map(|side| side & !1);
+        if size.iter().any(|side| *side < 16) {
+            return Ok(None);
+        }
+        let (wide, [width, height]) = (extent[0] as usize, size.map(|side| side as usize));
+        self.rgba.clear();
+        match picture {
+            RawPicture::Device(pixels, [_, rows]) => {
+                let pixels = pixels.read_host::<u32>(wide * *rows as usize).other()?;
+                for row in pixels.chunks_exact(wide).take(height) {
+                    let bytes = row[..width].iter().flat_map(|pixel| {
+                        // 0x00RRGGBB.
+                        let [_, r, g, b] = pixel.to_be_bytes();
+                        [r, g, b, 255]
+                    });
+                    self.rgba.extend(bytes);
+                }
+            }
+            RawPicture::Rgba(bytes, _) => {
+                for row in bytes.chunks_exact(4 * wide).take(height) {
+                    self.rgba.extend(&row[..4 * width]);
+                }
+            }
+        }
+        Ok(Some(size))
+    }
+}

@@ -1,0 +1,15 @@
+//! The instructor's console beside a run: where it is served, and the live view that it shows.
+
+mod args;
+mod coder;
+mod replayed;
+mod serve;
+mod told;
+mod watchers;
+
+pub use args::ConsoleArgs;
+pub use coder::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
+pub use replayed::Live;
+pub use serve::{Console, Serving, invitation, start, student};
+pub use told::{incidents, readings};
+pub use watchers::{WatchReport, Watchers};

@@ -1,0 +1,200 @@
+//! Where the console is: served by this program, or by a hub that it dials.
+
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use vitriol_console::{
+    Choice, Config, Hub, HubAddress, Kind, Link, List, Port, Range, Student, Text,
+};
+use vitriol_run::{Blame, Failure, Format};
+use vitriol_sim::world::MOST_INTENSITY;
+
+use super::watchers::Watchers;
+use crate::args::ConsoleArgs;
+use vitriol_run::choices::CHOICES;
+
+/// A run's end of the console: what its loop tells and hears, and what was said of the program.
+#[derive(Clone, Debug)]
+pub struct Console {
+    /// Where states go and orders come from.
+    pub port: Port,
+    /// What the instructor was told that this program is.
+    pub student: Student,
+}
+
+/// The console while a program runs. It ends when this is dropped.
+pub struct Serving {
+    console: Console,
+    /// One of the two.
+    hub: Option<Hub>,
+    _link: Option<Link>,
+}
+
+/// Who is let in, in one JSON line.
+#[derive(Serialize)]
+struct Said<'a> {
+    console: &'a str,
+    code: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fingerprint: Option<String>,
+}
+
+impl Serving {
+    /// Serves it as `args` say, or dials, for a session or a replay.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for an address that cannot be listened on.
+    pub fn begin(args: &ConsoleArgs, is_session: bool) -> Result<Self, Failure> {
+        let student = student(args.name.as_deref(), is_session);
+        if let Some(address) = &args.hub {
+            let link = Link::start(address.clone(), student.clone()).other()?;
+            let port = link.port().clone();
+            return Ok(Self {
+                console: Console { port, student },
+                hub: None,
+                _link: Some(link),
+            });
+        }
+        let loopback = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+        let hub = start(args.listen.unwrap_or(loopback), false)?;
+        // The first of them finds a place.
+        let port = hub.student(student.clone()).other()?;
+        let port = port
+            .ok_or("the console has no place for its own student")
+            .other()?;
+        Ok(Self {
+            console: Console { port, student },
+            hub: Some(hub),
+            _link: None,
+        })
+    }
+
+    /// The run's end.
+    pub fn console(&self) -> &Console {
+        &self.console
+    }
+
+    /// So many pages that look, for measurements.
+    ///
+    /// # Errors
+    /// Where the hub is elsewhere, or does not serve them.
+    pub fn watched(&self, count: usize) -> Result<Watchers, Failure> {
+        let hub = self.hub.as_ref();
+        let hub = hub.ok_or("--watchers look at a console of this computer: leave --hub out");
+        Watchers::start(hub.input()?, count)
+    }
+
+    /// Lets one browser in: its address goes to standard error. Nothing where a hub elsewhere does that.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where the system has no randomness.
+    pub fn invite(&self, format: Format) -> Result<(), Failure> {
+        match &self.hub {
+            Some(hub) => {
+                eprint!("{}", invitation(hub, format)?);
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// A hub that listens there.
+///
+/// # Errors
+/// [`Failure::Input`] where it cannot.
+pub fn start(listen: SocketAddr, always_tls: bool) -> Result<Hub, Failure> {
+    let name = computer();
+    let names = name.iter().cloned();
+    let names = names.chain(name.iter().map(|name| format!("{name}.local")));
+    let config = Config {
+        listen,
+        always_tls,
+        folder: folder()?,
+        names: names.collect(),
+    };
+    Hub::start(config).input()
+}
+
+/// How one more browser comes in, in lines.
+///
+/// # Errors
+/// [`Failure::Other`] where the system has no randomness.
+pub fn invitation(hub: &Hub, format: Format) -> Result<String, Failure> {
+    let one = hub.invite().other()?;
+    let fingerprint = hub.fingerprint().map(|it| it.to_string());
+    if format == Format::Json {
+        let said = Said {
+            console: &one.address,
+            code: &one.code,
+            fingerprint,
+        };
+        return Ok(serde_json::to_string(&said).other()? + "\n");
+    }
+    let mut text = format!("console, for one browser: {}\n", one.address);
+    if let Some(fingerprint) = fingerprint {
+        text += &format!("its certificate has the fingerprint {fingerprint}\n");
+    }
+    if !hub.address().ip().is_loopback() {
+        text += &one.qr();
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// What an instructor is told that a program of that name is: a session, in which scenes can be brought up, or a replay.
+pub fn student(name: Option<&str>, is_session: bool) -> Student {
+    let name = name.map(str::to_owned).or_else(computer);
+    let name = name.unwrap_or_else(|| "computer".to_owned());
+    let kind = |scene: &str| match scene {
+        "acid-into-water" => Kind::Correct,
+        "water-into-acid" => Kind::Incorrect,
+        _ => Kind::Other,
+    };
+    let choices = CHOICES.iter().filter(|_| is_session);
+    Student {
+        name: Text::clipped(&name),
+        version: Text::clipped(env!("CARGO_PKG_VERSION")),
+        choices: List::clipped(choices.map(|choice| Choice {
+            title: Text::clipped(choice.title),
+            kind: kind(choice.scene),
+        })),
+        replays: !is_session,
+        k_v: is_session.then_some(Range {
+            least: 0.0,
+            most: MOST_INTENSITY,
+        }),
+    }
+}
+
+/// A hub's address, or a file that holds one, which nobody sees in a list of processes.
+pub fn hub_address(text: &str) -> Result<HubAddress, String> {
+    let held = |file: &Path| {
+        std::fs::read_to_string(file)
+            .map_err(|cause| format!("{} cannot be read: {cause}", file.display()))
+    };
+    let file = Path::new(text);
+    let text = if file.is_file() {
+        held(file)?
+    } else {
+        text.to_owned()
+    };
+    text.parse().map_err(|error| format!("{error}"))
+}
+
+/// The user's folder for the program's data.
+fn folder() -> Result<PathBuf, Failure> {
+    let folder = dirs::data_dir().map(|folder| folder.join("vitriol"));
+    folder
+        .ok_or("this system tells no folder for data, in which the console's certificate is kept: set HOME")
+        .input()
+}
+
+/// What this computer is called.
+fn computer() -> Option<String> {
+    let named = std::env::var("COMPUTERNAME").ok();
+    let said = || std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let name = named.or_else(said)?.trim().to_owned();
+    (!name.is_empty()).then_some(name)
+}

@@ -1,0 +1,319 @@
+//! The class's file: added attempts are there, after a kill too, and deleted ones are in none of its bytes.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+
+use uuid::Uuid;
+
+use super::{Added, Store, StoreError};
+use crate::{Entry, Points, Score, example};
+
+/// In the environment of a child process, the file that it writes until it is killed.
+const CHILD: &str = "VITRIOL_RECORD_TEST_CHILD";
+
+const LRS: &str = "https://lrs.example.org/xAPI";
+
+fn entry(pseudonym: &str, index: u128) -> Entry {
+    Entry {
+        id: Uuid::from_u128(index),
+        pseudonym: pseudonym.parse().unwrap(),
+        begun: "2026-03-01T08:00:00.25Z".parse().unwrap(),
+        lesson: Some("Dilution 1".into()),
+        source: Some(format!("{pseudonym}.mcap")),
+        score: None,
+        attempt: example::attempt(),
+    }
+}
+
+fn scored(mut entry: Entry) -> Entry {
+    let mut score = Score::new(13.0, 20.0).unwrap();
+    score.passed = Some(true);
+    score.points = vec![Points {
+        criterion: "order".into(),
+        raw: 3.0,
+        max: 10.0,
+    }];
+    entry.score = Some(score);
+    entry
+}
+
+/// The folder's files that contain these bytes.
+fn holding(folder: &Path, bytes: &str) -> Vec<String> {
+    let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap());
+    let holds = |path: &Path| {
+        let content = fs::read(path).unwrap();
+        content
+            .windows(bytes.len())
+            .any(|part| part == bytes.as_bytes())
+    };
+    let files = files.filter(|file| holds(&file.path()));
+    files
+        .map(|file| file.file_name().into_string().unwrap())
+        .collect()
+}
+
+#[test]
+fn what_was_added_is_there_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new/class.sqlite");
+    let [first, mut second] = [scored(entry("p07", 1)), entry("p07", 2)];
+    second.attempt.ending = None;
+    second.attempt.incidents.truncate(1);
+    let mut store = Store::open(&path).unwrap();
+    assert_eq!(store.add(&first, None).unwrap(), Added::New);
+    assert_eq!(store.add(&second, None).unwrap(), Added::New);
+    assert_eq!(store.add(&entry("p08", 3), None).unwrap(), Added::New);
+    // With another score it is the same attempt, and stays.
+    assert_eq!(
+        store.add(&entry("p07", 1), Some(LRS)).unwrap(),
+        Added::Before
+    );
+    let other = store.add(&entry("p08", 1), None).unwrap_err();
+    assert!(matches!(other, StoreError::Taken { .. }), "{other}");
+    let class = store.class();
+    drop(store);
+
+    let mut store = Store::open_existing(&path).unwrap();
+    assert_eq!(store.class(), class);
+    assert_eq!(
+        store.attempts_of(&first.pseudonym).unwrap(),
+        [first.clone(), second]
+    );
+    // Statements are sent as kept: with the attempt's score.
+    assert_eq!(
+        store.waiting(LRS).unwrap(),
+        2 + first.attempt.incidents.len() as u64
+    );
+    let waiting = store.at(&store.numbers(LRS).unwrap()).unwrap();
+    assert!(
+        waiting
+            .last()
+            .unwrap()
+            .statement
+            .contains(r#""scaled":0.65"#)
+    );
+
+    let students = store.students().unwrap();
+    let [p07, p08] = &students[..] else {
+        unreachable!("{students:?}");
+    };
+    assert_eq!((p07.attempts, p07.finished, p07.best), (2, 1, Some(0.65)));
+    assert_eq!((p08.attempts, p08.finished, p08.best), (1, 1, None));
+    assert_eq!(
+        (p07.incidents["water-into-acid"], p07.incidents["hot"]),
+        (2, 1)
+    );
+    assert_eq!(p07.last_begun, first.begun);
+}
+
+#[test]
+fn an_amount_that_is_no_number_is_refused_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut store = Store::open(&folder.path().join("class")).unwrap();
+    let mut wild = entry("p07", 1);
+    wild.attempt.incidents[3].t_s = f64::NAN;
+    let error = store.add(&wild, None).unwrap_err();
+    assert!(matches!(error, StoreError::NoNumber { .. }), "{error}");
+    assert_eq!(store.students().unwrap(), []);
+}
+
+#[test]
+fn other_files_are_refused_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let missing = Store::open_existing(&path("missing")).unwrap_err();
+    assert!(matches!(missing, StoreError::Missing { .. }), "{missing}");
+    assert!(!path("missing").exists());
+
+    fs::write(path("text"), "x".repeat(5000)).unwrap();
+    let other = rusqlite::Connection::open(path("other")).unwrap();
+    other
+        .execute_batch("CREATE TABLE attempts (a); INSERT INTO attempts VALUES (1)")
+        .unwrap();
+    drop(other);
+    let newer = Store::open(&path("newer")).unwrap();
+    newer
+        .connection
+        .pragma_update(None, "user_version", 2)
+        .unwrap();
+    drop(newer);
+    for name in ["text", "other", "newer"] {
+        let before = fs::read(path(name)).unwrap();
+        let error = Store::open(&path(name)).unwrap_err();
+        let newer = matches!(error, StoreError::Newer { found: 2, .. });
+        assert_eq!(newer, name == "newer", "{error}");
+        assert!(
+            newer || matches!(error, StoreError::NotOurs { .. }),
+            "{error}"
+        );
+        assert_eq!(fs::read(path(name)).unwrap(), before, "{name}");
+    }
+}
+
+#[test]
+fn several_write_a_new_file_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("class");
+    let writers: Vec<_> = (0..4)
+        .map(|writer| {
+            let path = path.clone();
+            thread::spawn(move || {
+                let mut store = Store::open(&path).unwrap();
+                for i in 0..5 {
+                    // The last of each is the same.
+                    let id = if i == 4 { 99 } else { 10 * writer + i };
+                    store.add(&entry("p07", id), None).unwrap();
+                }
+                store.class()
+            })
+        })
+        .collect();
+    let classes: Vec<Uuid> = writers.into_iter().map(|it| it.join().unwrap()).collect();
+    assert!(
+        classes.iter().all(|class| *class == classes[0]),
+        "{classes:?}"
+    );
+    let students = Store::open(&path).unwrap().students().unwrap();
+    assert_eq!(students[0].attempts, 4 * 4 + 1);
+}
+
+#[test]
+fn what_is_forgotten_is_in_no_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("class");
+    let mut store = Store::open(&path).unwrap();
+    for i in 0..20 {
+        let name = if i % 2 == 0 { "Zebra-Quagga" } else { "Otter" };
+        store.add(&scored(entry(name, i)), Some(LRS)).unwrap();
+    }
+    let numbers = store.numbers(LRS).unwrap();
+    let batch = store.at(&numbers[..9]).unwrap();
+    store.delivered(&batch).unwrap();
+    assert_eq!(holding(folder.path(), "Zebra-Quagga"), ["class"]);
+
+    let [ours, changed, gone] = ["ours", "changed", "gone"].map(|name| folder.path().join(name));
+    let name = |name| format!("{{\"actor\":{{\"account\":{{\"name\":\"{name}\"}}}}}}\n");
+    fs::write(&ours, name("Zebra-Quagga")).unwrap();
+    fs::write(&changed, name("Zebra-Quagga") + &name("Otter")).unwrap();
+    let zebra = "Zebra-Quagga".parse().unwrap();
+    for file in [&ours, &changed, &gone] {
+        store.add_file(&zebra, file).unwrap();
+    }
+
+    let forgotten = store.forget(&zebra).unwrap();
+    let incidents = example::incidents().len() as u64;
+    assert_eq!(
+        (forgotten.attempts, forgotten.incidents),
+        (10, 10 * incidents)
+    );
+    // The first attempt's were sent.
+    assert_eq!(forgotten.sent.get(LRS), Some(&9));
+    assert_eq!(forgotten.waiting, 9 * (incidents + 2));
+    assert_eq!(forgotten.sources, ["Zebra-Quagga.mcap"]);
+    assert_eq!(forgotten.files, [ours]);
+    assert_eq!(forgotten.left.len(), 1);
+    assert_eq!(forgotten.left[0].path, changed);
+    fs::remove_file(&changed).unwrap();
+    // Also while it is open, and in no journal beside it.
+    assert_eq!(holding(folder.path(), "Zebra-Quagga"), [""; 0]);
+    assert_eq!(store.waiting(LRS).unwrap(), 10 * (incidents + 2));
+    assert_eq!(
+        store.attempts_of(&"Otter".parse().unwrap()).unwrap().len(),
+        10
+    );
+    assert_eq!(store.forget(&zebra).unwrap(), super::Forgotten::default());
+}
+
+/// Not a test of its own: the work of a child process until it is killed.
+#[test]
+fn child_that_is_killed() {
+    let Ok(path) = std::env::var(CHILD) else {
+        return;
+    };
+    let mut store = Store::open(Path::new(&path)).unwrap();
+    for i in 0..3 {
+        store.add(&entry("p07", i), Some(LRS)).unwrap();
+        println!("\nkept");
+    }
+    // Too many rows for the memory that it has for them: pages are in the file before the transaction ends.
+    store
+        .connection
+        .pragma_update(None, "cache_size", 2)
+        .unwrap();
+    let change = store.change().unwrap();
+    let insert = "INSERT INTO points VALUES (?1, ?2, 'p07', ?3, 1, 2)";
+    let (id, text) = (Uuid::from_u128(0).to_string(), "x".repeat(2000));
+    for i in 0..200 {
+        change
+            .execute(insert, rusqlite::params![id, i, text])
+            .unwrap();
+    }
+    change.execute("DELETE FROM attempts", []).unwrap();
+    println!("\nhalf-way");
+    thread::park();
+}
+
+/// The child of that test, once it has printed `half-way`.
+fn child(path: &Path) -> (Child, usize) {
+    let name = concat!(module_path!(), "::child_that_is_killed");
+    let name = name.split_once("::").unwrap().1;
+    let mut child = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", name, "--nocapture"])
+        .env(CHILD, path)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let lines = lines
+        .map(Result::unwrap)
+        .take_while(|line| line != "half-way");
+    let kept = lines.filter(|line| line == "kept").count();
+    (child, kept)
+}
+
+#[test]
+fn a_killed_process_loses_no_finished_attempt() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("class");
+    let (mut killed, kept) = child(&path);
+    let journal = folder.path().join("class-journal");
+    assert!(journal.exists(), "it was not killed half-way");
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+
+    let mut store = Store::open(&path).unwrap();
+    let attempts = store.attempts_of(&"p07".parse().unwrap()).unwrap();
+    let all = [0, 1, 2].map(|i| entry("p07", i));
+    assert_eq!((kept, attempts), (3, all.to_vec()));
+    assert_eq!(store.waiting(LRS).unwrap(), 3 * 9);
+    let check = |row: &rusqlite::Row<'_>| row.get::<_, String>(0);
+    let check = store
+        .connection
+        .query_row("PRAGMA integrity_check", [], check);
+    assert_eq!(check.unwrap(), "ok");
+    // Half-written data are deleted with the rest.
+    store.forget(&"p07".parse().unwrap()).unwrap();
+    drop(store);
+    assert_eq!(holding(folder.path(), "p07"), [""; 0]);
+    let files = fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(files, 1, "it is one file after a clean end");
+}
+
+/// A new file is readable by its owner alone; one that somebody has shared stays so.
+#[cfg(unix)]
+#[test]
+fn a_new_file_is_its_users_alone() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("class.sqlite");
+    let mode = || path.metadata().unwrap().permissions().mode() & 0o777;
+    drop(Store::open(&path).unwrap());
+    assert_eq!(mode(), 0o600);
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o660)).unwrap();
+    drop(Store::open(&path).unwrap());
+    assert_eq!(mode(), 0o660);
+}

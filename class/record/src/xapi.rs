@@ -1,0 +1,13 @@
+//! Statements of the Experience API, 1.0.3 (IEEE 9274.1.1's predecessor, which every store accepts): a student's attempts, as other
+//! programs for learning read them.
+
+mod activity;
+mod incident;
+mod lines;
+mod statement;
+mod vocabulary;
+
+pub(crate) use incident::cause;
+pub use lines::{FILE, write_lines};
+pub use statement::{Statement, statements};
+pub use vocabulary::{KEYS, Key, OURS};

@@ -1,0 +1,35 @@
+//! Guided procedures: lessons of steps that the simulation judges.
+//!
+//! A [`Lesson`] is read from a TOML file (`run/lesson/lessons`) and checked against the properties of its scene ([`SceneFacts`]). A
+//! [`Procedure`] goes through it: it takes in [`Sight`]s and the finder's events, and returns [`Progress`].
+
+mod condition;
+mod error;
+mod file;
+mod fits;
+mod judge;
+mod keeping;
+mod mode;
+mod panel;
+mod progress;
+mod record;
+mod retold;
+mod sight;
+#[cfg(test)]
+mod tests;
+mod verdict;
+mod watch;
+mod words;
+
+pub use condition::{
+    Condition, Cool, HandName, Holds, Keep, Kind, Liquid, Measured, OfFlask, Poured, Rinsed,
+    SashAtMost, SashIs, SpiltAtMost, Stirred, TemperatureIs, Wiped, Worn,
+};
+pub use error::LessonError;
+pub use file::{Lesson, Rule, Step};
+pub use judge::Procedure;
+pub use mode::{Mode, ModeError};
+pub use progress::{Gear, Progress, State, Status, StepState, Verdict, VerdictLine, Why};
+pub use retold::Became;
+pub use sight::{Dip, FlaskFacts, FlaskSight, SceneFacts, Sight};
+pub use words::{LessonTexts, StepTexts};

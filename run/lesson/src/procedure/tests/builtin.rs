@@ -1,0 +1,363 @@
+//! The built-in lessons, against the built-in scenes.
+
+use vitriol_sim::scene::Scene;
+
+use super::*;
+use crate::{Language, Texts};
+
+fn facts(scene: &str) -> SceneFacts {
+    SceneFacts::of(scene, &Scene::builtin(scene).unwrap())
+}
+
+#[test]
+fn each_is_of_its_name_fits_its_scene_and_is_in_each_language() {
+    assert_eq!(
+        Lesson::builtin_names(),
+        ["dilute", "wrong-order", "examination", "emergency"]
+    );
+    for name in Lesson::builtin_names() {
+        let lesson = Lesson::builtin(name).unwrap();
+        assert_eq!(lesson.name, name);
+        lesson.check(&facts(&lesson.scene)).unwrap();
+        assert_eq!(lesson.languages(), Language::ALL);
+        let points = lesson.steps.iter().map(|it| it.points);
+        let all = points.chain(lesson.rules.iter().map(|it| it.points));
+        // So points are a percentage.
+        assert_eq!(all.sum::<u32>(), 100, "{name}");
+        assert_eq!(lesson.default_mode(), lesson.modes[0]);
+        // A copy with other points keeps its texts.
+        let text = Lesson::builtin_text(name).unwrap();
+        assert_eq!(
+            Lesson::parse(text, "copy.toml")
+                .unwrap()
+                .texts(Language::De)
+                .title,
+            lesson.texts(Language::De).title
+        );
+    }
+    // No texts belong to a lesson that does not exist.
+    for language in Language::ALL {
+        let texts = Texts::of(language).unwrap();
+        let named: Vec<&str> = texts.lesson.keys().map(String::as_str).collect();
+        let mut names = Lesson::builtin_names();
+        names.sort_unstable();
+        assert_eq!(named, names);
+    }
+    let error = Lesson::builtin("bake").unwrap_err().to_string();
+    assert!(
+        error.contains("dilute, wrong-order, examination, emergency"),
+        "{error}"
+    );
+}
+
+/// By the scenes' files: 20 and 160 mL, and 13,000 particles of 2.5 mm at real size.
+#[test]
+fn facts_are_those_of_the_scene() {
+    let dilution = facts("acid-into-water");
+    assert!((dilution.liquid_m3 - 180e-6).abs() < 1e-12 && dilution.heat);
+    let names: Vec<&str> = dilution.flasks.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["source", "target"]);
+    assert!(dilution.flasks.iter().all(|it| it.lifted));
+    assert!(dilution.goggles && dilution.gloves && dilution.rinsing && dilution.cloth);
+    assert!(dilution.rod && dilution.thermometer && !dilution.sash);
+    let bare = facts("vr-dilution");
+    assert!(!bare.goggles && !bare.gloves && !bare.rinsing && !bare.cloth && !bare.rod);
+    let small = facts("vr-dilution").liquid_m3;
+    assert!(
+        (small / (13_000.0 * 0.0025_f64.powi(3)) - 1.0).abs() < 0.01,
+        "{small}"
+    );
+    assert!(facts("triple-dilution").flasks.iter().all(|it| !it.lifted));
+    assert!(!facts("two-flasks").heat);
+}
+
+/// An instructor's own texts come before those of the built-in lesson of that name.
+#[test]
+fn own_texts_come_first() {
+    let texts = "[texts.en]\ntitle = \"Mine\"\nsummary = \"Mine.\"\nstep.lift = { text = \"a\", hint = \"b\" }\n";
+    let step =
+        "[[step]]\nid = \"lift\"\npoints = 1\ncondition = { lifted = { flask = \"source\" } }\n";
+    let head = "version = 1\nname = \"dilute\"\nscene = \"acid-into-water\"\nmodes = [\"free\"]\n";
+    let own = Lesson::parse(&format!("{head}{step}{texts}"), "own.toml").unwrap();
+    assert_eq!(own.texts(Language::En).title, "Mine");
+    // English stands in for a language that is not there.
+    assert_eq!(
+        (own.texts(Language::De).title.as_str(), own.languages()),
+        ("Mine", vec![Language::En])
+    );
+    // With other steps than the built-in one, it needs its own.
+    let error = Lesson::parse(&format!("{head}{step}"), "own.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("texts.en.step."), "{error}");
+}
+
+/// A line of the panel, and two or three; Chinese signs are twice as wide.
+#[test]
+fn each_text_fits_the_panel() {
+    for name in Lesson::builtin_names() {
+        for language in Language::ALL {
+            let lesson = Lesson::builtin(name).unwrap();
+            let texts = lesson.texts(language);
+            let wide = if language == Language::Zh { 2 } else { 1 };
+            let long = |text: &str| wide * text.chars().count();
+            assert!(long(&texts.title) <= 60 && long(&texts.summary) <= 280);
+            for step in texts.step.values() {
+                assert!(
+                    long(&step.text) <= 140 && long(&step.hint) <= 140,
+                    "{step:?}"
+                );
+            }
+            assert!(texts.rule.values().all(|it| long(it) <= 140));
+        }
+    }
+}
+
+/// A text names the numbers that its file judges by.
+#[test]
+fn texts_say_what_is_judged() {
+    let of = |name: &str| Lesson::builtin(name).unwrap();
+    let dilute = of("dilute");
+    let texts = dilute.texts(Language::En);
+    let Condition::Poured(poured) = &dilute.steps[2].condition else {
+        panic!()
+    };
+    let rate = poured.at_most_ml_s.unwrap();
+    assert!(
+        texts.step["pour"]
+            .text
+            .contains(&format!("{rate}\u{a0}mL/s"))
+    );
+    assert_eq!(rate / 1e6, crate::Limits::default().rate_m3_s);
+    let Condition::Holds(holds) = &dilute.steps[6].condition else {
+        panic!()
+    };
+    let range = format!(
+        "{} to {}\u{a0}%",
+        holds.acid_from_percent, holds.acid_to_percent
+    );
+    assert!(texts.step["concentration"].text.contains(&range));
+    // 17 mL of 98 % acid (1.836 g/mL) in 160 mL of water (0.998 g/mL), and all 20 mL: 16.1 and 18.4 %.
+    for ml in [poured.at_least_ml, 20.0] {
+        let acid = 1.836 * ml;
+        let percent = 98.0 * acid / (acid + 0.998 * 160.0);
+        assert!(
+            (holds.acid_from_percent..holds.acid_to_percent).contains(&percent),
+            "{percent}"
+        );
+        assert!(ml + 160.0 > holds.at_least_ml);
+    }
+    let wrong = of("wrong-order");
+    let Condition::Poured(poured) = &wrong.steps[2].condition else {
+        panic!()
+    };
+    let texts = wrong.texts(Language::En);
+    assert!(
+        texts.step["pour"]
+            .text
+            .contains(&format!("{}\u{a0}mL", poured.at_least_ml))
+    );
+}
+
+/// The correct dilution, from its first observation to its points.
+#[test]
+fn who_dilutes_correctly_has_all_points() {
+    for (name, mode) in [
+        ("dilute", Mode::Guided),
+        ("dilute", Mode::Free),
+        ("examination", Mode::Examination),
+    ] {
+        let mut procedure = Procedure::new(Lesson::builtin(name).unwrap(), mode);
+        let at = |t_s: f64, held: bool, volume_ml: f64, acid: f64| {
+            let mut sight = sight(t_s);
+            sight.flasks[0].name = "source".to_owned();
+            sight.flasks[1].name = "target".to_owned();
+            (sight.flasks[0].held, sight.flasks[0].standing) = (held, !held);
+            sight.sash_m = Some(0.3);
+            (sight.flasks[1].volume_m3, sight.flasks[1].acid) = (volume_ml * 1e-6, acid);
+            sight
+        };
+        // Goggles and gloves lie on the bench at first.
+        let mut bare = at(0.0, false, 160.0, 0.0);
+        (bare.goggles, bare.gloves) = (Some(false), Some([false; 2]));
+        procedure.advance(&bare, &[]);
+        (bare.t_s, bare.goggles) = (0.5, Some(true));
+        procedure.advance(&bare, &[]);
+        procedure.advance(&at(0.8, false, 160.0, 0.0), &[]);
+        procedure.advance(&at(1.0, true, 160.0, 0.0), &[]);
+        let Event::Poured(pour) = pour([2.0, 8.0], 19.0, 4.5, 0.98) else {
+            panic!()
+        };
+        let poured = Event::Poured(Pour {
+            from: "source".to_owned(),
+            into: Some("target".to_owned()),
+            ..pour
+        });
+        procedure.advance(&at(9.0, true, 179.0, 0.17), &[poured]);
+        for tenths in 0..160 {
+            let mut sight = at(9.1 + f64::from(tenths) / 10.0, false, 179.0, 0.175);
+            let dip = |speed_m_s: f64| {
+                Some(Dip {
+                    flask: Some("target".to_owned()),
+                    speed_m_s,
+                })
+            };
+            // First the rod, then the thermometer.
+            (sight.rod, sight.thermometer) = match tenths {
+                0..60 => (dip(0.1), None),
+                _ => (None, dip(0.0)),
+            };
+            procedure.advance(&sight, &[]);
+        }
+        let verdict = procedure.verdict();
+        assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
+        assert!(procedure.state().over);
+    }
+}
+
+#[test]
+fn the_wrong_order_is_seen_to_warm() {
+    let mut procedure = Procedure::new(Lesson::builtin("wrong-order").unwrap(), Mode::Guided);
+    let at = |t_s: f64, held: bool, celsius: f64| {
+        let mut sight = sight(t_s);
+        sight.flasks[0].name = "source".to_owned();
+        sight.flasks[1].name = "target".to_owned();
+        (sight.flasks[0].held, sight.flasks[0].standing) = (held, !held);
+        sight.flasks[1].temperature_c = Some(celsius);
+        sight
+    };
+    procedure.advance(&at(0.0, false, 20.0), &[]);
+    procedure.advance(&at(1.0, true, 20.0), &[]);
+    let Event::Poured(pour) = pour([2.0, 8.0], 12.0, 4.5, 0.0) else {
+        panic!()
+    };
+    let poured = Pour {
+        from: "source".to_owned(),
+        into: Some("target".to_owned()),
+        ..pour
+    };
+    procedure.advance(&at(9.0, true, 45.0), &[Event::Poured(poured)]);
+    procedure.advance(&at(10.0, false, 45.0), &[]);
+    procedure.advance(&at(11.0, false, 45.0), &[]);
+    assert_eq!(procedure.verdict().points, 100);
+}
+
+/// Acid is rinsed off the glove, then off the hand; water over a gloved hand does not count for the bare one.
+#[test]
+fn an_emergency_is_gone_through() {
+    let lesson = Lesson::builtin("emergency").unwrap();
+    let mut procedure = Procedure::new(lesson, Mode::Guided);
+    let mut t = 0.0;
+    let mut look = |held: bool, gloves: [bool; 2], rinsed_ml: f64, bench_ml: f64| {
+        for _ in 0..10 {
+            t += STEP;
+            let mut sight = sight(t);
+            sight.flasks[0].name = "water".to_owned();
+            (sight.flasks[0].held, sight.flasks[0].standing) = (held, !held);
+            sight.gloves = Some(gloves);
+            sight.rinsed_m3 = Some([0.0, rinsed_ml * 1e-6]);
+            sight.bench_m3 = bench_ml * 1e-6;
+            procedure.advance(&sight, &[]);
+        }
+        let done = procedure.state().steps;
+        done.iter().filter(|it| it.status == Status::Done).count()
+    };
+    assert_eq!(look(true, [true; 2], 0.0, 2.0), 0);
+    assert_eq!(look(true, [true; 2], 39.0, 2.0), 0);
+    assert_eq!(look(true, [true; 2], 41.0, 2.0), 1);
+    assert_eq!(look(true, [false, true], 41.0, 2.0), 1, "the other glove");
+    assert_eq!(look(true, [true, false], 41.0, 2.0), 2);
+    assert_eq!(look(true, [true, false], 90.0, 2.0), 2);
+    assert_eq!(look(true, [true, false], 92.0, 2.0), 3);
+    assert_eq!(look(false, [true, false], 92.0, 2.0), 4);
+    assert_eq!(look(false, [true, false], 92.0, 0.3), 5);
+    let verdict = procedure.verdict();
+    assert_eq!((verdict.points, verdict.of), (100, 100), "{verdict:?}");
+}
+
+#[test]
+fn why_is_said_in_each_language() {
+    let why = Why::TooFast {
+        rate_m3_s: 7.3e-6,
+        limit_m3_s: 5e-6,
+    };
+    let said = Language::ALL.map(|it| Texts::of(it).unwrap().why(&why).replace('\u{a0}', " "));
+    assert_eq!(
+        said,
+        [
+            "Poured too fast: 7.3 mL/s, where 5.0 mL/s is allowed.",
+            "Zu schnell gegossen: 7,3 mL/s; erlaubt sind 5,0 mL/s.",
+            "Vertido demasiado rápido: 7,3 mL/s; se permite 5,0 mL/s.",
+            "倒得太快：7.3 mL/s，允许5.0 mL/s。",
+        ]
+    );
+    let texts = Texts::english().unwrap();
+    let plain = |why: &Why| texts.why(why).replace('\u{a0}', " ");
+    let (volume_m3, limit_m3) = (2.5e-6, 1e-6);
+    assert_eq!(
+        plain(&Why::TooMuch {
+            volume_m3,
+            limit_m3
+        }),
+        "Too much was poured: 2.5 mL, where 1.0 mL is allowed."
+    );
+    assert_eq!(
+        plain(&Why::Spilt {
+            volume_m3,
+            limit_m3
+        }),
+        "Spilt: 2.5 mL, where 1.0 mL is allowed."
+    );
+    let hot = Why::TooHot {
+        flask: "b".to_owned(),
+        temperature_c: 71.6,
+        limit_c: 60.0,
+    };
+    assert_eq!(
+        plain(&hot),
+        "“b” became 72 °C hot; it was to stay below 60 °C."
+    );
+    let sash = Why::SashOpen {
+        height_m: 0.45,
+        limit_m: 0.3,
+    };
+    assert_eq!(
+        plain(&sash),
+        "The hood was open 45 cm, where 30 cm is allowed."
+    );
+    assert_eq!(
+        plain(&Why::TimeUp { limit_s: 60.0 }),
+        "The time is up: 60 s."
+    );
+    assert_eq!(
+        plain(&Why::NotWorn { gear: Gear::Gloves }),
+        "No gloves were worn."
+    );
+    assert_eq!(
+        plain(&Why::NotWorn {
+            gear: Gear::Goggles
+        }),
+        "No goggles were worn."
+    );
+    let kinds = [
+        Kind::WaterIntoAcid,
+        Kind::PouredTooFast,
+        Kind::BoiledOver,
+        Kind::Hot,
+        Kind::OnSkin,
+        Kind::Dropped,
+    ];
+    let mut said: Vec<String> = kinds
+        .iter()
+        .map(|&kind| plain(&Why::Incident { kind }))
+        .collect();
+    said.extend([Why::Skipped, Why::NotDone].iter().map(plain));
+    let all = said.len();
+    said.sort_unstable();
+    said.dedup();
+    assert_eq!(said.len(), all);
+    assert_eq!(
+        Mode::ALL.map(|it| Texts::of(Language::De).unwrap().mode(it)),
+        ["angeleitet", "frei", "Prüfung"]
+    );
+}

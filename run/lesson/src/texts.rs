@@ -1,0 +1,343 @@
+//! The string table: sentences about an attempt and in a lesson, in one language.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Deserialize;
+
+use crate::language::Language;
+use crate::procedure::LessonTexts;
+
+const ENGLISH: &str = include_str!("../texts/en.toml");
+const GERMAN: &str = include_str!("../texts/de.toml");
+const SPANISH: &str = include_str!("../texts/es.toml");
+const CHINESE: &str = include_str!("../texts/zh.toml");
+
+/// Why a string table is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum TextsError {
+    /// It is no TOML, or a key is missing or unknown.
+    #[error("the string table does not have the keys of run/lesson/texts/en.toml: {0}")]
+    Keys(#[from] toml::de::Error),
+    /// A sentence is there in one of the two tables alone.
+    #[error(
+        "{key}: is only in {only}; run/lesson/texts/en.toml and its translations have the same keys"
+    )]
+    Alone {
+        /// The sentence's key.
+        key: String,
+        /// The table that has it.
+        only: &'static str,
+    },
+    /// A sentence has other holes than the English one.
+    #[error("{key}: has the holes {found:?}, and needs {needed:?}, as in run/lesson/texts/en.toml")]
+    Holes {
+        /// The sentence's key.
+        key: String,
+        /// Holes that it has.
+        found: Vec<String>,
+        /// Holes that it needs.
+        needed: Vec<String>,
+    },
+}
+
+/// A sentence with named holes, such as `{flask}`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Template(String);
+
+impl Template {
+    /// The sentence with its holes filled. Braces in a filled-in value stay as they are: names come from scene files.
+    pub(crate) fn fill(&self, holes: &[(&str, &str)]) -> String {
+        let mut text = String::new();
+        for part in parts(&self.0) {
+            match part {
+                Part::Text(it) => text += it,
+                Part::Hole(name) => {
+                    let filled = holes.iter().find(|hole| hole.0 == name);
+                    text += filled.map_or("", |hole| hole.1);
+                }
+            }
+        }
+        text
+    }
+
+    /// The sentence as it stands, if it has no holes.
+    pub(crate) fn text(&self) -> String {
+        self.fill(&[])
+    }
+}
+
+enum Part<'a> {
+    Text(&'a str),
+    Hole(&'a str),
+}
+
+fn parts(template: &str) -> impl Iterator<Item = Part<'_>> {
+    template.split('{').enumerate().flat_map(|(index, piece)| {
+        let (hole, text) = match piece.split_once('}') {
+            Some((hole, text)) if index > 0 => (Some(hole), text),
+            _ => (None, piece),
+        };
+        let hole = hole.map(Part::Hole);
+        hole.into_iter().chain([Part::Text(text)])
+    })
+}
+
+/// Declares a section of the table: each of its keys is a sentence; other keys are refused.
+macro_rules! section {
+    ($name:ident: $($key:ident)+) => {
+        #[derive(Clone, Debug, PartialEq, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(crate) struct $name { $(pub(crate) $key: Template,)+ }
+    };
+}
+
+section!(Number: decimal);
+section!(Unit: millilitres litres millilitres_a_second seconds minutes hours celsius percent metres_a_second
+    centimetres);
+section!(Amount: water acid);
+section!(Join: two);
+section!(Pour: acid_into_water plain beside nothing);
+section!(Wrong: water_into_acid water_into_acid_at poured_too_fast boiled_over hot spilt_bench spilt_floor left_hand right_hand face
+    left_glove right_glove goggles dropped broke);
+section!(Cause: pouring boiling breaking letting_go splashing mixing heating unknown);
+section!(Effect: water_into_acid too_fast heat_at_once heat_within corrosive irritant rinse protected wipe);
+section!(End: holds holds_at hottest hottest_outside broken_off);
+section!(Well: slowly cool kept clean skin glass);
+section!(CriterionNames: right_order poured_slowly stayed_cool nothing_thrown_out nothing_spilt nothing_on_skin glass_whole);
+section!(Rule: right_order up_to nothing skin glass);
+section!(Evidence: too_little too_little_acid mean);
+section!(LeftOut: nothing_poured no_acid no_heat);
+section!(WhyTexts: too_fast too_much water_into_acid poured_too_fast boiled_over hot on_skin dropped spilt too_hot no_goggles no_gloves
+    sash_open time_up skipped not_done);
+section!(ModeNames: guided free examination);
+section!(PanelTexts: hint skip finish steps more);
+
+/// The texts of one language: a file of `run/lesson/texts`, of which each key is used and none is missing.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Texts {
+    pub(crate) number: Number,
+    pub(crate) unit: Unit,
+    pub(crate) amount: Amount,
+    pub(crate) join: Join,
+    pub(crate) pour: Pour,
+    pub(crate) wrong: Wrong,
+    pub(crate) cause: Cause,
+    pub(crate) effect: Effect,
+    pub(crate) end: End,
+    pub(crate) well: Well,
+    pub(crate) criterion: CriterionNames,
+    pub(crate) rule: Rule,
+    pub(crate) evidence: Evidence,
+    pub(crate) left_out: LeftOut,
+    pub(crate) why: WhyTexts,
+    pub(crate) mode: ModeNames,
+    pub(crate) panel: PanelTexts,
+    /// Texts of the built-in lessons, by name.
+    pub(crate) lesson: BTreeMap<String, LessonTexts>,
+}
+
+impl Texts {
+    /// The English texts, which the program carries.
+    ///
+    /// # Errors
+    /// As for [`Texts::parse`], which a test rules out.
+    pub fn english() -> Result<Self, TextsError> {
+        Self::of(Language::En)
+    }
+
+    /// The texts of a language, which the program carries.
+    ///
+    /// # Errors
+    /// As for [`Texts::parse`], which a test rules out.
+    pub fn of(language: Language) -> Result<Self, TextsError> {
+        Self::parse(table(language))
+    }
+
+    /// Parses the text of a file.
+    ///
+    /// # Errors
+    /// [`TextsError`] if a key is missing or unknown, or a sentence's holes are not those of the English one: it would lose a number then,
+    /// or show a hole's name.
+    pub fn parse(text: &str) -> Result<Self, TextsError> {
+        let (found, needed) = (holes(text)?, holes(ENGLISH)?);
+        let texts = toml::from_str(text)?;
+        for (key, needed) in &needed {
+            let Some(found) = found.get(key) else {
+                let (key, only) = (key.clone(), "run/lesson/texts/en.toml");
+                return Err(TextsError::Alone { key, only });
+            };
+            if found != needed {
+                let [found, needed] = [found, needed].map(|it| it.iter().cloned().collect());
+                let key = key.clone();
+                return Err(TextsError::Holes { key, found, needed });
+            }
+        }
+        if let Some(key) = found.into_keys().find(|key| !needed.contains_key(key)) {
+            let only = "the translation";
+            return Err(TextsError::Alone { key, only });
+        }
+        Ok(texts)
+    }
+}
+
+/// Text of the string table of a language.
+fn table(language: Language) -> &'static str {
+    match language {
+        Language::En => ENGLISH,
+        Language::De => GERMAN,
+        Language::Es => SPANISH,
+        Language::Zh => CHINESE,
+    }
+}
+
+/// The holes of each sentence, by its path.
+fn holes(text: &str) -> Result<BTreeMap<String, BTreeSet<String>>, toml::de::Error> {
+    let sentences = sentences(text)?;
+    let of = |sentence: &str| {
+        let holes = parts(sentence).filter_map(|part| match part {
+            Part::Hole(name) => Some(name.to_owned()),
+            Part::Text(_) => None,
+        });
+        holes.collect::<BTreeSet<_>>()
+    };
+    let sentences = sentences.into_iter();
+    Ok(sentences.map(|(key, it)| (key, of(&it))).collect())
+}
+
+/// Each sentence, by its path.
+fn sentences(text: &str) -> Result<BTreeMap<String, String>, toml::de::Error> {
+    let table: toml::Table = toml::from_str(text)?;
+    let mut found = BTreeMap::new();
+    gather("", table, &mut found);
+    Ok(found)
+}
+
+fn gather(path: &str, table: toml::Table, found: &mut BTreeMap<String, String>) {
+    for (name, value) in table {
+        let path = match path {
+            "" => name,
+            path => format!("{path}.{name}"),
+        };
+        match value {
+            toml::Value::Table(table) => gather(&path, table, found),
+            toml::Value::String(text) => _ = found.insert(path, text),
+            // Other values are refused where the table is read into its type.
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_lacks_nothing_and_has_nothing_else() {
+        Texts::english().unwrap();
+        let refused = |text: &str| Texts::parse(text).unwrap_err().to_string();
+        assert!(refused(&ENGLISH.replace("\nslowly =", "\n# slowly =")).contains("slowly"));
+        assert!(refused(&format!("{ENGLISH}\nbang = \"a bang\"\n")).contains("bang"));
+    }
+
+    /// A translator may order holes as the language needs, and lose none.
+    #[test]
+    fn a_translation_has_the_same_holes() {
+        let english = "Spilt on the bench: {amount}.";
+        assert!(ENGLISH.contains(english));
+        let with = |german: &str| Texts::parse(&ENGLISH.replace(english, german));
+        assert!(with("{amount} auf dem Tisch verschüttet.").is_ok());
+        for wrong in ["Verschüttet.", "Verschüttet: {menge}.", "{amount}, {flask}"] {
+            let error = with(wrong).unwrap_err().to_string();
+            assert!(error.contains("wrong.spilt_bench") && error.contains("amount"));
+        }
+    }
+
+    /// The built-in texts, in each language: no sentence is missing, empty or left in English.
+    #[test]
+    fn each_language_is_complete() {
+        let english = sentences(ENGLISH).unwrap();
+        // Units, names and the like are the same in several languages.
+        let same = |key: &str| {
+            ["unit.", "number.", "join."]
+                .iter()
+                .any(|it| key.starts_with(it))
+        };
+        for language in Language::ALL {
+            Texts::of(language).unwrap();
+            let translated = sentences(table(language)).unwrap();
+            assert!(translated.keys().eq(english.keys()), "{language}");
+            for (key, sentence) in &translated {
+                assert!(!sentence.trim().is_empty(), "{language}: {key}");
+                let is_english = *sentence == english[key];
+                assert!(
+                    language == Language::En || same(key) || !is_english,
+                    "{language}: {key}"
+                );
+            }
+        }
+    }
+
+    /// Numbers are the same in each language, and stand apart from their units by a space that no line breaks at.
+    #[test]
+    fn numbers_are_translated_as_they_are() {
+        let numbers = |text: &str| -> Vec<String> {
+            let mut found: Vec<String> = text
+                .split(|c: char| !c.is_ascii_digit())
+                .filter(|it| !it.is_empty())
+                .map(str::to_owned)
+                .collect();
+            found.sort();
+            found
+        };
+        let english = sentences(ENGLISH).unwrap();
+        for language in Language::ALL {
+            for (key, sentence) in sentences(table(language)).unwrap() {
+                assert_eq!(
+                    numbers(&sentence),
+                    numbers(&english[&key]),
+                    "{language}: {key}"
+                );
+                for unit in [" mL", " %", " °C", " cm"] {
+                    for (at, _) in sentence.match_indices(unit) {
+                        let breaks = sentence[..at].ends_with(|c: char| c.is_ascii_digit());
+                        assert!(!breaks, "{language}: {key}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Chinese is written without Latin words, and the others without Chinese signs.
+    #[test]
+    fn each_table_is_of_its_language() {
+        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
+        // Traditional forms of the signs here, which simplified Chinese writes otherwise.
+        let traditional = "傾實驗臺濃於後體氣熱時間燒灑濺單護鏡這樣應";
+        for language in Language::ALL {
+            for (key, sentence) in sentences(table(language)).unwrap() {
+                let chinese = sentence.chars().any(is_chinese);
+                let templates = ["unit.", "number.", "join."];
+                if language != Language::Zh {
+                    assert!(!chinese, "{language}: {key}");
+                } else if !templates.iter().any(|it| key.starts_with(it)) {
+                    assert!(chinese, "{key}");
+                    assert!(
+                        !sentence.contains(|c| traditional.contains(c)),
+                        "{key}: {sentence}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// A scene's author may give a flask the name of a hole.
+    #[test]
+    fn what_fills_a_hole_is_not_filled_again() {
+        let template = Template("“{from}” into “{into}”: {rate}".into());
+        let filled = template.fill(&[("from", "{into}"), ("into", "a{b}c}"), ("rate", "5")]);
+        assert_eq!(filled, "“{into}” into “a{b}c}”: 5");
+    }
+}

@@ -1,0 +1,262 @@
+//! What a session says of itself, on the panel and in the mirror window's title.
+
+use vitriol_lesson::Tone;
+
+use vitriol_run::Action;
+use vitriol_run::texts::{AcidOnTexts, EffortTexts, SpiltTexts};
+
+/// A session's state in words and numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Info {
+    /// The scene.
+    pub scene: String,
+    /// Its flasks.
+    pub flasks: Vec<FlaskLine>,
+    /// Whether there is acid with a tint, which is explained.
+    pub acid: bool,
+    /// What lies beside the flasks.
+    pub spilt: Lying,
+    /// Whether acid has touched the left hand, the right hand, the face.
+    pub burns: [bool; 3],
+    /// What can be heard, in words.
+    pub heard: Option<String>,
+    /// Whether the device was lost a short time ago, and all is on another one.
+    pub device_lost: bool,
+    /// Speed of simulated time in per cent of real time; `None` at full speed.
+    pub slow: Option<u32>,
+    /// Seconds that are recorded; `None` without a recording.
+    pub recording: Option<u64>,
+    /// Whether the recording waits for a disk that refuses it.
+    pub waits_for_disk: bool,
+    /// Steps that could not be recorded.
+    pub unwritten: u64,
+    /// Display periods without a frame.
+    pub missed: u64,
+    /// What is solved and drawn with, where that is less than was asked for.
+    pub effort: Option<Effort>,
+    /// The scene that is being set up.
+    pub coming: Option<String>,
+    /// How far a hold of the button for a new start has come, per cent.
+    pub holding: Option<u32>,
+    /// The end was asked for once.
+    pub ends: bool,
+    /// What happened in the attempt, for who asks.
+    pub happened: Option<Happened>,
+    /// What the instructor says.
+    pub told: Told,
+    /// What is to be done in the lesson.
+    pub lesson: Option<Shown>,
+}
+
+/// What the panel shows of a lesson.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shown {
+    /// What is to be done, or what it came to.
+    pub step: String,
+    /// Its steps, where they are listed.
+    pub steps: Vec<(Mark, String)>,
+    /// How many steps there are, or beside those that are listed.
+    pub note: Option<String>,
+    /// How, for who does not get on.
+    pub hint: Option<String>,
+    /// Why something failed a short time ago.
+    pub failed: Option<String>,
+    /// What can be asked for.
+    pub acts: Vec<ActLine>,
+    /// Whether nothing is told of what happened before the end.
+    pub quiet: bool,
+}
+
+/// How a step stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// It is done.
+    Done,
+    /// It was not done, and is not tried again.
+    Missed,
+    /// It is to be done.
+    Open,
+    /// Others come first.
+    Waiting,
+}
+
+/// A button of the lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActLine {
+    /// What it asks for.
+    pub act: Action,
+    /// What it says.
+    pub text: String,
+    /// Whether there is any now.
+    pub on: bool,
+}
+
+/// What the instructor says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Told {
+    /// What she holds up, and did last.
+    pub done: Vec<String>,
+    /// Her message.
+    pub message: Option<String>,
+}
+
+/// What happened in an attempt, as far as it fits the panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Happened {
+    /// What it is.
+    pub title: String,
+    /// Points, of how many; `None` where nothing could be judged.
+    pub points: Option<String>,
+    /// Sentences.
+    pub said: Vec<(Tone, String)>,
+    /// That some do not fit.
+    pub more: Option<String>,
+    /// Of the button that ends it.
+    pub back: String,
+}
+
+/// Liquid beside the flasks, in tenths of a mL: as much as is said of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lying {
+    bench: u32,
+    floor: u32,
+}
+
+impl Lying {
+    /// Of so many mL.
+    pub fn of(bench: f64, floor: f64) -> Self {
+        let tenths = |millilitres: f64| (10.0 * millilitres).round() as u32;
+        Self {
+            bench: tenths(bench),
+            floor: tenths(floor),
+        }
+    }
+
+    /// In a sentence; `None` where all is in its place.
+    pub fn text(&self, words: &SpiltTexts) -> Option<String> {
+        let places = [(self.bench, &words.bench), (self.floor, &words.floor)];
+        let said = places.into_iter().filter(|(tenths, _)| *tenths > 0);
+        let parts: Vec<_> = said
+            .map(|(tenths, place)| {
+                let volume = match tenths {
+                    // A drop has some 0.05 mL.
+                    ..10 => format!("0{}{tenths}", words.decimal),
+                    _ => ((tenths + 5) / 10).to_string(),
+                };
+                place.replace("{volume}", &volume)
+            })
+            .collect();
+        (!parts.is_empty()).then(|| words.text.replace("{places}", &parts.join(&words.next)))
+    }
+}
+
+/// Where acid has touched the user, in a sentence, of left hand, right hand and face; `None` where nowhere.
+pub fn burns_text(burns: [bool; 3], words: &AcidOnTexts) -> Option<String> {
+    let places = [&words.left, &words.right, &words.face].map(String::as_str);
+    let touched: Vec<_> = (places.into_iter().zip(burns))
+        .filter_map(|(place, touched)| touched.then_some(place))
+        .collect();
+    let places = match touched.split_last()? {
+        (last, []) => (*last).to_owned(),
+        (last, rest) => format!("{}{}{last}", rest.join(&words.next), words.last),
+    };
+    Some(words.text.replace("{places}", &places))
+}
+
+/// A flask's line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlaskLine {
+    /// Its name.
+    pub name: String,
+    /// Whether it has broken.
+    pub broken: bool,
+    /// Mean temperature of its liquid, whole °C; `None` where heat is not modelled or it is empty.
+    pub temperature: Option<i32>,
+    /// Acid by mass, whole per cent.
+    pub acid: Option<i32>,
+}
+
+/// How much less than was asked for is solved and drawn, so that frames fit the display's period.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effort {
+    /// Whether the last change was to more accuracy or pixels.
+    pub finer: bool,
+    /// Substeps a step and iterations a substep.
+    pub solver: [u32; 2],
+    /// What was asked for.
+    pub asked: [u32; 2],
+    /// Each side of the picture, per cent of the display's.
+    pub picture: u32,
+    /// Whether fewer pixels than were asked for are drawn at the picture's edges.
+    pub foveated: bool,
+    /// Whether the liquid's surface is drawn by another filter than was asked for.
+    pub other_filter: bool,
+    /// The display's rate, Hz, where it was higher at first.
+    pub rate: Option<u32>,
+}
+
+impl Effort {
+    /// In a sentence that names only what is less than was asked for.
+    pub fn text(&self, words: &EffortTexts) -> String {
+        let mut parts = Vec::new();
+        if self.solver != self.asked {
+            let pair = |[substeps, iterations]: [u32; 2]| format!("{substeps} × {iterations}");
+            let solver = words.solver.replace("{now}", &pair(self.solver));
+            parts.push(solver.replace("{asked}", &pair(self.asked)));
+        }
+        if self.foveated {
+            parts.push(words.edges.clone());
+        }
+        if self.other_filter {
+            parts.push(words.surface.clone());
+        }
+        if self.picture < 100 {
+            let percent = self.picture.to_string();
+            parts.push(words.picture.replace("{percent}", &percent));
+        }
+        if let Some(rate) = self.rate {
+            parts.push(words.display.replace("{rate}", &rate.to_string()));
+        }
+        let how = if self.finer {
+            &words.finer
+        } else {
+            &words.coarser
+        };
+        how.replace("{parts}", &parts.join(&words.next))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_lesson::Language;
+    use vitriol_run::texts::Texts;
+
+    #[test]
+    fn what_is_spilt_is_said_to_the_drop_and_then_to_the_millilitre() {
+        let words = Texts::english().unwrap().panel.spilt;
+        let text = |bench, floor| Lying::of(bench, floor).text(&words);
+        assert_eq!(text(0.0, 0.04), None);
+        assert_eq!(
+            text(0.31, 0.0).as_deref(),
+            Some("spilt: 0.3 mL on the bench")
+        );
+        let both = Some("spilt: 12 mL on the bench, 2 mL on the floor");
+        assert_eq!(text(12.4, 1.5).as_deref(), both);
+        let german = Texts::of(Language::De).unwrap().panel.spilt;
+        let comma = Lying::of(0.31, 0.0).text(&german);
+        assert_eq!(comma.as_deref(), Some("verschüttet: 0,3 mL auf dem Tisch"));
+    }
+
+    #[test]
+    fn where_acid_is_is_said() {
+        let words = Texts::english().unwrap().panel.acid_on;
+        assert_eq!(burns_text([false; 3], &words), None);
+        let one = burns_text([false, false, true], &words);
+        assert_eq!(one.as_deref(), Some("acid on your face"));
+        let all = burns_text([true; 3], &words);
+        let said = "acid on your left hand, your right hand and your face";
+        assert_eq!(all.as_deref(), Some(said));
+    }
+}

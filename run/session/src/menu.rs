@@ -1,0 +1,103 @@
+//! What can be chosen while a session runs, on the panel and by the computer's keyboard.
+
+use vitriol_lesson::Mode;
+use vitriol_run::Action;
+
+use super::decision::Decision;
+use super::listing::can_ask;
+use vitriol_run::choices::{CHOICES, Choice};
+
+/// Key of [`Action::Start`].
+pub const START: char = 'b';
+/// Key of [`Decision::Recentre`].
+pub const RECENTRE: char = 'a';
+/// Key of [`Decision::Summary`].
+pub const SUMMARY: char = 's';
+/// Key of [`Action::Hint`].
+pub const HINT: char = 'h';
+/// Key of [`Action::Skip`].
+pub const SKIP: char = 'n';
+/// Key of [`Action::Finish`].
+pub const FINISH: char = 'f';
+/// Key of [`Decision::AskEnd`].
+pub const END: char = 'q';
+/// The terminal's key that lets another browser into the console.
+pub const INVITE: char = 'i';
+
+/// What a key stands for.
+pub fn decision(key: char) -> Option<Decision> {
+    let key = key.to_ascii_lowercase();
+    match key {
+        START => Some(Decision::Act(Action::Start(None))),
+        RECENTRE => Some(Decision::Recentre),
+        SUMMARY => Some(Decision::Summary),
+        HINT => Some(Decision::Act(Action::Hint(None))),
+        SKIP => Some(Decision::Act(Action::Skip(None))),
+        FINISH => Some(Decision::Act(Action::Finish)),
+        END => Some(Decision::AskEnd),
+        _ => {
+            let chosen = CHOICES.iter().find(|choice| choice.key == key);
+            chosen.map(|choice| Decision::Act(Action::Scene(choice.scene.into())))
+        }
+    }
+}
+
+/// The keys and what they do, for a terminal; whether one lets a browser in, and how a lesson is gone through, if one is.
+pub fn lines(invites: bool, lesson: Option<Mode>) -> String {
+    let mut text = String::from("keys, each with Enter:");
+    for Choice { key, title, .. } in CHOICES {
+        text += &format!("\n  {key}  {title}");
+    }
+    text +=
+        &format!("\n  {START}  from the start\n  {RECENTRE}  recentre\n  {SUMMARY}  what happened");
+    for act in lesson.map_or(&[][..], can_ask) {
+        let (key, does) = match act {
+            Action::Hint(_) => (HINT, "a hint"),
+            Action::Skip(_) => (SKIP, "leave this step out"),
+            _ => (FINISH, "all is done: the lesson ends"),
+        };
+        text += &format!("\n  {key}  {does}");
+    }
+    if invites {
+        text += &format!("\n  {INVITE}  let a browser into the console");
+    }
+    text + &format!("\n  {END}  end, pressed twice")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use vitriol_sim::scene::Scene;
+
+    #[test]
+    fn each_choice_has_a_scene_and_a_key_of_its_own() {
+        for choice in CHOICES {
+            assert!(Scene::builtin_names().contains(&choice.scene));
+            let decided = decision(choice.key).unwrap();
+            assert_eq!(decided, Decision::Act(Action::Scene(choice.scene.into())));
+        }
+        assert_eq!(decision('B'), Some(Decision::Act(Action::Start(None))));
+        assert_eq!(decision('s'), Some(Decision::Summary));
+        assert_eq!(decision('x'), None);
+        let acts = ['H', 'n', 'f'].map(decision);
+        let expected = [Action::Hint(None), Action::Skip(None), Action::Finish];
+        assert_eq!(acts, expected.map(|act| Some(Decision::Act(act))));
+        let keys = [START, RECENTRE, SUMMARY, HINT, SKIP, FINISH, END, INVITE];
+        let mut all: Vec<char> = keys.into_iter().chain(CHOICES.map(|it| it.key)).collect();
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), count);
+    }
+
+    #[test]
+    fn a_lessons_keys_are_those_of_its_mode() {
+        let has = |mode, key: char| lines(false, mode).contains(&format!("\n  {key}  "));
+        let keys = |mode| [HINT, SKIP, FINISH].map(|key| has(mode, key));
+        assert_eq!(keys(None), [false; 3]);
+        assert_eq!(keys(Some(Mode::Guided)), [true, true, false]);
+        assert_eq!(keys(Some(Mode::Free)), [true, false, true]);
+        assert_eq!(keys(Some(Mode::Examination)), [false, false, true]);
+    }
+}

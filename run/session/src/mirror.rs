@@ -1,0 +1,112 @@
+//! The mirror: what the left eye sees, in a window on the computer.
+//!
+//! The window is filled by softbuffer and not by a swapchain, for three reasons. The runtime chooses the device, and the
+//! screen may hang on another. A lost device is made anew, and the window stays. A swapchain that waits for the screen's
+//! refresh would hold up the headset's queue.
+
+mod shrink;
+mod window;
+
+use vitriol_gpu::{Gpu, Image};
+use vitriol_run::Failure;
+use vitriol_shaders::Library;
+
+pub use self::shrink::{Shrink, Shrunk};
+use self::window::Say;
+pub use self::window::Window;
+use super::info::Info;
+
+/// Display time between two of the window's pictures, ns: 30 a second.
+const EVERY: i64 = 1_000_000_000 / 30;
+
+/// See the module.
+pub struct Mirror {
+    window: Window,
+    shrink: Shrink,
+    /// Display time of the next picture, ns.
+    due: i64,
+    title: String,
+}
+
+impl Mirror {
+    /// In `window`, for pictures of `eye` pixels an eye.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(
+        gpu: &Gpu,
+        library: &Library,
+        eye: [u32; 2],
+        window: Window,
+    ) -> Result<Self, Failure> {
+        Ok(Self {
+            window,
+            shrink: Shrink::new(gpu, library, eye)?,
+            due: i64::MIN,
+            title: String::new(),
+        })
+    }
+
+    /// Goes on with another device.
+    ///
+    /// # Errors
+    /// As for [`Mirror::new`].
+    pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
+        self.shrink = Shrink::new(gpu, library, eye)?;
+        self.due = i64::MIN;
+        Ok(())
+    }
+
+    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns, the runtime's clock),
+    /// if it is time for one. To be called between frames, behind the picture.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
+        let Some(extent) = self.window.extent() else {
+            return Ok(());
+        };
+        // Display times are rounded. With this margin it is every third frame at 90 Hz, and never the fourth.
+        if time < self.due.saturating_sub(EVERY / 8) {
+            return Ok(());
+        }
+        self.due = time.max(self.due.saturating_add(EVERY));
+        self.shrink.begin(picture, drawn, extent)
+    }
+
+    /// Hands over what the device is done with; does not wait.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn hand_over(&mut self) -> Result<(), Failure> {
+        while let Some(shrunk) = self.shrink.done()? {
+            self.window.say(Say::Picture(shrunk));
+        }
+        Ok(())
+    }
+
+    /// Puts scene and state into the window's title; `instead` is why the headset shows nothing, if it does not.
+    pub fn entitle(&mut self, info: &Info, instead: Option<&str>) {
+        let title = title(info, instead);
+        if self.title != title {
+            self.window.say(Say::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+fn title(info: &Info, instead: Option<&str>) -> String {
+    let mut title = format!("Vitriol: {}", info.scene);
+    if let Some(coming) = &info.coming {
+        title += &format!(", setting up {coming} …");
+    }
+    match (instead, info.slow) {
+        (Some(instead), _) => title += &format!(", {instead}"),
+        (None, Some(per_cent)) => title += &format!(", slow motion: {per_cent} % of real time"),
+        (None, None) => {}
+    }
+    if let Some(seconds) = info.recording {
+        title += &format!(", recording, {} min {:02} s", seconds / 60, seconds % 60);
+    }
+    title
+}

@@ -1,0 +1,147 @@
+//! The device's half of the mirror, and of the console's view: shrinks the left eye's picture and copies it to where another
+//! thread reads it. Nothing here waits.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use vitriol_gpu::{Buffer, ComputePipeline, CopyRegion, Gpu, GpuError, Image, QueueKind, Ticket};
+use vitriol_live::RawPicture;
+use vitriol_run::{Blame, Failure};
+use vitriol_shaders::{Library, layout, mirror};
+
+/// Longest side of the window's picture, pixels: as high as an ordinary screen. A larger window
+/// scales it up.
+const LONGEST: u32 = 1080;
+
+/// Buffers that a picture can be in: one is filled by the device, one is copied by the window's thread, one is spare.
+const SLOTS: usize = 3;
+
+/// A picture as a window takes it.
+pub struct Shrunk {
+    /// 0x00RRGGBB, row by row; the slot is free again when this is dropped.
+    pixels: Arc<Buffer>,
+    /// Width and height, pixels.
+    pub extent: [u32; 2],
+}
+
+impl Shrunk {
+    /// The pixels, 0x00RRGGBB, row by row.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn pixels(&self) -> Result<Vec<u32>, GpuError> {
+        let [width, height] = self.extent.map(|side| side as usize);
+        self.pixels.read_host(width * height)
+    }
+}
+
+impl From<Shrunk> for RawPicture {
+    fn from(Shrunk { pixels, extent }: Shrunk) -> Self {
+        Self::Device(pixels, extent)
+    }
+}
+
+/// Shrinks pictures, three at most at a time.
+pub struct Shrink {
+    gpu: Gpu,
+    pipeline: ComputePipeline,
+    /// The largest picture.
+    most: [u32; 2],
+    shrunk: Buffer,
+    /// A slot whose buffer nobody else holds is free.
+    slots: [Arc<Buffer>; SLOTS],
+    under_way: VecDeque<(Ticket, Shrunk)>,
+}
+
+impl Shrink {
+    /// For pictures of `eye` pixels an eye.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<Self, Failure> {
+        let compiled = library.compile(&mirror::MIRROR, "main", &[]).other()?;
+        let most = fit(eye, eye.map(|side| side.min(LONGEST)));
+        let bytes = 4 * u64::from(most[0]) * u64::from(most[1]);
+        let slot = || Buffer::readback(gpu, "mirror, for the window", bytes).other();
+        Ok(Self {
+            gpu: gpu.clone(),
+            pipeline: ComputePipeline::new(gpu, &compiled).other()?,
+            most,
+            shrunk: Buffer::storage(gpu, "mirror", bytes).other()?,
+            slots: [slot()?.into(), slot()?.into(), slot()?.into()],
+            under_way: VecDeque::new(),
+        })
+    }
+
+    /// Begins to shrink the first `drawn` pixels of `picture`'s first layer for a window of that size,
+    /// behind what was submitted before. Does nothing where no slot is free.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn begin(
+        &mut self,
+        picture: &Image,
+        drawn: [u32; 2],
+        window: [u32; 2],
+    ) -> Result<(), Failure> {
+        let mut slots = self.slots.iter_mut();
+        let Some(pixels) =
+            slots.find_map(|slot| Arc::get_mut(slot).is_some().then(|| Arc::clone(slot)))
+        else {
+            return Ok(());
+        };
+        let most = [0, 1].map(|side| self.most[side].min(drawn[side]).min(window[side]));
+        let extent = fit(drawn, most);
+        let mut rec = self.gpu.recorder(QueueKind::Main).other()?;
+        rec.pass(&self.pipeline)
+            .sampled("picture", picture)
+            .write("shrunk", &self.shrunk)
+            .constants(&layout::MirrorDraw { drawn, extent })
+            .invocations_2d(extent)
+            .other()?;
+        let all = CopyRegion {
+            from: 0,
+            to: 0,
+            bytes: 4 * u64::from(extent[0]) * u64::from(extent[1]),
+        };
+        rec.copy(&self.shrunk, &pixels, &[all]).other()?;
+        let ticket = self.gpu.submit(rec).other()?;
+        self.under_way
+            .push_back((ticket, Shrunk { pixels, extent }));
+        Ok(())
+    }
+
+    /// The next picture that the device is done with.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn done(&mut self) -> Result<Option<Shrunk>, Failure> {
+        match self.under_way.front() {
+            Some((ticket, _)) if ticket.is_done().other()? => {}
+            _ => return Ok(None),
+        }
+        Ok(self.under_way.pop_front().map(|(_, shrunk)| shrunk))
+    }
+}
+
+/// The largest extent of the aspect of `picture` that fits in `window`, pixels.
+pub fn fit(picture: [u32; 2], window: [u32; 2]) -> [u32; 2] {
+    let scale = (0..2)
+        .map(|side| f64::from(window[side]) / f64::from(picture[side]))
+        .fold(f64::INFINITY, f64::min);
+    picture.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit;
+
+    #[test]
+    fn a_picture_keeps_its_aspect() {
+        // By hand: 2064 / 2208 = 0.9348.
+        assert_eq!(fit([2064, 2208], [1080, 1080]), [1010, 1080]);
+        assert_eq!(fit([2064, 2208], [467, 4000]), [467, 500]);
+        assert_eq!(fit([320, 240], [800, 800]), [800, 600]);
+        assert_eq!(fit([320, 240], [1, 1]), [1, 1]);
+    }
+}

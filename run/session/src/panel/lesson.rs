@@ -1,0 +1,225 @@
+//! A lesson on the panel: what is to be done, and what can be asked for.
+
+use egui::{Align, Color32, Label, Layout, RichText, Ui, vec2};
+use vitriol_run::Action;
+
+use super::colours::{FAINT, GOOD, TEXT, WARNING, WHITE};
+use crate::decision::Decision;
+use crate::info::{Mark, Shown};
+use crate::menu;
+
+/// What is to be done, its steps where they are listed, and why something failed or else how to do it.
+pub fn told(ui: &mut Ui, shown: &Shown) {
+    ui.label(RichText::new(&shown.step).color(WHITE));
+    for (mark, text) in &shown.steps {
+        ui.horizontal_top(|ui| step(ui, *mark, text));
+    }
+    let note = shown.note.iter().map(|line| (line, FAINT));
+    let more = shown.failed.as_ref().or(shown.hint.as_ref());
+    for (line, colour) in note.chain(more.map(|line| (line, WARNING))) {
+        ui.label(RichText::new(line).color(colour));
+    }
+}
+
+fn step(ui: &mut Ui, mark: Mark, text: &str) {
+    // By its shape as well as by its colour.
+    let (sign, colour, of_text): (_, Color32, Color32) = match mark {
+        Mark::Done => ("✔", GOOD, FAINT),
+        Mark::Missed => ("✖", WARNING, FAINT),
+        Mark::Open => ("▶", WHITE, WHITE),
+        Mark::Waiting => ("•", FAINT, FAINT),
+    };
+    let size = vec2(34.0, TEXT);
+    let sign = Label::new(RichText::new(sign).color(colour));
+    ui.allocate_ui_with_layout(size, Layout::top_down(Align::Center), |ui| ui.add(sign));
+    let rest = vec2(ui.available_width(), TEXT);
+    let text = Label::new(RichText::new(text).color(of_text)).wrap();
+    ui.allocate_ui_with_layout(rest, Layout::top_down(Align::Min), |ui| ui.add(text));
+}
+
+/// What can be asked for, each with its key and whether it can now.
+pub fn asks(shown: &Shown) -> impl Iterator<Item = (String, bool, Decision)> {
+    shown.acts.iter().map(|line| {
+        let key = match &line.act {
+            Action::Hint(_) => menu::HINT,
+            Action::Skip(_) => menu::SKIP,
+            _ => menu::FINISH,
+        };
+        let text = format!("{}   {}", key.to_ascii_uppercase(), line.text);
+        (text, line.on, Decision::Act(line.act.clone()))
+    })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod tests {
+    use super::super::{PANEL, view};
+    use super::*;
+    use crate::info::{ActLine, FlaskLine, Info};
+    use egui::{Context, Pos2, RawInput, Rect, Shape, Vec2};
+    use vitriol_lesson::{Language, Texts};
+
+    /// Pixels of the panel's edge that no text comes to.
+    const MARGIN: f32 = 20.0;
+
+    /// Where each text is on a panel that shows this lesson.
+    fn texts(lesson: Shown) -> Vec<(String, Rect)> {
+        let flask = |name: &str| FlaskLine {
+            broken: false,
+            name: name.into(),
+            temperature: Some(117),
+            acid: Some(71),
+        };
+        let info = Info {
+            scene: "acid-into-water".into(),
+            flasks: vec![flask("source"), flask("target")],
+            acid: true,
+            burns: [true, false, false],
+            lesson: Some(lesson),
+            ..Info::default()
+        };
+        let words = vitriol_run::texts::Texts::english().unwrap().panel;
+        let context = Context::default();
+        view::style(&context);
+        let [width, height] = PANEL.map(|side| side as f32);
+        let input = || RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
+            ..RawInput::default()
+        };
+        // A strip knows how high it is in its second frame.
+        let mut shapes = Vec::new();
+        for _ in 0..2 {
+            let output = context.run(input(), |context| {
+                view::show(context, (&info, &words), None, None);
+            });
+            shapes = output.shapes;
+        }
+        let mut found = Vec::new();
+        for clipped in shapes {
+            if let Shape::Text(text) = &clipped.shape {
+                found.push((
+                    text.galley.text().to_owned(),
+                    clipped.shape.visual_bounding_rect(),
+                ));
+            }
+        }
+        found
+    }
+
+    /// As much as a lesson may say, in a language's longest words: fifty characters a line, and half of them of Chinese.
+    fn longest(language: Language) -> Shown {
+        let texts = Texts::of(language).unwrap();
+        let (word, most) = match language {
+            Language::Zh => ("硫酸倒入水中", 54 / 2),
+            Language::De => ("Säure in das Wasser ", 54),
+            Language::Es => ("el ácido en el agua ", 54),
+            Language::En => ("the acid into water ", 54),
+        };
+        let lines = |count: usize| word.chars().cycle().take(most * count).collect::<String>();
+        let act = |act, text| ActLine {
+            act,
+            text,
+            on: true,
+        };
+        Shown {
+            step: lines(1),
+            // Nine lines, of which a hint has three.
+            steps: [
+                (Mark::Done, 1),
+                (Mark::Missed, 1),
+                (Mark::Open, 1),
+                (Mark::Waiting, 1),
+                (Mark::Waiting, 1),
+            ]
+            .map(|(mark, count)| (mark, lines(count)))
+            .to_vec(),
+            note: Some(texts.more_steps(45)),
+            hint: Some(lines(3)),
+            failed: None,
+            acts: vec![
+                act(Action::Hint(None), texts.ask_hint()),
+                act(Action::Skip(None), texts.skip_step()),
+                act(Action::Finish, texts.finish_lesson()),
+            ],
+            quiet: false,
+        }
+    }
+
+    /// Texts, buttons and readings are on the panel, one beside the other, in each language.
+    #[test]
+    fn a_lesson_fits_the_panel_in_each_language() {
+        let [width, height] = PANEL.map(|side| side as f32);
+        let inside = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height)).shrink(MARGIN);
+        for language in Language::ALL {
+            let shown = longest(language);
+            let found = texts(shown.clone());
+            let place = |part: &str| {
+                let at = found.iter().find(|(text, _)| text.contains(part));
+                at.unwrap_or_else(|| panic!("{language}: {part} is not shown"))
+                    .1
+            };
+            for (text, rect) in &found {
+                let within = rect.left() >= inside.left() && rect.right() <= inside.right();
+                assert!(
+                    within && rect.bottom() <= inside.bottom(),
+                    "{language}: {text} {rect:?}"
+                );
+            }
+            let lowest = place(shown.hint.as_ref().unwrap()).bottom();
+            for act in &shown.acts {
+                let button = place(&act.text);
+                assert!(button.top() > lowest, "{language}: {}", act.text);
+                assert!(
+                    button.height() < 46.0,
+                    "{language}: {} has two lines",
+                    act.text
+                );
+            }
+            assert!(place("What happened").bottom() < inside.bottom());
+            // A line of the list is one.
+            for (_, text) in &shown.steps {
+                assert!(place(text).height() < 46.0, "{language}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_sign_can_be_shown() {
+        let context = Context::default();
+        view::style(&context);
+        let _ = context.run(RawInput::default(), |_| {});
+        let font = egui::FontId::proportional(TEXT);
+        for sign in ['✔', '✖', '▶', '•'] {
+            assert!(
+                context.fonts_mut(|fonts| fonts.has_glyph(&font, sign)),
+                "{sign}"
+            );
+        }
+    }
+
+    /// In a lesson its own buttons stand in place of the scenes'; who is examined is told nothing of what happened.
+    #[test]
+    fn a_lesson_has_its_own_buttons() {
+        let has = |shown: &Shown, part: &str| {
+            let found = texts(shown.clone());
+            found.iter().any(|(text, _)| text.contains(part))
+        };
+        let shown = longest(Language::En);
+        assert!(has(&shown, "H   Hint") && has(&shown, "F   I am done"));
+        assert!(has(&shown, "What happened") && !has(&shown, "Correct: acid into water"));
+        let over = Shown {
+            acts: Vec::new(),
+            ..shown.clone()
+        };
+        assert!(has(&over, "Correct: acid into water") && !has(&over, "H   Hint"));
+        assert!(has(&shown, "71 % acid") && has(&shown, "acid on your left hand"));
+        let quiet = Shown {
+            quiet: true,
+            ..shown
+        };
+        assert!(!has(&quiet, "What happened") && has(&quiet, "From the start"));
+        // Nor what it is judged by; how warm it is anybody can feel.
+        assert!(!has(&quiet, "71 % acid") && !has(&quiet, "acid on your"));
+        assert!(has(&quiet, "117"));
+    }
+}

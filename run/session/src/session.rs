@@ -1,0 +1,438 @@
+//! The session: from its first frame to its end, through whatever turns the runtime takes. A frame is in `frame`, with
+//! the parts that it goes through, each in a file of its own.
+
+mod benches;
+mod checkpoints;
+mod choices;
+mod counts;
+mod ended;
+mod frame;
+mod guide;
+mod hints;
+mod instructor;
+mod losses;
+mod metadata;
+mod pacing;
+mod readings;
+mod repaint;
+mod sounds;
+mod spills;
+mod steps;
+mod summary;
+mod telling;
+
+use std::path::PathBuf;
+use std::sync::mpsc::Receiver;
+use std::time::Instant;
+
+use vitriol_gpu::Timestamps;
+use vitriol_lesson::procedure::Verdict;
+use vitriol_lesson::{Attempt, Language};
+use vitriol_render::Bone;
+use vitriol_run::device::statement;
+use vitriol_run::hands::Joints;
+use vitriol_run::run::{RecordingStatus, TrackRecording};
+use vitriol_run::{Action, Blame, Failure, Judging, Run, track};
+use vitriol_sim::world::World;
+use vitriol_sound::Device;
+use vitriol_xr::{Headset, Pause, Turn};
+
+use vitriol_live::Console;
+
+use super::blame::blame;
+use super::decision::Decision;
+use super::fade::Fade;
+use super::first_minute::FirstMinuteReport;
+use super::foveating::Foveating;
+use super::handle::Handles;
+use super::latch::{Grip, Latches};
+use super::mirror::{Mirror, Window};
+use super::panel::Panel;
+use super::placement::{Placement, Posture};
+use super::tally::{Holdings, Tally};
+use super::workbench::{Plan, Workbench};
+use vitriol_run::texts::Texts;
+
+use benches::Benches;
+use checkpoints::Checkpoints;
+use choices::Choices;
+use counts::Counts;
+use ended::NoFrameOpen;
+use guide::Guide;
+use hints::Hints;
+use instructor::Instructor;
+use losses::Losses;
+use metadata::metadata;
+use pacing::Pacing;
+use readings::Readings;
+use sounds::Sounds;
+use spills::Spills;
+use steps::Steps;
+use summary::Summary;
+
+pub use counts::WARM_UP;
+pub use guide::Course;
+pub use pacing::{FramesWith, GovernorReport};
+pub use sounds::SoundReport;
+pub use spills::{Contacts, Spilt, Touched};
+
+/// What a session is to be.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The bench to begin with.
+    pub plan: Plan,
+    /// How the user is at it.
+    pub posture: Posture,
+    /// How hands grip.
+    pub grip: Grip,
+    /// Frames that are measured, after which the session ends; `None` for as long as the user likes.
+    pub frames: Option<u64>,
+    /// The track to be made.
+    pub record: Option<PathBuf>,
+    /// Where sound is played.
+    pub sound: Device,
+    /// Whether a governor gives solver and picture less to do where frames would not fit the display's period.
+    pub governed: bool,
+    /// Where the pictures are sharp; without it everywhere, but where the governor has to give way.
+    pub foveating: Option<Foveating>,
+    /// Whether signs show a first user what to do.
+    pub hints: bool,
+    /// The instructor's console, if there is one.
+    pub console: Option<Console>,
+    /// The lesson that it goes through, if it does.
+    pub course: Option<Course>,
+    /// Of what panel and announcements say.
+    pub language: Language,
+}
+
+/// A session as it ends.
+pub struct SessionOutcome {
+    /// The bench.
+    pub bench: Workbench,
+    /// Its world.
+    pub world: World,
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub simulated: f64,
+    /// Time that was shown as slow motion, s.
+    pub slowed: f64,
+    /// Frames, those of the warm-up included.
+    pub frames: u64,
+    /// Display periods without a frame, of those that count.
+    pub skipped: u64,
+    /// Where the pictures were to be sharp; `None` where that was the governor's to say.
+    pub foveating: Option<Foveating>,
+    /// Width and height of the pictures of the runtime's own inset, pixels, where there was one.
+    pub inset: Option<[u32; 2]>,
+    /// Times that a session was found again.
+    pub renewals: u64,
+    /// Times that a device was lost, and the bench was brought back on another.
+    pub devices_lost: u32,
+    /// Times of the frames that count.
+    pub tally: Tally,
+    /// What the governor did in the frames that count.
+    pub governor: GovernorReport,
+    /// What the process held when counting began, and at the end.
+    pub holdings: [Option<Holdings>; 2],
+    /// What became of the sound.
+    pub sound: SoundReport,
+    /// What lies beside the flasks, and acid that touched the user.
+    pub spilt: Spilt,
+    /// See [`Contacts`].
+    pub contacts: Contacts,
+    /// Flasks that broke.
+    pub broken: u32,
+    /// What was done of a first minute; `None` without hints.
+    pub first_minute: Option<FirstMinuteReport>,
+    /// What became of the recording, if there was one.
+    pub recorded: Option<RecordingStatus>,
+    /// What was done and what went wrong, from each start of a scene on.
+    pub attempts: Vec<Attempt>,
+    /// What the lesson came to, if there was one.
+    pub verdict: Option<Verdict>,
+}
+
+/// See the module. Each part keeps one thing and knows no other part but those that it is handed.
+pub struct Session {
+    /// The bench in use and the one that is being built.
+    benches: Benches,
+    /// What the user chose and is not done yet.
+    choices: Choices,
+    /// Where the bench stands, and the last frame's poses.
+    placement: Placement,
+    /// How much of the light is shown.
+    fade: Fade,
+    /// The table's handles.
+    handles: Handles,
+    /// Where one press grips and the next lets go.
+    latches: Option<Latches>,
+    /// Joints of the hands that are bare in the last frame, in the scene's stage.
+    joints: [Option<Joints>; 2],
+    /// Steps that are due.
+    steps: Steps,
+    /// The world, and what is observed, judged and recorded of it.
+    run: Run,
+    /// What the panel says of the flasks.
+    readings: Readings,
+    /// What the bench is brought back from where the device is lost.
+    checkpoints: Checkpoints,
+    /// What was spilt, and on whom.
+    spills: Spills,
+    /// What the user hears.
+    sounds: Sounds,
+    /// What a first user is shown.
+    hints: Hints,
+    /// What happened, for who asks.
+    summary: Summary,
+    /// The bones of the hands as they were drawn last, in the scene's stage, real metres.
+    gloves: [Vec<Bone>; 2],
+    /// The panel.
+    panel: Panel,
+    /// The lesson.
+    guide: Guide,
+    /// Who directs it from elsewhere.
+    instructor: Instructor,
+    /// The window on the computer, if there is one.
+    mirror: Option<Mirror>,
+    /// The governor, and what it has decided.
+    pacing: Pacing,
+    /// Frames, and what they took.
+    counts: Counts,
+    /// Frames after which it ends, those of the warm-up included.
+    most: Option<u64>,
+    renewals: u64,
+    losses: Losses,
+    /// What is said, in the user's language.
+    texts: Texts,
+}
+
+impl Session {
+    /// A session at its start, which does what comes from `decisions`.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a scene that is not there, or a recording that is already; what the
+    /// device says.
+    pub fn new(
+        headset: &dyn Headset,
+        options: Options,
+        decisions: Receiver<Decision>,
+    ) -> Result<Self, Failure> {
+        let gpu = headset.gpu();
+        // Without a governor nothing gives way.
+        let fixed = (!options.governed).then_some(Foveating::Off);
+        let foveating = options.foveating.or(fixed);
+        let (benches, world) = Benches::new(headset, &options.plan, foveating)?;
+        let mut pacing = Pacing::new(gpu, &benches.current, options.governed);
+        let counts = options.frames.is_some();
+        let timed = gpu.options().timestamps != Timestamps::None;
+        let tally = Tally::new(counts, timed && (counts || pacing.report.on));
+        let texts = Texts::of(options.language)?;
+        let panel = Panel::new(gpu, &benches.library)?.in_words(&texts.panel);
+        let toggles = options.grip == Grip::Toggle;
+        let hints = Hints::new(options.hints, toggles, gpu, &benches.library)?;
+        // After what fails for a user's mistake, so that a session that never was leaves no file.
+        let mut run = Run::new(&options.plan.scene, world);
+        if let Some(file) = &options.record {
+            let metadata = metadata(&options.plan, options.course.as_ref(), &statement(gpu));
+            let recording = TrackRecording::create(file, &metadata);
+            run.record(recording.map_err(track::blame)?);
+        }
+        if let Some(Course { lesson, mode, .. }) = &options.course {
+            run.judge(Judging::new(lesson.clone(), *mode, &options.plan.scene));
+        }
+        if options.plan.breakable {
+            run.act(Action::Glass(true))?;
+        }
+        pacing.begin(true, None, &benches.current, &mut run)?;
+        let sounds = Sounds::new(options.sound, options.plan.seed);
+        let made_for = (gpu, &*benches.library, benches.eyes.extent);
+        let instructor = Instructor::new(options.console, made_for)?;
+        Ok(Self {
+            benches,
+            choices: Choices::new(decisions),
+            placement: Placement::new(options.posture),
+            fade: Fade::default(),
+            handles: Handles::default(),
+            latches: toggles.then(Latches::default),
+            joints: [None; 2],
+            steps: Steps::new(),
+            run,
+            readings: Readings::default(),
+            sounds,
+            hints,
+            summary: Summary::new(options.language)?,
+            checkpoints: Checkpoints::default(),
+            spills: Spills::default(),
+            gloves: [const { Vec::new() }; 2],
+            panel,
+            guide: Guide::new(options.course)?,
+            instructor,
+            mirror: None,
+            pacing,
+            counts: Counts::new(tally),
+            most: options.frames.map(|frames| WARM_UP + frames),
+            renewals: 0,
+            losses: Losses::default(),
+            texts,
+        })
+    }
+
+    /// The same, with what the left eye sees in `window`.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
+        let (gpu, benches) = (self.run.world.gpu(), &self.benches);
+        let mirror = Mirror::new(gpu, &benches.library, benches.eyes.extent, window)?;
+        self.mirror = Some(mirror);
+        Ok(self)
+    }
+
+    /// Runs until the runtime, the user or the number of frames ends it.
+    ///
+    /// # Errors
+    /// What headset or device say.
+    pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
+        let mut lost = false;
+        loop {
+            let ends = self.choices.hear(Instant::now());
+            if self.obey() || ends {
+                headset.request_exit().map_err(blame)?;
+            }
+            let turn = match headset.next() {
+                Ok(turn) => turn,
+                Err(error) => {
+                    self.bear(headset, blame(error))?;
+                    continue;
+                }
+            };
+            match turn {
+                Turn::Frame(frame) => {
+                    if let Err(failure) = self.frame(headset, &frame) {
+                        self.bear(headset, failure)?;
+                    }
+                    if self.most.is_some_and(|most| self.counts.frames >= most) {
+                        headset.request_exit().map_err(blame)?;
+                    }
+                }
+                Turn::Paused { cause } => self.pause(match cause {
+                    Pause::Off => "the headset is off",
+                    Pause::Unseen => "the headset is not seen yet",
+                })?,
+                Turn::Lost { cause } => {
+                    if !std::mem::replace(&mut lost, true) {
+                        tracing::warn!("{cause}; the experiment waits where it is");
+                    }
+                    self.pause("the headset is lost")?;
+                }
+                Turn::Renewed => {
+                    lost = false;
+                    if let Err(failure) = self.renew(headset) {
+                        self.bear(headset, failure)?;
+                    }
+                }
+                Turn::Ended => return self.finish(),
+            }
+        }
+    }
+
+    /// A device that is lost is no end: the headset gets another one, and the bench is brought back on it.
+    fn bear(&mut self, headset: &mut dyn Headset, failure: Failure) -> Result<(), Failure> {
+        if !headset.gpu().is_lost() || !self.losses.may_go_on(self.counts.frames) {
+            return Err(failure);
+        }
+        tracing::warn!("{failure}; another device is opened");
+        headset.lose_device();
+        Ok(())
+    }
+
+    /// The headset shows nothing, for this reason: time stands still.
+    fn pause(&mut self, why: &str) -> Result<(), Failure> {
+        let info = self.info();
+        if let Some(mirror) = &mut self.mirror {
+            mirror.entitle(&info, Some(why));
+        }
+        self.steps.clock.pause();
+        self.placement.interrupt();
+        self.counts.pause();
+        self.tell(false);
+        match self.catch_up(&NoFrameOpen::in_a_turn_without()) {
+            // Nothing comes from it any more; what is due is taken on the next one.
+            Err(_) if self.run.world.gpu().is_lost() => Ok(()),
+            caught_up => caught_up,
+        }
+    }
+
+    /// Moves everything to the headset's new device.
+    fn renew(&mut self, headset: &dyn Headset) -> Result<(), Failure> {
+        self.pause("the headset was lost")?;
+        self.renewals += 1;
+        if !self.run.world.gpu().is_lost() {
+            self.observe(true)?;
+        }
+        let gpu = headset.gpu();
+        if self.benches.move_to(headset, &mut self.run)? {
+            self.losses.brought_back(self.counts.frames);
+        }
+        self.checkpoints.forget();
+        let (library, eyes) = (&self.benches.library, &self.benches.eyes);
+        self.panel = Panel::new(gpu, library)?.in_words(&self.texts.panel);
+        self.hints.move_to(gpu, library)?;
+        if let Some(mirror) = &mut self.mirror {
+            mirror.move_to(gpu, library, eyes.extent)?;
+        }
+        self.instructor.move_to(gpu, library, eyes.extent)?;
+        // What was under way on the old device will not come, and what it took says nothing of the new one.
+        self.pacing.forget();
+        self.pacing.forget_rates();
+        self.counts.tally.restart();
+        self.steps.submitted();
+        // What a lost device has left due belongs to the hands as they were before.
+        let no_frame = NoFrameOpen::in_a_turn_without();
+        self.steps.take_rest(&mut self.run, &no_frame)?;
+        self.steps.submitted();
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<SessionOutcome, Failure> {
+        self.step_for_switches()?;
+        self.catch_up(&NoFrameOpen::in_a_turn_without())?;
+        for looked in self.run.end_attempt()? {
+            self.observed(&looked);
+        }
+        self.guide.follow(&self.run);
+        self.run.world.gpu().wait_idle().other()?;
+        self.counts.tally.collect()?;
+        self.tell(true);
+        let mut run = self.run;
+        let recorded = match run.recorded() {
+            Some(_) => run.finish_recording(run.world.snapshot().other()?.solver.hash()),
+            None => None,
+        };
+        Ok(SessionOutcome {
+            bench: self.benches.current,
+            steps: run.time().steps(),
+            simulated: run.time().seconds(),
+            slowed: self.steps.clock.slowed,
+            frames: self.counts.frames,
+            skipped: self.counts.skipped,
+            foveating: self.benches.eyes.foveating,
+            inset: self.benches.eyes.inset,
+            renewals: self.renewals,
+            devices_lost: self.losses.count,
+            tally: self.counts.tally,
+            governor: self.pacing.report,
+            sound: self.sounds.report(),
+            spilt: self.spills.spilt,
+            contacts: self.spills.contacts,
+            broken: run.counts().flasks_broken as u32,
+            first_minute: self.hints.report(),
+            holdings: [self.counts.began_with, Holdings::now()],
+            recorded,
+            attempts: Attempt::all(run.events().iter().cloned()),
+            verdict: run.judging().map(|it| it.procedure().verdict()),
+            world: run.world,
+        })
+    }
+}

@@ -1,0 +1,171 @@
+//! The bench in use, and the one that is built beside the frame loop to follow it.
+
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use vitriol_gpu::Gpu;
+use vitriol_run::{Action, Blame, Failure, Run};
+use vitriol_shaders::Library;
+use vitriol_sim::world::World;
+use vitriol_xr::Headset;
+
+use super::ended::NoFrameOpen;
+use crate::foveating::Foveating;
+use crate::picture::Eyes;
+use crate::workbench::{Plan, Workbench};
+
+/// The bench in use, what it and its like are made with, and the next one.
+pub(super) struct Benches {
+    /// The shaders.
+    pub library: Arc<Library>,
+    /// What pictures are made for.
+    pub eyes: Eyes,
+    /// The bench in use.
+    pub current: Workbench,
+    coming: Option<Coming>,
+    /// What was to come, and was on a device that was lost meanwhile.
+    again: Option<(Plan, Action)>,
+}
+
+/// A bench in the making, on a thread of its own: compiling its passes takes longer than a frame.
+struct Coming {
+    plan: Plan,
+    /// What its picture is made for.
+    eyes: Eyes,
+    thread: JoinHandle<Result<(Workbench, World), Failure>>,
+    /// What brings it up.
+    action: Action,
+}
+
+impl Benches {
+    /// The first bench, and its world at its start.
+    pub fn new(
+        headset: &dyn Headset,
+        plan: &Plan,
+        foveating: Option<Foveating>,
+    ) -> Result<(Self, World), Failure> {
+        let (library, eyes) = (Arc::new(Library::embedded()), Eyes::of(headset, foveating));
+        let (current, world) = Workbench::new(headset.gpu(), &library, plan, &eyes)?;
+        let benches = Self {
+            current,
+            library,
+            eyes,
+            coming: None,
+            again: None,
+        };
+        Ok((benches, world))
+    }
+
+    /// Begins to build a scene at its start; a bench that is under construction already is given up.
+    pub fn build(&mut self, gpu: &Gpu, scene: String) {
+        let same = scene == self.current.plan.scene;
+        let action = match same {
+            true => Action::Start(Some(scene.clone())),
+            false => Action::Scene(scene.clone()),
+        };
+        let mut plan = Plan {
+            scene,
+            ..self.current.plan.clone()
+        };
+        if !same {
+            // `--solver` and `--budget-ms` are for the session's first scene; others have their preset.
+            (plan.solver, plan.filter) = (None, None);
+        }
+        self.again = None;
+        self.start(gpu, plan, action);
+    }
+
+    fn start(&mut self, gpu: &Gpu, plan: Plan, action: Action) {
+        let (gpu, library) = (gpu.clone(), Arc::clone(&self.library));
+        let (made, of) = (plan.clone(), self.eyes.clone());
+        self.coming = Some(Coming {
+            plan,
+            eyes: self.eyes.clone(),
+            thread: std::thread::spawn(move || Workbench::new(&gpu, &library, &made, &of)),
+            action,
+        });
+    }
+
+    /// The scene of the bench that is being built.
+    pub fn coming(&self) -> Option<&str> {
+        let coming = self.coming.as_ref();
+        coming.and_then(|coming| coming.action.brings_up())
+    }
+
+    /// Whether a bench is ready to follow the one in use.
+    pub fn is_built(&self) -> bool {
+        let coming = self.coming.as_ref();
+        coming.is_some_and(|coming| coming.thread.is_finished())
+    }
+
+    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a failure, and gives its
+    /// world and what brings that up. Waits until the old one has given back its memory.
+    pub fn replace_if_built(&mut self, gpu: &Gpu, _: &NoFrameOpen) -> Option<(Action, World)> {
+        let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
+        let made = coming.thread.join();
+        match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
+            Ok((bench, world)) => {
+                self.current = bench;
+                // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
+                // these.
+                self.eyes = coming.eyes;
+                Some((coming.action, world))
+            }
+            Err(_) if gpu.is_lost() => {
+                self.again = Some((coming.plan, coming.action));
+                None
+            }
+            Err(failure) => {
+                tracing::warn!("the bench stays as it is: {failure}");
+                None
+            }
+        }
+    }
+
+    /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come
+    /// with the first views and may change. Waits for an upload.
+    pub fn take_mask(&mut self, headset: &dyn Headset, _: &NoFrameOpen) -> Result<(), Failure> {
+        let eyes = Eyes::of(headset, self.eyes.foveating);
+        if eyes.hidden != self.eyes.hidden {
+            self.current.picture.hide(&eyes.hidden)?;
+            self.eyes = eyes;
+        }
+        Ok(())
+    }
+
+    /// Moves the bench and its run to the headset's new device, every particle where it was, and begins the one that was being built
+    /// anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of it, and what
+    /// was observed behind the steps that are taken again is observed again. Whether that was so.
+    pub fn move_to(&mut self, headset: &dyn Headset, run: &mut Run) -> Result<bool, Failure> {
+        let gpu = headset.gpu();
+        self.eyes = Eyes::of(headset, self.eyes.foveating);
+        let before = &run.world;
+        let (bench, mut world) =
+            Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
+        let state = before.snapshot();
+        let lost = before.gpu().is_lost();
+        let again = match before.lifeline().filter(|_| lost) {
+            Some(lifeline) => {
+                let again = world.revive(lifeline).other()?;
+                tracing::info!("brought back, {} steps taken again", lifeline.steps());
+                Some(again)
+            }
+            None => {
+                world.solve_like(before).other()?;
+                world.restore(&state.other()?).other()?;
+                let memory = before.looks_memory().other()?;
+                world.remember_looks(&memory).other()?;
+                None
+            }
+        };
+        let revived = again.is_some();
+        run.move_to(world, again);
+        self.current = bench;
+        let coming = self.coming.take();
+        let coming = coming.map(|coming| (coming.plan, coming.action));
+        if let Some((plan, action)) = coming.or(self.again.take()) {
+            self.start(gpu, plan, action);
+        }
+        Ok(revived)
+    }
+}

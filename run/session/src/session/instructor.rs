@@ -1,0 +1,291 @@
+//! The instructor's end of a session: what is asked for on the console, and what the console is told.
+//!
+//! Orders act with the next frame, the student reads of each on the panel, and a recording keeps what a replay is to do again.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use vitriol_console::{Command, Controls, Frames, List, Said, State, Step, Student, Text};
+use vitriol_gpu::{Gpu, Image};
+use vitriol_lesson::{Event, Texts};
+use vitriol_run::{Action, Blame, Failure};
+use vitriol_shaders::Library;
+use vitriol_sim::scene::Scene;
+use vitriol_sim::solver::{Census, Held};
+
+use crate::decision::Decision;
+use crate::info::Told;
+use crate::session::spills::Spilt;
+use crate::view::View;
+use vitriol_live::{Console, incidents, readings};
+use vitriol_run::choices::CHOICES;
+use vitriol_run::texts::InstructorTexts;
+
+/// How long the panel says what the instructor has done, ns of the display. Our choice: it is read twice in that.
+const SAID: i64 = 6_000_000_000;
+/// How long hands feel that something is said, ns.
+const FELT: i64 = 250_000_000;
+/// How strongly, 0 to 1.
+const STRENGTH: f32 = 0.5;
+/// Over which frames' times are told.
+const LATELY: Duration = Duration::from_secs(1);
+
+/// What is told of a frame.
+pub(super) struct Now<'a> {
+    pub frame: u64,
+    /// Simulated time, s.
+    pub time: f64,
+    /// The scene's name, and what it is.
+    pub scene: (&'a str, &'a Scene),
+    pub intensity: Option<f64>,
+    pub spilt: Spilt,
+    /// All that was found so far.
+    pub events: &'a [Event],
+    /// The display's period, s.
+    pub period: Option<f64>,
+    pub missed: u64,
+    /// The lesson's step and the hints that were given.
+    pub step: Option<Step>,
+    pub hints: List<Said, 16>,
+    pub ended: bool,
+}
+
+/// See the module.
+pub(super) struct Instructor {
+    console: Option<Console>,
+    view: Option<View>,
+    texts: Texts,
+    controls: Controls,
+    /// The last order that was taken up.
+    done: u64,
+    /// What the panel says of the last one, and the display time of the first frame that did, ns.
+    said: Option<(String, Option<i64>)>,
+    /// By flask, at the last look.
+    flasks: Vec<Held>,
+    /// Of the last frames, s.
+    took: VecDeque<(Instant, f64)>,
+    /// Of how many events it is made, and what went wrong in them.
+    incidents: (usize, Vec<vitriol_console::Incident>),
+}
+
+impl Instructor {
+    /// Of a session with that console, or with none, whose pictures have `eye` pixels.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where a text is missing, which a test rules out.
+    pub fn new(
+        console: Option<Console>,
+        (gpu, library, eye): (&Gpu, &Library, [u32; 2]),
+    ) -> Result<Self, Failure> {
+        // Now, and not when somebody looks: a pipeline takes longer than a frame.
+        let view = console.as_ref();
+        let view = view.map(|it| View::new(gpu, library, eye, &it.port));
+        Ok(Self {
+            view: view.transpose()?,
+            console,
+            texts: Texts::english().other()?,
+            controls: Controls::default(),
+            done: 0,
+            said: None,
+            flasks: Vec::new(),
+            took: VecDeque::new(),
+            incidents: (0, Vec::new()),
+        })
+    }
+
+    /// What was asked for since the last call, each with its order's number. Of what this program cannot do the instructor sees that it
+    /// was not done.
+    pub fn orders(&self) -> Vec<(u64, Option<Decision>)> {
+        let Some(Console { port, student }) = &self.console else {
+            return Vec::new();
+        };
+        let orders = port.commands().into_iter();
+        orders
+            .map(|order| (order.number, asked(order.command, student)))
+            .collect()
+    }
+
+    /// An order was taken up, or cannot be: the next frame is the first in which it counts.
+    pub fn taken_up(&mut self, order: u64) {
+        self.done = self.done.max(order);
+    }
+
+    /// Shows on the panel what was done, from the next frame on.
+    pub fn announce(&mut self, text: String) {
+        self.said = Some((text, None));
+    }
+
+    /// An instruction counts from now on.
+    pub fn follow(&mut self, instruction: &Action) {
+        let controls = &mut self.controls;
+        match instruction {
+            Action::Pause(on) => controls.paused = *on,
+            Action::Speed(rate) => controls.rate = *rate,
+            Action::Mute(on) => controls.spared = *on,
+            Action::Message(text) => controls.message = Text::clipped(text),
+            // The world's own k_v is told.
+            _ => {}
+        }
+    }
+
+    /// Whether simulated time is held.
+    pub fn holds_time(&self) -> bool {
+        self.controls.paused
+    }
+
+    /// Whether the boiling is muted.
+    pub fn mutes_boiling(&self) -> bool {
+        self.controls.spared
+    }
+
+    /// How strongly both hands feel at `now` (ns) that something is said, 0 to 1.
+    pub fn felt(&self, now: i64) -> f32 {
+        let at = self.said.as_ref().and_then(|(_, at)| *at);
+        match at {
+            Some(at) if (0..FELT).contains(&(now - at)) => STRENGTH,
+            _ => 0.0,
+        }
+    }
+
+    /// What the panel says in the frame that is shown at `now` (ns).
+    pub fn told(&mut self, words: &InstructorTexts, now: i64) -> Told {
+        if let Some((_, at)) = &mut self.said {
+            at.get_or_insert(now);
+        }
+        let lately =
+            |(_, at): &&(String, Option<i64>)| at.is_none_or(|at| (0..SAID).contains(&(now - at)));
+        let lately = self.said.as_ref().filter(lately).map(|(text, _)| text);
+        let held = self.controls.paused.then_some(&words.held);
+        let message = &self.controls.message;
+        // A message is shown as such.
+        let shown = words.message(message);
+        let lately = lately.filter(|text| Some(*text) != held && **text != shown);
+        Told {
+            done: held.into_iter().chain(lately).cloned().collect(),
+            message: (!message.is_empty()).then_some(shown),
+        }
+    }
+
+    /// Takes in a look.
+    pub fn looked(&mut self, census: &Census) {
+        if self.console.is_some() {
+            self.flasks.clone_from(&census.flasks);
+        }
+    }
+
+    /// Another bench is there.
+    pub fn begin(&mut self) {
+        self.flasks.clear();
+    }
+
+    /// A frame has taken so long on the processor, s.
+    pub fn took(&mut self, seconds: f64) {
+        let now = Instant::now();
+        self.took.push_back((now, seconds));
+        let old = |it: &&(Instant, f64)| now.duration_since(it.0) > LATELY;
+        while self.took.front().filter(old).is_some() {
+            self.took.pop_front();
+        }
+    }
+
+    /// Tells the console how it is now.
+    pub fn tell(&mut self, now: &Now<'_>) {
+        let Some(port) = self.console.as_ref().map(|console| console.port.clone()) else {
+            return;
+        };
+        if self.incidents.0 != now.events.len() {
+            self.incidents = (now.events.len(), incidents(now.events, &self.texts));
+        }
+        port.publish(self.state(now));
+    }
+
+    fn state(&self, now: &Now<'_>) -> State {
+        let (name, scene) = now.scene;
+        let title = CHOICES.iter().find(|choice| choice.scene == name);
+        let all = &self.incidents.1;
+        // The last ones are shown.
+        let lately = all.iter().skip(all.len().saturating_sub(32));
+        State {
+            frame: now.frame,
+            time_s: Some(now.time),
+            scene: Text::clipped(title.map_or(name, |choice| choice.title)),
+            choice: (CHOICES.iter().position(|choice| choice.scene == name))
+                .and_then(|at| u8::try_from(at).ok()),
+            done: self.done,
+            controls: Controls {
+                k_v: now.intensity,
+                ended: now.ended,
+                ..self.controls.clone()
+            },
+            step: now.step.clone(),
+            hints: now.hints.clone(),
+            readings: readings(
+                scene,
+                &self.flasks,
+                [now.spilt.bench, now.spilt.floor].map(|ml| 1e-6 * ml),
+            ),
+            incidents: List::clipped(lately.cloned()),
+            incidents_so_far: all.len() as u32,
+            frames: self.frames(now),
+        }
+    }
+
+    fn frames(&self, now: &Now<'_>) -> Frames {
+        let count = self.took.len();
+        let seconds = || self.took.iter().map(|(_, seconds)| *seconds);
+        Frames {
+            mean_s: (count > 0).then(|| seconds().sum::<f64>() / count as f64),
+            worst_s: (count > 0).then(|| seconds().fold(0.0, f64::max)),
+            period_s: now.period,
+            missed: now.missed,
+        }
+    }
+
+    /// Goes on with another device.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
+        match &mut self.view {
+            Some(view) => view.move_to(gpu, library, eye),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), where somebody looks.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
+        match &mut self.view {
+            Some(view) => view.take(picture, drawn, time),
+            None => Ok(()),
+        }
+    }
+
+    /// Hands over the pictures that the device is done with.
+    ///
+    /// # Errors
+    /// What the device says.
+    pub fn hand_over(&mut self) -> Result<(), Failure> {
+        self.view.as_mut().map_or(Ok(()), View::hand_over)
+    }
+}
+
+/// `None` of what this program cannot do.
+fn asked(command: Command, student: &Student) -> Option<Decision> {
+    command.check(student).ok()?;
+    Some(Decision::Act(match command {
+        Command::End {} => return Some(Decision::End),
+        Command::Scene { choice } => {
+            let choice = CHOICES.get(usize::from(choice))?;
+            Action::Scene(choice.scene.into())
+        }
+        Command::Reset {} => Action::Start(None),
+        Command::KV { value } => Action::Intensity(value),
+        Command::Pause { on } => Action::Pause(on),
+        Command::SlowMotion { rate } => Action::Speed(rate),
+        Command::Spare { on } => Action::Mute(on),
+        Command::Message { text } => Action::Message(text.to_string()),
+    }))
+}

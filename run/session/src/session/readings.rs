@@ -1,0 +1,107 @@
+//! Temperature and acid of each flask's liquid, as the panel shows them.
+
+use glam::Vec3;
+use vitriol_run::scenery::has_acid;
+use vitriol_sim::scene::{Flask, Scene};
+use vitriol_sim::solver::{Census, Held};
+
+use crate::info::FlaskLine;
+
+/// Looks between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
+const EVERY: u64 = 9;
+
+/// The last reading.
+#[derive(Default)]
+pub(super) struct Readings {
+    /// What the panel says, by flask; empty before the first.
+    last: Vec<Held>,
+    /// Looks so far.
+    looks: u64,
+}
+
+impl Readings {
+    /// Takes in a look.
+    pub fn take(&mut self, census: &Census) {
+        if self.looks.is_multiple_of(EVERY) {
+            self.last.clone_from(&census.flasks);
+        }
+        self.looks += 1;
+    }
+
+    /// Forgets readings of another bench.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The panel's lines for a scene's flasks. One that hangs upside down, a funnel, has none: it holds nothing
+    /// for long.
+    pub fn lines(&self, scene: &Scene, is_broken: impl Fn(usize) -> bool) -> Vec<FlaskLine> {
+        let acid = has_acid(scene);
+        let line = |(index, flask): (usize, &Flask)| {
+            let reading = self.last.get(index);
+            let reading = reading.filter(|reading| reading.temperature.is_some());
+            FlaskLine {
+                name: flask.name.clone(),
+                broken: is_broken(index),
+                temperature: reading
+                    .and_then(|reading| reading.temperature)
+                    .map(|celsius| celsius.round() as i32),
+                acid: reading
+                    .filter(|_| acid)
+                    .map(|reading| (100.0 * reading.acid).round() as i32),
+            }
+        };
+        let upright = |flask: &Flask| (flask.stage_from_flask.orientation * Vec3::Y).y > 0.0;
+        let flasks = scene.flasks.iter().enumerate();
+        flasks
+            .filter(|(_, flask)| upright(flask))
+            .map(line)
+            .collect()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use glam::Quat;
+
+    fn reading(particles: u32, temperature: f32, acid: f32) -> Held {
+        Held {
+            particles,
+            temperature: (particles > 0).then_some(temperature),
+            acid,
+            ..Held::default()
+        }
+    }
+
+    #[test]
+    fn each_flask_has_a_line_with_what_was_read_in_it() {
+        let mut scene = Scene::builtin("water-into-acid").unwrap();
+        let names: Vec<_> = scene.flasks.iter().map(|it| it.name.clone()).collect();
+        let mut readings = Readings::default();
+        let lines = readings.lines(&scene, |_| false);
+        assert_eq!(lines.len(), names.len());
+        assert_eq!((lines[0].temperature, lines[0].acid), (None, None));
+        // An empty flask has no temperature.
+        readings.last = vec![reading(7, 99.6, 0.956), reading(0, 0.0, 0.0)];
+        let lines = readings.lines(&scene, |_| false);
+        assert_eq!((lines[0].temperature, lines[0].acid), (Some(100), Some(96)));
+        assert_eq!((lines[1].temperature, lines[1].acid), (None, None));
+        // Without the first, the second's line is still the second's.
+        scene.flasks[0].stage_from_flask.orientation = Quat::from_rotation_x(3.0);
+        readings.last[1] = reading(7, 20.4, 0.0);
+        let lines = readings.lines(&scene, |_| false);
+        assert_eq!(
+            (&lines[0].name, lines[0].temperature),
+            (&names[1], Some(20))
+        );
+        assert_eq!((lines.len(), lines[0].acid), (names.len() - 1, Some(0)));
+        // Where there is no acid, none is said.
+        for liquid in &mut scene.liquids {
+            liquid.acid_fraction = 0.0;
+        }
+        let lines = readings.lines(&scene, |flask| flask == 1);
+        assert_eq!((lines[0].acid, lines[0].broken), (None, true));
+    }
+}

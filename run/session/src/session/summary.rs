@@ -1,0 +1,152 @@
+//! What happened in the attempt, for who asks on the panel.
+
+use vitriol_lesson::{Attempt, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
+use vitriol_run::{Blame, Failure, Run};
+
+use crate::info::Happened;
+use vitriol_run::texts::SummaryTexts;
+
+/// Lines of the panel that sentences have, and characters that a line has: as its font fits them at least.
+const LINES: usize = 15;
+const LINE: usize = 58;
+
+/// See the module.
+pub(super) struct Summary {
+    texts: Texts,
+    rubric: Rubric,
+    /// Whether it was asked for.
+    asked: bool,
+    /// What is shown, and of how many events it is made.
+    shown: Option<(usize, Happened)>,
+}
+
+impl Summary {
+    /// Not asked for yet, in that language.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where a text is missing, which a test rules out.
+    pub fn new(language: Language) -> Result<Self, Failure> {
+        Ok(Self {
+            texts: Texts::of(language).other()?,
+            rubric: Rubric::default(),
+            asked: false,
+            shown: None,
+        })
+    }
+
+    /// It is asked for, or enough of it.
+    pub fn toggle(&mut self) {
+        self.asked = !self.asked;
+        self.shown = None;
+    }
+
+    /// Another bench is there: who works at it needs the panel.
+    pub fn begin(&mut self) {
+        self.asked = false;
+        self.shown = None;
+    }
+
+    /// What the panel shows of it, where it was asked for or the session `ends`. It is of what was found in the run so far, and of what goes
+    /// on; it is made anew where more was found.
+    pub fn shown(&mut self, words: &SummaryTexts, run: &Run, ends: bool) -> Option<Happened> {
+        if !self.asked && !ends {
+            self.shown = None;
+            return None;
+        }
+        let events = run.events();
+        let old = |(count, _): &(usize, Happened)| *count != events.len();
+        if self.shown.as_ref().is_none_or(old) {
+            let found = events.iter().cloned().chain(run.so_far());
+            let happened = self.of(words, &Attempt::all(found));
+            self.shown = Some((events.len(), happened));
+        }
+        self.shown.as_ref().map(|(_, happened)| happened.clone())
+    }
+
+    /// Of the last attempt in which something happened.
+    fn of(&self, words: &SummaryTexts, attempts: &[Attempt]) -> Happened {
+        let (title, back) = (words.title.clone(), words.back.clone());
+        let happened = |it: &&Attempt| !it.pours.is_empty() || !it.incidents.is_empty();
+        let Some(attempt) = attempts.iter().rev().find(happened) else {
+            return Happened {
+                title,
+                said: vec![(Tone::Plain, words.nothing.clone())],
+                back,
+                ..Happened::default()
+            };
+        };
+        let score = Score::of(attempt, &self.rubric, &self.texts);
+        let (said, more) = fitting(sentences(attempt, &score, &self.texts));
+        Happened {
+            title,
+            points: (score.of > 0).then(|| words.points(score.points, score.of)),
+            said: said.into_iter().map(|it| (it.tone, it.text)).collect(),
+            more: words.more(more),
+            back,
+        }
+    }
+}
+
+/// Those that fit, in their order, and how many do not: what went wrong before what went well, and that before the rest.
+fn fitting(all: Vec<Sentence>) -> (Vec<Sentence>, usize) {
+    let lines = |it: &Sentence| columns(&it.text).div_ceil(LINE);
+    let mut chosen = vec![false; all.len()];
+    let mut left = LINES;
+    for tone in [Tone::Bad, Tone::Good, Tone::Plain] {
+        for (sentence, chosen) in all.iter().zip(&mut chosen) {
+            if sentence.tone == tone && lines(sentence) <= left {
+                left -= lines(sentence);
+                *chosen = true;
+            }
+        }
+    }
+    let count = all.len();
+    let said: Vec<_> = (all.into_iter().zip(chosen))
+        .filter_map(|(sentence, chosen)| chosen.then_some(sentence))
+        .collect();
+    let more = count - said.len();
+    (said, more)
+}
+
+/// Width of a text in Latin characters: a Chinese one, and its full stop, are twice as wide.
+fn columns(text: &str) -> usize {
+    text.chars()
+        .map(|it| if it >= '\u{2e80}' { 2 } else { 1 })
+        .sum()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chinese_character_is_twice_as_wide() {
+        let long = |count| Sentence {
+            text: "酸".repeat(count),
+            ..sentence(Tone::Bad, 0)
+        };
+        assert_eq!(fitting(vec![long(LINES * LINE / 2)]).1, 0);
+        assert_eq!(fitting(vec![long(LINES * LINE / 2 + 1)]).1, 1);
+    }
+
+    fn sentence(tone: Tone, length: usize) -> Sentence {
+        Sentence {
+            t_s: None,
+            tone,
+            text: "x".repeat(length),
+            more: None,
+        }
+    }
+
+    /// Of ten that take two lines, what went wrong stays, however late it came; nothing is left out without being counted.
+    #[test]
+    fn what_went_wrong_is_left_out_last() {
+        let mut all: Vec<_> = (0..9).map(|_| sentence(Tone::Plain, LINE + 1)).collect();
+        all.push(sentence(Tone::Bad, 2 * LINE));
+        let (said, more) = fitting(all);
+        assert_eq!((said.len(), more), (LINES / 2, 10 - LINES / 2));
+        assert_eq!(said.last().unwrap().tone, Tone::Bad);
+        assert_eq!(fitting(Vec::new()), (Vec::new(), 0));
+    }
+}

@@ -1,0 +1,107 @@
+//! A session and its instructor: what she asks for is done, and she is told what goes on.
+
+use vitriol_console::List;
+use vitriol_run::{Action, Failure};
+use vitriol_xr::Shown;
+
+use super::Session;
+use super::instructor::Now;
+use crate::decision::Decision;
+
+impl Session {
+    /// Does what the instructor asked for; whether that is to end.
+    pub(super) fn obey(&mut self) -> bool {
+        let mut ends = false;
+        for (order, asked) in self.instructor.orders() {
+            let said = match asked {
+                Some(Decision::End) => {
+                    ends = true;
+                    Some(self.texts.instructor.end.clone())
+                }
+                Some(Decision::Act(action)) => self.follow(action),
+                _ => None,
+            };
+            if let Some(said) = said {
+                tracing::info!("{said}");
+                self.instructor.announce(said);
+            }
+            self.instructor.taken_up(order);
+        }
+        ends
+    }
+
+    /// Does what the instructor does, from the next step on, and gives it in words; `None` where it is not done.
+    fn follow(&mut self, action: Action) -> Option<String> {
+        let words = &self.texts.instructor;
+        let said = match &action {
+            Action::Scene(name) => words.scene(self.texts.panel.scene(name)),
+            Action::Start(_) => words.start.clone(),
+            action => words.instruction(action),
+        };
+        if !action.is_instructors() {
+            self.choices.add(Some(Decision::Act(action)));
+            return Some(said);
+        }
+        match self.run.act(action.clone()) {
+            Ok(true) => {}
+            Ok(false) => return None,
+            Err(error) => {
+                tracing::warn!("the instructor's wish is left out: {error}");
+                return None;
+            }
+        }
+        match &action {
+            // The hands went on meanwhile: what they hold goes to where they are.
+            Action::Pause(false) if self.instructor.holds_time() => self.placement.interrupt(),
+            Action::Speed(rate) => self.steps.clock.rate = *rate,
+            _ => {}
+        }
+        self.instructor.follow(&action);
+        Some(said)
+    }
+
+    /// A replay does what was switched before the step that came next. Where none would, one more is taken.
+    pub(super) fn step_for_switches(&mut self) -> Result<(), Failure> {
+        let last = self.placement.last.clone();
+        let (Some(now), true) = (last, self.run.awaits_step()) else {
+            return Ok(());
+        };
+        if self.instructor.holds_time() {
+            // As where time goes on.
+            self.placement.interrupt();
+            if let Some(leap) = self.placement.place(&now, false) {
+                self.run.act(leap)?;
+            }
+            self.placement.last = Some(now.clone());
+        }
+        let scene = self.run.world.scene();
+        self.steps.once_more(&now, &self.placement, scene);
+        Ok(())
+    }
+
+    /// Tells the instructor how it is.
+    pub(super) fn tell(&mut self, ended: bool) {
+        let run = &self.run;
+        let info = self.placement.last.as_ref().map(|last| last.info);
+        let period = info.filter(|info| info.period_ns > 0);
+        self.instructor.tell(&Now {
+            frame: self.counts.frames,
+            time: run.time().seconds(),
+            scene: (run.scene(), run.world.scene()),
+            intensity: run.world.intensity(),
+            spilt: self.spills.spilt,
+            events: run.events(),
+            period: period.map(|info| 1e-9 * info.period_ns as f64),
+            missed: self.counts.skipped,
+            step: self.guide.step(run),
+            hints: List::clipped(self.guide.hints()),
+            ended,
+        });
+    }
+
+    /// Shows the instructor what the left eye sees.
+    pub(super) fn show_instructor(&mut self, shown: &Shown, time: i64) -> Result<(), Failure> {
+        let picture = self.benches.current.picture.image();
+        self.instructor.take(picture, shown.extent, time)
+    }
+}

@@ -1,0 +1,147 @@
+//! The pictograms: no words, so that nobody has to read. Each moves, and begins anew.
+
+use egui::Shape;
+use glam::{Vec2, vec2};
+use vitriol_xr::Side;
+
+use super::strokes::{Beaker, Canvas, HAND, LIQUID};
+use crate::first_minute::Lesson;
+
+/// Steps of a pictogram's motion, and how many of them a picture stays when the motion is done.
+pub const STEPS: u32 = 24;
+const RESTS: u32 = 8;
+
+/// A picture of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pictogram {
+    /// What it shows.
+    pub lesson: Lesson,
+    /// The hand that does it.
+    pub side: Side,
+    /// Whether that hand has a controller, whose trigger is shown.
+    pub controller: bool,
+    /// Whether another press lets go.
+    pub toggles: bool,
+    /// Step of the motion.
+    pub step: u32,
+}
+
+/// How far a motion is, 0 to 1, that begins and ends at these shares of all of it: slowly, fast, slowly.
+fn eased(progress: f32, [from, to]: [f32; 2]) -> f32 {
+    let share = ((progress - from) / (to - from)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+impl Pictogram {
+    /// As shapes within a square whose inscribed disc has that radius, pixels.
+    pub fn shapes(&self, radius: f32) -> Vec<Shape> {
+        let mut canvas = Canvas::new(radius, self.side == Side::Left);
+        let progress = (self.step % STEPS) as f32 / (STEPS - RESTS) as f32;
+        let progress = progress.min(1.0);
+        match self.lesson {
+            Lesson::Take => self.take(&mut canvas, progress),
+            Lesson::Lift => lift(&mut canvas, progress),
+            Lesson::Pour => pour(&mut canvas, progress),
+            Lesson::PutDown => self.put_down(&mut canvas, progress),
+        }
+        canvas.ring(Vec2::ZERO, 0.955, 0.03, HAND);
+        canvas.shapes()
+    }
+
+    /// How far a trigger is pulled that is at `held` (0 to 1) by who holds it; where another press lets go it is pulled for a moment
+    /// as `turns` goes from 0 to 1.
+    fn pulled(&self, held: f32, turns: f32) -> f32 {
+        match self.toggles {
+            true => 1.0 - (2.0 * turns - 1.0).abs(),
+            false => held,
+        }
+    }
+
+    /// How large beaker and hand are, and where the beaker stands: there is room for the controller over them.
+    fn beaker(&self) -> Beaker {
+        let (x, y, size) = match self.controller {
+            true => (-0.36, -0.56, 0.82),
+            false => (-0.22, -0.40, 1.0),
+        };
+        let (base, turn) = (vec2(x, y), 0.0);
+        Beaker { base, turn, size }
+    }
+
+    /// The hand comes from the right, and closes round the beaker.
+    fn take(&self, canvas: &mut Canvas, progress: f32) {
+        let beaker = self.beaker();
+        let closed = eased(progress, [0.5, 1.0]);
+        let far = 0.30 * (1.0 - eased(progress, [0.0, 0.5]));
+        canvas.table([-0.74, 0.30], beaker.base.y);
+        holding(canvas, &beaker, far, closed);
+        if self.controller {
+            canvas.controller(CONTROLLER, self.pulled(closed, closed), false);
+        }
+    }
+
+    /// Down to the table, where the hand opens and goes away.
+    fn put_down(&self, canvas: &mut Canvas, progress: f32) {
+        let up = 1.0 - eased(progress, [0.0, 0.5]);
+        let opens = eased(progress, [0.55, 0.8]);
+        let far = 0.30 * eased(progress, [0.75, 1.0]);
+        let mut beaker = self.beaker();
+        beaker.base.y -= 0.1;
+        canvas.table([-0.62, 0.30], beaker.base.y);
+        canvas.arrow(vec2(-0.74, 0.40), vec2(-0.74, -0.22));
+        beaker.base += vec2(0.06, 0.36 * up);
+        holding(canvas, &beaker, far, 1.0 - opens);
+        if self.controller {
+            let pulled = self.pulled(1.0 - opens, opens);
+            canvas.controller(CONTROLLER, pulled, !self.toggles);
+        }
+    }
+}
+
+/// Where a controller's trigger is.
+const CONTROLLER: Vec2 = vec2(0.22, 0.58);
+
+/// A beaker with a hand at its right, so far away and so far closed.
+fn holding(canvas: &mut Canvas, beaker: &Beaker, far: f32, closed: f32) {
+    let palm = Beaker {
+        base: beaker.base + far * Vec2::X,
+        ..*beaker
+    };
+    canvas.thumb(&palm, closed);
+    canvas.beaker(beaker, 0.55);
+    canvas.hand(&palm, closed, palm.at(1.5, -0.42));
+}
+
+/// Up from the table.
+fn lift(canvas: &mut Canvas, progress: f32) {
+    let up = eased(progress, [0.1, 1.0]);
+    canvas.table([-0.62, 0.40], -0.56);
+    canvas.arrow(vec2(-0.66, -0.26), vec2(-0.66, 0.46));
+    let beaker = Beaker {
+        base: vec2(-0.14, -0.56 + 0.46 * up),
+        turn: 0.0,
+        size: 1.0,
+    };
+    holding(canvas, &beaker, 0.0, 1.0);
+}
+
+/// The beaker in the hand turns about its lip, over the other one.
+fn pour(canvas: &mut Canvas, progress: f32) {
+    let turn = 0.25 + 1.35 * eased(progress, [0.0, 0.7]);
+    let flows = eased(progress, [0.4, 1.0]);
+    let target = Beaker {
+        base: vec2(-0.30, -0.76),
+        turn: 0.0,
+        size: 0.82,
+    };
+    let lip = vec2(-0.26, 0.06);
+    let poured = 0.45 * flows;
+    let source = Beaker::with_lip_at(lip, turn, 0.82);
+    if flows > 0.0 {
+        let bottom = target.at(0.0, 0.04).y;
+        canvas.line([lip, vec2(lip.x, bottom)], 0.035, LIQUID);
+    }
+    canvas.beaker(&target, poured);
+    canvas.thumb(&source, 1.0);
+    canvas.beaker(&source, 0.55 - poured);
+    canvas.hand(&source, 1.0, vec2(0.98, 0.24));
+}

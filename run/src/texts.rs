@@ -1,0 +1,442 @@
+//! The string table: what is said to a user, in the user's language.
+
+use std::collections::BTreeMap;
+
+use crate::units::three_digits;
+use crate::{Action, Blame, Failure};
+use serde::Deserialize;
+use vitriol_lesson::Language;
+use vitriol_sound::Caption;
+
+/// The texts of one language: a file of `run/texts`, of which each key is used and none is missing.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Texts {
+    heard: Heard,
+    /// What an instructor did.
+    pub instructor: InstructorTexts,
+    /// Around a lesson's own texts.
+    pub lesson: LessonTexts,
+    /// Around what is said of an attempt.
+    pub summary: SummaryTexts,
+    /// Of the panel itself.
+    pub panel: PanelTexts,
+}
+
+/// Of the panel itself.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PanelTexts {
+    /// Over buttons that take a hold.
+    pub hold: String,
+    /// Of the button that starts a scene anew.
+    pub start: String,
+    /// In the ring that fills meanwhile.
+    pub starting: String,
+    /// Of the button that brings the bench before the user.
+    pub recentre: String,
+    /// Of the button that asks what happened.
+    pub happened: String,
+    coming: String,
+    ends: String,
+    recording: String,
+    /// The disk is full.
+    pub waits: String,
+    unwritten: String,
+    /// Another device took over.
+    pub device_lost: String,
+    slow: String,
+    missed: String,
+    /// Of a flask.
+    pub broken: String,
+    acid: String,
+    /// What its tint stands for.
+    pub water: String,
+    /// What its tint stands for.
+    pub sulfuric_acid: String,
+    /// That the tints are artificial.
+    pub tints: String,
+    /// What lies beside the flasks.
+    pub spilt: SpiltTexts,
+    /// What acid has touched.
+    pub acid_on: AcidOnTexts,
+    /// What is solved and drawn with.
+    pub effort: EffortTexts,
+    /// By scene: what it is.
+    scene: BTreeMap<String, String>,
+}
+
+/// What lies beside the flasks.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpiltTexts {
+    /// Around the places.
+    pub text: String,
+    /// A volume on the bench.
+    pub bench: String,
+    /// A volume on the floor.
+    pub floor: String,
+    /// Between two places.
+    pub next: String,
+    /// The decimal point.
+    pub decimal: String,
+}
+
+/// What acid has touched.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AcidOnTexts {
+    /// Around the places.
+    pub text: String,
+    /// The left hand.
+    pub left: String,
+    /// The right hand.
+    pub right: String,
+    /// The face.
+    pub face: String,
+    /// Between two places.
+    pub next: String,
+    /// Before the last one.
+    pub last: String,
+}
+
+/// What is solved and drawn with, where that is less than was asked for.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EffortTexts {
+    /// Around its parts, after a change for the better.
+    pub finer: String,
+    /// Around its parts, after one for the worse.
+    pub coarser: String,
+    /// Substeps and iterations.
+    pub solver: String,
+    /// Fewer pixels are drawn at the picture's edges.
+    pub edges: String,
+    /// Another filter draws the liquid's surface.
+    pub surface: String,
+    /// The picture's size.
+    pub picture: String,
+    /// The display's rate.
+    pub display: String,
+    /// Between two parts.
+    pub next: String,
+}
+
+impl PanelTexts {
+    /// A scene is being set up.
+    pub fn coming(&self, scene: &str) -> String {
+        self.coming.replace("{scene}", scene)
+    }
+
+    /// That key ends the session.
+    pub fn ends(&self, key: char) -> String {
+        self.ends.replace("{key}", &key.to_string())
+    }
+
+    /// So many seconds are recorded.
+    pub fn recording(&self, seconds: u64) -> String {
+        let text = (self.recording).replace("{minutes}", &(seconds / 60).to_string());
+        text.replace("{seconds}", &format!("{:02}", seconds % 60))
+    }
+
+    /// So many steps could not be recorded.
+    pub fn unwritten(&self, steps: u64) -> String {
+        self.unwritten.replace("{number}", &steps.to_string())
+    }
+
+    /// At so many per cent of real time.
+    pub fn slow(&self, per_cent: u32) -> String {
+        self.slow.replace("{percent}", &per_cent.to_string())
+    }
+
+    /// Display periods without a frame.
+    pub fn missed(&self, pictures: u64) -> String {
+        self.missed.replace("{number}", &pictures.to_string())
+    }
+
+    /// Acid by mass, whole per cent.
+    pub fn acid(&self, per_cent: i32) -> String {
+        self.acid.replace("{percent}", &per_cent.to_string())
+    }
+
+    /// What a scene is; of one without a text its name.
+    pub fn scene<'a>(&'a self, name: &'a str) -> &'a str {
+        self.scene.get(name).map_or(name, String::as_str)
+    }
+}
+
+/// Around a lesson's own texts.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LessonTexts {
+    step: String,
+    points: String,
+}
+
+impl LessonTexts {
+    /// A step, of how many, and what is to be done.
+    pub fn step(&self, number: usize, of: usize, text: &str) -> String {
+        let numbered = self.step.replace("{number}", &number.to_string());
+        numbered
+            .replace("{of}", &of.to_string())
+            .replace("{text}", text)
+    }
+
+    /// Points, of how many.
+    pub fn points(&self, points: u32, of: u32) -> String {
+        let text = self.points.replace("{points}", &points.to_string());
+        text.replace("{of}", &of.to_string())
+    }
+}
+
+/// What an instructor did.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InstructorTexts {
+    scene: String,
+    /// The present scene from its start.
+    pub start: String,
+    /// Time is held.
+    pub held: String,
+    goes_on: String,
+    speed: String,
+    full_speed: String,
+    muted: String,
+    heard: String,
+    intensity: String,
+    message: String,
+    unsaid: String,
+    /// The session is ended.
+    pub end: String,
+}
+
+impl InstructorTexts {
+    /// Another scene of that title is brought up.
+    pub fn scene(&self, title: &str) -> String {
+        self.scene.replace("{scene}", title)
+    }
+
+    /// What the student is told.
+    pub fn message(&self, text: &str) -> String {
+        self.message.replace("{text}", text)
+    }
+
+    /// What an instructor did, in words; empty of an action that is not an instructor's.
+    pub fn instruction(&self, instruction: &Action) -> String {
+        match instruction {
+            Action::Intensity(value) => self.intensity.replace("{value}", &three_digits(*value)),
+            Action::Pause(true) => self.held.clone(),
+            Action::Pause(false) => self.goes_on.clone(),
+            Action::Speed(rate) if *rate >= 1.0 => self.full_speed.clone(),
+            Action::Speed(rate) => {
+                let per_cent = format!("{:.0}", 100.0 * rate);
+                self.speed.replace("{percent}", &per_cent)
+            }
+            Action::Mute(true) => self.muted.clone(),
+            Action::Mute(false) => self.heard.clone(),
+            Action::Message(text) if text.is_empty() => self.unsaid.clone(),
+            Action::Message(text) => self.message(text),
+            // What no instructor does.
+            _ => String::new(),
+        }
+    }
+}
+
+/// Around what is said of an attempt, whose sentences are of [`vitriol_lesson::Texts`].
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SummaryTexts {
+    /// What it is.
+    pub title: String,
+    points: String,
+    /// Where nothing has happened.
+    pub nothing: String,
+    more: String,
+    /// Of the button that ends it.
+    pub back: String,
+}
+
+impl SummaryTexts {
+    /// Points, of how many.
+    pub fn points(&self, points: u32, of: u32) -> String {
+        let text = self.points.replace("{points}", &points.to_string());
+        text.replace("{of}", &of.to_string())
+    }
+
+    /// That so many sentences do not fit; `None` of none.
+    pub fn more(&self, count: usize) -> Option<String> {
+        (count > 0).then(|| self.more.replace("{number}", &count.to_string()))
+    }
+}
+
+/// The table of a language.
+fn table(language: Language) -> &'static str {
+    match language {
+        Language::En => include_str!("../texts/en.toml"),
+        Language::De => include_str!("../texts/de.toml"),
+        Language::Es => include_str!("../texts/es.toml"),
+        Language::Zh => include_str!("../texts/zh.toml"),
+    }
+}
+
+/// Sounds in words.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Heard {
+    pouring: String,
+    simmering: String,
+    boiling: String,
+    bubbling: String,
+    drops: String,
+    glass_on_bench: String,
+    glass_on_glass: String,
+    knock: String,
+    glass_breaks: String,
+    acid_on_glove: String,
+}
+
+impl Texts {
+    /// Those of English.
+    ///
+    /// # Errors
+    /// As for [`Texts::of`].
+    pub fn english() -> Result<Self, Failure> {
+        Self::of(Language::En)
+    }
+
+    /// Those of that language, which the program carries.
+    ///
+    /// # Errors
+    /// [`Failure::Other`] where a key is missing or unknown, which a test rules out.
+    pub fn of(language: Language) -> Result<Self, Failure> {
+        toml::from_str(table(language)).other()
+    }
+
+    /// Sounds, for who does not hear them; `None` in silence.
+    pub fn heard(&self, captions: &[Caption]) -> Option<String> {
+        let words: Vec<&str> = captions
+            .iter()
+            .map(|caption| self.caption(*caption))
+            .collect();
+        (!words.is_empty()).then(|| format!("[{}]", words.join(", ")))
+    }
+
+    fn caption(&self, caption: Caption) -> &str {
+        let heard = &self.heard;
+        match caption {
+            Caption::Pouring => &heard.pouring,
+            Caption::Simmering => &heard.simmering,
+            Caption::Boiling => &heard.boiling,
+            Caption::Bubbling => &heard.bubbling,
+            Caption::Drops => &heard.drops,
+            Caption::GlassOnBench => &heard.glass_on_bench,
+            Caption::GlassOnGlass => &heard.glass_on_glass,
+            Caption::Knock => &heard.knock,
+            Caption::GlassBreaks => &heard.glass_breaks,
+            Caption::AcidOnGlove => &heard.acid_on_glove,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::choices::CHOICES;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn a_summary_says_its_numbers() {
+        let words = Texts::english().unwrap().summary;
+        assert_eq!(words.points(61, 100), "61 of 100 points");
+        assert_eq!(words.more(3).as_deref(), Some("3 more in the report"));
+        assert_eq!(words.more(0), None);
+    }
+
+    /// Each sound has words of its own, short enough for three of them in a line of the panel.
+    #[test]
+    fn every_sound_has_its_words() {
+        let texts = Texts::english().unwrap();
+        let words: BTreeSet<&str> = Caption::ALL.map(|it| texts.caption(it)).into();
+        assert_eq!(words.len(), Caption::ALL.len());
+        assert!(words.iter().all(|it| !it.is_empty() && it.len() < 30));
+        assert_eq!(texts.heard(&[]), None);
+        let both = texts.heard(&[Caption::Pouring, Caption::Drops]);
+        assert_eq!(both.as_deref(), Some("[pouring, drops fall]"));
+    }
+
+    /// A text's holes, in the order of their names.
+    fn holes(text: &str) -> BTreeSet<&str> {
+        let parts = text.split('{').skip(1);
+        parts.map(|part| part.split('}').next().unwrap()).collect()
+    }
+
+    /// All texts of a table, each by its key.
+    fn leaves(prefix: &str, value: &toml::Value, found: &mut BTreeMap<String, String>) {
+        match value {
+            toml::Value::Table(table) => {
+                for (key, value) in table {
+                    leaves(&format!("{prefix}.{key}"), value, found);
+                }
+            }
+            other => {
+                found.insert(prefix.to_owned(), other.as_str().unwrap().to_owned());
+            }
+        }
+    }
+
+    /// Each language has each key of English, with its holes, and says it in words of its own.
+    #[test]
+    fn each_language_says_all_that_english_says() {
+        let of = |language| {
+            let mut found = BTreeMap::new();
+            let value: toml::Value = toml::from_str(table(language)).unwrap();
+            leaves("", &value, &mut found);
+            assert!(Texts::of(language).is_ok(), "{language}");
+            found
+        };
+        let english = of(Language::En);
+        for language in Language::ALL {
+            let other = of(language);
+            assert!(other.keys().eq(english.keys()), "{language}");
+            let mut same = Vec::new();
+            for (key, text) in &english {
+                assert_eq!(holes(&other[key]), holes(text), "{language} {key}");
+                assert!(!other[key].is_empty(), "{language} {key}");
+                // What has no word in it is the same in each language.
+                let worded = text.chars().filter(|it| it.is_alphabetic()).count() > 4;
+                if worded && &other[key] == text {
+                    same.push(key);
+                }
+            }
+            // {number} / {of}   {text}, {points} / {of}
+            same.retain(|key| !key.starts_with(".lesson."));
+            assert!(
+                same.is_empty() || language == Language::En,
+                "{language}: {same:?}"
+            );
+        }
+    }
+
+    /// Each scene that can be chosen has its text, and no other has one.
+    #[test]
+    fn each_choice_has_its_text() {
+        let choices: BTreeSet<&str> = CHOICES.iter().map(|choice| choice.scene).collect();
+        for language in Language::ALL {
+            let words = Texts::of(language).unwrap().panel.scene;
+            let named: BTreeSet<&str> = words.keys().map(String::as_str).collect();
+            assert_eq!(named, choices, "{language}");
+        }
+        let english = Texts::english().unwrap().panel;
+        for choice in CHOICES {
+            assert_eq!(english.scene(choice.scene), choice.title);
+        }
+    }
+
+    #[test]
+    fn a_table_lacks_nothing_and_has_nothing_else() {
+        let text = table(Language::En);
+        assert!(toml::from_str::<Texts>(&text.replace("knock =", "# knock =")).is_err());
+        assert!(toml::from_str::<Texts>(&format!("bang = \"a bang\"\n{text}")).is_err());
+    }
+}

@@ -1,0 +1,159 @@
+//! The camera from the track's head.
+
+use crate::device::common::{BEFORE, SIZE, coloured, experiment, frame, in_room, liquid, scene};
+use std::f32::consts::FRAC_PI_2;
+
+use glam::{Quat, Vec3};
+use vitriol_run::Colour;
+use vitriol_run::track::key;
+use vitriol_shaders::Library;
+use vitriol_sim::scene::{PictureRoom, Scene};
+use vitriol_tests::gpu;
+use vitriol_xr::{Hand, Pose, Switch};
+
+/// Half of the vertical field of view, 40°.
+const HALF_FIELD: f64 = 20.0;
+
+#[test]
+fn the_picture_follows_the_head() {
+    let device = gpu::device();
+    let level = Pose::new(BEFORE, Quat::IDENTITY);
+    let mut laboratory = experiment(&device, Some(level), Library::embedded());
+    // What is straight ahead is in the middle, before the first step too.
+    let (x, y) = liquid(laboratory.picture(0).unwrap());
+    assert!(x.abs() < 1.0 && y.abs() < 15.0, "{x} {y}");
+
+    // Pixels from the axis: tangents, half a picture being tan(20°) high.
+    let pixels = |tangent: f64| tangent / HALF_FIELD.to_radians().tan() * f64::from(SIZE.1) / 2.0;
+    let angle = 10f64.to_radians();
+    let turned = |q: Quat| Pose::new(BEFORE, q);
+    for (head, moves) in [
+        // To the left: the liquid goes to the right. OpenXR's axes: +Y up.
+        (
+            turned(Quat::from_rotation_y(angle as f32)),
+            (pixels(angle.tan()), 0.0),
+        ),
+        // Up: it goes down.
+        (
+            turned(Quat::from_rotation_x(angle as f32)),
+            (0.0, pixels(angle.tan())),
+        ),
+        // Aside by 0.1 m of the 0.6 m between.
+        (
+            Pose::new(BEFORE + 0.1 * Vec3::X, Quat::IDENTITY),
+            (-pixels(0.1 / 0.6), 0.0),
+        ),
+        (level, (0.0, 0.0)),
+    ] {
+        laboratory.step(&frame(0, head)).unwrap();
+        let (new_x, new_y) = liquid(laboratory.picture(0).unwrap());
+        // The liquid settles, and its near side is nearer than its middle; what
+        // is asked for is 44 pixels.
+        let off = (new_x - x - moves.0).hypot(new_y - y - moves.1);
+        assert!(
+            off < 6.0,
+            "{head:?}: ({new_x}, {new_y}) instead of {moves:?}"
+        );
+    }
+}
+
+#[test]
+fn a_fixed_camera_stays() {
+    let device = gpu::device();
+    let mut laboratory = experiment(&device, None, Library::embedded());
+    let before = liquid(laboratory.picture(0).unwrap());
+    let away = Pose::new(BEFORE, Quat::from_rotation_y(0.5));
+    laboratory.step(&frame(0, away)).unwrap();
+    let after = liquid(laboratory.picture(0).unwrap());
+    // Settling in a small picture; a head turned by 0.5 rad moves it out of
+    // the picture.
+    let moved = (after.0 - before.0).hypot(after.1 - before.1);
+    assert!(moved < 5.0, "{moved}");
+}
+
+/// A room that is asked for stands in for the scene's, in the scene that a track changes to as well: an evening's, of 70 lx, is darker
+/// than a day's, of 800 lx, whatever the eye adapts to.
+#[test]
+fn the_room_that_is_asked_for_is_drawn() {
+    let device = gpu::device();
+    let of = |scene: &Scene, asked| in_room(&device, scene, asked);
+    let evening = Some(PictureRoom::Dark);
+    let mean = |picture: &[u8]| {
+        let levels = picture.chunks_exact(4).map(|pixel| u64::from(pixel[1]));
+        levels.sum::<u64>() / (picture.len() as u64 / 4)
+    };
+    let mut asked = of(&scene(), evening);
+    let mut dark = scene();
+    dark.picture.room = PictureRoom::Dark;
+    let said = of(&dark, None).picture(0).unwrap().to_vec();
+    assert!(
+        asked.picture(0).unwrap() == said,
+        "another picture than of a scene that says so"
+    );
+    let day = mean(of(&scene(), None).picture(0).unwrap());
+    assert!(10 * mean(&said) < 7 * day, "{} of {day}", mean(&said));
+    let mut other = frame(0, Pose::IDENTITY);
+    other.scenario.push(Switch {
+        key: key::SCENE.into(),
+        value: "beaker".into(),
+    });
+    asked.step(&other).unwrap();
+    let after = mean(asked.picture(0).unwrap());
+    assert!(10 * after < 7 * day, "{after} of {day}");
+}
+
+/// A hand is drawn where it is, by OpenXR's axes: held up beside the glass it covers what it covers and nothing else; a hand that
+/// sleeps is not there.
+#[test]
+fn the_head_sees_the_hands() {
+    let gpu = gpu::device();
+    let head = Pose::new(BEFORE, Quat::IDENTITY);
+    // 20 cm to the right of the glass and 10 cm nearer.
+    let place = Vec3::new(0.2, 0.79, -0.3);
+    let picture = |active: bool| {
+        let mut laboratory = coloured(&gpu, Some(head), Library::embedded(), Colour::Liquid);
+        let mut frame = frame(0, head);
+        frame.hands[1] = Hand {
+            active,
+            valid: active,
+            // Its broad side to the eye.
+            stage_from_grip: Pose::new(place, Quat::from_rotation_y(FRAC_PI_2)),
+            ..Hand::default()
+        };
+        laboratory.step(&frame).unwrap();
+        laboratory.picture(0).unwrap().to_vec()
+    };
+    let (with, without) = (picture(true), picture(false));
+    let (width, height) = SIZE;
+    let (mut sum, mut count) = (0.0, 0.0);
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+    let pixels = with.chunks_exact(4).zip(without.chunks_exact(4));
+    for (index, (a, b)) in (0u32..).zip(pixels) {
+        if a != b {
+            sum += f64::from(index % width) + 0.5 - 0.5 * f64::from(width);
+            let y = f64::from(index / width) + 0.5 - 0.5 * f64::from(height);
+            ends = [ends[0].min(y), ends[1].max(y)];
+            count += 1.0;
+        }
+    }
+    // 40° upright: so many pixels are a radian's tangent.
+    let focal = 0.5 * f64::from(height) / 20.0_f64.to_radians().tan();
+    let ahead = f64::from(BEFORE.z - place.z);
+    let right = f64::from(place.x - BEFORE.x) / ahead * focal;
+    // With its cuff it is some 84 mm broad and 250 mm long, and between the fingers are gaps.
+    let hand = 0.084 * 0.25 * (focal / ahead).powi(2);
+    assert!(
+        (0.5 * hand..1.2 * hand).contains(&count),
+        "{count} of {hand} pixels"
+    );
+    let x = sum / count;
+    let millimetre = 1e-3 * focal / ahead;
+    assert!(
+        (x - right).abs() < 30.0 * millimetre,
+        "{x} instead of {right}"
+    );
+    // Fingers hang down from the middle of the palm, and the cuff is above it.
+    let [above, below] = ends.map(|end| end / millimetre);
+    assert!((105.0..150.0).contains(&below), "{below}");
+    assert!((-140.0..-90.0).contains(&above), "{above}");
+}

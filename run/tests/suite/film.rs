@@ -1,0 +1,303 @@
+//! The film against two programs that are not ours: OpenH264's decoder and a
+//! real browser.
+
+use std::fs;
+use std::path::Path;
+
+use openh264::decoder::{DecodedYUV, Decoder};
+use openh264::formats::YUVSource;
+use vitriol_run::{Film, FilmError};
+use vitriol_tests::browser;
+
+const WIDTH: u32 = 320;
+const HEIGHT: u32 = 180;
+const FPS: u32 = 30;
+const FRAMES: u32 = 60;
+const BLOCK: u32 = 40;
+
+/// Flat colours that catch a wrong matrix or range: 4:2:0 cannot blur what is
+/// flat over 40 pixels.
+const COLOURS: [[u8; 3]; 8] = [
+    [255, 0, 0],
+    [0, 255, 0],
+    [0, 0, 255],
+    [255, 255, 255],
+    [0, 0, 0],
+    [128, 128, 128],
+    [200, 120, 40],
+    [30, 90, 160],
+];
+
+/// The colour of block `column` in frame `frame`: the row of colours moves on
+/// by one block every frame, so each frame tells its number modulo eight.
+fn colour(column: u32, frame: u32) -> [u8; 3] {
+    COLOURS[((column + frame) % 8) as usize]
+}
+
+fn pattern(frame: u32) -> Vec<u8> {
+    let mut rgba = Vec::with_capacity((WIDTH * HEIGHT * 4) as usize);
+    for _ in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let [r, g, b] = colour(x / BLOCK, frame);
+            rgba.extend([r, g, b, 255]);
+        }
+    }
+    rgba
+}
+
+fn make_film(path: &Path) {
+    let mut film = Film::create(path, WIDTH, HEIGHT, FPS).unwrap();
+    for frame in 0..FRAMES {
+        film.push_rgba(&pattern(frame)).unwrap();
+    }
+    assert_eq!(film.finish().unwrap(), path);
+}
+
+/// The coded pictures of an MP4 whose `mdat` holds nothing else: NAL units with
+/// 4-byte lengths, turned into Annex B.
+fn annex_b(mp4: &[u8]) -> Vec<u8> {
+    let mut rest = mp4;
+    loop {
+        let size = u32::from_be_bytes(rest[..4].try_into().unwrap()) as usize;
+        if &rest[4..8] == b"mdat" {
+            let mut units = &rest[8..size];
+            let mut out = Vec::new();
+            while !units.is_empty() {
+                let length = u32::from_be_bytes(units[..4].try_into().unwrap()) as usize;
+                out.extend([0, 0, 0, 1]);
+                out.extend(&units[4..4 + length]);
+                units = &units[4 + length..];
+            }
+            return out;
+        }
+        rest = &rest[size..];
+    }
+}
+
+/// Shows each picture of a stream to `look`, in order.
+fn decode(stream: &[u8], mut look: impl FnMut(&DecodedYUV<'_>)) {
+    let mut decoder = Decoder::new().unwrap();
+    for unit in openh264::nal_units(stream) {
+        if let Some(picture) = decoder.decode(unit).unwrap() {
+            look(&picture);
+        }
+    }
+    for picture in decoder.flush_remaining().unwrap() {
+        look(&picture);
+    }
+}
+
+/// BT.601, limited range, to RGB (ITU-R BT.601-7, 2.5.1–2.5.3).
+fn rgb_of(y: u8, cb: u8, cr: u8) -> [f64; 3] {
+    let y = (f64::from(y) - 16.0) / 219.0;
+    let cb = (f64::from(cb) - 128.0) / 224.0;
+    let cr = (f64::from(cr) - 128.0) / 224.0;
+    [
+        y + 1.402 * cr,
+        y - 0.344_136 * cb - 0.714_136 * cr,
+        y + 1.772 * cb,
+    ]
+    .map(|v| (v * 255.0).clamp(0.0, 255.0))
+}
+
+#[test]
+fn every_frame_decodes_to_its_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    make_film(&path);
+    let stream = annex_b(&fs::read(&path).unwrap());
+
+    let mut frame = 0;
+    decode(&stream, |picture| {
+        assert_eq!(picture.dimensions(), (WIDTH as usize, HEIGHT as usize));
+        let (luma, chroma, _) = picture.strides();
+        for column in 0..WIDTH / BLOCK {
+            let (x, y) = ((column * BLOCK + BLOCK / 2) as usize, HEIGHT as usize / 2);
+            let got = rgb_of(
+                picture.y()[y * luma + x],
+                picture.u()[y / 2 * chroma + x / 2],
+                picture.v()[y / 2 * chroma + x / 2],
+            );
+            let want = colour(column, frame);
+            for channel in 0..3 {
+                let off = (got[channel] - f64::from(want[channel])).abs();
+                // Two levels of rounding in 8-bit limited range, the rest is
+                // quantisation of the coded block.
+                assert!(off < 8.0, "frame {frame} column {column}: {got:?} {want:?}");
+            }
+        }
+        frame += 1;
+    });
+    assert_eq!(frame, FRAMES);
+}
+
+#[test]
+fn a_browser_plays_and_seeks_it() {
+    let folder = tempfile::tempdir().unwrap();
+    make_film(&folder.path().join("film.mp4"));
+    fs::write(
+        folder.path().join("page.html"),
+        r#"<!doctype html><canvas></canvas><script>
+        const told = (value) => console.log("TOLD " + JSON.stringify(value));
+        const film = document.createElement("video");
+        film.muted = true;
+        film.src = "film.mp4";
+        const canvas = document.querySelector("canvas");
+        const seek = (t) => new Promise((done) => {
+          film.addEventListener("seeked", done, { once: true });
+          film.currentTime = t;
+        });
+        const colours = COLOURS;
+        const want = (frame) => colours[frame % 8];
+        const read = (context) => {
+          context.drawImage(film, 0, 0);
+          const row = [];
+          for (let column = 0; column < 8; column++)
+            row.push([...context.getImageData(column * 40 + 20, 90, 1, 1).data.slice(0, 3)]);
+          return row;
+        };
+        film.onerror = () => told({ error: film.error.message });
+        film.onloadeddata = async () => {
+          canvas.width = film.videoWidth;
+          canvas.height = film.videoHeight;
+          const context = canvas.getContext("2d");
+          const rows = [];
+          for (const frame of [0, 1, 29, 30, 47, 59]) {
+            await seek((frame + 0.5) / 30);
+            let row = read(context);
+            // What was sought is decoded by now, and a busy browser paints it later.
+            for (let tries = 0; tries < 200 && row[0].some((level, n) => Math.abs(level - want(frame)[n]) > 10); tries++) {
+              await new Promise((done) => setTimeout(done, 25));
+              row = read(context);
+            }
+            rows.push({ frame, row });
+          }
+          told({ duration: film.duration, width: film.videoWidth, height: film.videoHeight, rows });
+        };
+        </script>"#
+            .replace("COLOURS", &serde_json::to_string(&COLOURS).unwrap()),
+    )
+    .unwrap();
+    let Some(visit) = browser::visit(&folder.path().join("page.html")) else {
+        return;
+    };
+    let told: serde_json::Value = serde_json::from_str(&visit.told).unwrap();
+    assert_eq!(told["width"], WIDTH, "{visit:?}");
+    assert_eq!(told["height"], HEIGHT);
+    let duration = told["duration"].as_f64().unwrap();
+    // The movie header counts milliseconds.
+    let expected = f64::from(FRAMES) / f64::from(FPS);
+    assert!((duration - expected).abs() < 2e-3, "{duration} s");
+    for entry in told["rows"].as_array().unwrap() {
+        let frame = entry["frame"].as_u64().unwrap() as u32;
+        for column in 0..8u32 {
+            let want = colour(column, frame);
+            for channel in 0..3 {
+                let got = entry["row"][column as usize][channel].as_f64().unwrap();
+                let off = (got - f64::from(want[channel])).abs();
+                assert!(
+                    off < 10.0,
+                    "frame {frame} column {column}: {entry} {want:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_half_written_nothing_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    film.push_rgba(&pattern(0)).unwrap();
+    assert!(!path.exists(), "not before it is finished");
+    drop(film);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+
+    let film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    assert!(matches!(film.finish(), Err(FilmError::Empty)));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    film.push_rgba(&pattern(0)).unwrap();
+    fs::write(&path, "mine").unwrap();
+    assert!(film.finish().is_err(), "a film that appeared meanwhile");
+    assert!(Film::create(&path, WIDTH, HEIGHT, FPS).is_err());
+    assert_eq!(fs::read(&path).unwrap(), b"mine");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn impossible_films_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let refused = |w, h, fps| Film::create(&path, w, h, fps).unwrap_err().to_string();
+    assert!(refused(961, 540, 30).contains("961x540"));
+    assert!(refused(8192, 4096, 30).contains("8192x4096"));
+    assert!(refused(960, 540, 0).contains("0 frames a second"));
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    assert!(matches!(
+        film.push_rgba(&[0; 16]),
+        Err(FilmError::FrameLength { got: 16, .. })
+    ));
+}
+
+/// Where the ring's middle is.
+fn middle(frame: u32) -> (f64, f64) {
+    (40.0 + 2.6 * f64::from(frame), 60.0 + 0.9 * f64::from(frame))
+}
+
+/// A wall's grey with a slow gradient and a step of dither, and a dark ring that
+/// wanders over it: what a flask's edge is to the film's background.
+fn wall_and_ring(frame: u32) -> Vec<u8> {
+    let centre = middle(frame);
+    let mut noise = u64::from(frame);
+    let mut rgba = Vec::with_capacity((WIDTH * HEIGHT * 4) as usize);
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            // Knuth's linear congruential generator (MMIX).
+            noise = noise
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let wall = 180 + (x / 16) as u8 + (noise >> 63) as u8;
+            let r = (f64::from(x) - centre.0).hypot(f64::from(y) - centre.1);
+            let grey = if (r - 30.0).abs() < 0.8 {
+                wall - 40
+            } else {
+                wall
+            };
+            rgba.extend([grey, grey, grey, 255]);
+        }
+    }
+    rgba
+}
+
+#[test]
+fn what_moves_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("film.mp4");
+    let mut film = Film::create(&path, WIDTH, HEIGHT, FPS).unwrap();
+    for frame in 0..FRAMES {
+        film.push_rgba(&wall_and_ring(frame)).unwrap();
+    }
+    film.finish().unwrap();
+    let mut frame = 0;
+    decode(&annex_b(&fs::read(&path).unwrap()), |picture| {
+        let centre = middle(frame);
+        let stride = picture.strides().0;
+        for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+            let r = (f64::from(x) - centre.0).hypot(f64::from(y) - centre.1);
+            if (r - 30.0).abs() < 5.0 {
+                continue;
+            }
+            let got = f64::from(picture.y()[y as usize * stride + x as usize]);
+            let wall = 16.0 + f64::from(180 + x / 16) * 219.0 / 255.0;
+            // Dither and a quantiser of 20 (steps of 6.5); a dot is darker.
+            let off = got - wall;
+            assert!(off.abs() < 7.0, "frame {frame} ({x}, {y}): {got}, {wall}");
+        }
+        frame += 1;
+    });
+    assert_eq!(frame, FRAMES);
+}

@@ -1,6 +1,0 @@
-//! Sounds and what plays them.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-#[cfg(all(feature = "output", target_os = "linux"))]
-mod output;
-mod sounds;

@@ -1,8 +1,0 @@
-//! What is played arrives at a real PulseAudio server, and what goes wrong there stops nothing.
-//!
-//! A test starts itself again with the server's socket in its environment, as no test may change its own.
-
-mod broken;
-mod dry;
-mod played;
-mod server;
