@@ -5,7 +5,7 @@
 
 mod cameras;
 mod cloud;
-mod glass;
+mod glass_mesh;
 mod gltf;
 mod mesh;
 mod nets;

@@ -14,7 +14,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::SolverState;
 
-use crate::glass::{inner, outer};
+use crate::glass_mesh::{inner, outer};
 use crate::mesh::Mesh;
 use crate::nets::{self, Level};
 

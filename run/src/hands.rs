@@ -4,8 +4,8 @@
 //! made of either. What a hand holds is between its palm and its fingers.
 
 mod bones;
-mod glass;
 mod grasp;
+mod held_glass;
 mod posture;
 #[cfg(test)]
 mod tests;
@@ -16,8 +16,8 @@ use vitriol_sim::world::World;
 use vitriol_xr::{Hand, Pose, Side};
 
 pub use bones::{JOINTS, Joints, bones_of};
-pub use glass::Glass;
 pub use grasp::{Grasp, closed_on};
+pub use held_glass::Glass;
 pub use posture::Posture;
 
 /// The same hand without its glove.

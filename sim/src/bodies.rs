@@ -1,8 +1,8 @@
 //! Rigid bodies: flasks and tools, the table and the floor, and the hands that grip them.
 //!
-//! rapier3d does the mechanics; this module says what a flask is to it (a
-//! solid of convex pieces with the inertia of a glass shell), what a
-//! hand does to it, and how the liquid's push acts on it. It knows nothing of
+//! rapier3d does the mechanics; this module gives it the flasks (each a
+//! solid of convex pieces with the inertia of a glass shell), the action of
+//! hands on them, and the liquid's push. It does not depend on
 //! particles, scenes or devices.
 //!
 //! A hand has no collider of its own. It acts by gripping alone: a solid hand

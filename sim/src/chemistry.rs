@@ -1,8 +1,8 @@
 //! The chemistry of diluting sulfuric acid, as pure functions.
 //!
 //! Two models. [`paper`] has Eqs 5 to 13 and 17 of the paper, with one boiling
-//! point, one density and Thomsen's heat of solution. [`physical`] has what
-//! its section 8 misses: mass fraction and specific enthalpy as the state,
+//! point, one density and Thomsen's heat of solution. [`physical`] adds what
+//! its section 8 names as missing: mass fraction and specific enthalpy as the state,
 //! properties by composition and temperature from tables, vapour that takes
 //! latent heat and mass along, and anti-viscosity that is paid for.
 //!
@@ -18,7 +18,6 @@ pub mod eddies;
 mod error;
 pub mod evaporation;
 pub mod exchange;
-pub mod glass;
 mod model;
 pub mod paper;
 pub mod physical;
@@ -28,6 +27,7 @@ pub mod segregation;
 pub mod table;
 pub mod thomsen;
 pub mod transport;
+pub mod wall_heat;
 
 #[cfg(test)]
 mod tests;

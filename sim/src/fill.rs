@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn beaker_holds_the_papers_13894() {
-        let profile = glass::find("beaker-250").unwrap().profile(1.0).unwrap();
+        let profile = glassware::find("beaker-250").unwrap().profile(1.0).unwrap();
         assert_eq!(count_for_volume(217.1e-6, D), 13894);
         let positions = fill(&profile, Pose::IDENTITY, 13894, D, None).unwrap();
         assert_eq!(positions.len(), 13894);
@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn no_two_particles_are_closer_than_the_lattice() {
-        let profile = glass::find("round-bottom-250")
+        let profile = glassware::find("round-bottom-250")
             .unwrap()
             .profile(1.0)
             .unwrap();
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn pose_moves_it_rigidly_and_seed_repeats() {
-        let profile = glass::find("beaker-250").unwrap().profile(1.0).unwrap();
+        let profile = glassware::find("beaker-250").unwrap().profile(1.0).unwrap();
         let pose = Pose::new(Vec3::new(0.3, 0.75, -0.4), Quat::from_rotation_z(0.8));
         let local = fill(&profile, Pose::IDENTITY, 500, D, Some(9)).unwrap();
         let placed = fill(&profile, pose, 500, D, Some(9)).unwrap();
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn refuses_what_does_not_fit() {
-        let profile = glass::find("beaker-250").unwrap().profile(1.0).unwrap();
+        let profile = glassware::find("beaker-250").unwrap().profile(1.0).unwrap();
         let error = fill(&profile, Pose::IDENTITY, 25_000, D, None).unwrap_err();
         assert!(error.sites > 17_000 && error.sites < 21_000, "{error}");
         assert_eq!(fill(&profile, Pose::IDENTITY, 0, D, None), Ok(vec![]));

@@ -6,7 +6,7 @@
 //! a table is a point of the table top. The inner floor is one wall thickness
 //! above the origin. All lengths are metres.
 
-pub mod glass;
+pub mod glassware;
 pub mod map;
 mod outline;
 pub mod particles;

@@ -1,4 +1,4 @@
-//! What a report says of a world at one moment.
+//! Quantities that a report gives of a world at one moment.
 
 mod departures;
 mod heat;
@@ -26,7 +26,7 @@ pub struct Measurement {
     /// Mean over all particles of max(0, ρ/ρ₀ − 1): compression, since Eq. 2
     /// is an inequality, and the liquid's surface may be thinner.
     pub density_error_mean: f64,
-    /// 99th percentile of the same.
+    /// 99th percentile of max(0, ρ/ρ₀ − 1) over all particles.
     pub density_error_p99: f64,
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
@@ -59,7 +59,7 @@ impl World {
         self.measure_state(&self.solver().snapshot()?)
     }
 
-    /// The same for who has a snapshot already: `state` is that of now.
+    /// Measures as [`World::measure`] does, from `state`, a snapshot of the present state that the caller has already.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.

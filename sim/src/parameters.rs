@@ -1,4 +1,4 @@
-//! What both solvers need to know about the liquid and about the time step.
+//! Parameters of the liquid and of the time step for both solvers.
 
 use crate::chemistry::Chemistry;
 use crate::chemistry::bubbles::Bubbles;
@@ -25,7 +25,7 @@ pub const XSPH_MOMENT: f64 = 0.0375;
 /// explode, or, with a relaxation too weak for that (ω = 0.2), stay
 /// compressed by 17 %; from 90 Hz × 8 on they are calm.
 ///
-/// What is left of the density error follows from substeps and iterations.
+/// The remaining density error follows from substeps and iterations.
 /// 13,888 particles in a cylinder of radius 33 mm at 90 Hz, mean and 99th
 /// percentile of max(0, ρ/ρ₀ − 1):
 ///
@@ -49,7 +49,7 @@ pub struct Parameters {
     pub substeps: u32,
     /// Iterations per substep (line 18).
     pub iterations: u32,
-    /// What each iteration makes of the constraint's value (line 20).
+    /// Weights of the constraint's value in each iteration (line 20).
     pub relaxation: Relaxation,
     /// How fast the multiplier with which a substep starts follows the ones
     /// that were found, 1/s; 0 for a cold start.
@@ -138,9 +138,10 @@ fn chebyshev(spectral_bound: f64, reduction: f64, iterations: u32) -> Vec<(f64, 
         .collect()
 }
 
-/// Margin of the neighbour list, fraction of h. Two particles may come nearer by twice the reach before a list knows of it, but
-/// neighbours move alike: what lists lack is 1e-7 of the density, and 1.3e-4 of a particle's at most (`sim/tests/solver/neighbours.rs`).
-/// With 0.15, which lacks nothing, a pass over neighbours fetches a third more.
+/// Margin of the neighbour list, fraction of h. Two particles may come nearer by twice the reach before a list is rebuilt, but
+/// neighbours move alike: the pairs missing from lists are 1e-7 of the density, and 1.3e-4 of a particle's at most
+/// (`sim/tests/solver/neighbours.rs`).
+/// With 0.15, where no pair is missing, a pass over neighbours fetches a third more.
 const LIST_MARGIN: f64 = 0.05;
 
 /// How far a particle may be from where it was listed, fraction of h. With 0.1 a shaken flask is 10.6 % too dense in place of 7 %.
@@ -178,7 +179,7 @@ impl Parameters {
         }
     }
 
-    /// What `scene` asks for; a preset is applied to the scene beforehand
+    /// The parameters of `scene`; a preset is applied to the scene beforehand
     /// ([`Scene::with_preset`]).
     pub fn from_scene(scene: &Scene) -> Self {
         let (scale, solver) = (&scene.scale, &scene.solver);
@@ -272,7 +273,7 @@ impl Parameters {
     }
 
     /// μ_s = 1 − (1 − μ)^(Δt_s/Δt_ref), the XSPH coefficient of one substep,
-    /// so that what a second does to a velocity does not depend on the
+    /// so that the change of a velocity in a second does not depend on the
     /// number of substeps.
     pub fn substep_viscosity(&self) -> f64 {
         1.0 - (1.0 - self.viscosity).powf(self.substep_time() / REFERENCE_TIME)

@@ -87,8 +87,8 @@ impl Pose {
         }
     }
 
-    /// Whether every component is finite and the orientation's length is within 1e-3 of one: what a tracker's pose must fulfil to be
-    /// used, and what a track may hold (`xr/src/pose.rs`).
+    /// Whether every component is finite and the orientation's length is within 1e-3 of one: the condition for a tracker's pose to be
+    /// used, and for the poses of a track (`xr/src/pose.rs`).
     pub fn is_valid(self) -> bool {
         self.position.is_finite()
             && self.orientation.is_finite()

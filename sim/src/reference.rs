@@ -1,5 +1,5 @@
-//! Algorithm 1 in f64 on the CPU, to be read beside the paper and compared
-//! with, pass by pass; nothing here is there for speed.
+//! Algorithm 1 in f64 on the CPU, to be read beside the paper and to compare
+//! the GPU's passes with; nothing here is optimised for speed.
 //!
 //! What it leaves out of the paper's listing, and why: lines 6–8 predict the
 //! whole frame for a neighbour search that serves all substeps, which at
@@ -14,7 +14,6 @@ pub mod density;
 pub mod dilution;
 mod eddies;
 pub mod forces;
-pub mod glass;
 pub mod measure;
 mod motion;
 pub mod neighbours;
@@ -26,6 +25,7 @@ pub mod surface;
 pub mod surroundings;
 mod viscosity;
 pub mod visibility;
+pub mod wall_heat;
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,5 @@
-//! Scenes as data: a TOML file with vessels, liquids, what is modelled and
-//! with which parameters.
+//! Scenes as data: a TOML file with vessels, liquids, features and their
+//! parameters.
 
 mod builtin;
 mod chemistry;
@@ -41,7 +41,7 @@ use std::collections::BTreeMap;
 pub struct Scene {
     /// Its name.
     pub name: String,
-    /// What it shows, in a sentence or two, and what of it was chosen here.
+    /// What it shows, in a sentence or two, and which of its values are our choice.
     pub description: String,
     /// Where the scene's frame is in the stage, metres of the scene. All else
     /// here, and what is simulated, is relative to it: however far off the scene
@@ -51,17 +51,17 @@ pub struct Scene {
     pub scale: Scale,
     /// Parameters of the solver.
     pub solver: SolverSettings,
-    /// What is modelled, each once.
+    /// Features that are modelled, each once.
     pub model: Vec<Feature>,
     /// Table 1's parameters, where the model uses any.
     pub paper: Option<PaperChemistry>,
-    /// The physical chemistry's, likewise; never both.
+    /// The physical chemistry's parameters, where the model uses any; a scene never has both.
     pub physical: Option<PhysicalChemistry>,
     /// Flasks, in the order that indices refer to.
     pub flasks: Vec<Flask>,
     /// Liquids, lower ones first where they share a flask.
     pub liquids: Vec<Liquid>,
-    /// What lies beside them and is handled, one of a kind.
+    /// Tools beside the flasks, one of a kind at most.
     pub tools: Vec<Tool>,
     /// The table, if there is one.
     pub table: Option<TableTop>,
@@ -69,7 +69,7 @@ pub struct Scene {
     pub floor: Floor,
     /// How it is drawn.
     pub picture: PictureSettings,
-    /// What each preset changes.
+    /// Changes of each preset.
     pub presets: BTreeMap<Preset, PresetOverrides>,
 }
 
@@ -85,7 +85,7 @@ impl Scene {
         found.map(|(_, text)| *text)
     }
 
-    /// The built-in scene of that name. What a user names may be a file as well: `vitriol_run::scenes`.
+    /// The built-in scene of that name. A user may also name a file, which `vitriol_run::scenes` resolves.
     ///
     /// # Errors
     /// [`SceneError`] as for [`Scene::parse`], or `NotFound`.
@@ -145,7 +145,7 @@ impl Scene {
         self.model.contains(&feature)
     }
 
-    /// What holds its liquid together, where it has surface tension.
+    /// Its surface tension and contact angles, where they are modelled.
     pub fn surface_tension(&self) -> Option<SurfaceTension> {
         let tension = self
             .solver
@@ -162,7 +162,7 @@ impl Scene {
         })
     }
 
-    /// The scene without `feature` and what is built upon it, and these.
+    /// The scene without `feature` and the features that depend on it, and the list of those.
     pub fn without(&self, feature: Feature) -> (Self, Vec<Feature>) {
         let gone = chemistry::built_upon(&self.model, feature, self.physical.is_some());
         let mut scene = self.clone();

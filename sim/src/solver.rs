@@ -19,7 +19,6 @@ mod colour;
 mod counters;
 mod error;
 mod frame;
-mod glass;
 mod grid;
 mod handle;
 mod lanes;
@@ -36,6 +35,7 @@ mod steam;
 mod transfer;
 mod vapour;
 mod vessels;
+mod wall_heat;
 
 pub(crate) use census::LooksMemoryRecord;
 pub use census::{
@@ -65,7 +65,7 @@ use vessels::Vessels;
 use vitriol_gpu::{Buffer, Gpu};
 use vitriol_shaders::Library;
 
-/// The particles of a scene on a device, and what moves them.
+/// The particles of a scene on a device, and the passes that move them.
 pub struct Solver {
     gpu: Gpu,
     parameters: Parameters,
@@ -143,8 +143,8 @@ impl Solver {
         Ok(solver)
     }
 
-    /// Solves from the next frame on with as many substeps and iterations, which nothing but
-    /// the poses' place on the device and the iterations' coefficients depend on.
+    /// Solves from the next frame on with these substeps a frame and iterations a substep; only
+    /// the poses' buffer and the iterations' coefficients depend on them.
     pub(crate) fn set_effort(&mut self, substeps: u32, iterations: u32) -> Result<(), SolverError> {
         let bytes = buffers::bytes_of_poses(substeps, self.flasks as u64);
         if self.buffers.poses.bytes() < bytes {
@@ -165,7 +165,7 @@ impl Solver {
         }
     }
 
-    /// Solves from the next frame on with that k_v, where there is one.
+    /// Solves from the next frame on with this k_v (Eq. 17); without effect where the paper's boiling is not modelled.
     pub(crate) fn set_intensity(&mut self, intensity: f64) {
         if let Some(Chemistry::Paper(paper)) = &mut self.parameters.chemistry
             && let Some(boiling) = &mut paper.boiling
@@ -215,11 +215,10 @@ impl Solver {
             .map(|_| &self.buffers.heat)
     }
 
-    /// Neighbours of each particle as `array<u32>`, the list itself as
-    /// `array<vec4<u32>>`, and how many of its fours a particle has: the list is as `common/liquid/list_block.wgsl` says,
-    /// the last four filled up with the particle itself. It is complete within the
-    /// support radius at the positions after a frame, but for particles with more neighbours than these: theirs are longer lists, whose first ones are
-    /// here. `None` before the first frame.
+    /// Number of neighbours of each particle as `array<u32>`, the list itself as `array<vec4<u32>>`, and the number of fours in a
+    /// particle's place. The list has the layout of `common/liquid/list_block.wgsl`, the last four filled up with the particle itself. It
+    /// is complete within the support radius at the positions after a frame, except for particles with more neighbours than a place has
+    /// room for: of their longer lists only the first ones are here. `None` before the first frame.
     pub fn neighbours(&self) -> Option<(&Buffer, &Buffer, u32)> {
         let listed = self.listed.load(Ordering::Relaxed);
         let fours = self.grid.list_capacity / 4;
@@ -233,7 +232,7 @@ impl Solver {
     }
 
     /// Puffs of steam, `array<Puff>` of `common/chemistry/puff.wgsl`, [`PUFFS`] of them;
-    /// those of radius 0 are none. `None` where no steam leaves the liquid.
+    /// a record of radius 0 is empty. `None` where no steam leaves the liquid.
     pub fn puffs(&self) -> Option<&Buffer> {
         self.steam.as_ref().map(|_| &self.buffers.puffs)
     }
@@ -245,15 +244,15 @@ impl Solver {
         steam.map(|_| &self.buffers.dew)
     }
 
-    /// Bubbles, `array<Bubble>` of `common/chemistry/bubble.wgsl`, and how many places of them there are: those without steam and
-    /// air are none. `None` where vapour has no volume.
+    /// Bubbles, `array<Bubble>` of `common/chemistry/bubble.wgsl`, and the number of their places; a record without steam and air is
+    /// empty. `None` where vapour has no volume.
     pub fn bubbles(&self) -> Option<(&Buffer, u32)> {
         let bubbles = self.parameters.bubbles()?;
         Some((&self.buffers.bubbles, bubbles.slots()))
     }
 
-    /// What bubbles threw up, `array<Drops>` of `common/chemistry/drops.wgsl`, two for each of their places. `None` where that is not
-    /// followed.
+    /// Drops that bubbles threw up, `array<Drops>` of `common/chemistry/drops.wgsl`, two records for each place of a bubble. `None` where
+    /// spray is not modelled.
     pub fn drops(&self) -> Option<&Buffer> {
         let bubbles = self.parameters.bubbles()?;
         (bubbles.places_of_drops() > 0).then_some(&self.buffers.drops)
@@ -264,7 +263,7 @@ impl Solver {
         let all = self.buffers.all(&self.vessels);
         let of_particles = all.iter().take(buffers::OF_PARTICLES);
         let count = u64::from(self.count.max(1));
-        // What a scene has no use for is a few bytes all the same.
+        // A buffer that a scene has no use for still has a few bytes.
         let used = of_particles.map(|buffer| buffer.bytes());
         used.filter(|&bytes| bytes >= count).sum::<u64>() / count
     }

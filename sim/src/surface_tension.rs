@@ -1,5 +1,5 @@
-//! Surface tension and wetting (line 28), as the energy of `shaders/wgsl/common/liquid/surface_energy.wgsl`: what both
-//! solvers take from here.
+//! Surface tension and wetting (line 28), as the energy of `shaders/wgsl/common/liquid/surface_energy.wgsl`: constants and functions
+//! that both solvers share.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,7 +26,7 @@ const THICK_PULL: f64 = 0.9;
 /// Least colour of a core: a lone particle's is 0.15.
 const LEAST_CORE: f64 = 0.25;
 
-/// What colours are divided by, for the fullest that was found up the gradient.
+/// Core by which colours are divided, for the fullest colour that was found up the gradient.
 pub(crate) fn core_for(fullest: f64) -> f64 {
     let t = ((fullest - CORE_THIN) / (CORE_THICK - CORE_THIN)).clamp(0.0, 1.0);
     let thick = t * t * (3.0 - 2.0 * t);
@@ -62,7 +62,7 @@ const TENSIONS: [(f64, f64); 8] = [
     (0.98, 55.0),
 ];
 
-/// What water's surface tension loses a kelvin, of that at 20 °C: mean from there to 100 °C (IAPWS R1-76).
+/// Loss of water's surface tension a kelvin, over its value at 20 °C: mean from there to 100 °C (IAPWS R1-76).
 const SLOPE: f64 = 0.002_378;
 
 /// Least that is left, far beyond any table.
@@ -90,11 +90,11 @@ pub const BENCH: f64 = 65.0 * PI / 180.0;
 /// as no source for glass in use was found.
 pub const HYSTERESIS: f64 = 20.0 * PI / 180.0;
 
-/// How much of what cells hold comes to particles, by `lines_are_held_by_what_hysteresis_says`: next to a wall the filter
-/// has put colour where no particle is.
+/// Share of the cells' holding force that acts on particles, found in the test `lines_are_held_by_what_hysteresis_says`: next to a
+/// wall the filter puts colour where there is no particle.
 pub(crate) const REACHED: f64 = 0.745;
 
-/// What holds a liquid together, and to what is solid.
+/// Surface tension of a liquid, and its contact angles with solids.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceTension {
     /// σ, N/m.
@@ -102,7 +102,7 @@ pub struct SurfaceTension {
     /// Angle between the liquid's surface and each flask's glass, measured in the liquid, radians; those that are not
     /// there have [`GLASS`].
     pub glass: Vec<f64>,
-    /// The same of table and floor.
+    /// Angle between the liquid's surface and table and floor, measured in the liquid, radians.
     pub ground: f64,
     /// Difference between the advancing and the receding angle, radians: a line at which the surface ends on a wall moves
     /// beyond these only.
@@ -110,7 +110,7 @@ pub struct SurfaceTension {
 }
 
 impl SurfaceTension {
-    /// Of this tension (N/m), on laboratory glass and a bench without hysteresis.
+    /// Surface tension `tension` (N/m), on laboratory glass and a bench without hysteresis.
     pub fn new(tension: f64) -> Self {
         Self {
             tension,
@@ -120,7 +120,8 @@ impl SurfaceTension {
         }
     }
 
-    /// How much of σ·sin θ holds a line, for what of it comes to particles.
+    /// Factor of σ in the force that holds a line: the sine of half the hysteresis, over the share [`REACHED`] of it that acts on
+    /// particles.
     pub(crate) fn stickiness(&self) -> f64 {
         (0.5 * self.hysteresis).sin() / REACHED
     }
@@ -147,7 +148,7 @@ impl SurfaceTension {
     }
 }
 
-/// What the energy of `surface_energy.wgsl` counts of a flat surface's area, on nodes that a particle's volume reaches
+/// Area that the energy of `surface_energy.wgsl` counts per area of a flat surface, on nodes that a particle's volume reaches
 /// by a cubic B-spline and a binomial filter: 1 but for what is fainter than 0.002 of one per node. Mean over places between nodes.
 pub fn flat() -> f64 {
     const PLACES: i32 = 64;
@@ -155,7 +156,8 @@ pub fn flat() -> f64 {
     (0..PLACES).map(|k| flat_at(place(k))).sum::<f64>() / f64::from(PLACES)
 }
 
-/// The same with the surface `place` of a node's distance beyond a node.
+/// Area that the energy of `surface_energy.wgsl` counts per area of a flat surface, as in [`flat`], with the surface at `place` beyond a
+/// node, in units of the distance between nodes.
 fn flat_at(place: f64) -> f64 {
     let raw = |n: i32| filled(f64::from(n) - place);
     let filtered = |n: i32| 0.25 * raw(n - 1) + 0.5 * raw(n) + 0.25 * raw(n + 1);

@@ -28,25 +28,26 @@ use vitriol_shaders::Library;
 use vitriol_shaders::layout::LiquidLoad;
 
 /// Steps after which the liquid's push acts on a flask. Two, always: by then
-/// the device has finished the frame, so that no one waits for it, and a
+/// the device has finished the frame, so that no step waits for it, and a
 /// replay has the same bits as the live session.
 const LOAD_DELAY: usize = 2;
 
 /// Most substeps of a step over the scene's, however fast a flask is.
 const MOST_TIMES: u32 = 3;
 
-/// What a step is given.
+/// Input of a step: the user's hands and head.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInput {
     /// Left and right hand at the step's end, in the scene's frame
     /// ([`Scene::origin`]).
     pub hands: [Hand; 2],
-    /// The middle between the user's eyes then, who looks along −z, likewise; `None` where it is not known. Nothing but goggles asks for it.
+    /// Pose of the middle between the user's eyes at the step's end, in the scene's frame; the user looks along −z. `None` where it is not
+    /// tracked. Only goggles use it.
     pub head: Option<Pose>,
 }
 
 impl StepInput {
-    /// Of hands alone.
+    /// Input with hands and no tracked head.
     pub const fn of_hands(hands: [Hand; 2]) -> Self {
         Self { hands, head: None }
     }
@@ -104,15 +105,15 @@ pub struct World {
     solver: Solver,
     /// Loads of the last [`LOAD_DELAY`] steps, the oldest first.
     loads: VecDeque<Arc<PendingLoad>>,
-    /// By flask: what [`World::stirring`] says.
+    /// Kinetic energies by flask (J), which [`World::stirring`] gives.
     stirring: Vec<f32>,
-    /// What [`World::set_effort`] asked for, until the next step.
+    /// Substeps and iterations from [`World::set_effort`], until the next step takes them.
     effort: Option<[u32; 2]>,
     step: u64,
     /// Steps done at the last look.
     looked: u64,
     last: Option<Ticket>,
-    /// Where somebody follows, see [`World::follow`].
+    /// Acts and state for [`World::revive`]; `None` until [`World::follow`].
     lifeline: Option<Lifeline>,
 }
 
@@ -132,8 +133,8 @@ impl World {
         Self::build(gpu, library, scene, seed, true)
     }
 
-    /// The same without flask constraints, which leaves walls that are no more
-    /// than a density: for comparison (Fig. 5).
+    /// The scene at its start as from [`World::new`], without the flask constraints of section 5: walls are then no more
+    /// than a term of the density sum, for comparison (Fig. 5).
     ///
     /// # Errors
     /// As for [`World::new`].
@@ -195,7 +196,8 @@ impl World {
         self.step_on(QueueKind::Main, input)
     }
 
-    /// The same on that queue; always on one, since two know no order.
+    /// Advances by one step as [`World::step`] does, with the submission on `queue`. All steps of a world go on one queue, since
+    /// submissions to two queues have no order.
     ///
     /// # Errors
     /// As for [`World::step`].
@@ -229,21 +231,22 @@ impl World {
         Ok(())
     }
 
-    /// The hands of the next step did not come to where they are by moving: the user was recentred, or found again. What
-    /// they hold goes there with all that is in it, as one rigid body, which the liquid does not feel.
+    /// Declares that the hands of the next step did not move to where they are: the user was recentred, or is tracked again. Held
+    /// bodies go there with their contents in one rigid motion, which exerts no force on the liquid.
     pub fn hands_leap(&mut self) {
         self.note(Act::Leap);
         self.bodies.hands_leap();
     }
 
     /// Whether flasks that are struck too hard break, from the next step on ([`BREAKS_AT`](crate::bodies::BREAKS_AT)). They do not
-    /// in a world at its start. What was in a broken one is nobody's; its shards meet glass, table and floor, and no liquid.
+    /// in a world at its start. The liquid of a broken flask belongs to no flask; its shards collide with glass, table and floor, but not
+    /// with liquid.
     pub fn set_breakable(&mut self, on: bool) {
         self.note(Act::Breakable(on));
         self.bodies.set_breakable(on);
     }
 
-    /// As many substeps as the fastest wall asks for ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that
+    /// Sets as many substeps as the fastest wall needs ([`SolverSettings::wall_step`](crate::scene::SolverSettings)). A wall that
     /// goes further than the particles it meets are wide presses them into each other, and the list's reach
     /// keeps them there for several substeps.
     fn follow_walls(&mut self, before: &[Pose]) -> Result<(), WorldError> {
@@ -269,12 +272,12 @@ impl World {
     }
 
     /// Solves from the next step on with as many substeps a step and iterations a substep. The
-    /// liquid goes on as it is: what is carried from substep to substep is −p/ρ, which
-    /// the length of neither scales. [`World::scene`] says what the last step was solved with.
+    /// liquid goes on as it is: the multiplier carried from substep to substep is −p/ρ, which
+    /// the length of neither scales. [`World::scene`] has the numbers of the last step.
     ///
     /// # Errors
-    /// [`WorldError::Effort`] for what the scene's liquid does not stand up under; nothing
-    /// has changed then.
+    /// [`WorldError::Effort`] where the scene's liquid would not stand up under these numbers;
+    /// nothing has changed then.
     pub fn set_effort(&mut self, effort: [u32; 2]) -> Result<(), WorldError> {
         let [substeps, iterations] = effort;
         if let Some(problem) = self.scene.with_effort(effort).problem_of_solver() {
@@ -321,7 +324,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a k_v that a world of the same scene has: a scene's own may be larger than what can be set.
+    /// Takes a k_v that a world of the same scene has: a scene's own may be larger than [`MOST_INTENSITY`].
     fn take_intensity(&mut self, intensity: Option<f64>) {
         if let Some(intensity) = intensity {
             self.solver.set_intensity(intensity);
@@ -337,8 +340,8 @@ impl World {
         self.effort.unwrap_or([solver.substeps, solver.iterations])
     }
 
-    /// Whether the next step would find what it needs on the host already,
-    /// and not wait for the device.
+    /// Whether the loads that the next step needs are ready, so that it would
+    /// not wait for the device.
     ///
     /// # Errors
     /// [`WorldError::Gpu`] where the device is lost.
@@ -364,7 +367,7 @@ impl World {
         &self.gpu
     }
 
-    /// The submission of the last step, for who draws it on another queue.
+    /// The submission of the last step, for a renderer that draws it on another queue.
     pub fn last_step(&self) -> Option<&Ticket> {
         self.last.as_ref()
     }
@@ -375,14 +378,14 @@ impl World {
     }
 
     /// Kinetic energy, relative to a flask, of the liquid that its wall pushes, J: how it
-    /// boils and sloshes there. As it was two steps ago, so that nobody waits for it;
+    /// boils and sloshes there. It is two steps old, so that reading it waits for nothing;
     /// 0 of a flask that is not there, and where no flask can be lifted.
     pub fn stirring(&self, flask: usize) -> f32 {
         self.stirring.get(flask).copied().unwrap_or(0.0)
     }
 
-    /// What the liquid did to each flask in the last step, which acts on it
-    /// later; nothing where no flask can move. Waits for the device.
+    /// Impulse of the liquid on each flask in the last step, which acts on the flask
+    /// two steps later; empty where no flask can move. Waits for the device.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.
@@ -414,8 +417,8 @@ impl World {
         record.get()
     }
 
-    /// Takes up a state of the same scene and preset, on this device; what
-    /// follows has the bits that it would have had without the interruption
+    /// Takes up a state of the same scene and preset, on this device; the steps
+    /// that follow have the bits that they would have had without the interruption
     /// on a device of the same kind.
     ///
     /// # Errors
@@ -433,13 +436,13 @@ impl World {
         Ok(())
     }
 
-    /// Waits for the last step, which may be on another queue than what reads
-    /// its particles.
+    /// Waits for the last step, which may be on another queue than the submission
+    /// that reads its particles.
     fn wait(&self) -> Result<(), WorldError> {
         Ok(self.last.as_ref().map_or(Ok(()), Ticket::wait)?)
     }
 
-    /// What the liquid did [`LOAD_DELAY`] steps ago.
+    /// The liquid's loads on the flasks of [`LOAD_DELAY`] steps ago; empty before there are any.
     fn due_loads(&mut self) -> Result<Vec<Load>, WorldError> {
         if self.loads.len() < LOAD_DELAY {
             return Ok(Vec::new());
@@ -475,7 +478,7 @@ impl PendingLoad {
     fn read(&self) -> Result<Vec<LiquidLoad>, SolverError> {
         match self {
             Self::Device(record, ticket) => {
-                // Asked first: who steps only when it is ready does not wait.
+                // Checked first: a caller that steps only when the world is ready does not wait.
                 if !ticket.is_done()? {
                     ticket.wait()?;
                 }

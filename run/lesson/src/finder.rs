@@ -5,8 +5,8 @@
 //! observations alone, so a replay that observes the same steps emits the same events.
 
 mod amount;
+mod broken;
 mod flows;
-mod glass;
 mod heat;
 mod leaving;
 mod sight;
@@ -24,8 +24,8 @@ use vitriol_sim::solver::{Census, Held};
 
 use crate::event::{Content, Contents, Ending, Event};
 use crate::limits::Limits;
+use broken::GlassFalls;
 use flows::Flows;
-use glass::GlassFalls;
 use heat::HeatFinder;
 use leaving::Leavings;
 use skin::Touches;

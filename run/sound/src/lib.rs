@@ -15,11 +15,11 @@ mod drops;
 mod ear;
 mod emitter;
 mod event;
-mod glass;
 mod head;
 mod limiter;
 mod listener;
 mod mixer;
+mod modes;
 mod opus;
 #[cfg(feature = "output")]
 mod output;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::event::{Body, Glass, Strike};
-use crate::glass::{Cup, WAVES};
+use crate::modes::{Cup, WAVES};
 use crate::random::Random;
 use crate::voice::{Hiss, Ring, Voice};
 

@@ -6,7 +6,7 @@ use vitriol_xr::{Pose, Side};
 use vitriol_render::Bone;
 
 use super::bones::{Joints, THUMB_BONES, bones_of, web};
-use super::glass::Glass;
+use super::held_glass::Glass;
 use super::posture::{CLOSED, Chain, INDEX, Posture, SPREAD_OUT, Thumb, in_grip};
 
 /// How far the palm is drawn from where it is, m, to be at the glass: as far as a hand reaches for what it grips

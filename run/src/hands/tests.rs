@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::{EulerRot, Quat, Vec2, Vec3};
 use vitriol_render::{Bone, Finish, MOST_BONES};
-use vitriol_sim::flask::glass::find;
+use vitriol_sim::flask::glassware::find;
 use vitriol_xr::{Pose, Side};
 
 use super::bones::{FINGERS, THUMB};

@@ -6,6 +6,9 @@
 //! ones is a call, around which all that is in registers goes to memory. In hardware all are the
 //! same, so the shaders say storage and the SPIR-V is changed where the device asks for it. It
 //! cannot be changed any earlier: WGSL and naga have no texel buffers.
+//!
+//! It pays with Mesa 25.0.7 (Debian 13) too: a replay of liquid takes 0.71 to 0.76 of the processor's time, with 22.3 0.62 to 0.66
+//! (docs/measurements/performance.md).
 
 mod elements;
 

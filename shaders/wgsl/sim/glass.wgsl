@@ -1,5 +1,5 @@
 // What the liquid did to the glass in a frame: its rings warm, conduct and lose heat to the air. One workgroup
-// a flask. `chemistry/glass.rs` is the same in f64.
+// a flask. `chemistry/wall_heat.rs` is the same in f64.
 //!include common/chemistry/compensated.wgsl
 //!include common/glass/glass_rings.wgsl
 

@@ -4,13 +4,13 @@ use rapier3d::prelude::{MassProperties, RigidBodyHandle};
 
 use super::spec::Role;
 
-/// What of a body never changes.
+/// The constant properties of a body.
 pub(super) struct Body {
     /// Its rigid body.
     pub body: RigidBodyHandle,
     /// As in [`BodySpec::outline`](super::BodySpec::outline) (m).
     pub outline: Vec<[f32; 2]>,
-    /// Of the empty flask, SI.
+    /// Mass properties of the empty flask, SI.
     pub glass: MassProperties,
     /// Greatest outer radius, in rapier's unit.
     pub radius: f32,

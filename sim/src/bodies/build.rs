@@ -34,7 +34,7 @@ const TABLE_THICKNESS: f32 = TableTop::THICKNESS as f32;
 /// Damping of a tool's spin, 1/s: our choice.
 const TOOL_DAMPING: f32 = 3.0;
 
-/// Of which bodies a collider is; table, floor and shards are of all.
+/// Collision group of a body's colliders; those of table, floor and shards are in all groups.
 const FLASKS: Group = Group::GROUP_1;
 const TOOLS: Group = Group::GROUP_2;
 const SASH: Group = Group::GROUP_3;
@@ -168,7 +168,7 @@ fn insert(
     let builder = if spec.fixed {
         RigidBodyBuilder::fixed()
     } else if matches!(role, Some(Role::Sash { .. })) {
-        // Counterweights bear it.
+        // A sash: its counterweights bear it.
         RigidBodyBuilder::kinematic_position_based()
     } else {
         // Without sleep: liquid that is poured into a sleeping flask would have to wake it.

@@ -1,4 +1,4 @@
-//! How a load of two steps ago acts on a flask now, without shaking it.
+//! Coupling of a flask with the liquid's load of two steps ago, without instability.
 //!
 //! The liquid weighs more than the glass: 250 g in 100 g. Applied as it comes,
 //! its reaction is unstable. Liquid that moves with the flask pushes back with

@@ -1,4 +1,4 @@
-//! What a hand grips, holds and lets go.
+//! Hands that grip, hold and release bodies.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -44,12 +44,12 @@ pub(super) struct GripState {
 }
 
 impl GripState {
-    /// Whether the hand is where it is without having been followed there.
+    /// Whether the hand is tracked again after it was absent in the step before, so that its way to where it is is unknown.
     pub(super) fn is_back(&self) -> bool {
         self.back
     }
 
-    /// Whether what it holds is where it is because another held it, or none.
+    /// Whether the hand closed in this step: a body that it holds was moved by the other hand, or by none, until then.
     pub(super) fn has_just_taken(&self) -> bool {
         self.took
     }
@@ -59,12 +59,12 @@ impl GripState {
         self.closed
     }
 
-    /// Whether it closed in this step, and on nothing that it holds.
+    /// Whether it closed in this step without taking hold of a body.
     pub(super) fn closes_on_nothing(&self) -> bool {
         self.took && self.held.is_none()
     }
 
-    /// That flask is no more: a hand that held it holds nothing, and must open before it takes hold again.
+    /// Takes a flask that broke from the hand: a hand that held it holds nothing, and must open before it takes hold again.
     pub(super) fn lose(&mut self, flask: usize) {
         self.held = self.held.filter(|held| held.flask != flask);
     }
@@ -75,7 +75,8 @@ struct Held {
     flask: usize,
     grip_from_flask: Pose,
     stage_from_flask: Pose,
-    /// How far above the hand it was taken hold of, m, and how high that makes it: of what only slides, a hand that turns moves nothing.
+    /// Height of the body over the hand when it was taken hold of, and the height that follows from the hand's now, m: a sash only slides,
+    /// so that turning the hand does not move it.
     over_hand: f32,
     height: f32,
 }
@@ -148,7 +149,7 @@ fn nearest(stage_from_grip: Pose, flasks: &[Body], poses: &[Pose], reach: f32) -
         .map(|(_, held)| held)
 }
 
-/// The hand that holds `flask`, and the pose that it gives it.
+/// The hand that holds `flask`, and the flask's pose in that hand (stage_from_flask).
 pub(super) fn holder(grips: &[GripState; 2], flask: usize) -> Option<(usize, Pose)> {
     grips.iter().enumerate().find_map(|(hand, grip)| {
         grip.held
@@ -157,7 +158,7 @@ pub(super) fn holder(grips: &[GripState; 2], flask: usize) -> Option<(usize, Pos
     })
 }
 
-/// The height that a hand gives to what it slides; `None` where none holds it.
+/// The height to which a hand slides a sash; `None` where no hand holds it.
 pub(super) fn slid(grips: &[GripState; 2], flask: usize) -> Option<f32> {
     let held = grips.iter().filter_map(|grip| grip.held);
     held.into_iter()

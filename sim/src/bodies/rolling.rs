@@ -1,4 +1,4 @@
-//! Rolling resistance, which rapier does not know.
+//! Rolling resistance, which rapier does not model.
 
 use glam::Vec3;
 use rapier3d::prelude::{PhysicsWorld, RigidBody};
@@ -10,7 +10,7 @@ use rapier3d::prelude::{PhysicsWorld, RigidBody};
 /// table would never come to rest.
 const COEFFICIENT: f32 = 0.01;
 
-/// The torque that slows `body`, of outer radius `radius`, on what it rolls on, all
+/// The torque that slows `body`, of outer radius `radius`, on the surface it rolls on, all
 /// in rapier's unit; zero while it touches nothing, and never so much that it would
 /// turn the body back within `step` (s).
 ///

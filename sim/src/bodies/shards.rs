@@ -1,4 +1,4 @@
-//! Glass that breaks: which blow a flask does not bear, and the shards that are left of it.
+//! Glass that breaks: the blow from which on a flask breaks, and its shards.
 
 use std::f32::consts::TAU;
 
@@ -16,29 +16,29 @@ use super::spec::Velocity;
 use super::units::Units;
 use crate::pose::Pose;
 
-/// How fast a flask comes to what breaks it, m/s at real size: a fall from half a metre. Plates of common glass of 5 mm broke under
-/// 100 g of bronze from 0.5 m, bore 0.4 m, and in a frame broke by their own fall from 0.6 m (Barff, "Glass and Silicates", in
-/// Bevan's "British Manufacturing Industries", 1876). A beaker's wall is thinner and round; we found no figure for one.
+/// Closing speed of a blow from which on a flask breaks, m/s at real size: that of a fall from half a metre. Plates of common glass of
+/// 5 mm broke under 100 g of bronze from 0.5 m, bore 0.4 m, and in a frame broke by their own fall from 0.6 m (Barff, "Glass and
+/// Silicates", in Bevan's "British Manufacturing Industries", 1876). A beaker's wall is thinner and round; we found no figure for one.
 pub const BREAKS_AT: f32 = 3.1;
 
 /// Shards of a flask: its base, and its wall in three.
 pub const SHARDS: u32 = 4;
 
-/// Share of a flask's height up to which the base goes. Ours.
+/// Share of a flask's height up to which the base goes. Our choice.
 pub const BASE_SHARE: f32 = 0.35;
 
-/// How fast shards go apart, m/s at real size, over the speed that the flask had. Ours: those of a beaker that is dropped from a table lie
-/// within about half a metre.
+/// Speed at which shards separate, m/s at real size, beside the flask's own. Our choice: shards of a beaker that is dropped from a table
+/// lie within about half a metre.
 const APART: f32 = 0.5;
 
 /// Directions about the axis in which a shard of the wall has corners: chords 20° long are within 0.5 mm of a beaker's wall.
 const CORNERS: usize = 7;
 
-/// Where a broken flask is, which is nowhere: so far below all floors, m, that nothing there meets what is in the room, and so
-/// near that single precision tells a tenth of a millimetre there.
+/// Position of a broken flask, m: far enough below all floors that nothing there meets anything in the room, and near enough that single
+/// precision resolves a tenth of a millimetre there.
 pub const NOWHERE: Vec3 = Vec3::new(0.0, -1000.0, 0.0);
 
-/// Whether a flask there is broken.
+/// Whether this is the pose of a broken flask ([`NOWHERE`]).
 pub fn is_nowhere(stage_from_flask: &Pose) -> bool {
     stage_from_flask.position.y <= 0.5 * NOWHERE.y
 }
@@ -48,22 +48,22 @@ pub fn is_nowhere(stage_from_flask: &Pose) -> bool {
 pub struct Break {
     /// Which.
     pub flask: usize,
-    /// Where it was.
+    /// Its pose when it broke.
     pub stage_from_flask: Pose,
 }
 
 /// A piece of a flask's glass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shard {
-    /// Of which flask.
+    /// Index of its flask.
     pub flask: usize,
-    /// Which of its [`SHARDS`]: the base, then the wall's, each a third of a turn from +X to +Z on.
+    /// Which of its [`SHARDS`]: 0 is the base, then come those of the wall, each a third of a turn further from +X to +Z.
     pub piece: u32,
-    /// Where the flask would be if all of it had gone with this piece.
+    /// Pose of the flask's frame, as this piece carries it along.
     pub stage_from_flask: Pose,
 }
 
-/// What is broken: part of the bodies' state.
+/// Flasks that broke, and their shards: part of the bodies' state.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Breakage {
     /// Whether glass breaks.
@@ -126,7 +126,7 @@ impl Breakage {
             };
             let centre = pose.orientation * units.to_si(middle);
             let aside = centre.reject_from_normalized(pose.orientation * Vec3::Y);
-            // The base is on the axis, but for rounding: it goes to no side.
+            // The base is on the axis, apart from rounding, and has no direction to separate in.
             let outward = match piece {
                 0 => Vec3::ZERO,
                 _ => apart * aside.normalize_or_zero(),
@@ -183,7 +183,7 @@ fn parts(outline: &[[f32; 2]], piece: u32, units: Units) -> Vec<Part> {
         .collect()
 }
 
-/// Where a shard is about, in the flask's frame and rapier's unit; `None` of none.
+/// Middle of a shard in the flask's frame, in rapier's unit; `None` where it has no parts.
 fn middle(parts: &[Part]) -> Option<Vec3> {
     let middles = parts
         .iter()

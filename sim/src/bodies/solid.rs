@@ -91,7 +91,7 @@ fn simplify(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
 }
 
 /// Cuts the outline where it turns outwards, at a neck or a lip: between two
-/// cuts radius is a concave function of height, so what is revolved is convex.
+/// cuts radius is a concave function of height, so the solid of revolution is convex.
 fn convex_runs(points: &[Vec2]) -> Vec<&[Vec2]> {
     let mut runs = Vec::new();
     let mut start = 0;
@@ -156,8 +156,8 @@ pub(super) fn block(outline: &[Vec2]) -> Option<Vec<Piece>> {
     solid.then(|| vec![(shape, Pose3::from_translation(half * Vec3::Y))])
 }
 
-/// A bar along the body's y axis, and over it, in the stage that `stage_from_bar` turns it to, a pane as broad as the bar is long, of that height over its axis and
-/// that thickness.
+/// The pieces of a sash: a bar along the body's y axis, and over it, in the orientation `stage_from_bar`, a pane as broad as the bar is
+/// long, of the given height over its axis and the given thickness.
 pub(super) fn sash(
     outline: &[Vec2],
     [height, thickness]: [f32; 2],

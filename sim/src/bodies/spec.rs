@@ -1,4 +1,4 @@
-//! What the caller hands in, the world, its flasks, and each step's inputs, and how flasks move.
+//! Inputs of the bodies: the world, its flasks and tools, and each step's hands and loads; and the velocity of flasks.
 
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
@@ -24,23 +24,23 @@ pub struct BodiesSpec {
     /// The flasks, in the order in which every per-flask slice of this module
     /// names them.
     pub flasks: Vec<BodySpec>,
-    /// What else a hand can grip, or reach into. It meets table and floor, and no glass: a rod that a flask's solid pushed away
-    /// could not be dipped.
+    /// Other bodies that a hand can grip, or reach into. They collide with table and floor, but not with glass: a rod that a flask's
+    /// solid pushed away could not be dipped.
     pub tools: Vec<ToolSpec>,
-    /// What is worn at the start.
+    /// Goggles and gloves worn at the start.
     pub worn: Worn,
 }
 
-/// What is worn, where a scene has it.
+/// Goggles and gloves that the user wears; `None` where the scene has none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Worn {
-    /// Whether the goggles are.
+    /// Whether the goggles are worn.
     pub goggles: Option<bool>,
     /// Whether a glove is on the left and on the right hand.
     pub gloves: Option<[bool; 2]>,
 }
 
-/// What a body beside the flasks is.
+/// Kind of a body other than a flask.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
     /// Held and let go.
@@ -63,7 +63,7 @@ pub enum Role {
 pub struct ToolSpec {
     /// Its shape, and where it starts.
     pub body: BodySpec,
-    /// What it is.
+    /// Its kind.
     pub role: Role,
 }
 
@@ -100,8 +100,8 @@ pub struct Hand {
     pub stage_from_grip: Pose,
     /// How far the hand is closed, 0 to 1: the greater of squeeze and trigger.
     pub squeeze: f32,
-    /// Whether the tracker delivers. Of a hand that is absent neither the pose
-    /// nor the squeeze is looked at: what it holds stays where it was. A pose
+    /// Whether the hand is tracked. Of a hand that is absent neither the pose
+    /// nor the squeeze is read: a body that it holds stays where it was. A pose
     /// that is not [valid](Pose::is_valid) counts as absent, too.
     pub present: bool,
 }
@@ -115,7 +115,7 @@ impl Hand {
     };
 }
 
-/// What the liquid did to one flask during one simulation step, two steps ago.
+/// Impulse of the liquid on one flask during one simulation step, two steps ago, and the liquid's mass and centre.
 ///
 /// The delay is the caller's: the load passed to the call of
 /// [`Bodies::step`](super::Bodies::step) that makes pose n is the one that the
@@ -136,7 +136,7 @@ pub struct Load {
 /// How a flask moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Velocity {
-    /// Of the flask's origin, the centre of its base (m/s), stage axes.
+    /// Velocity of the flask's origin, the centre of its base (m/s), stage axes.
     pub linear: Vec3,
     /// Angular velocity (rad/s), stage axes.
     pub angular: Vec3,
@@ -152,7 +152,7 @@ pub enum BodiesError {
         what: &'static str,
         /// Its value.
         value: f32,
-        /// What it must be.
+        /// The valid range, in words.
         must: &'static str,
     },
     /// A quantity of a flask is out of its range.
@@ -162,7 +162,7 @@ pub enum BodiesError {
         flask: usize,
         /// The quantity.
         what: &'static str,
-        /// What it must be.
+        /// The valid range, in words.
         must: &'static str,
     },
     /// The bytes are no snapshot of this program version.

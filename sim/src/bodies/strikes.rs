@@ -1,4 +1,4 @@
-//! Blows: of flasks on each other, on the table and on the floor. They are heard, and may break the glass.
+//! Blows: of flasks on each other, on the table and on the floor. They are played as sounds, and may break the glass.
 
 use glam::Vec3;
 use rapier3d::prelude::{PhysicsWorld, RigidBodyHandle};
@@ -16,37 +16,37 @@ pub struct Strike {
     pub flask: usize,
     /// The other one; `None` for table, floor and sash.
     pub other: Option<usize>,
-    /// Momentum that it took, N s.
+    /// Momentum that the flask took, N s.
     pub impulse: f32,
     /// How fast the two came together, m/s.
     pub speed: f32,
-    /// Where about, in the stage, m.
+    /// Approximate position of the blow in the stage, m.
     pub position: Vec3,
 }
 
-/// Momentum from which on a blow is one, N s at real size: glass of 100 g that falls by a millimetre has 14 mN s.
+/// Least momentum of a blow, N s at real size: glass of 100 g that falls by a millimetre has 14 mN s.
 const LEAST: f32 = 2e-3;
-/// As often as before a contact must push, and as often as the flask's weight beside that: one that goes on is no blow, nor is a weight
-/// that comes to rest on the table as a hand lets go.
+/// Factor by which a blow's impulse must exceed the contact's in the step before plus that of the flask's weight: a contact that lasts is
+/// no blow, nor is a flask that comes to rest on the table as a hand lets go.
 const TIMES: f32 = 2.0;
-/// A held flask touches what is so near below it, m at real size.
+/// Height over table or floor below which a held flask touches it, m at real size.
 const TOUCHES: f32 = 5e-4;
 
-/// Whom a flask touches, and how hard in the last of rapier's steps.
+/// A contact: the flask, the other flask if it is one, and the impulse in the last of rapier's steps.
 type Contact = (usize, Option<usize>, f32);
 
 /// Where a held flask is.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct Clear {
-    /// Whether it came over the table from above, so that this is what it would meet; else the floor.
+    /// Whether it came over the table from above, so that it would meet the table; else the floor.
     over_table: bool,
-    /// How far its lowest point is above that, m.
+    /// Height of its lowest point above the surface that it would meet, m.
     height: f32,
     /// How fast it comes down, m/s; 0 where it was over something else before.
     speed: f32,
 }
 
-/// What is remembered from one step to the next: part of the bodies' state, since glass breaks by it.
+/// Memory from one step to the next: part of the bodies' state, since the breaking of glass depends on it.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Memory {
     contacts: Vec<Contact>,
@@ -54,7 +54,7 @@ pub(super) struct Memory {
     velocities: Vec<Vec3>,
     /// By flask, where a held one was in the last step.
     clear: Vec<Option<Clear>>,
-    /// Whether nothing is known of what touches: as at the start, where the flasks did not come to where they are.
+    /// Whether the contacts of the step before are unknown, as at the start, where the flasks did not move to where they are.
     begins: bool,
 }
 
@@ -80,7 +80,7 @@ pub(super) struct Strikes {
     floor: f32,
     scale: f32,
     pub memory: Memory,
-    /// Those of the step.
+    /// Blows of the step.
     pub found: Vec<Strike>,
 }
 
@@ -95,17 +95,17 @@ impl Strikes {
         }
     }
 
-    /// A step begins.
+    /// Begins a step: drops the blows of the one before.
     pub fn begin(&mut self) {
         self.found.clear();
     }
 
-    /// A held flask was put elsewhere.
+    /// Forgets where a held flask was, since it was put elsewhere.
     pub fn forget_held(&mut self, flask: usize) {
         self.memory.clear[flask] = None;
     }
 
-    /// One of rapier's steps was taken.
+    /// Finds the blows of one of rapier's steps, after it was taken.
     pub fn take(&mut self, rapier: &PhysicsWorld, flasks: &[Body], units: Units) {
         let contacts = contacts(rapier, flasks, units);
         let velocity = |flask: &Body| {
@@ -140,8 +140,9 @@ impl Strikes {
         }
     }
 
-    /// How fast a flask came towards what struck it, m/s: its velocity before, relative to the other's, against the way that the
-    /// blow pushes it. What it has lost within one of rapier's steps is only the first part of it, as a contact takes some.
+    /// Closing speed of a flask and the body that struck it, m/s: its velocity before, relative to the other's, against the direction in
+    /// which the blow pushes it. Its loss of speed within one of rapier's steps is only the first part of that, since a contact takes
+    /// several steps.
     fn closing(&self, flask: usize, other: Option<usize>, came: &[Vec3]) -> f32 {
         let now = &self.memory.velocities;
         let relative = |of: &[Vec3]| of[flask] - other.map_or(Vec3::ZERO, |other| of[other]);
@@ -149,7 +150,8 @@ impl Strikes {
         -before.dot(pushed.normalize_or_zero())
     }
 
-    /// A held flask, which rapier lets go through table and floor, is at `pose` after a step of `step` (s); `None` where none holds it.
+    /// Finds the blow of a held flask, which rapier lets pass through table and floor: it is at `held` after a step of `step` (s); `None`
+    /// where no hand holds it.
     pub fn take_held(&mut self, index: usize, flask: &Body, held: Option<Pose>, step: f32) {
         let before = self.memory.clear[index];
         let Some(pose) = held else {
@@ -160,7 +162,7 @@ impl Strikes {
         let near = TOUCHES * self.scale;
         if let Some(was) = before.filter(|was| was.over_table == now.over_table) {
             now.speed = (was.height - now.height) / step;
-            // In the step in which it comes there it may have been stopped already.
+            // In the step in which it reaches the surface it may have been stopped already.
             let speed = now.speed.max(was.speed);
             let impulse = flask.glass.mass() * speed;
             let comes = was.height > near && now.height <= near;
@@ -177,7 +179,7 @@ impl Strikes {
         self.memory.clear[index] = Some(now);
     }
 
-    /// A blow takes some of rapier's steps, of which the hardest counts, and how fast the two came into the first of them.
+    /// Adds a blow. One that lasts for several of rapier's steps counts once, with its greatest impulse and its greatest closing speed.
     fn strike(&mut self, strike: Strike) {
         let same = |it: &&mut Strike| (it.flask, it.other) == (strike.flask, strike.other);
         match self.found.iter_mut().find(same) {
@@ -192,8 +194,8 @@ impl Strikes {
         }
     }
 
-    /// Where a flask is that was there `before`. A hand may take it through the table: then it is still the table that it came through,
-    /// and under one that it came to from aside it is the floor.
+    /// Where a held flask is that was at `before` in the step before. If a hand takes it through the table, the surface that it meets is
+    /// still the table; if it came under the table from aside, it is the floor.
     fn clearance(&self, flask: &Body, pose: &Pose, before: Option<Clear>) -> Clear {
         let axis = pose.orientation * Vec3::Y;
         let sine = (1.0 - axis.y * axis.y).max(0.0).sqrt();
@@ -226,7 +228,7 @@ fn contacts(rapier: &PhysicsWorld, flasks: &[Body], units: Units) -> Vec<Contact
         }
         let parent = |handle| rapier.colliders.get(handle).and_then(|it| it.parent());
         let parents = [pair.collider1, pair.collider2].map(parent);
-        // Table and floor are of no body, and a sash is as they are. What is free and no flask is a shard, which strikes nothing.
+        // Table and floor have no body, and a sash is treated as they are. A free body that is no flask is a shard, which gives no blows.
         let is_free = |body| rapier.bodies.get(body).is_some_and(|it| it.is_dynamic());
         let is_shard =
             |body: &Option<RigidBodyHandle>| body.is_some_and(is_free) && flask_of(*body).is_none();

@@ -1,4 +1,4 @@
-//! What the user wears: goggles, which go with the head, and gloves, which are on hands.
+//! Goggles and gloves that the user wears: goggles go with the head, gloves with the hands.
 
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
@@ -15,16 +15,16 @@ const AT_EYES: f32 = 0.15;
 /// How near another hand's palm (m, at real size) a hand takes hold of its glove: a hand is 0.19 m long (median of adults:
 /// NASA-STD-3000), and its wrist is half of that from the palm's middle.
 const AT_HAND: f32 = 0.12;
-/// How far it must go from there (m, at real size), closed, until the glove is off: a hand that closes beside the other one, at a button or a
-/// flask, pulls nothing. A glove is 0.24 m long.
+/// How far it must go from there (m, at real size), closed, until the glove is off: a hand that closes beside the other one, at a button
+/// or a flask, pulls nothing. A glove is 0.24 m long.
 const PULLED: f32 = 0.22;
 
-/// See the module.
+/// State of the goggles and gloves that the user wears: which are on, where the goggles are, and which glove a hand pulls at.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Wearing {
-    /// What the user has on.
+    /// Goggles and gloves that are on.
     pub worn: Worn,
-    /// Where the goggles are while they are worn and the head is known.
+    /// Pose of the goggles while they are worn, at the head where it was tracked last.
     place: Option<Pose>,
     /// Whether a hand held the goggles in the last step.
     were_held: bool,
@@ -96,7 +96,7 @@ impl Wearing {
         }
     }
 
-    /// Where a body is that is worn.
+    /// Pose (stage_from_body) of the goggles while they are worn, at the head where it was tracked last; `None` of other bodies.
     pub fn place(&self, flask: &Body) -> Option<Pose> {
         self.place.filter(|_| flask.role == Some(Role::Goggles))
     }

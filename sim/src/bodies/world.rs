@@ -19,7 +19,7 @@ use super::wear::Wearing;
 use crate::pose::Pose;
 
 /// Speed (m/s, at real size) above which a held flask's motion is a leap of the
-/// tracker. A leap takes no time: what stands in between is not struck, and what is in the flask goes with it.
+/// tracker. A leap takes no time: nothing in between is struck, and the flask's contents go with it.
 const HELD_SPEED_MAX: f32 = 20.0;
 
 /// Highest speed (m/s, at real size) of a sash: as a hand pulls one. Our choice.
@@ -30,11 +30,11 @@ const SASH_SPEED_MAX: f32 = 2.0;
 pub struct Leap {
     /// Which flask.
     pub flask: usize,
-    /// From where it was to where it goes on from, both in the stage.
+    /// Rigid motion from the pose before the leap to the one after it, both in the stage.
     pub after_from_before: Pose,
 }
 
-/// What of the world changes and is not rapier's.
+/// State of the world that is not rapier's.
 #[derive(Clone, Serialize, Deserialize)]
 struct State {
     grips: [GripState; 2],
@@ -74,7 +74,7 @@ impl Bodies {
     /// Builds the world.
     ///
     /// # Errors
-    /// [`BodiesError::World`] and [`BodiesError::Flask`] name what is out of range.
+    /// [`BodiesError::World`] and [`BodiesError::Flask`] name the value that is out of range.
     pub fn new(spec: &BodiesSpec) -> Result<Self, BodiesError> {
         let (rapier, flasks) = build::build(spec)?;
         let tools = spec.tools.iter().map(|it| &it.body);
@@ -103,8 +103,8 @@ impl Bodies {
         })
     }
 
-    /// Where the middle between the user's eyes is from the next step on, who looks along −z; not known where it is `None` or not
-    /// [valid](Pose::is_valid). Nothing but goggles asks for it.
+    /// Sets the pose of the middle between the user's eyes from the next step on; the user looks along −z. `None`, or a pose that is not
+    /// [valid](Pose::is_valid), stands for a head that is not tracked. Only goggles use it.
     pub fn set_head(&mut self, head: Option<Pose>) {
         self.head = head.filter(|head| head.is_valid());
     }
@@ -112,7 +112,7 @@ impl Bodies {
     /// Advances by one simulation step.
     ///
     /// `loads` has one entry per flask, or fewer where the rest bear none; that
-    /// of a held or fixed flask is not looked at. A flask that is let go in
+    /// of a held or fixed flask is not read. A flask that is let go in
     /// this step already falls in it.
     pub fn step(&mut self, hands: &[Hand; 2], loads: &[Load]) {
         let reach = GRIP_REACH * self.length_scale;
@@ -168,12 +168,13 @@ impl Bodies {
         self.holder(self.count + tool)
     }
 
-    /// What the user wears.
+    /// Goggles and gloves that the user wears.
     pub fn worn(&self) -> Worn {
         self.state.wearing.worn
     }
 
-    /// Where a body is to be at the step's end, whatever rapier says: in a hand, on the head, or where a sash was slid.
+    /// Prescribed pose of a body at the step's end, which replaces rapier's: in a hand, on the head, or where a sash was slid. `None` for a
+    /// body that moves freely.
     fn target(&self, index: usize) -> Option<Pose> {
         if let Some(Role::Sash { heights, .. }) = self.flasks.get(index)?.role {
             let before = *self.poses.get(index)?;
@@ -189,8 +190,8 @@ impl Bodies {
         held.or_else(|| self.state.wearing.place(self.flasks.get(index)?))
     }
 
-    /// Between the last step and the next the hands do not come to where they are by moving: what they hold leaps. So
-    /// does, unasked, what a hand holds that was absent, and that goes faster than hands do.
+    /// Declares that between the last step and the next the hands do not move to where they are: the bodies that they hold leap. Without
+    /// this call, a held body leaps where its hand was absent before, and where it would move faster than hands do.
     pub fn hands_leap(&mut self) {
         self.state.hands_leap = true;
     }
@@ -228,7 +229,7 @@ impl Bodies {
         self.state.glass.broken.get(flask) == Some(&true)
     }
 
-    /// What is left of those that have.
+    /// Shards of the flasks that have broken.
     pub fn shards(&self) -> Vec<Shard> {
         self.state.glass.shards(&self.rapier, self.units)
     }
@@ -256,8 +257,8 @@ impl Bodies {
         grip::holder(&self.state.grips, flask).map(|(hand, _)| hand)
     }
 
-    /// Distance (m) of a point of the stage from the outer surface of a flask, or of a tool, which are counted behind the flasks, which is closed at the rim; negative within. `None` of
-    /// a flask that nobody can grip, that is broken or not there.
+    /// Distance (m) of a point of the stage from the outer surface, closed at the rim, of a flask or, counted behind the flasks, a tool;
+    /// negative within. `None` of a body that no hand can grip, of a broken flask, and of an index without a body.
     pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
         let shape = self.flasks.get(flask).filter(|shape| !shape.fixed)?;
         if self.is_broken(flask) {
@@ -305,14 +306,14 @@ impl Bodies {
         self.rapier = rapier;
         self.state = state;
         self.strikes.memory = strikes;
-        // Those were of steps of the state before.
+        // They belong to steps of the state before.
         self.strikes.begin();
         self.leaps.clear();
         self.breaks.clear();
         Ok(())
     }
 
-    /// Makes a gripped flask the hand's, if it is not yet.
+    /// Makes a gripped flask follow its hand, if it does not yet.
     fn hold(&mut self, index: usize) {
         if let Some(body) = self.rapier.bodies.get_mut(self.flasks[index].body)
             && body.is_dynamic()
@@ -323,7 +324,7 @@ impl Bodies {
         }
     }
 
-    /// Makes a flask free if a hand has just let it go, and lays its load on it.
+    /// Makes a flask free if a hand has just let it go, and applies its load to it.
     fn free(&mut self, index: usize, load: &Load) {
         let flask = &self.flasks[index];
         let past = &self.state.past[index];
@@ -379,7 +380,7 @@ impl Bodies {
         }
     }
 
-    /// Breaks what was struck too hard in the last step.
+    /// Breaks the flasks that were struck too hard in the last step.
     fn take_breaks(&mut self) {
         self.breaks.clear();
         for index in std::mem::take(&mut self.state.glass.struck) {
@@ -404,8 +405,8 @@ impl Bodies {
         }
     }
 
-    /// Puts the held flasks that leap where their hands have them, as if they had always been there: a leap ends a step
-    /// before the hand, at the velocity that the flask has had.
+    /// Puts the held flasks that leap where their hands hold them, as if they had always been there: the leap ends one step before the
+    /// hand's pose, at the velocity that the flask had before it.
     fn take_leaps(&mut self) {
         let all = std::mem::take(&mut self.state.hands_leap);
         self.leaps.clear();
@@ -413,7 +414,7 @@ impl Bodies {
             let Some((hand, target)) = grip::holder(&self.state.grips, index) else {
                 continue;
             };
-            // A sash is always where its own rails and the hand's height have it.
+            // The rails and the hand's height alone determine where a sash is.
             if matches!(flask.role, Some(Role::Sash { .. })) {
                 continue;
             }
@@ -438,7 +439,7 @@ impl Bodies {
             if let Some(body) = self.rapier.bodies.get_mut(flask.body) {
                 body.set_position(self.units.pose(past[0]), true);
             }
-            // Nothing is in a tool that would leap with it.
+            // A tool has no contents that would leap with it.
             if index >= self.count {
                 continue;
             }
@@ -469,7 +470,7 @@ impl Bodies {
             if self.state.glass.broken[index] {
                 continue;
             }
-            // A held flask is exactly where the hand has it, whatever rapier rounds it to.
+            // A held flask is exactly where its hand has it, without rapier's rounding.
             let held = self.target(index);
             if index < self.count {
                 self.strikes.take_held(index, flask, held, self.step);

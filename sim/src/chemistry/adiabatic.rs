@@ -1,4 +1,4 @@
-//! What a closed, insulated, well stirred vessel at one atmosphere ends at.
+//! Final state of a closed, insulated, well stirred vessel at one atmosphere.
 
 use super::error::OutOfRange;
 use super::physical::Content;

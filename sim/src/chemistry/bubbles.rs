@@ -1,4 +1,4 @@
-//! Bubbles of steam as the solver's passes have them: how many, where they are born, and when they act.
+//! Bubbles of steam for the solver's passes: their number, where they are born, and in which substeps they act.
 
 /// Bubbles where a scene has them.
 #[derive(Clone, Copy, Debug, PartialEq)]

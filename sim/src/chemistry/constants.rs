@@ -1,4 +1,4 @@
-//! What does not depend on the liquid's composition.
+//! Constants that do not depend on the liquid's composition.
 
 /// Absolute zero, °C.
 pub const ABSOLUTE_ZERO: f64 = -273.15;

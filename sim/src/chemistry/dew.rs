@@ -6,13 +6,13 @@
 //! runs down.
 
 use super::constants::ABSOLUTE_ZERO;
-use super::glass::CAPACITY;
 use super::puff::{
     AIR_CONSTANT, PRESSURE, Room, VAPORISATION, VAPOUR_CAPACITY, VAPOUR_CONSTANT, WATER_CAPACITY,
     saturation_pressure,
 };
+use super::wall_heat::CAPACITY;
 use crate::flask::Profile;
-use crate::flask::glass::BOROSILICATE;
+use crate::flask::glassware::BOROSILICATE;
 use std::f64::consts::TAU;
 
 /// Places around a wall.

@@ -1,4 +1,4 @@
-//! What comes in from a user is checked here; inside, all is within bounds.
+//! Errors of the checks on a user's input; inside the crate all values are within bounds.
 
 use super::constants::ABSOLUTE_ZERO;
 use thiserror::Error;
@@ -26,7 +26,7 @@ pub enum OutOfRange {
 /// Checks a liquid's acid mass fraction `acid` and its `temperature` (°C).
 ///
 /// # Errors
-/// [`OutOfRange`], also for what is not a number.
+/// [`OutOfRange`], also for values that are not numbers.
 pub fn check_content(acid: f64, temperature: f64) -> Result<(), OutOfRange> {
     if !(0.0..=1.0).contains(&acid) {
         Err(OutOfRange::Acid(acid))

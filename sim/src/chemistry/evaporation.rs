@@ -104,7 +104,7 @@ impl StillAir {
 /// neighbours have had their share.
 const MOST_EVAPORATED: f64 = 0.01;
 
-/// What a particle with the free surface `area` (m²) loses to `air` in `time` seconds.
+/// Steam, mass (kg) and enthalpy (J), that a particle with the free surface `area` (m²) gives off to `air` in `time` seconds.
 pub fn evaporated(
     table: &SolutionTable,
     air: &StillAir,

@@ -12,7 +12,7 @@ const WALL_FACTOR: f64 = 24.0;
 /// The exchange of a substep.
 ///
 /// Each pair swaps the share K_ij = min(Δt·D·k_ij, 1/N) of its difference,
-/// where N is what a neighbour list holds at most: A_i ← A_i + Σ_j K_ij(A_j − A_i).
+/// where N is the capacity of a neighbour list: A_i ← A_i + Σ_j K_ij(A_j − A_i).
 ///
 /// - K_ij = K_ji, so what i gains j loses: ΣA is kept, whatever is limited.
 /// - A particle has at most N neighbours, so Σ_j K_ij ≤ 1, and the new value
@@ -85,9 +85,9 @@ impl Exchange {
     /// substep, for the diffusivity `diffusivity` and the wall's part `volume`
     /// (V_b) of the density sum: 1 − exp(−Δt·D·24·V_b/h²), so at most all.
     ///
-    /// This is Eq. 5 over what is solid, whose boundary particles keep their
+    /// This is Eq. 5 over solids, whose boundary particles keep their
     /// temperature (section 6). By its own exponential it cannot overshoot
-    /// either; it is applied to what the exchange with neighbours leaves.
+    /// either; it is applied after the exchange with neighbours.
     pub fn wall_share(&self, diffusivity: f64, volume: f64) -> f64 {
         let h = self.kernel.support();
         -(-self.time * diffusivity * WALL_FACTOR * volume.max(0.0) / (h * h)).exp_m1()

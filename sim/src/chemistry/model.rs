@@ -1,4 +1,4 @@
-//! What of the chemistry a scene models, and with which numbers.
+//! The chemistry that a scene models, with its parameters.
 
 use super::bubbles::Bubbles;
 use super::eddies::Mixing;
@@ -11,16 +11,16 @@ use crate::scene::{Feature, PaperChemistry, PhysicalChemistry, Scene};
 pub enum Chemistry {
     /// Sections 4.1 to 4.3 of the paper.
     Paper(Paper),
-    /// What section 8 misses.
+    /// The physical chemistry: what section 8 of the paper names as missing.
     Physical(Physical),
 }
 
 /// The paper's chemistry, Table 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Paper {
-    /// Where acid and heat diffuse.
+    /// Diffusion and heat of solution, where they are modelled.
     pub dilution: Option<PaperDilution>,
-    /// Where what is hotter than T_B boils.
+    /// Boiling above T_B, where it is modelled.
     pub boiling: Option<PaperBoiling>,
 }
 
@@ -44,11 +44,11 @@ pub struct PaperBoiling {
     pub boiling_point: f64,
     /// k_v.
     pub intensity: f64,
-    /// What it injects.
+    /// Law of the energy that boiling injects.
     pub law: Boiling,
 }
 
-/// The physical chemistry at real size; what is off is not computed.
+/// The physical chemistry at real size; parts that are off are not computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Physical {
     /// Mixing below the particles' size.
@@ -64,7 +64,7 @@ pub struct Physical {
     /// δ: thickness of lamellae that no eddy engulfs any more, m, where
     /// liquid stays unmixed below a particle's size.
     pub lamella: Option<f64>,
-    /// Heat that leaves, where it does.
+    /// Heat losses to glass and air, where they are modelled.
     pub losses: Option<Losses>,
 }
 
@@ -76,7 +76,7 @@ impl Physical {
 }
 
 impl Chemistry {
-    /// What `scene` models; a scene that is validated has all of the numbers.
+    /// The chemistry of `scene`; a validated scene has all parameters of its features.
     pub fn from_scene(scene: &Scene) -> Option<Self> {
         if !scene.models(Feature::Heat) {
             return None;

@@ -27,14 +27,14 @@ pub const GROWTH_LIMIT: f64 = 0.3;
 /// How Eq. 5 weights a pair.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Diffusion {
-    /// 4m/(ρ_i + ρ_j) at rest density: what one gains the other loses.
+    /// 4m/(ρ_i + ρ_j) at rest density: one gains as much as the other loses.
     #[default]
     Conservative,
     /// m_j/ρ_j·4ρ_i/(ρ_i + ρ_j) as printed: Σc drifts.
     Literal,
 }
 
-/// What particles hotter than T_B do.
+/// Law of anti-viscosity for particles hotter than T_B.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Boiling {
     /// Anti-viscosity injects a stated power, see [`AntiViscosity::growth`].
@@ -45,7 +45,7 @@ pub enum Boiling {
     Literal,
 }
 
-/// h(c) of a pair and what Eq. 13 makes of it.
+/// Heat of solution of a pair, and the rise in temperature that Eq. 13 gives for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dilution {
     kelvin_per_joule: f64,
@@ -88,7 +88,7 @@ impl Dilution {
         self.mass * thomsen::heat(acid)
     }
 
-    /// What a particle of the paper's world stores, J/K: 1/k_d.
+    /// Heat capacity of a particle of the paper's world, J/K: 1/k_d.
     pub fn heat_capacity(&self) -> f64 {
         1.0 / self.kelvin_per_joule
     }
@@ -133,7 +133,7 @@ impl AntiViscosity {
         self.intensity * above / self.boiling_point
     }
 
-    /// P_i, W/kg: what is injected into a particle of `temperature` (°C).
+    /// P_i, W/kg: power injected into a particle of `temperature` (°C).
     pub fn power(&self, temperature: f64) -> f64 {
         REFERENCE_POWER * self.excess(temperature).powi(2)
     }

@@ -6,12 +6,11 @@ use super::segregation::{Lamellae, without_water};
 use super::table::{Row, STEAM_CAPACITY, SolutionTable, steam_enthalpy};
 
 /// Newton's steps towards the equilibrium of liquid and vapour. From the
-/// vapour that is there they leave an error below 1e-4 in its mass fraction,
-/// and what they leave is left to the next substep: h is the state, so no
-/// energy is lost by it.
+/// present vapour they leave an error below 1e-4 in its mass fraction, which
+/// the next substep corrects: h is the state, so no energy is lost by it.
 pub const FLASH_STEPS: u32 = 3;
 
-/// Most of a particle that is vapour: what is left has a composition and a
+/// Largest vapour fraction of a particle: the liquid that remains has a composition and a
 /// temperature, however hot.
 const MOST_VAPOUR: f64 = 0.99;
 
@@ -21,7 +20,7 @@ const SECANT_FROM: f64 = 1e-5;
 const FLATTEST: f64 = 300.0;
 const STEEPEST: f64 = 2e4;
 
-/// What a particle holds: liquid, and without bubbles its vapour too.
+/// Content of a particle: liquid, and without bubbles its vapour too.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Content {
     /// Mass of both, kg.
@@ -49,7 +48,7 @@ impl Content {
     /// `mass` kg of liquid of acid fraction `acid` at `temperature` (°C).
     ///
     /// # Errors
-    /// [`OutOfRange`] for what no liquid has.
+    /// [`OutOfRange`] for a composition or temperature that no liquid has.
     pub fn liquid(
         table: &SolutionTable,
         mass: f64,

@@ -1,14 +1,14 @@
 //! Steam in the room's air.
 //!
-//! What leaves the liquid leaves in puffs. Each is a thermal: it rises by its
+//! Steam leaves the liquid in puffs. Each is a thermal: it rises by its
 //! buoyancy, and its surface takes in air at a speed proportional to its own
 //! (Morton, Taylor & Turner 1956). The air cools it below its dew point, and
-//! what condenses then is the mist that one sees (steam itself is invisible);
+//! the water that condenses then is the visible mist (steam itself is invisible);
 //! further up the puff is so thin that the droplets evaporate again.
 //!
-//! A puff knows nothing of glass: inside a vessel it takes in room air, and
-//! its sides may reach through a wall. What condenses there leaves it (`dew.rs`). It takes
-//! nothing from the liquid, whose ledger has seen it off.
+//! Glass does not act on a puff: inside a vessel it takes in room air, and
+//! its sides may reach through a wall. Water that condenses on the wall leaves it (`dew.rs`). It takes
+//! nothing from the liquid, whose ledger counts the steam when it leaves.
 
 use super::constants::ABSOLUTE_ZERO;
 use super::table::{STEAM_CAPACITY, steam_enthalpy};
@@ -43,7 +43,7 @@ pub const VAPORISATION: f64 = 2.501e6;
 /// Relative humidity of the room.
 pub const HUMIDITY: f64 = 0.5;
 
-/// Radius of mist's droplets, m: the mode of steam fog and of what rises from
+/// Radius of mist's droplets, m: the mode of steam fog and of the mist over
 /// a cup is 4 to 6 µm.
 pub const DROPLET_RADIUS: f64 = 5e-6;
 
@@ -193,7 +193,7 @@ impl Puff {
         self.condense();
     }
 
-    /// Temperature and mist of what it holds.
+    /// Temperature and mist that follow from its air, water and enthalpy.
     pub fn condense(&mut self) {
         let gaseous = self.air * AIR_CAPACITY + self.water * VAPOUR_CAPACITY;
         let dry = (self.enthalpy - self.water * VAPORISATION) / gaseous;

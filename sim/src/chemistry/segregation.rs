@@ -4,17 +4,17 @@
 //! Heat is a hundred times faster than acid, so a particle has one
 //! temperature, and in it everything from water to acid: what is still water
 //! boils at 100 °C, though the mean would not. Each particle carries the
-//! variance s² of its acid fraction. What is in it is taken from c and s² as
-//! from a pair of layers, 0 and 0.98, of which diffusion has left that
-//! variance: the profile knows how much heat of mixing has come already,
-//! and how much acid has reached the middle of the water.
+//! variance s² of its acid fraction. Its content follows from c and s² as
+//! that of a pair of layers, 0 and 0.98, of which diffusion has left that
+//! variance: from the profile follow the heat of mixing that has been
+//! released already, and the acid fraction in the middle of the water.
 
 use super::constants::{ABSOLUTE_ZERO, ACID_DIFFUSIVITY};
 use super::table::{Row, SolutionTable};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Acid fraction of the acid's layers: what is poured.
+/// Acid fraction of the acid's layers: that of the acid that is poured.
 pub const FEED: f64 = 0.98;
 
 /// Intervals of the table, over c/[`FEED`] and over √Θ, Θ = s²/(c·(0.98 − c)).
@@ -34,14 +34,14 @@ const WATER_VISCOSITY: f64 = 0.89e-3;
 const CELLS: usize = 48;
 const PROFILE_TEMPERATURE: f64 = 110.0;
 
-/// What a particle's lamellae differ in from its mean.
+/// Properties of a particle's lamellae less those of a liquid of its mean composition.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Excess {
     /// Mean of the enthalpies at 25 °C over that of the mean, J/kg.
     pub enthalpy: f64,
-    /// Likewise of the heat capacities at 20 °C, J/(kg K).
+    /// Mean of the heat capacities at 20 °C over that of the mean, J/(kg K).
     pub capacity: f64,
-    /// Likewise of their slopes in T, J/(kg K²).
+    /// Mean of their slopes in T over that of the mean, J/(kg K²).
     pub rise: f64,
     /// c less that of the middle of the water.
     pub depth: f64,
@@ -76,7 +76,7 @@ impl Lamellae {
         self.nodes.iter().map(row).collect()
     }
 
-    /// That of a liquid of mean `acid` with the variance `variance`.
+    /// Excess of a liquid of mean acid fraction `acid` with the variance `variance`.
     pub fn excess(&self, acid: f64, variance: f64) -> Excess {
         let most = acid * (FEED - acid);
         if variance <= 0.0 || most <= 0.0 {
@@ -104,10 +104,10 @@ impl Lamellae {
     }
 }
 
-/// That of layers with the mean `mean`, by √Θ from 0 to 1, as acid diffuses through their mass.
+/// Excess of layers with the mean `mean`, by √Θ from 0 to 1, as acid diffuses through their mass.
 ///
 /// The diffusivity is the geometric mean of a constant one and Stokes and
-/// Einstein's. Measurements in hot concentrated acid are not known to us; with
+/// Einstein's. We found no measurements in hot concentrated acid; with
 /// either alone the superheat is 2 K off from this, and 4 from the other.
 fn on_the_way(table: &SolutionTable, mean: f64) -> Vec<Excess> {
     let rate = |k: usize| {

@@ -5,8 +5,8 @@
 mod air;
 mod enthalpy;
 mod evaporation;
-mod glass;
 mod model;
 mod pairs;
 mod phases;
 mod segregation;
+mod wall_heat;

@@ -3,7 +3,7 @@
 /// Joules in a thermochemical calorie (exact by definition).
 pub const JOULES_PER_CALORIE: f64 = 4.184;
 
-/// 17860 cal per mol of H₂SO₄: what Eq. 9 tends to for much water.
+/// 17860 cal per mol of H₂SO₄: the limit of Eq. 9 for much water.
 const FULL_HEAT: f64 = 17_860.0;
 
 /// Moles of water per mol of H₂SO₄ at which half of it is evolved.

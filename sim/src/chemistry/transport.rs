@@ -5,7 +5,7 @@ use super::exchange::Exchange;
 use super::physical::Content;
 use super::table::{SolutionTable, steam_enthalpy};
 
-/// What carries acid and heat between two particles, m²/s.
+/// Diffusivities of acid and heat between two particles, m²/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diffusivities {
     /// Eddies, which carry liquid: its acid and its enthalpy alike.
@@ -27,7 +27,7 @@ impl Diffusivities {
     }
 }
 
-/// What the exchange needs to know of a particle.
+/// Properties of a particle that the exchange reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Potential {
     /// Mass of its liquid, kg.
@@ -45,7 +45,7 @@ pub struct Potential {
 }
 
 impl Potential {
-    /// That of `content`.
+    /// Properties of `content`.
     pub fn of(table: &SolutionTable, content: &Content) -> Self {
         let row = content.liquid_row(table);
         let temperature = row.temperature_with_steam(content.enthalpy, content.vapour);
@@ -66,15 +66,15 @@ impl Potential {
     }
 }
 
-/// What a particle gets in a substep.
+/// Acid, enthalpy and variance that a particle gets in a substep.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flux {
     /// Acid, kg; as much water goes the other way.
     pub acid: f64,
     /// Enthalpy, J.
     pub enthalpy: f64,
-    /// Σ (c − c_i)² of what comes less that of what goes, kg. What i and j get
-    /// of it is no opposite: what eddies bring arrives unmixed.
+    /// Σ (c − c_i)² of the incoming liquid less that of the outgoing, kg. The parts of i and j are not
+    /// opposite: liquid that eddies bring arrives unmixed.
     pub variance: f64,
 }
 
@@ -93,13 +93,13 @@ pub fn turnover(
     fastest * (swapped.liquid / i.mass).max(swapped.heat / i.heat_capacity())
 }
 
-/// What a pair of these turnovers keeps of its exchange: all of it unless either is above 1. Both have the same
-/// share, so that what one gives the other gets.
+/// Share of its exchange that a pair of these turnovers keeps: all of it unless either is above 1. Both particles have the same
+/// share, so that one gains as much as the other loses.
 pub fn kept(own: f64, other: f64) -> f64 {
     1.0 / own.max(other).max(1.0)
 }
 
-/// What a pair swaps in a substep per diffusivity.
+/// Conductances of a pair over a substep: exchange per diffusivity.
 struct Swapped {
     /// kg·s/m².
     liquid: f64,
@@ -118,7 +118,7 @@ impl Swapped {
     }
 }
 
-/// What i gets from j at `distance` (m) in a substep, of whose exchange they
+/// Gain of i from j at `distance` (m) in a substep, of whose exchange they
 /// keep the share [`kept`]; j gets the opposite, bit for bit.
 ///
 /// Eddies carry liquid: with K·(c_j − c_i) of acid comes K·(h_j − h_i) of
@@ -130,7 +130,7 @@ impl Swapped {
 /// chord: across a fresh contact of water and acid it is +540 kJ/kg for −26,
 /// at any resolution.
 ///
-/// What is cut is cut from all alike: else a cut mixture would leave its line.
+/// A limit cuts all parts by the same share: else a limited mixture would leave its line.
 pub fn flux(
     exchange: &Exchange,
     diffusivities: &Diffusivities,
@@ -186,7 +186,7 @@ impl Losses {
     }
 }
 
-/// Heat that a particle gets in `time` seconds from what is at `around` °C
+/// Heat that a particle gets in `time` seconds from surroundings at `around` °C
 /// through `conductance` (W/K), J.
 ///
 /// By the exponential of its own decay, so that no time is too long.

@@ -1,4 +1,4 @@
-//! What a wall contributes to the density sum: V(x) = ∫_solid W(x − x′, h) dx′,
+//! Contribution of a wall to the density sum: V(x) = ∫_solid W(x − x′, h) dx′,
 //! the fraction of the kernel's weight that lies in the solid.
 //!
 //! Density maps of Koschier & Bender 2017, and volume maps of Bender et al.
@@ -79,8 +79,8 @@ impl VolumeMap {
         nodes(profile, support, support / NODES_PER_SUPPORT)
     }
 
-    /// The same with nodes `refinement` times as close: what a test takes to
-    /// tell the law from its interpolation.
+    /// Map of `profile` like that of [`VolumeMap::new`], with nodes `refinement` times as close in r and y: tests separate the
+    /// error of the law from that of its interpolation by it.
     pub(crate) fn refined(profile: &Profile, side: Side, support: f64, refinement: u32) -> Self {
         let spacing = support / (NODES_PER_SUPPORT * f64::from(refinement));
         let [columns, rows] = nodes(profile, support, spacing).map(|count| count as usize);
@@ -227,7 +227,7 @@ impl<'a> Integral<'a> {
         }
     }
 
-    /// Adds what lies outside of the disc of radius `disc` about the axis in
+    /// Adds the area outside of the disc of radius `disc` about the axis in
     /// the slice `rise` above the particle, which is at radius `r`.
     fn add_outside_of(&self, r: f64, disc: f64, rise: f64, weight: f64, sums: &mut Sums) {
         let reach2 = self.kernel.support().powi(2) - rise * rise;

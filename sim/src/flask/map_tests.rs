@@ -185,7 +185,7 @@ fn table_interpolates_the_integral() {
 }
 
 /// A row of the map may lie on the rim's plane. Taken for glass there, it was a
-/// membrane: what fell slowly came to rest on it.
+/// membrane: particles that fell slowly came to rest on it.
 #[test]
 fn the_mouth_is_open() {
     let profile = beaker();

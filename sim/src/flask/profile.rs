@@ -88,7 +88,7 @@ pub enum ProfileError {
 /// which is everything within one wall thickness of the liquid space and
 /// below the rim.
 ///
-/// The table is the one truth: outlines, distances and volumes all follow
+/// The table is the only source: outlines, distances and volumes all follow
 /// from its linear interpolation, so that features of the given points finer
 /// than 1/256 of the height are rounded off everywhere alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,7 +180,7 @@ impl Profile {
         f64::from(moved.length()) + f64::from(turned) * half.hypot(self.outer_radius())
     }
 
-    /// Inner radius at the rim, metres: what may be poured through.
+    /// Inner radius at the rim, metres.
     pub fn mouth_radius(&self) -> f64 {
         self.radii[INTERVALS]
     }
@@ -311,7 +311,7 @@ impl Profile {
     /// negative in the glass. Metres.
     pub fn signed_distance_glass(&self, r: f64, y: f64) -> f64 {
         let distance = self.distance_to_glass_surface(r, y);
-        // The plane of the rim is free: in the mouth it is nobody's glass, and
+        // The plane of the rim is free: in the mouth there is no glass, and
         // a map's row that lies on it would close the vessel.
         let in_outer = (0.0..self.rim_height()).contains(&y) && r <= self.outer_radius_at(y);
         if in_outer && !self.is_inside(r, y) {

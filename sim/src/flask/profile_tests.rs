@@ -22,7 +22,7 @@ fn volumes_are_those_of_solids_of_revolution() {
     assert!((cone.capacity() / exact - 1.0).abs() < 1e-12);
     assert!((cone.volume_below(0.052) / (exact / 8.0) - 1.0).abs() < 1e-12);
 
-    let sphere = glass::find("round-bottom-250")
+    let sphere = glassware::find("round-bottom-250")
         .unwrap()
         .profile(1.0)
         .unwrap();
@@ -38,7 +38,7 @@ fn glass_is_one_wall_thick_everywhere() {
     let side = PI * (0.035f64.powi(2) - 0.033f64.powi(2)) * 0.093;
     // The edge's quarter circle has eight chords.
     assert!((beaker().glass_volume() / (base + base_edge + side) - 1.0).abs() < 2e-3);
-    for glass in glass::GLASSWARE {
+    for glass in glassware::GLASSWARE {
         let profile = glass.profile(1.0).unwrap();
         let rim = profile.rim_height();
         for &[r, y] in profile
@@ -78,7 +78,7 @@ fn distances_on_both_sides() {
 
 #[test]
 fn radius_table_follows_the_points() {
-    let flask = glass::find("erlenmeyer-250").unwrap();
+    let flask = glassware::find("erlenmeyer-250").unwrap();
     let profile = flask.profile(1.0).unwrap();
     for [height, radius] in flask.points() {
         // A kink between rows is cut off by half a row at most.
@@ -126,7 +126,7 @@ fn refuses_what_is_no_vessel() {
     let neck = Profile::new(&[ok[0], [0.1, 0.001]], 0.002).unwrap();
     assert!(neck.check_particle(0.0019).is_ok());
     assert!(neck.check_particle(0.0025).is_err());
-    let round = glass::find("round-bottom-250")
+    let round = glassware::find("round-bottom-250")
         .unwrap()
         .profile(1.0)
         .unwrap();

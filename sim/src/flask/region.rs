@@ -1,6 +1,6 @@
 //! The flask constraint (section 5, Eqs 18–23 and Fig. 4), extended so that
-//! it is two-sided: the paper keeps what is inside in, and this also keeps
-//! what is outside out.
+//! it is two-sided: the paper keeps liquid inside in, and this also keeps
+//! liquid outside out.
 
 use super::profile::Profile;
 use glam::DVec3;
@@ -30,7 +30,7 @@ impl Region {
     }
 }
 
-/// What the flask constraint makes of a predicted position.
+/// Result of the flask constraint for a predicted position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// Position that the particle may take (flask's frame, metres).

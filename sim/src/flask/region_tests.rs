@@ -7,7 +7,7 @@ use proptest::prelude::*;
 const MARGIN: f64 = 5e-6;
 
 fn beaker() -> Profile {
-    glass::find("beaker-250").unwrap().profile(1.0).unwrap()
+    glassware::find("beaker-250").unwrap().profile(1.0).unwrap()
 }
 
 fn at(x: f64, y: f64) -> DVec3 {
@@ -168,7 +168,7 @@ fn check_valid(profile: &Profile, p: &Projection) -> Result<(), TestCaseError> {
     let r = radius(p.position);
     prop_assert_eq!(p.inside, profile.is_inside(r, p.position.y));
     prop_assert!(profile.signed_distance_glass(r, p.position.y) > 0.0);
-    // What it is put at, it may stay at.
+    // A particle may stay at the position that it is put at.
     let again = project(profile, p.position, p.position, MARGIN);
     prop_assert_eq!(again.inside, p.inside);
     prop_assert!(again.position.distance(p.position) < 1e-9);

@@ -1,4 +1,4 @@
-//! What has left which flask, and what flies above its rim.
+//! Liquid that has left each flask, and liquid that flies above its rim.
 
 use crate::bodies::is_nowhere;
 use crate::pose::Pose;
@@ -9,7 +9,7 @@ use glam::Vec3;
 /// Follows the particles of a run from look to look.
 ///
 /// A particle belongs to the flask whose member it last was. One that leaves and
-/// comes back between two looks is not seen to leave.
+/// comes back between two looks is not counted.
 #[derive(Clone, Debug, Default)]
 pub struct Departures {
     /// By identity: the flask whose member it was last.
@@ -87,7 +87,7 @@ mod tests {
 
     /// Particles 0 and 1 as (height in metres, membership); by slot, in the order of `slots`.
     fn state(particles: [(f32, u32); 2], slots: [usize; 2]) -> SolverState {
-        // What is not looked at is empty.
+        // Arrays that are not read are empty.
         let mut state = SolverState::default();
         state.positions = slots.map(|i| [0.0, particles[i].0, 0.0, 1.0]).to_vec();
         state.tags = slots.map(|i| [particles[i].1, i as u32]).to_vec();

@@ -1,10 +1,10 @@
-//! What the particles of a scene with heat hold, all together and at their
+//! Contents of the particles of a scene with heat, all together and at their
 //! extremes.
 
 use super::percentile::percentile;
 use crate::chemistry::Chemistry;
-use crate::chemistry::glass::RINGS;
 use crate::chemistry::table::SolutionTable;
+use crate::chemistry::wall_heat::RINGS;
 use crate::parameters::Parameters;
 use crate::solver::SolverState;
 use serde::Serialize;
@@ -37,7 +37,7 @@ pub struct HeatMeasurement {
     pub acid_max: f64,
     /// Temperature above the boiling point, where there is one.
     pub superheat: Option<Superheat>,
-    /// What the liquid holds and what became of it, of the physical chemistry.
+    /// Mass and energy of the liquid, and of what it exchanged; of the physical chemistry.
     pub ledger: Option<Ledger>,
 }
 
@@ -69,7 +69,7 @@ pub struct Ledger {
     pub spray_fallen: f64,
     /// Mass of air that streams took down since the start, kg.
     pub air: f64,
-    /// What of it is still in bubbles, kg.
+    /// Mass of that air that is still in bubbles, kg.
     pub air_held: f64,
     /// Volume of all bubbles, m³.
     pub gas: f64,
@@ -81,24 +81,24 @@ pub struct Ledger {
     pub exchanged: f64,
     /// Mass of the steam that left, kg.
     pub steam: f64,
-    /// Mass of the mist that it is in the air over the liquid, kg.
+    /// Mass of the steam that left and is mist in the air over the liquid, kg.
     pub mist: f64,
-    /// Mass of it that is on the glass over the liquid, kg.
+    /// Mass of the steam that left and is water on the glass over the liquid, kg.
     pub dew: f64,
-    /// Enthalpy that it took along, J.
+    /// Enthalpy of the steam that left, J.
     pub steam_enthalpy: f64,
-    /// Σ m|h|, J: what an error is compared with.
+    /// Σ m|h|, J: the reference for errors.
     pub turnover: f64,
 }
 
 impl Ledger {
-    /// held + steam − exchanged, J: what does not change.
+    /// held + steam − exchanged, J: the conserved enthalpy.
     pub fn balance(&self) -> f64 {
         self.held + self.steam_enthalpy - self.exchanged
     }
 
-    /// What the balance is off from that of `start`, over the enthalpy that
-    /// was there, or over what warms as much water by 1 K where that is more.
+    /// Change of the balance since `start`, over the enthalpy that
+    /// was there, or over the heat that warms as much water by 1 K where that is more.
     pub fn closure(&self, start: &Self) -> f64 {
         let least = start.mass * WATER_KELVIN;
         (self.balance() - start.balance()) / start.turnover.max(least).max(f64::MIN_POSITIVE)
@@ -165,7 +165,7 @@ fn by_flask(state: &SolverState, present: &[usize]) -> Vec<[f64; 2]> {
     found
 }
 
-/// Of values with weights; all zero without any.
+/// Mean, standard deviation and extremes of values with weights; all zero without values.
 #[derive(Clone, Copy, Default)]
 struct Spread {
     mean: f64,
@@ -246,7 +246,7 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         sum.held += mass * enthalpy;
         sum.turnover += mass * enthalpy.abs();
     }
-    // Also of particles that were taken out: what they spent is spent.
+    // Also of particles that were taken out: their exchange until then counts.
     for &entry in &state.ledger {
         let [exchanged, steam, steam_enthalpy, _] = entry.map(f64::from);
         sum.exchanged += exchanged;

@@ -1,6 +1,6 @@
-//! Percentiles of what a report measures.
+//! Percentiles of measured values.
 
-/// Of sorted values, by nearest rank; 0 of none.
+/// Percentile of sorted values, by nearest rank; 0 without values.
 pub(super) fn percentile(sorted: &[f32], share: f64) -> f64 {
     let rank = (share * sorted.len() as f64).ceil() as usize;
     sorted

@@ -6,7 +6,7 @@ use super::neighbours::Neighbours;
 use super::state::Reference;
 use glam::DVec3;
 
-/// What line 27 did.
+/// Result of line 27.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stirred {
     /// The velocities after it, m/s.
@@ -20,8 +20,8 @@ impl Reference {
     /// v_i ← v_i + Σ_j (μ_i + μ_j − α_i − α_j)/2·w_ij·(v_j − v_i) + μ_i·V_b·(v_b − v_i)
     /// with w_ij = V₀W_ij·2m_j/(m_i + m_j).
     ///
-    /// Eq. 17 has μ_i alone, with which what one particle gains in momentum no
-    /// other loses; the pair's mean keeps it. The reduced mass does so among
+    /// Eq. 17 has μ_i alone, with which one particle gains momentum that no
+    /// other loses; the pair's mean conserves it. The reduced mass does so among
     /// unequal ones, and is one among equals. Walls do not boil, so α is none of
     /// theirs. All read the old velocities.
     pub(super) fn stirred(&self, neighbours: &Neighbours, of: &Coefficients) -> Stirred {

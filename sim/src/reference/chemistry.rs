@@ -1,8 +1,8 @@
-//! What a scene's chemistry keeps per particle, and its part of a substep.
+//! Per-particle state of a scene's chemistry, and its part of a substep.
 
 use super::dilution::{self, Pairs, Weight};
-use super::glass::{GlassTouch, ReferenceRings};
 use super::surroundings::WallSum;
+use super::wall_heat::{GlassTouch, ReferenceRings};
 use crate::chemistry::eddies::SCHMIDT;
 use crate::chemistry::evaporation::{StillAir, evaporated};
 use crate::chemistry::paper::{AntiViscosity, Boiling, Diffusion, Dilution};
@@ -15,7 +15,7 @@ use crate::chemistry::transport::{
 use crate::chemistry::{OutOfRange, Physical as Law, check_content};
 use crate::parameters::{Parameters, XSPH_MOMENT};
 
-/// What line 27 needs to know of each particle.
+/// Properties of each particle that line 27 reads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
     /// μ_i ≥ 0 of one substep: how fast relative velocities go.
@@ -26,12 +26,12 @@ pub struct Coefficients {
     pub masses: Vec<f64>,
 }
 
-/// What is modelled beyond a fluid with viscosity.
+/// The chemistry of a reference solver: the paper's or the physical one.
 #[derive(Clone, Debug)]
 pub enum ReferenceChemistry {
     /// Sections 4.1 to 4.3.
     Paper(ReferencePaper),
-    /// What section 8 misses.
+    /// The physical chemistry: what section 8 names as missing.
     Physical(Box<ReferencePhysical>),
 }
 
@@ -98,7 +98,7 @@ impl ReferencePaper {
     /// Particles of `(temperature in °C, acid fraction)`, at rest.
     ///
     /// # Errors
-    /// [`OutOfRange`] for what no liquid has.
+    /// [`OutOfRange`] for a composition or temperature that no liquid has.
     pub fn new(
         dilution: Option<DilutionLaw>,
         boiling: Option<(AntiViscosity, Boiling)>,
@@ -164,7 +164,7 @@ impl ReferencePaper {
     }
 }
 
-/// Where enthalpy and mass went, J and kg since the start.
+/// Balance of enthalpy (J) and mass (kg) since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReferenceLedger {
     /// Enthalpy taken up from around the liquid.
@@ -180,7 +180,7 @@ pub struct ReferencePhysical {
     pub law: Law,
     /// Properties of the liquid.
     pub table: SolutionTable,
-    /// What each particle holds.
+    /// Content of each particle.
     pub contents: Vec<Content>,
     /// ν at the substep's start, m²/s; 0 where it does not follow composition.
     pub viscosities: Vec<f64>,
@@ -197,7 +197,7 @@ impl ReferencePhysical {
     /// fraction)`, at rest.
     ///
     /// # Errors
-    /// [`OutOfRange`] for what no liquid has.
+    /// [`OutOfRange`] for a composition or temperature that no liquid has.
     pub fn new(law: Law, volume: f64, particles: &[(f64, f64)]) -> Result<Self, OutOfRange> {
         let table = SolutionTable::new();
         let content = |&(temperature, acid): &(f64, f64)| {
@@ -219,7 +219,7 @@ impl ReferencePhysical {
         })
     }
 
-    /// Line 26: acid and enthalpy between particles, heat to what is around, boiling.
+    /// Line 26: acid and enthalpy between particles, heat to the surroundings, boiling.
     pub fn dilute(&mut self, pairs: &Pairs, parameters: &Parameters, touches: &[GlassTouch]) {
         let time = parameters.substep_time();
         let potentials: Vec<_> = self
@@ -270,7 +270,7 @@ impl ReferencePhysical {
         }
     }
 
-    /// Line 26: what eddies bring arrives unmixed, and what is unmixed is mixed by eddies and molecules.
+    /// Line 26: liquid that eddies bring arrives unmixed, and eddies and molecules mix it.
     fn segregate(&mut self, i: usize, own: &Potential, flux: &Flux, time: f64) {
         let Some(lamella) = self.law.lamella else {
             return;
@@ -344,7 +344,7 @@ impl ReferencePhysical {
     }
 }
 
-/// Leaves out of `values` what is not to `keep`.
+/// Removes the `values` of particles that are not to `keep`.
 pub(super) fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     values.retain(|_| keep.next().copied().unwrap_or(true));

@@ -12,7 +12,7 @@ use glam::DVec3;
 /// Distance below which two particles coincide, fraction of h.
 const COINCIDENT: f64 = 1e-6;
 
-/// Most that what is mirrored adds in a substep: a lone particle at a wall lacks
+/// Most that mirrored liquid adds to the density in a substep: a lone particle at a wall lacks
 /// 0.18 of a full density.
 const MOST_MIRRORED: f64 = 0.1;
 
@@ -91,9 +91,9 @@ impl Reference {
         walls.into_iter().map(|wall| wall.volume).collect()
     }
 
-    /// Line 20: moves `at` by what the changes Δλ (m²) of the multipliers ask,
+    /// Line 20: moves `at` by the displacements of the changes Δλ (m²) of the multipliers,
     /// Δx_i = ρ₀/ρ_i·(Σ_j (Δλ_i + Δλ_j)·V_j∇W_ij + Δλ_i·∇V_b), metres: the same
-    /// pressure moves what is light further, and a pair's momenta stay opposite.
+    /// pressure moves lighter liquid further, and a pair's momenta stay opposite.
     ///
     /// A wall mirrors the liquid before it: across itself it has the particle's
     /// own multiplier, 2 Δλ_i ∇V_b, and along itself the share V_b of the

@@ -38,14 +38,14 @@ impl Pairs<'_> {
 /// the densities ρ/ρ₀ that the literal one takes.
 #[derive(Clone, Copy, Debug)]
 pub enum Weight<'a> {
-    /// Of [`Diffusion::Conservative`].
+    /// The weights of [`Diffusion::Conservative`].
     Conservative(f64),
-    /// Of [`Diffusion::Literal`], with ρ_i/ρ₀ at committed positions.
+    /// The weights of [`Diffusion::Literal`], with ρ_i/ρ₀ at committed positions.
     Literal(f64, &'a [f64]),
 }
 
 impl<'a> Weight<'a> {
-    /// That of `scheme`.
+    /// Weights of `scheme`.
     pub fn of(scheme: Diffusion, diffusivity: f64, densities: &'a [f64]) -> Self {
         match scheme {
             Diffusion::Conservative => Self::Conservative(diffusivity),

@@ -31,7 +31,7 @@ impl Reference {
         (0..flow.len()).map(of).collect()
     }
 
-    /// The end of a frame: what mixes in the next one.
+    /// The end of a frame: the eddies that mix in the next one.
     pub(super) fn find_eddies(&mut self) {
         let Some(ReferenceChemistry::Physical(physical)) = &self.chemistry else {
             return;

@@ -1,4 +1,4 @@
-//! What is measured on a state.
+//! Measurements of a state.
 
 /// max(0, ρ/ρ₀ − 1) over all particles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,7 +12,7 @@ pub struct DensityError {
 impl DensityError {
     /// Error of the `densities` ρ/ρ₀.
     ///
-    /// A free surface lacks neighbours and is allowed to (Eq. 2), so what is
+    /// A free surface lacks neighbours and is allowed to (Eq. 2), so a density
     /// below ρ₀ counts as no error.
     pub fn of(densities: &[f64]) -> Self {
         let mut errors: Vec<_> = densities

@@ -25,9 +25,9 @@ impl Reference {
     /// Lines 22–25: flask constraint, velocity and position from the corrected x*.
     ///
     /// Line 24 limits the velocity alone; x* is limited with it, or line 25
-    /// would still tunnel. The flask constraint comes after that: what a flask
-    /// that moves faster than v_max takes along stays in it. What is not a number
-    /// comes out as none, to be taken out.
+    /// would still tunnel. The flask constraint comes after that: liquid that a flask
+    /// faster than v_max takes along stays in it. A position that is not a number
+    /// stays one, and the particle is taken out.
     pub fn commit(&mut self, solved: &[DVec3]) {
         let (time, max_speed) = (self.parameters.substep_time(), self.parameters.max_speed);
         for (i, &solved) in solved.iter().enumerate() {
@@ -74,9 +74,9 @@ impl Reference {
 /// its place by the previous poses and is at `predicted` by the current ones
 /// (stage, metres).
 ///
-/// What is inside a flask is that flask's alone; what is in none, or has
-/// just left one by its mouth, is every other's. What is not a number is
-/// left alone.
+/// Only its own flask acts on a particle that is inside one; all others act on
+/// one that is in none, or has just left one by its mouth. A position that is
+/// not a number is returned as it is.
 pub fn constrain(
     surroundings: &Surroundings,
     motion: &[Motion],
@@ -98,7 +98,7 @@ pub fn constrain(
             after.to_flask(at),
             margin,
         );
-        // Only what was changed goes through two transforms and their rounding.
+        // Only changed positions go through two transforms and their rounding.
         if projection.constrained {
             at = after.to_stage(projection.position);
         }
@@ -120,7 +120,7 @@ fn is_finite(way: DVec3) -> bool {
     way.length_squared().is_finite()
 }
 
-/// What was above the table stays above it, below it below, beside it beside.
+/// A particle above the table stays above it, one below it below, one beside it beside.
 /// Where a flask has put a particle into the table, it rises.
 fn out_of_table(table: &Slab, margin: f64, position: DVec3, at: DVec3) -> DVec3 {
     if at.y <= table.under - margin || at.y >= table.top + margin || !table.covers(at) {

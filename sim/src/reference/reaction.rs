@@ -2,17 +2,17 @@
 
 use super::chemistry::ReferenceChemistry;
 use super::dilution::Pairs;
-use super::glass::{GlassTouch, ReferenceRings};
 use super::neighbours::Neighbours;
 use super::state::Reference;
 use super::surroundings::WallSum;
-use crate::chemistry::glass::ring_at;
+use super::wall_heat::{GlassTouch, ReferenceRings};
 use crate::chemistry::transport::{contact_area, surface_area};
+use crate::chemistry::wall_heat::ring_at;
 use glam::DVec3;
 
 impl Reference {
-    /// Line 26: diffusion, heat of solution and what else the chemistry does
-    /// to what particles hold.
+    /// Line 26: diffusion, heat of solution and the other changes of particles'
+    /// content by the chemistry.
     pub fn dilute(&mut self, neighbours: &Neighbours) {
         let Some(mut chemistry) = self.chemistry.take() else {
             return;
@@ -71,7 +71,7 @@ impl Reference {
         Some((flask, ring_at(profile, local.y)))
     }
 
-    /// The end of a frame: the glass takes what the liquid gave it.
+    /// The end of a frame: the glass takes the heat that the liquid gave it.
     pub(super) fn warm_glass(&mut self) {
         if let Some(ReferenceChemistry::Physical(physical)) = &mut self.chemistry
             && let (Some(glass), Some(losses)) = (&mut physical.glass, &physical.law.losses)

@@ -11,7 +11,7 @@ use crate::scene::{Boundary, Scene, TableTop};
 use thiserror::Error;
 
 impl Surroundings {
-    /// What is solid in `scene`.
+    /// Flasks, table and floor of `scene`.
     pub fn of_scene(scene: &Scene) -> Self {
         let support = scene.scale.support();
         let profiles = scene.flasks.iter().map(|flask| flask.profile.clone());
@@ -70,13 +70,13 @@ pub enum ChemistryError {
     /// Its liquids do not fit.
     #[error(transparent)]
     Fill(#[from] FillError),
-    /// Its liquids or its boiling point are none.
+    /// Its liquids or its boiling point are out of range.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
 }
 
 impl ReferencePaper {
-    /// What `scene` models of the paper's chemistry, by the `scheme` of Eq. 5
+    /// The paper's chemistry as `scene` models it, by the `scheme` of Eq. 5
     /// and the kind of `boiling`; `None` without the feature `heat`. The
     /// particles are those of [`Reference::of_scene`] with the same seed.
     ///

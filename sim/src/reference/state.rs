@@ -1,4 +1,4 @@
-//! What Algorithm 1 works on, and what is known of it without a neighbour.
+//! State of Algorithm 1, and the quantities that follow from it without neighbours.
 
 use super::chemistry::ReferenceChemistry;
 use super::measure::Masses;
@@ -10,15 +10,15 @@ use crate::parameters::Parameters;
 use crate::pose::Pose;
 use glam::DVec3;
 
-/// The liquid and what surrounds it. All per-particle vectors have one
+/// The liquid and its surroundings. All per-particle vectors have one
 /// length; the solids' order is [`Surroundings::vessels`]'.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Parameters of Algorithm 1.
     pub parameters: Parameters,
-    /// What is solid.
+    /// Flasks, table and floor.
     pub surroundings: Surroundings,
-    /// Number by which a particle is known however many are taken out.
+    /// Identity of each particle, which stays when others are taken out.
     pub ids: Vec<u32>,
     /// x_i, stage, metres.
     pub positions: Vec<DVec3>,
@@ -37,7 +37,7 @@ pub struct Reference {
     pub(super) held: Vec<Hold>,
 }
 
-/// What holds a particle back across the surface's line.
+/// Acceleration with which a wall holds a particle back across the surface's line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hold {
     /// m/s²; along it and against it.

@@ -20,9 +20,9 @@ pub struct SurfaceForces {
     pub energy: f64,
     /// N, by particle.
     pub forces: Vec<DVec3>,
-    /// What walls hold the surface's line with, N by particle.
+    /// Force with which walls hold the surface's line, N, by particle.
     pub holds: Vec<DVec3>,
-    /// What the colour of each cell was divided by, grid by grid.
+    /// Core by which the colour of each cell was divided, grid by grid.
     pub(super) cores: Vec<f64>,
 }
 
@@ -168,7 +168,7 @@ impl Reference {
         }
     }
 
-    /// The flask that has most of what particle `i` touches.
+    /// The flask with the largest contact volume with particle `i`; its own, where it is in one.
     fn holder_of(&self, i: usize) -> Option<usize> {
         if self.membership[i].is_some() {
             return self.membership[i];
@@ -190,12 +190,13 @@ impl Reference {
         self.surface_forces_of(Some(neighbours), None)
     }
 
-    /// The surface's energy with what has no neighbour counted too, J: what a drop has before and after it falls apart.
+    /// The surface's energy of all particles, those without neighbours included, J: comparable before and after a drop falls apart.
     pub fn surface_energy(&self) -> f64 {
         self.surface_forces_of(None, None).energy
     }
 
-    /// The same with the cores of a state nearby, whose slope the forces are; without neighbours, of all particles.
+    /// The surface's energy (J) and forces (N over the particle's share of V₀) as in [`Self::surface_forces`], over all particles where
+    /// `neighbours` is `None`. `cores` fixes the cells' cores to those of a nearby state: the forces are the slope of that energy.
     pub(super) fn surface_forces_of(
         &self,
         neighbours: Option<&Neighbours>,
@@ -288,7 +289,7 @@ impl Reference {
         }
         // ∂E/∂c by node, in σ·m².
         let mut derivative = vec![0.0; nodes.count()];
-        // By cell, what a wall holds per volume of liquid, in σ/m².
+        // By cell, the force per volume of liquid with which a wall holds it, in σ/m².
         let mut line = vec![DVec3::ZERO; nodes.count()];
         let width = surface.stickiness();
         let cell = nodes.spacing.powi(3);

@@ -1,4 +1,4 @@
-//! What is solid: flasks, table and floor, as terms of the density sum.
+//! Solids: flasks, table and floor, as terms of the density sum.
 
 use super::neighbours::Cells;
 use super::placement::{Motion, Placement};
@@ -7,7 +7,7 @@ use crate::flask::{PlaneMap, Profile, Side, VolumeMap};
 use crate::kernel::Kernel;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-/// What the glass is made of for the density sum.
+/// Representation of the glass in the density sum.
 #[derive(Clone, Debug)]
 enum Glass {
     Maps {
@@ -20,7 +20,7 @@ enum Glass {
     },
 }
 
-/// A flask as the solver sees it.
+/// A flask as the solver represents it: its shape, and its glass as terms of the density sum.
 #[derive(Clone, Debug)]
 pub struct Vessel {
     /// Its shape.
@@ -35,7 +35,7 @@ impl Vessel {
         Self::with_refined_maps(profile, support, 1)
     }
 
-    /// The same with nodes `refinement` times as close.
+    /// Vessel like that of [`Vessel::with_maps`], whose maps have nodes `refinement` times as close.
     pub(super) fn with_refined_maps(profile: Profile, support: f64, refinement: u32) -> Self {
         let map = |side| VolumeMap::refined(&profile, side, support, refinement);
         let glass = Glass::Maps {
@@ -89,7 +89,7 @@ pub struct Surroundings {
     plane: PlaneMap,
 }
 
-/// What one solid, or one solid particle, is to a fluid particle.
+/// Contribution of one solid, or one solid particle, to a fluid particle's density sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// V_b: its part of a full density (ψ_b W/ρ₀ for a solid particle).
@@ -98,7 +98,7 @@ pub struct Contact {
     pub gradient: DVec3,
     /// Velocity of the solid at the fluid particle's place, m/s.
     pub velocity: DVec3,
-    /// The flask that it is of; `None` for table and floor.
+    /// The flask that it belongs to; `None` for table and floor.
     pub flask: Option<usize>,
 }
 
@@ -137,10 +137,10 @@ impl Surroundings {
     /// Calls `visit` for every solid in reach of a particle at `position`
     /// (stage, metres).
     ///
-    /// Nothing acts through a wall: a particle in a flask sees that flask
-    /// alone, and of it everything that is not liquid space as solid, since
-    /// the glass is thinner than the support radius; one that is in none
-    /// sees the glass of all flasks, table and floor.
+    /// Nothing acts through a wall: on a particle in a flask that flask alone
+    /// acts, with everything that is not liquid space as solid, since
+    /// the glass is thinner than the support radius; on one that is in none
+    /// the glass of all flasks, table and floor act.
     pub fn contacts(
         &self,
         position: DVec3,
@@ -159,8 +159,8 @@ impl Surroundings {
             self.touch_plane(position.y - floor, &mut visit);
         }
         if let Some(table) = &self.table {
-            // A half space up to its edge: what its edge lacks of one is less
-            // than a particle notices.
+            // A half space up to its edge: the error at the edge is below a
+            // particle's resolution.
             if table.covers(position) && position.y > table.under {
                 self.touch_plane(position.y - table.top, &mut visit);
             }

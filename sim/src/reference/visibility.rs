@@ -1,4 +1,4 @@
-//! Nothing acts through a wall: which neighbours see each other.
+//! Nothing acts through a wall: which neighbours act on each other.
 
 use super::placement::Motion;
 use super::surroundings::Surroundings;

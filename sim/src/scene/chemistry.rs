@@ -1,4 +1,4 @@
-//! What a scene models beyond incompressible flow, and with which numbers.
+//! Parameters of a scene's chemistry: physics beyond incompressible flow.
 
 use super::error::Problem;
 use super::feature::Feature;
@@ -32,8 +32,8 @@ pub struct PaperChemistry {
 }
 
 /// Parameters of the physical chemistry: what section 8 of the paper names as
-/// missing. Properties of the liquids come from tables; what is here is the
-/// scene's own, or stands for what is smaller than a particle. A scene has
+/// missing. Properties of the liquids come from tables; the parameters here are the
+/// scene's own, or model processes smaller than a particle. A scene has
 /// those that its features use.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -193,7 +193,7 @@ pub(super) fn check_features(
     check_needs(model, physical.is_some())
 }
 
-/// What features are built upon: (one, what it needs).
+/// Dependencies of features: (feature, the feature that it needs).
 fn needs(physical: bool) -> Vec<(Feature, Feature)> {
     let mut needs = vec![
         (Feature::Dilution, Feature::Heat),
@@ -217,7 +217,7 @@ fn needs(physical: bool) -> Vec<(Feature, Feature)> {
     needs
 }
 
-/// `feature` and what of `model` cannot be without it.
+/// `feature` and the features of `model` that depend on it.
 pub(super) fn built_upon(model: &[Feature], feature: Feature, physical: bool) -> Vec<Feature> {
     let mut gone = vec![feature];
     let mut known = 0;

@@ -1,4 +1,4 @@
-//! What a scene holds: flasks, their liquids, and the particles that these become.
+//! Contents of a scene: flasks, their liquids, and the particles that represent these.
 
 use super::error::Problem;
 use super::settings::Scale;
@@ -7,12 +7,12 @@ use crate::flask::{Profile, VolumeMap};
 use crate::pose::Pose;
 use glam::DVec3;
 
-/// Most particles that all flasks of a scene may hold when they are full: what a device's
-/// buffers hold, and the lattice is walked in seconds.
+/// Most particles that all flasks of a scene may hold when they are full: a device's buffers
+/// have room for them, and the lattice is walked in seconds.
 const MOST_SITES: usize = 50_000_000;
 
 /// Most nodes of a flask's table of distances and boundary volumes, 16 bytes each: eight
-/// times what a cube of [`MOST_SITES`] takes.
+/// times as many as a cube of [`MOST_SITES`] takes.
 const MOST_NODES: f64 = 5e6;
 
 /// Most nodes of all flasks' tables.

@@ -1,15 +1,15 @@
-//! What can be wrong with a scene.
+//! Errors of a scene.
 
 use thiserror::Error;
 
 /// Why a scene could not be loaded. Every message names the file, the place
-/// in it and what would be right.
+/// in it and a valid alternative.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SceneError {
     /// No built-in scene has this name.
     #[error("scene {name:?}: not built in; take one of {known}")]
     NotFound {
-        /// What was asked for.
+        /// The name that was given.
         name: String,
         /// The built-in names.
         known: String,
@@ -30,12 +30,12 @@ pub enum SceneError {
         file: String,
         /// Path of the field, such as `flask[1].wall`.
         field: String,
-        /// What is wrong with it and what would be right.
+        /// What is wrong with it and which values are valid.
         problem: String,
     },
 }
 
-/// A problem in a field, before the file's name is known to it.
+/// A problem in a field, without the file's name yet.
 pub(super) struct Problem {
     pub field: String,
     pub problem: String,

@@ -1,9 +1,9 @@
-//! What a scene may ask for.
+//! Features that a scene may name.
 
 use serde::{Deserialize, Serialize};
 
-/// What a scene models beyond a fluid with viscosity. What is not named
-/// costs nothing.
+/// A feature that a scene models beyond a fluid with viscosity. Features that are not named
+/// cost nothing.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Feature {
@@ -13,7 +13,7 @@ pub enum Feature {
     Dilution,
     /// The paper's anti-viscosity above the boiling point.
     Boiling,
-    /// Surface tension, and what glass and table are wetted by.
+    /// Surface tension, and the contact angles of glass and table.
     Tension,
     /// Vorticity confinement.
     Vorticity,

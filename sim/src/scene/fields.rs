@@ -1,12 +1,12 @@
-//! Numbers of a scene's file, and what they must be.
+//! Numbers of a scene's file, and checks of their ranges.
 
 use super::error::Problem;
 use super::feature::Feature;
 use std::ops::RangeInclusive;
 
-/// A number of a table: its name, the feature that needs it, its value, and what it must be.
+/// A number of a table: its name, the feature that needs it, its value, and its range.
 pub(super) type Field = (&'static str, Feature, Option<f64>, Must);
-/// Whether it fits, and what it must be, in words.
+/// Whether the number is in its range, and the range in words.
 pub(super) type Must = (fn(f64) -> bool, &'static str);
 
 pub(super) const NOT_NEGATIVE: Must = (|value| value >= 0.0, "zero or more");
@@ -30,7 +30,7 @@ pub(super) fn within(
     require(field, value, range.contains(&value), must)
 }
 
-/// Whether the numbers of `table` that are there are what they must be.
+/// Checks that the numbers of `table` that are present are in their ranges.
 pub(super) fn check_fields(table: &str, fields: &[Field]) -> Result<(), Problem> {
     for &(name, _, value, (fits, must)) in fields {
         if let Some(value) = value {

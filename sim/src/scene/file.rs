@@ -11,7 +11,7 @@ use super::settings::{
 };
 use super::tool::ToolEntry;
 use crate::fill;
-use crate::flask::{Profile, glass};
+use crate::flask::{Profile, glassware};
 use crate::pose::Pose;
 use crate::surface_tension;
 use glam::{DQuat, DVec3, EulerRot};
@@ -86,7 +86,7 @@ pub(super) struct LiquidEntry {
 }
 
 impl FlaskEntry {
-    /// `models_losses` says whether the scene models the heat of its glass.
+    /// `models_losses`: whether the scene models the heat of its glass.
     pub fn build(self, index: usize, scale: &Scale, models_losses: bool) -> Result<Flask, Problem> {
         let field = |name: &str| format!("flask[{index}].{name}");
         if self.name.is_empty() {
@@ -102,7 +102,7 @@ impl FlaskEntry {
                 let place = if wall > 0.0 { "points" } else { "wall" };
                 let profile = Profile::new(points, wall)
                     .map_err(|error| Problem::new(field(place), error))?;
-                (profile, self.density.unwrap_or(glass::BOROSILICATE))
+                (profile, self.density.unwrap_or(glassware::BOROSILICATE))
             }
             _ => {
                 let problem = "give either `profile` (a name) or `points` ([[height, radius], …])";
@@ -166,8 +166,11 @@ fn named(
             return Err(Problem::new(field(key), problem));
         }
     }
-    let Some(glass) = glass::find(name) else {
-        let known: Vec<_> = glass::GLASSWARE.iter().map(|glass| glass.name).collect();
+    let Some(glass) = glassware::find(name) else {
+        let known: Vec<_> = glassware::GLASSWARE
+            .iter()
+            .map(|glass| glass.name)
+            .collect();
         let problem = format!(
             "no vessel is named {name:?}; known are {}",
             known.join(", ")
@@ -181,7 +184,7 @@ fn named(
 }
 
 impl LiquidEntry {
-    /// `hottest` is the highest temperature (°C) that the scene's chemistry knows.
+    /// `hottest` is the highest temperature (°C) of the scene's chemistry.
     pub fn build(
         self,
         index: usize,

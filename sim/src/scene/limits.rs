@@ -1,4 +1,4 @@
-//! What cannot be simulated is refused before it begins.
+//! Limits beyond which a scene cannot be simulated; it is refused at loading.
 
 use super::Scene;
 use super::error::Problem;
@@ -18,8 +18,8 @@ const LONGEST_SUBSTEP: f64 = 1.4;
 const MOST_CARRY: f64 = 0.1;
 
 impl Scene {
-    /// Whether all is so near to the scene's origin that single precision still
-    /// tells a wall from the margin before it, 0.001 h: beyond, liquid would be
+    /// Whether everything is near enough to the scene's origin that single precision
+    /// resolves the margin before a wall, 0.001 h: beyond, liquid would be
     /// found in glass.
     pub(super) fn check_reach(&self) -> Result<(), Problem> {
         let reach = 0.5 * PRECISION * 0.001 * self.scale.support();
@@ -45,7 +45,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether weight outdoes what a wetted wall sucks liquid up with, 2σ cos θ/R: under suction a liquid that can only push
+    /// Whether weight exceeds the capillary suction of a wetted wall, 2σ cos θ/R: under suction a liquid whose pressure can only push
     /// tears, and wanders about its glass.
     pub(super) fn check_suction(&self) -> Result<(), Problem> {
         let Some(surface) = self.surface_tension() else {
@@ -74,7 +74,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether what is carried on in a substep leaves the liquid rest, at up to
+    /// Whether the share of the multipliers that a substep carries on lets the liquid rest, at up to
     /// 0.15·√(gH). Acid under water, 400 particles of 2.5 mm, moves at 2 cm/s
     /// with 0.005, 3 with 0.1, up to 6 with 0.2 and more; water at 6.5 with 0.3
     /// where the substep is at its own limit.
@@ -91,8 +91,8 @@ impl Scene {
         Ok(())
     }
 
-    /// This with as many substeps a frame and iterations a substep, for better or worse:
-    /// ask [`Scene::problem_of_solver`].
+    /// This scene with these substeps a frame and iterations a substep, valid or not:
+    /// see [`Scene::problem_of_solver`].
     pub fn with_effort(&self, [substeps, iterations]: [u32; 2]) -> Self {
         let mut scene = self.clone();
         scene.solver.substeps = substeps;
@@ -100,14 +100,14 @@ impl Scene {
         scene
     }
 
-    /// Why the solver's settings are none, or [`Scene::problem_of_substep`].
+    /// Why the solver's settings are invalid, or [`Scene::problem_of_substep`]; `None` where neither is a problem.
     pub fn problem_of_solver(&self) -> Option<String> {
         let checked = self.solver.check().and_then(|()| self.check_substep());
         checked.err().map(|problem| problem.problem)
     }
 
     /// Why the liquid of some flask would not stand up under the scene's substep;
-    /// `None` where all do. For who changes substeps or frame time after loading.
+    /// `None` where all do. For callers that change substeps or frame time after loading.
     pub fn problem_of_substep(&self) -> Option<String> {
         self.check_substep().err().map(|problem| problem.problem)
     }

@@ -79,7 +79,7 @@ impl Patch {
         if here < 0.0 {
             return true;
         }
-        // Sizes that overflow end the walk as well: halves of what is infinite are infinite.
+        // Sizes that overflow end the walk as well, since halves of infinity are infinite.
         let size = high + wide;
         let near = size.is_finite() && here <= 0.5 * size;
         if !near || high.max(wide) < step {

@@ -1,14 +1,14 @@
-//! How much accuracy is bought.
+//! Presets of accuracy.
 
 use serde::{Deserialize, Serialize};
 
-/// How much accuracy is bought: substeps, iterations and particle number.
+/// A preset of accuracy: substeps, iterations and particle number.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, Ord, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
     /// Cheapest.
     Fast,
-    /// What the user holds in the headset.
+    /// For interactive use in the headset.
     Balanced,
     /// Most accurate.
     Reference,

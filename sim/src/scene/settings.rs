@@ -5,8 +5,8 @@ use super::feature::Feature;
 use super::fields::{Field, NOT_NEGATIVE, check_fields, require, within};
 use serde::{Deserialize, Serialize};
 
-/// What decides whether the liquid stands up: PBF's stiffness at a given
-/// number of iterations is set by g·Δt_s²/d.
+/// Lengths, time and gravity of a scene, on which it depends whether the liquid stands up: PBF's
+/// stiffness at a given number of iterations is set by g·Δt_s²/d.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scale {
@@ -45,7 +45,7 @@ impl Scale {
     }
 }
 
-/// What a wall is to the density sum.
+/// Representation of walls in the density sum.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Boundary {
@@ -87,7 +87,7 @@ pub struct SolverSettings {
     pub carry_rate: f64,
     /// v_max of line 24, m/s.
     pub v_max: f64,
-    /// What walls are made of.
+    /// Representation of walls in the density sum.
     pub boundary: Boundary,
     /// μ₀ of Eqs 16 and 17: share of the relative velocity that XSPH takes
     /// away in one of the paper's substeps (1/180 s), 0 to 1.
@@ -100,12 +100,12 @@ pub struct SolverSettings {
     /// Difference between the advancing and the receding contact angle of all that is solid, degrees; 20 where it is left out.
     /// With the feature `tension`.
     pub hysteresis: Option<f64>,
-    /// Most of d that a flask's wall goes in a substep: a hand that is faster has more substeps, up to three times as many.
-    /// Without it none has.
+    /// Most of d that a flask's wall moves in a substep: with a faster hand a step takes more substeps, up to three times as many.
+    /// Without this value the number of substeps is constant.
     pub wall_step: Option<f64>,
 }
 
-/// What a preset changes; what it does not name stays as the scene has it.
+/// Changes of a preset; values that it does not name stay as the scene has them.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PresetOverrides {
@@ -258,14 +258,14 @@ impl PictureFilter {
     }
 }
 
-/// What tells the liquids apart in the picture.
+/// How acid and water are distinguished in the picture.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PictureTint {
-    /// Tints that they have not.
+    /// By tints that the real liquids do not have.
     #[default]
     Artificial,
-    /// Nothing but how they bend light.
+    /// By refraction alone.
     None,
 }
 
@@ -290,7 +290,7 @@ pub enum PictureRoom {
     Bright,
     /// By evening, 70 lx.
     Dark,
-    /// By day, with nothing but table and window, and nothing printed on glass: what is compared with other programs.
+    /// By day, with nothing but table and window, and nothing printed on glass: for comparisons with other programs.
     Bare,
 }
 
@@ -312,7 +312,7 @@ impl PictureRoom {
 pub struct PictureSettings {
     /// Filter of the liquid's surface.
     pub filter: PictureFilter,
-    /// What tells the liquids apart.
+    /// How acid and water are distinguished.
     pub tint: PictureTint,
     /// How bright the room is.
     pub room: PictureRoom,

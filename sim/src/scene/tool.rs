@@ -1,4 +1,4 @@
-//! What lies on the bench beside the flasks and is handled: what is worn, what is dipped, and what wipes.
+//! Tools on the bench beside the flasks: goggles and gloves to wear, rod and thermometer to dip, a cloth to wipe with, and a sash.
 //!
 //! Each is a cylinder to the rigid bodies. Sizes are of real size; a scene that is drawn larger has them larger.
 
@@ -10,10 +10,10 @@ use glam::{DQuat, DVec3, EulerRot, Vec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
-/// How far a tool may be from the scene's origin along an axis, m: single precision knows a millimetre there.
+/// How far a tool may be from the scene's origin along an axis, m: single precision resolves a millimetre there.
 const FARTHEST: f64 = 1e4;
 
-/// What a tool is. A scene has one of each at most.
+/// Kind of a tool. A scene has one of each at most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToolKind {
@@ -47,8 +47,8 @@ impl ToolKind {
         Self::Sash,
     ];
 
-    /// Radius and height of its cylinder at real size, m. Goggles are as broad as a face (0.15 m: NASA-STD-3000); a rod is 7 mm by 250 mm and
-    /// a thermometer 6 mm by 260 mm, as they are sold; box, cloth, folded to a pad, and the bar of a sash are our choice.
+    /// Radius and height of its cylinder at real size, m. Goggles are as broad as a face (0.15 m: NASA-STD-3000); a rod is 7 mm by 250 mm
+    /// and a thermometer 6 mm by 260 mm, as they are sold; box, cloth, folded to a pad, and the bar of a sash are our choice.
     pub fn cylinder(self) -> [f64; 2] {
         match self {
             Self::Goggles => [0.075, 0.06],
@@ -91,7 +91,7 @@ impl ToolKind {
 /// A tool of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
-    /// What it is.
+    /// Its kind.
     pub kind: ToolKind,
     /// Where it is at the start: +y is its cylinder's axis, the origin the middle of its base.
     pub stage_from_tool: Pose,
@@ -109,9 +109,9 @@ pub fn sash_heights(table: &TableTop, scale: &Scale) -> [f64; 2] {
 #[serde(deny_unknown_fields)]
 pub(super) struct ToolEntry {
     kind: ToolKind,
-    /// The middle of what it lies on, metres of the scene.
+    /// Middle of the area that it lies on, metres of the scene.
     position: [f64; 3],
-    /// About the vertical, degrees; at 0 what lies on its side has its lower end to the right.
+    /// Rotation about the vertical, degrees; at 0 a tool that lies on its side has its lower end to the right.
     #[serde(default)]
     yaw: f64,
     #[serde(default)]
@@ -151,7 +151,7 @@ impl ToolEntry {
     }
 }
 
-/// One of each at most: a lesson and a picture name them by what they are. They lie on the bench, where there is one, so that hands reach
+/// One of each kind at most: lessons and pictures name tools by their kind. They lie on the bench, where there is one, so that hands reach
 /// them; a sash slides over it.
 pub(super) fn check_tools(
     tools: &[Tool],

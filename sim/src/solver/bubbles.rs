@@ -20,14 +20,14 @@ const ACT: u32 = 2;
 const SET_ARGS: u64 = 32;
 const DROPS_ARGS: u64 = 12;
 
-/// What bubbles do before and after substep `n` of `substeps`.
+/// Flags of substep `n` of `substeps`: whether bubbles acted right before it ([`ACTED`]), and whether they act after it ([`ACT`]).
 pub(super) fn flags(n: u32, substeps: u32) -> u32 {
     let acts = |n: u32| Bubbles::step_after(n, substeps).is_some();
     let acted = n == 0 || acts(n - 1);
     u32::from(acted) * ACTED + u32::from(acts(n)) * ACT
 }
 
-/// What the next frame depends on; empty where a scene has no bubbles.
+/// The bubbles' part of the state; empty where a scene has no bubbles.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct BubbleState {
     pub(super) bubbles: Vec<[f32; BUBBLE_WORDS]>,
@@ -44,7 +44,7 @@ pub(super) struct BubbleState {
 /// One atmosphere, Pa.
 const ATMOSPHERE: f64 = 101_325.0;
 
-/// Mass and enthalpy quanta of what bubbles did to particles and of what joins a bubble, over V0·ρ0 and J per V0·ρ0, as in
+/// Quanta of mass (V0·ρ0) and enthalpy (J per V0·ρ0) of the exchange of bubbles with particles, and of bubbles that join others, as in
 /// `common/chemistry/bubbled.wgsl`.
 const QUANTA: [f64; 2] = [1.0 / 8_589_934_592.0, 1.0 / 2048.0];
 const JOINED: [f64; 2] = [1.0 / 16_777_216.0, 1.0 / 16.0];
@@ -56,9 +56,9 @@ pub(crate) struct VapourAccount {
     pub(crate) held: [f64; 2],
     /// On its way to particles; negative where it is on its way from them.
     pub(crate) pending: [f64; 2],
-    /// What left the liquid.
+    /// Left the liquid.
     pub(crate) gone: [f64; 2],
-    /// Air in bubbles and what of it left, as the steam that has as many molecules.
+    /// Air in bubbles, and air that left from them, each as the mass of steam that has as many molecules.
     pub(crate) air: [f64; 2],
 }
 
@@ -104,7 +104,7 @@ impl BubbleState {
         bytemuck::cast_slice(&self.bubbles)
     }
 
-    /// Where all vapour is.
+    /// Sums of the vapour by where it is.
     pub(super) fn account(&self) -> VapourAccount {
         let mut account = VapourAccount::default();
         for bubble in self.records() {

@@ -1,14 +1,14 @@
 //! The particles' state and the solver's scratch memory: one table of all buffers. A particle's place in every array is the same; it
-//! changes when the list is rebuilt. Which of them a state has, and what of it is hashed, is the table in `snapshot.rs`.
+//! changes when the list is rebuilt. The table in `snapshot.rs` lists the buffers of which a state consists, and which of them are hashed.
 
 use super::colour::{self, Colour};
 use super::counters::Counters;
-use super::glass;
 use super::grid::Grid;
 use super::spec::SolverSpec;
 use super::transfer::write;
 use super::vapour::{COUNTS, PUFFS, dew_places, dew_rows, with_steam};
 use super::vessels::Vessels;
+use super::wall_heat;
 use crate::chemistry::Chemistry;
 use crate::chemistry::dew::AROUND;
 use crate::chemistry::segregation::Lamellae;
@@ -19,19 +19,19 @@ use vitriol_shaders::layout::{Dew, Puff};
 /// Threads of the load pass's workgroups.
 pub(super) const LOAD_GROUP: u32 = 256;
 
-/// Words of a bubble's record, and of what bubbles do to a particle, as in `common/chemistry`.
+/// Words of a bubble's record, and of the exchange of bubbles with a particle, as in `common/chemistry`.
 pub(super) const BUBBLE_WORDS: usize = 20;
 pub(super) const BUBBLED_WORDS: usize = 8;
-/// Words of the drops of a bubble's jet or film, and of what drops do to a particle, likewise.
+/// Words of the drops of a bubble's jet or film, and of the exchange of drops with a particle, as in `common/chemistry`.
 pub(super) const DROPS_WORDS: usize = 16;
 pub(super) const SPRAYED_WORDS: usize = 4;
 
-/// Of the flasks' poses at a frame's start and at each substep's end.
+/// Bytes of the flasks' poses at a frame's start and at each substep's end.
 pub(super) fn bytes_of_poses(substeps: u32, flasks: u64) -> u64 {
     4 * 8 * (u64::from(substeps) + 1) * flasks
 }
 
-/// What shaders call by another name: memory that is dead at that moment is lent.
+/// (name in shaders, label of the buffer): scratch memory that is unused at that moment is bound under another name.
 pub(super) const LENT: [(&str, &str); 7] = [
     // During a rebuild. `solved` and `new_velocity` are written only later; the particles of cells lie in `list` until it is made.
     ("cell_items", "list"),
@@ -43,7 +43,7 @@ pub(super) const LENT: [(&str, &str); 7] = [
     ("volumes", "mixing"),
     // Once the colour is filtered.
     ("unfiltered", "colour_solid"),
-    // What is of reports alone.
+    // Outside of reports, which alone use `density`.
     ("wall_before", "density"),
 ];
 
@@ -121,15 +121,15 @@ buffers! {
         diffused: 2 * s.diffused,
         mixing: 4 * s.heated,
         sorted_heat: 4 * s.heated,
-        /// What particles hold.
+        /// (c, h in J/kg, y, mass over V0·ρ0) of each particle.
         matter: 4 * s.physical,
         sorted_matter: 4 * s.physical,
-        /// What particles took and gave, by identity.
+        /// Heat and steam that particles exchanged with their surroundings, by identity ([`SolverState::ledger`](super::SolverState)).
         ledger: 4 * s.physical,
         /// Volume, density and vapour.
         bulk: 4 * s.physical,
         sorted_bulk: 4 * s.physical,
-        /// What the flow leaves unresolved.
+        /// Diffusivity of the unresolved eddies (m²/s) and variance of the acid fraction.
         eddies: 2 * s.physical,
         sorted_eddies: 2 * s.physical,
         // Coupling with the rigid bodies.
@@ -146,21 +146,21 @@ buffers! {
         interface_stress: 4 * s.nodes,
         smooth_colour: 4 * s.nodes,
         curvature: s.nodes,
-        /// What walls hold the surface's line with, by cell.
+        /// Force per volume with which walls hold the surface's line, by cell.
         line_hold: 4 * s.held_nodes,
-        /// The same by identity.
+        /// Acceleration with which walls hold particles at the surface's line (m/s²), and as w whose wall it is, by identity.
         held: 4 * s.held,
-        /// What bubbles do to particles, by identity.
+        /// Sums of the exchange of bubbles with particles (mass, enthalpy, gas and more) in whole quanta, by identity.
         bubbled: BUBBLED_WORDS as u64 * s.bubbly,
-        /// What particles have of bubbles, by identity.
+        /// Gas volume of particles, the one that it goes to (V0), conductance of the bubbles around, and nucleation delay (s), by identity.
         gas: 4 * s.bubbly,
-        /// What particles are to bubbles, by slot.
+        /// Boiling state of particles, which bubbles read, by slot.
         boils: 4 * s.bubbly,
-        /// What drops do to particles, by identity.
+        /// Mass, acid and enthalpy that drops exchange with particles, in whole quanta, by identity.
         sprayed: SPRAYED_WORDS as u64 * s.sprayed,
-        /// How particles fell, by identity.
+        /// Greatest speed of a particle's fall (m/s; negative after it plunged) and width of its stream (m), by identity.
         falls: 2 * s.falling,
-        /// Steam that left particles and is in no puff yet, by identity.
+        /// Mass and enthalpy of the steam of each particle of which puffs were made, by identity.
         vented: 2 * s.steaming,
     }
     others {
@@ -174,9 +174,9 @@ buffers! {
         lamellae: words_of(&s.lamellae),
         /// Records of bubbles before and after a step.
         bubbles: 2 * BUBBLE_WORDS as u64 * s.bubbles,
-        /// By bubble, where one is to be born.
+        /// By bubble's place, the particle at which a bubble is to be born, plus one.
         claims: s.bubbles,
-        /// By bubble, what joins it.
+        /// By step and bubble: quanta of steam, enthalpy and air of the bubbles that join it.
         merging: 6 * s.bubbles,
         /// Places that have a bubble or drops, by set of records.
         live: s.live,
@@ -184,11 +184,11 @@ buffers! {
         live_args: 16,
         /// Drops that bubbles threw up.
         drops: DROPS_WORDS as u64 * s.drops,
-        /// What of them left each flask.
+        /// By flask: quanta of drops of its liquid that came to rest elsewhere.
         spray_left: s.sprayed_flasks,
-        /// By flask and ring: T and what it lacks.
+        /// By flask and ring: T (°C) and its rounding remainder.
         glass: 2 * s.rings,
-        /// Heat taken from it in this frame.
+        /// By flask and ring: quanta of heat that the liquid took from the glass in this frame.
         glass_taken: s.rings,
         /// By flask and row of its wall: places that liquid touched in this frame, a bit each.
         wetted: s.dew / AROUND as u64,
@@ -196,7 +196,7 @@ buffers! {
         dew: s.dew * size_of::<Dew>() as u64 / 4,
         dew_rows: words_of(&s.dew_rows),
         puffs: s.puffs * size_of::<Puff>() as u64 / 4,
-        /// What walls take of each puff.
+        /// By puff: quanta of water that condensed on walls in this frame.
         taken: s.puffs,
         /// Counts of puffs made, and of water that was washed off glass.
         made: s.made,
@@ -205,7 +205,7 @@ buffers! {
     }
 }
 
-/// How many of everything a scene has; 0 where it has no use for it.
+/// Numbers of elements from which the buffers' sizes follow; 0 where a scene has no use for a buffer.
 struct Sizes {
     /// Particles, and those of them that have heat, contents, and so on.
     n: u64,
@@ -295,7 +295,7 @@ impl Sizes {
             live: where_asked(bubbles.is_some(), places + 2),
             drops,
             sprayed_flasks: where_asked(drops > 0, flasks),
-            rings: glass::ring_count(chemistry, spec.flasks.len()) as u64,
+            rings: wall_heat::ring_count(chemistry, spec.flasks.len()) as u64,
             dew: dew as u64,
             puffs: where_asked(steams, PUFFS.into()),
             made: where_asked(steams, COUNTS as u64),
@@ -317,7 +317,7 @@ fn bytes_of<T: bytemuck::NoUninit>(rows: Option<Vec<T>>) -> Vec<u8> {
 pub(super) const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 impl Buffers {
-    /// Those of a scene, its tables filled in.
+    /// The buffers of a scene, with its tables written.
     pub(super) fn new(
         gpu: &Gpu,
         spec: &SolverSpec<'_>,

@@ -1,10 +1,10 @@
-//! A frame's commands, recorded once and executed in each frame that would say the same.
+//! A frame's commands, recorded once and executed in each frame that has the same.
 
 use super::{Solver, SolverError};
 use std::sync::{Mutex, PoisonError};
 use vitriol_gpu::{Bundle, Recorder};
 
-/// Bundles that are kept: walls that move fast ask for more substeps ([`crate::scene::SolverSettings::wall_step`]), and a
+/// Most bundles at a time: walls that move fast need more substeps ([`crate::scene::SolverSettings::wall_step`]), and a
 /// governor for fewer. The one that was not used for longest makes room.
 const KEPT: usize = 12;
 
@@ -16,7 +16,7 @@ type Effort = (u32, u32, Option<f64>);
 pub(super) struct Bundles(Mutex<Vec<(Effort, Bundle)>>);
 
 impl Bundles {
-    /// Forgets all: they hold a buffer that another has replaced.
+    /// Drops all bundles, since they hold a buffer that another has replaced.
     pub(super) fn clear(&mut self) {
         self.lock().clear();
     }

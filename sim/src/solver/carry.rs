@@ -1,4 +1,4 @@
-//! What is in a flask goes with it where it leaps, and is nobody's where it breaks, before Algorithm 1 begins.
+//! Contents of flasks before Algorithm 1 begins: they go with a flask that leaps, and belong to no flask once theirs has broken.
 
 use super::{Solver, SolverError};
 use crate::bodies::Leap;
@@ -6,11 +6,11 @@ use crate::pose::Pose;
 use vitriol_gpu::Recorder;
 use vitriol_shaders::layout::Carry;
 
-/// Membership of what is in no flask, as in `common/liquid/particle.wgsl`.
+/// Membership of particles in no flask, as in `common/liquid/particle.wgsl`.
 const NOBODYS: u32 = 0;
 
 impl Solver {
-    /// Records the rigid motion of all that is in the flask.
+    /// Records the rigid motion of `leap` for the contents of its flask: particles, bubbles and drops.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
@@ -19,7 +19,7 @@ impl Solver {
         self.move_contents(rec, leap, membership)
     }
 
-    /// Records that all that is in the flask is nobody's from now on: it stays where it is, and finds no glass there.
+    /// Records that the contents of a flask belong to no flask from now on: they stay where they are, without glass around them.
     ///
     /// # Errors
     /// As for [`Solver::carry`].

@@ -1,4 +1,4 @@
-//! Where the liquid is, and what went where since the last look, while the simulation goes on.
+//! Census of the liquid by place, and of its moves between places since the last look, while the simulation goes on.
 //!
 //! It is made on the device, because to copy all particles to the host in each frame would take longer than the look. A step depends
 //! on nothing of it, so a replay without looks has the same bits.
@@ -24,12 +24,12 @@ pub use seen::{BubbleCount, Bubbling, Came, Census, Held, Moved, Place, Skin, Sk
 /// Parts of skin that a look has at most: two hands of 28 bones, and a face.
 pub const MOST_LIMBS: usize = 64;
 
-/// Acid fraction from which on liquid hurts: the least that the EU's CLP Regulation (Annex VI) names for sulfuric acid, as
+/// Acid mass fraction from which on liquid harms: the least that the EU's CLP Regulation (Annex VI) names for sulfuric acid, as
 /// irritating skin and eyes.
 pub const HARMFUL: f64 = 0.05;
 
-/// Temperature from which on liquid hurts, °C: at 54.4 °C water burns through skin in half a minute (US Consumer Product Safety
-/// Commission, tap water scalds, document 5098), for which a wet sleeve lasts.
+/// Temperature from which on liquid harms, °C: at 54.4 °C water burns through skin in half a minute (US Consumer Product Safety
+/// Commission, tap water scalds, document 5098), as long as a wet sleeve stays on it.
 pub const SCALDS: f64 = 55.0;
 
 /// Height up to which liquid lies on table or floor, support radii.
@@ -45,7 +45,7 @@ const VOLUMES: f64 = 8.0;
 const SPEEDS: f64 = 8.0;
 const BUBBLE_RADII: f64 = 1.0 / 256.0;
 
-/// Half of the edge of the cube in which places are told apart, for a scene of real size: a room, m.
+/// Half of the edge of the cube in which positions are resolved, for a scene of real size: a room, m.
 const REACH: f64 = 4.0;
 
 /// A look under way.
@@ -56,8 +56,8 @@ pub struct CensusRecord {
     units: Units,
 }
 
-/// What looks know of the ones before: whence each particle came, and what each bubble was. It goes to another device with the state,
-/// which has none of it.
+/// Memory of the looks before: the last place of each particle, and each bubble at the last look. It is no part of the state, and is
+/// taken to another device beside it.
 #[derive(Clone, Debug)]
 pub struct LooksMemory {
     places: Vec<u32>,
@@ -65,7 +65,7 @@ pub struct LooksMemory {
     is_first: bool,
 }
 
-/// The pass, and what it keeps.
+/// The census pass with its buffers.
 pub(super) struct Looks {
     pass: SolverPass,
     /// `limbs`, `places_before`, `bubbles_before`, `tallies`.
@@ -75,12 +75,12 @@ pub(super) struct Looks {
     is_first: AtomicBool,
 }
 
-/// What the words of a tally are.
+/// Units of the words of a tally.
 #[derive(Clone, Copy, Debug)]
 struct Units {
     flasks: usize,
     heated: bool,
-    /// Of a share of 1.
+    /// Quanta of a share of 1.
     whole: f64,
     /// V0, m³.
     volume: f64,
@@ -132,13 +132,13 @@ impl Looks {
         })
     }
 
-    /// The state was replaced: what the next look sees did not come there by moving.
+    /// Marks the state as replaced: the next look counts no arrivals, since nothing moved to where it is.
     pub(super) fn begin_anew(&self) {
         self.is_first.store(true, Ordering::Relaxed);
     }
 }
 
-/// What the pass binds.
+/// The buffers that the pass binds.
 fn bound<'a>(
     [limbs, places, bubbles, tallies]: &'a [Buffer; 4],
     b: &'a Buffers,
@@ -167,7 +167,7 @@ fn papers_boiling_point(parameters: &Parameters) -> f64 {
     }
 }
 
-/// Words of all tallies: of each place, and of each place and flask.
+/// Number of words of all tallies: those of each place, then those of each place and flask.
 fn words(flasks: usize) -> usize {
     (flasks + PLACES) * (WORDS + flasks * MOVED_WORDS)
 }
@@ -194,7 +194,7 @@ impl LooksMemoryRecord {
 }
 
 impl Solver {
-    /// Records the copies of what looks know so far, behind those that were recorded before.
+    /// Records the copies of the looks' memory after the looks that were recorded before.
     pub(crate) fn record_looks_memory(
         &self,
         rec: &mut Recorder,
@@ -207,7 +207,7 @@ impl Solver {
         })
     }
 
-    /// What looks know so far; waits for the device.
+    /// The looks' memory; waits for the device.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
@@ -218,7 +218,7 @@ impl Solver {
         Ok(record.get()?)
     }
 
-    /// Takes that of a solver of the same scene in the same state.
+    /// Takes up the looks' memory of a solver of the same scene in the same state.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
@@ -233,7 +233,7 @@ impl Solver {
     }
 
     /// Records a look, behind a frame; `skin` is that of the user, of which parts beyond [`MOST_LIMBS`] are left out, and `elapsed` the
-    /// time since the last look, s. What came to a place is counted in one look alone, so each is to be read.
+    /// time since the last look, s. An arrival at a place is counted in one look alone, so each is to be read.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.
@@ -293,10 +293,10 @@ fn limb(part: &SkinPart) -> Limb {
 }
 
 impl CensusRecord {
-    /// What it saw.
+    /// The census.
     ///
     /// # Errors
-    /// [`SolverError::Gpu`] before the submission is done.
+    /// [`GpuError::NotDone`] before the submission has finished.
     pub fn get(&self) -> Result<Census, GpuError> {
         let tallies = self.tallies.get::<u32>()?;
         let units = &self.units;

@@ -36,7 +36,7 @@ impl Colour {
         0.5 * parameters.support_radius
     }
 
-    /// What its shaders have to know.
+    /// Constants of its shaders.
     pub(super) fn constants(
         &self,
         p: &Parameters,

@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering;
 use vitriol_gpu::{Pass, Readback, Recorder};
 use vitriol_shaders::layout::{FlaskPose, LiquidLoad, Step};
 
-/// What a frame leaves to be read once the device is done with it.
+/// Results of a frame that can be read once the device has finished it.
 pub struct FrameRecord {
     loads: Option<Readback>,
     flasks: usize,
@@ -21,7 +21,7 @@ pub struct FrameRecord {
 
 impl FrameRecord {
     /// The liquid's load on each flask, summed up over the device's workgroups
-    /// in their order, so that the bits repeat. Empty where none was asked for.
+    /// in their order, so that the bits repeat. Empty in a solver without loads.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] before the frame is done.
@@ -180,7 +180,7 @@ impl Solver {
         Ok(())
     }
 
-    /// A pass that binds what its shader declares.
+    /// A pass with the buffers bound that its shader declares.
     pub(super) fn pass<'r>(&self, rec: &'r mut Recorder, pass: &'r SolverPass) -> Pass<'r> {
         pass.begin(rec, &self.buffers.all(&self.vessels))
     }

@@ -8,7 +8,7 @@ const SCAN_BLOCK: u32 = 1024;
 /// Particles whose neighbours lie side by side, as in `common/liquid/list_block.wgsl`.
 const LIST_BLOCK: u32 = 32;
 
-/// Least number of words for lists that are longer than a place: a crowd of 500 in which each sees all others.
+/// Least number of words for lists that are longer than a place: those of 500 particles of which each has all others as neighbours.
 const LEAST_LONG: u64 = 1 << 18;
 
 /// The neighbour search: cell size, table and list.
@@ -40,7 +40,7 @@ impl Grid {
         u64::from(count.next_multiple_of(LIST_BLOCK)) * u64::from(self.list_capacity)
     }
 
-    /// Words behind them, for lists that are longer.
+    /// Words behind the places, for lists that are longer than a place.
     pub fn long(&self, count: u32) -> u64 {
         (self.places(count) / 8).max(LEAST_LONG)
     }
@@ -50,7 +50,8 @@ impl Grid {
         (self.places(count) / u64::from(self.cells())).max(1) as u32
     }
 
-    /// Fours of all lists that are longer than a place, and then the first of each particle's, where they lie in the particles' order.
+    /// Number of fours in all lists that are longer than a place, and then the first four of each particle's, for long lists in the
+    /// particles' order.
     pub fn long_lists(&self, counts: &[u32]) -> Vec<u32> {
         let mut all = vec![0u32; 1 + counts.len()];
         for (first, &count) in (1..).zip(counts) {
@@ -62,13 +63,13 @@ impl Grid {
         all
     }
 
-    /// Whether so many fours have room among the long lists; else none has any.
+    /// Whether `fours` fours fit the room for long lists; else no particle has a long list.
     pub fn fit(&self, fours: u32, count: u32) -> bool {
         4 * u64::from(fours) <= self.long(count)
     }
 
-    /// Puts what was written in an order of chance into one that repeats. Lists that are longer than a place follow the places in the particles' order.
-    /// What a rebuild noted elsewhere becomes 0. `found` is the device's `long_lists`.
+    /// Sorts a list that the device wrote in an order that varies from run to run into one that repeats: lists that are longer than a place
+    /// follow the places in the particles' order, and words that a rebuild left elsewhere become 0. `found` is the device's `long_lists`.
     pub fn settle(&self, counts: &[u32], found: &[u32], list: &mut Vec<u32>) {
         let n = counts.len() as u32;
         let places = self.places(n) as usize;

@@ -1,4 +1,4 @@
-//! What tools do to the liquid, before Algorithm 1 begins: a rod drags it along, a cloth takes it up.
+//! Action of tools on the liquid, before Algorithm 1 begins: a rod drags it along, a cloth takes it up.
 
 use super::{Solver, SolverError};
 use glam::Vec3;
@@ -14,7 +14,7 @@ pub const ROD_DRAG: f32 = 1.2;
 pub struct Touch {
     /// Ends of its axis at the step's end, m of the scene.
     pub ends: [Vec3; 2],
-    /// How these move, m/s.
+    /// Velocities of the ends, m/s.
     pub velocities: [Vec3; 2],
     /// Its radius, m.
     pub radius: f32,
@@ -23,7 +23,7 @@ pub struct Touch {
 }
 
 impl Solver {
-    /// Records what it does in a step of `time` seconds. Bubbles and drops that fly are left alone.
+    /// Records the action of `touch` in a step of `time` seconds. Bubbles and drops that fly are not affected.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.

@@ -90,7 +90,7 @@ mod tests {
             [0, 10_000, 24_000, 40_000, 97_336, 1 << 20].map(|count| lanes(count, 32)),
             [8, 8, 4, 2, 1, 1]
         );
-        // Some drivers have subgroups of 4, and of none that they tell of.
+        // Some drivers have subgroups of 4, and some report no size.
         assert_eq!(
             [lanes(10_000, 4), lanes(10_000, 1), lanes(10_000, 0)],
             [4, 1, 1]

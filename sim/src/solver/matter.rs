@@ -1,4 +1,4 @@
-//! What particles hold at the start, as the physical chemistry's buffers have it.
+//! Contents of particles at the start, in the layout of the physical chemistry's buffers.
 
 use super::spec::Particle;
 use crate::chemistry::ABSOLUTE_ZERO;
@@ -16,7 +16,7 @@ pub(super) struct Start {
     pub heat: [f32; 4],
     /// c, h (J/kg), y, mass over V0·ρ0.
     pub matter: [f32; 4],
-    /// Volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack.
+    /// Volume over V0, ρ0 over density, vapour over V0·ρ0, rounding remainders of c and h.
     pub bulk: [f32; 4],
 }
 

@@ -1,4 +1,4 @@
-//! What a pane keeps from flying on: the sash of a fume hood.
+//! The pane of a fume hood's sash, which stops liquid that flies.
 
 use super::{Solver, SolverError};
 use glam::Vec3;
@@ -17,7 +17,7 @@ pub struct Pane {
 }
 
 impl Solver {
-    /// Records that what is in no flask, and flies, does not cross it in a step of `time` seconds.
+    /// Records that particles in no flask, and drops, do not cross `pane` in a step of `time` seconds.
     ///
     /// # Errors
     /// [`SolverError::Gpu`] where the device refuses.

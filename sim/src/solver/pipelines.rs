@@ -1,12 +1,12 @@
-//! The passes, specialised for what the scene asks for.
+//! The passes, specialised for the features of a scene.
 
 use super::buffers::LENT;
 use super::colour::Colour;
-use super::glass;
 use super::grid::Grid;
 use super::lanes;
 use super::vapour::dew_places;
 use super::vessels::PLANE_ENTRIES;
+use super::wall_heat;
 use super::{SolverError, SolverSpec};
 use crate::chemistry::evaporation::StillAir;
 use crate::chemistry::paper::{Boiling, REFERENCE_POWER};
@@ -27,21 +27,21 @@ pub(super) struct Pipelines {
     pub(super) carry: Option<SolverPass>,
     /// Where there are tools.
     pub(super) handle: Option<SolverPass>,
-    /// Likewise.
+    /// Stops particles that fly at the fume hood's sash; where there are tools.
     pub(super) pane: Option<SolverPass>,
-    /// The same, where bubbles throw up drops.
+    /// Stops drops at the sash as `pane` stops particles; where there are tools, and bubbles throw up drops.
     pub(super) pane_spray: Option<SolverPass>,
     pub(super) predict: SolverPass,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
     pub(super) reorder: SolverPass,
     pub(super) list: SolverPass,
-    /// Displaces by what was carried.
+    /// Displaces by the carried multipliers.
     pub(super) carried_displacement: SolverPass,
     pub(super) first_multiplier: SolverPass,
     pub(super) multiplier: SolverPass,
     pub(super) displacement: SolverPass,
-    /// Of a substep's last iteration: goes on to lines 22 to 25.
+    /// Displacement of a substep's last iteration, which goes on to lines 22 to 25.
     pub(super) last_displacement: SolverPass,
     /// `diffusion` of the paper's chemistry, or `turnover` and `exchange` of the physical one.
     pub(super) mixing: Vec<SolverPass>,
@@ -50,7 +50,7 @@ pub(super) struct Pipelines {
     /// Where the scene has surface tension.
     pub(super) tension: Option<Tension>,
     pub(super) forces: SolverPass,
-    /// Of a frame's last substep: predicts none.
+    /// Forces of a frame's last substep, which do not go on to the next prediction.
     pub(super) last_forces: SolverPass,
     /// Where vapour is in bubbles.
     pub(super) live: Option<SolverPass>,
@@ -87,7 +87,7 @@ impl Pipelines {
     ) -> Result<Self, SolverError> {
         let carry = flag(spec.parameters.carry_rate > 0.0);
         // Where multipliers were carried, the prediction is displaced already when the first iteration reads it. That lies in memory
-        // which no one needs before the last displacement.
+        // that is unused until the last displacement.
         let displaced = [("trial", "new_velocity")];
         let displaced = &displaced[..usize::from(carry > 0.0)];
         let spacing = spec.parameters.particle_volume().cbrt();
@@ -166,7 +166,10 @@ impl Pipelines {
                 _ => None,
             },
             eddies: eddies(gpu, library, spec, constants, buffers)?,
-            glass: match glass::ring_count(spec.parameters.chemistry.as_ref(), spec.flasks.len()) {
+            glass: match wall_heat::ring_count(
+                spec.parameters.chemistry.as_ref(),
+                spec.flasks.len(),
+            ) {
                 0 => None,
                 _ => Some(make(sim::GLASS, &[])?),
             },
@@ -176,7 +179,7 @@ impl Pipelines {
     }
 }
 
-/// The passes that find the eddies; none where nothing mixes by them.
+/// The passes that find the eddies: smoothing, then strain; empty where eddies do not mix.
 fn eddies(
     gpu: &Gpu,
     library: &Library,
@@ -294,11 +297,11 @@ fn flag(on: bool) -> f64 {
     f64::from(u8::from(on))
 }
 
-/// Values of the override constants, of which each shader has some.
+/// Names and values of the override constants, of which each shader declares some.
 pub(super) struct Constants(Vec<(&'static str, f64)>);
 
 impl Constants {
-    /// `lanes` of a particle, those that search its neighbours, and invocations of a workgroup.
+    /// The last argument: invocations that share a particle, those that search its neighbours, and those of a workgroup.
     pub(super) fn new(
         spec: &SolverSpec<'_>,
         count: u32,
@@ -377,7 +380,7 @@ impl Constants {
         Self([&self.0, more].concat())
     }
 
-    /// The pass of `shader`, with those that it declares and `extra`; `buffers` are those of
+    /// The pass of `shader`, with the constants that it declares and `extra`; `buffers` are those of
     /// [`SolverPass::begin`].
     pub(super) fn pass(
         &self,
@@ -390,7 +393,8 @@ impl Constants {
         self.pass_with(gpu, library, buffers, shader, extra, &[])
     }
 
-    /// The same, where what the shader calls the first of `names` is the buffer that is called the second.
+    /// The pass of `shader` as from [`Constants::pass`], with buffers renamed: each of `names` is (name in the shader, label of the
+    /// buffer that is bound to it).
     pub(super) fn pass_with(
         &self,
         gpu: &Gpu,

@@ -21,17 +21,17 @@ struct Array {
     second: SecondHalf,
 }
 
-/// How a state's hash has an array.
+/// How an array enters the hash of a state.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Hashed {
     No,
-    /// Particle by particle in the order of their identities: their slots are no matter of a replay.
+    /// Particle by particle in the order of their identities, since a replay need not repeat their slots.
     ByIdentity,
     /// As it is, after all particles.
     Whole,
 }
 
-/// What a buffer has behind its array, at a frame's end.
+/// Contents of a buffer behind its array, at a frame's end.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SecondHalf {
     /// Nothing.
@@ -118,7 +118,8 @@ pub(super) fn lengths(state: &SolverState) -> Vec<usize> {
 }
 
 impl SolverState {
-    /// Hash of what a replay must repeat: every particle's bits of position, velocity, membership, heat and content, in the order of
+    /// Hash of the state that a replay must repeat: every particle's bits of position, velocity, membership, heat and content, in the
+    /// order of
     /// their identities, and of the glass's heat, bubbles and drops.
     pub fn hash(&self) -> u64 {
         let mut order: Vec<usize> = (0..self.tags.len()).collect();
@@ -184,7 +185,7 @@ impl Solver {
         Ok(record.get()?)
     }
 
-    /// Records the copies of which a state is made, behind a frame.
+    /// Records the copies of the state's arrays to the host, behind a frame.
     pub(crate) fn record_state(&self, rec: &mut Recorder) -> Result<SolverStateRecord, GpuError> {
         let b = &self.buffers;
         let mut copy = |buffer: &Buffer, count: usize| {
@@ -204,8 +205,8 @@ impl Solver {
         })
     }
 
-    /// Puts a state on this device, a new one perhaps; what follows has the
-    /// bits that it would have had without the interruption.
+    /// Puts a state on this device, a new one perhaps; the frames that follow have
+    /// the bits that they would have had without the interruption.
     ///
     /// # Errors
     /// [`SolverError::OtherState`], or [`SolverError::Gpu`].

@@ -1,4 +1,4 @@
-//! What a solver is made of.
+//! The specification from which a solver is made.
 
 use crate::flask::Profile;
 use crate::flask::particles::BoundaryParticle;
@@ -24,7 +24,7 @@ pub struct Particle {
     pub carried: f64,
 }
 
-/// What the solver is made of, beside its parameters.
+/// Specification of a solver: parameters, flasks, ground and particles.
 #[derive(Clone, Debug)]
 pub struct SolverSpec<'a> {
     /// Parameters of Algorithm 1.
@@ -50,14 +50,14 @@ pub struct SolverSpec<'a> {
     pub lanes: Option<u32>,
 }
 
-/// What is not a flask.
+/// Table and floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
     /// Height of the floor, metres.
     pub floor: f64,
     /// The table: height of its top, centre and full extent in (x, z), metres.
     pub table: Option<(f64, DVec2, DVec2)>,
-    /// How much larger than real this world is.
+    /// Lengths of the scene over those at real size.
     pub scale: f64,
 }
 

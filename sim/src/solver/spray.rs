@@ -5,7 +5,7 @@ use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_shaders::layout::Drops;
 
-/// What the next frame depends on; empty where a scene has no spray.
+/// The spray's part of the state; empty where a scene has no spray.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SprayState {
     pub(super) drops: Vec<[f32; DROPS_WORDS]>,
@@ -15,7 +15,7 @@ pub(super) struct SprayState {
     pub(super) left: Vec<u32>,
 }
 
-/// Quanta of mass and acid, of enthalpy, and of what left a flask, over V0·ρ0 and J per V0·ρ0, as in
+/// Quanta of mass and acid (V0·ρ0) and of enthalpy (J per V0·ρ0), and of mass that left a flask (V0·ρ0), as in
 /// `common/chemistry/drops.wgsl`.
 const QUANTA: [f64; 3] = [1.0 / 16_777_216.0, 1.0 / 16_777_216.0, 1.0 / 16.0];
 const LEFT_QUANTUM: f64 = 1.0 / 65_536.0;
@@ -23,7 +23,7 @@ const LEFT_QUANTUM: f64 = 1.0 / 65_536.0;
 /// Mass and acid over V0·ρ0, and enthalpy, J per V0·ρ0.
 pub(crate) type SprayedLiquid = [f64; 3];
 
-/// Where the liquid of drops is.
+/// The drops' liquid by where it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SprayAccount {
     /// In drops that fly.
@@ -59,7 +59,7 @@ impl SprayState {
         bytemuck::cast_slice(&self.drops)
     }
 
-    /// Where all of it is.
+    /// Sums of the drops' liquid by where it is.
     pub(super) fn account(&self) -> SprayAccount {
         let mut account = SprayAccount::default();
         let add = |sum: &mut SprayedLiquid, parts: [f64; 3]| {

@@ -1,13 +1,13 @@
-//! The solver's state on the host: what it is at the start, and what it tells of a particle.
+//! The solver's state on the host: its values at the start, and the properties of a particle that follow from it.
 
 use super::bubbles::{self, BubbleState, VapourAccount};
 use super::counters::Counters;
-use super::glass;
 use super::grid::Grid;
 use super::matter::Start;
 use super::spec::Particle;
 use super::spray::{SprayAccount, SprayState};
 use super::steam::{SteamPasses, SteamState};
+use super::wall_heat;
 use crate::chemistry::Chemistry;
 use crate::chemistry::dew::QUANTUM;
 use crate::chemistry::table::SolutionTable;
@@ -25,35 +25,35 @@ pub struct SolverState {
     pub positions: Vec<[f32; 4]>,
     /// Velocities (m/s) by slot; w is the carried multiplier −p/ρ (m²/s²).
     pub velocities: Vec<[f32; 4]>,
-    /// (membership, identity) by slot: 0 for nobody's, k + 1 for flask k's,
+    /// (membership, identity) by slot: 0 in no flask, k + 1 in flask k,
     /// `u32::MAX` for one taken out; and the particle's index at the start.
     pub tags: Vec<[u32; 2]>,
     /// Predicted positions when the list was built.
     pub(super) list_origin: Vec<[f32; 4]>,
     pub(super) list_counts: Vec<u32>,
-    /// The places of all particles, and then the lists that are longer, if they have room.
+    /// The lists of all particles in their places, followed by the lists that are longer than a place, if they have room.
     pub(super) list: Vec<u32>,
     pub(super) counters: Vec<u32>,
     /// (temperature in °C, acid mass fraction, …) by slot; empty where no heat
     /// is modelled.
     pub heat: Vec<[f32; 4]>,
-    /// Of the physical chemistry: (acid fraction, enthalpy in J/kg, vapour
-    /// fraction, mass over that of a particle at rest density) of what a
-    /// particle holds, by slot.
+    /// Contents of a particle of the physical chemistry: (acid fraction, enthalpy in
+    /// J/kg, vapour fraction, mass over that of a particle at rest density), by slot.
     pub matter: Vec<[f32; 4]>,
-    /// Likewise, by identity: (heat gained from around, J; steam that left, kg, and its enthalpy, J; unused), each
-    /// per kg of a particle at rest density.
+    /// Exchange of a particle of the physical chemistry with its surroundings, by identity: (heat gained, J; steam that left, kg,
+    /// and its enthalpy, J; unused), each per kg of a particle at rest density.
     pub ledger: Vec<[f32; 4]>,
-    /// (volume over V0, ρ0 over density, vapour over V0·ρ0, what c and h lack) by slot.
+    /// (volume over V0, ρ0 over density, vapour over V0·ρ0, rounding remainders of c and h) by slot.
     pub(super) bulk: Vec<[f32; 4]>,
     /// (K in m²/s of the eddies, variance of the acid fraction within the liquid) of each particle, by slot.
     pub eddies: Vec<[f32; 2]>,
-    /// T (°C) of each flask's rings of glass, and what it lacks by rounding; flask by flask, from the base up.
+    /// T (°C) of each flask's rings of glass, and its rounding remainder; flask by flask, from the base up.
     pub glass: Vec<[f32; 2]>,
     pub(super) steam: SteamState,
     pub(super) bubbles: BubbleState,
     pub(super) spray: SprayState,
-    /// What walls hold the surface's line with, by identity, until surface tension acts again; empty without hysteresis.
+    /// Acceleration with which walls hold the surface's line (m/s²), and as w whose wall it is, by identity, until surface tension acts
+    /// again; empty without hysteresis.
     pub(super) held: Vec<[f32; 4]>,
 }
 
@@ -69,7 +69,7 @@ impl SolverState {
         flasks: usize,
     ) -> Self {
         let chemistry = parameters.chemistry.as_ref();
-        let ambient = glass::losses(chemistry).map_or(0.0, |losses| losses.ambient);
+        let ambient = wall_heat::losses(chemistry).map_or(0.0, |losses| losses.ambient);
         let n = particles.len();
         let words = |v: glam::DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
         let membership = |p: &Particle| p.flask.map_or(0, |flask| flask as u32 + 1);
@@ -88,7 +88,7 @@ impl SolverState {
             ledger: Vec::new(),
             bulk: Vec::new(),
             eddies: Vec::new(),
-            glass: vec![[ambient as f32, 0.0]; glass::ring_count(chemistry, flasks)],
+            glass: vec![[ambient as f32, 0.0]; wall_heat::ring_count(chemistry, flasks)],
             steam: SteamPasses::start(parameters, n, flasks),
             bubbles: BubbleState::start(parameters, n, grid.cells()),
             spray: SprayState::start(parameters, n, flasks),
@@ -121,12 +121,12 @@ impl SolverState {
         state
     }
 
-    /// Bubbles in the liquid: those without steam and air are none. Masses are over V0·ρ0; empty where a scene has no bubbles.
+    /// Bubbles in the liquid; a record without steam and air is an empty place. Masses are over V0·ρ0; empty where a scene has no bubbles.
     pub fn bubbles(&self) -> &[Bubble] {
         self.bubbles.records()
     }
 
-    /// The same, to be changed.
+    /// Records of [`Self::bubbles`], mutable.
     pub fn bubbles_mut(&mut self) -> &mut [Bubble] {
         bytemuck::cast_slice_mut(&mut self.bubbles.bubbles)
     }
@@ -147,13 +147,13 @@ impl SolverState {
         }
     }
 
-    /// Drops that bubbles threw up: records of mass 0 are none. Of the bubble in place n of [`Self::bubbles`], 2n is of its jet and
-    /// 2n + 1 of its film. Masses are over V0·ρ0; empty where a scene has no spray.
+    /// Drops that bubbles threw up; a record of mass 0 has none. Records 2n and 2n + 1 are the jet and the film of the bubble in place n of
+    /// [`Self::bubbles`]. Masses are over V0·ρ0; empty where a scene has no spray.
     pub fn drops(&self) -> &[Drops] {
         self.spray.records()
     }
 
-    /// The same, to be changed.
+    /// Records of [`Self::drops`], mutable.
     pub fn drops_mut(&mut self) -> &mut [Drops] {
         bytemuck::cast_slice_mut(&mut self.spray.drops)
     }
@@ -163,12 +163,12 @@ impl SolverState {
         self.spray.left(flask)
     }
 
-    /// Where the liquid of drops is.
+    /// Mass, acid and enthalpy of the drops' liquid by where it is.
     pub(crate) fn sprayed(&self) -> SprayAccount {
         self.spray.account()
     }
 
-    /// Where the vapour of bubbles is.
+    /// Mass and enthalpy of the bubbles' vapour by where it is.
     pub(crate) fn vapour(&self) -> VapourAccount {
         self.bubbles.account()
     }
@@ -179,7 +179,7 @@ impl SolverState {
         self.steam.dew()
     }
 
-    /// The same, to be changed.
+    /// Places of [`Self::dew`], mutable.
     pub fn dew_mut(&mut self) -> &mut [Dew] {
         bytemuck::cast_slice_mut(&mut self.steam.dew)
     }
@@ -190,7 +190,7 @@ impl SolverState {
         QUANTUM * quanta as f64
     }
 
-    /// Mass of the water that liquid washed off its vessels' walls, kg: it is too little for the liquid to gain by.
+    /// Mass of the water that liquid washed off its vessels' walls, kg: too little to be added to the liquid.
     pub fn washed_mass(&self) -> f64 {
         QUANTUM * self.steam.washed() as f64
     }

@@ -5,15 +5,15 @@ use super::pipelines::{Constants, SolverPass};
 use super::spec::SolverSpec;
 use super::vapour::{COUNTS, PUFFS, VENTS, dew_places, with_steam};
 use crate::chemistry::dew;
-use crate::chemistry::glass::RINGS;
 use crate::chemistry::puff::Room;
+use crate::chemistry::wall_heat::RINGS;
 use crate::parameters::Parameters;
 use serde::{Deserialize, Serialize};
 use vitriol_gpu::{Buffer, Gpu, GpuError, Recorder};
 use vitriol_shaders::layout::{self, Step};
 use vitriol_shaders::{Library, sim};
 
-/// What `sim/dew.wgsl` takes for granted: room for all puffs in a workgroup's memory, and two rings of the glass a row.
+/// Assumptions of `sim/dew.wgsl`: room for all puffs in a workgroup's memory, and two rings of the glass a row.
 const _: () = assert!(PUFFS <= 1024 && RINGS == 2 * dew::UP);
 
 /// Threads of a workgroup of `sim/dew.wgsl`.
@@ -29,7 +29,7 @@ const STEPS: u32 = 4;
 /// Temperature of a room whose scene names none, °C.
 const ROOM_TEMPERATURE: f64 = 20.0;
 
-/// Passes of puffs, of what makes them, and of the water that condenses on glass.
+/// Passes that move puffs, make new ones, and condense their water on glass.
 pub(super) struct SteamPasses {
     rise: SolverPass,
     vent: SolverPass,
@@ -37,14 +37,14 @@ pub(super) struct SteamPasses {
     dew: Option<(SolverPass, u32)>,
 }
 
-/// What the next frame depends on; empty where no steam leaves.
+/// The steam's part of the state; empty where no steam leaves the liquid.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct SteamState {
     pub(super) puffs: Vec<[f32; 12]>,
     pub(super) vented: Vec<[f32; 2]>,
     /// [`COUNTS`].
     pub(super) made: Vec<u32>,
-    /// What the flasks' walls have of it, by place: the words of `Dew`.
+    /// Water on the flasks' walls, by place: the words of `Dew`.
     pub(super) dew: Vec<[u32; 4]>,
 }
 
@@ -134,8 +134,8 @@ impl SteamPasses {
         self.dew.is_some()
     }
 
-    /// Records what condenses of the puffs, their rise, and new ones of what left the liquid; `step` is that of the
-    /// frame's last substep.
+    /// Records the condensation of the puffs on glass, their rise, and new puffs from the steam that left the liquid; `step` is that of
+    /// the frame's last substep.
     pub(super) fn record(
         &self,
         rec: &mut Recorder,

@@ -1,6 +1,6 @@
 //! Whether liquid of a scene gives off steam, and how many places steam and dew have.
 
-use super::glass;
+use super::wall_heat;
 use crate::chemistry::dew::{self, AROUND, UP};
 use crate::chemistry::{Chemistry, Physical};
 use crate::flask::Profile;
@@ -30,7 +30,7 @@ pub(super) fn with_steam(parameters: &Parameters) -> Option<&Physical> {
 /// Places of dew on all flasks: none where no steam leaves the liquid, or no heat goes to the glass.
 pub(super) fn dew_places(parameters: &Parameters, flasks: usize) -> usize {
     let chemistry = parameters.chemistry.as_ref();
-    match (with_steam(parameters), glass::losses(chemistry)) {
+    match (with_steam(parameters), wall_heat::losses(chemistry)) {
         (Some(_), Some(_)) => DEW_PLACES * flasks,
         _ => 0,
     }

@@ -1,9 +1,9 @@
 //! Flasks, table and floor as the shaders' buffers.
 
-use super::glass;
 use super::solids::Solids;
 use super::spec::SolverSpec;
 use super::transfer::upload;
+use super::wall_heat;
 use crate::flask::{PlaneMap, Side, VolumeMap};
 use crate::pose::Pose;
 use vitriol_gpu::{Buffer, Gpu, GpuError};
@@ -25,7 +25,7 @@ pub struct Vessels {
 }
 
 impl Vessels {
-    /// Tabulates radii, volume maps and what the scene's forces need, and
+    /// Tabulates radii, volume maps and the tables that the scene's forces read, and
     /// uploads them.
     pub fn new(gpu: &Gpu, spec: &SolverSpec<'_>) -> Result<Self, GpuError> {
         let support = spec.parameters.support_radius;
@@ -71,14 +71,14 @@ impl Vessels {
             radii: upload(gpu, "radii", &radii)?,
             maps: upload(gpu, "maps", &maps)?,
             distances: upload(gpu, "distances", &distances)?,
-            glass_rings: upload(gpu, "glass_rings", &glass::constants(spec))?,
+            glass_rings: upload(gpu, "glass_rings", &wall_heat::constants(spec))?,
             plane: upload(gpu, "plane", &plane)?,
             solids: Solids::new(gpu, spec.solids.unwrap_or_default(), support)?,
         })
     }
 }
 
-/// A pose as the shaders have it.
+/// A pose in the shaders' layout.
 pub(super) fn flask_pose(stage_from_flask: Pose) -> layout::FlaskPose {
     layout::FlaskPose {
         position: stage_from_flask.position.extend(0.0).to_array(),

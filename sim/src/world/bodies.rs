@@ -1,4 +1,4 @@
-//! Where the bodies are after the last step, who holds them, and what became of them.
+//! The bodies after the last step: poses, the hands that hold them, blows and shards.
 
 use super::World;
 use crate::bodies::{Break, GRIP_REACH, Shard, Strike, Worn};
@@ -12,7 +12,7 @@ impl World {
     }
 
     /// Distance (m) of a point in the scene's frame from a flask's outer surface, which is closed at the rim; negative within.
-    /// `None` of a flask that nobody can grip.
+    /// `None` of a flask that no hand can grip.
     pub fn distance(&self, flask: usize, point: Vec3) -> Option<f32> {
         self.bodies.distance(flask, point)
     }
@@ -32,7 +32,7 @@ impl World {
         self.bodies.is_broken(flask)
     }
 
-    /// What is left of the flasks that have broken.
+    /// Shards of the flasks that have broken.
     pub fn shards(&self) -> Vec<Shard> {
         self.bodies.shards()
     }
@@ -66,12 +66,12 @@ impl World {
         self.bodies.tool_holder(tool)
     }
 
-    /// What the user wears.
+    /// Goggles and gloves that the user wears.
     pub fn worn(&self) -> Worn {
         self.bodies.worn()
     }
 
-    /// How the lower end of a tool moved in the last step, m/s.
+    /// Mean speed of the lower end of a tool in the last step, m/s.
     pub fn tool_speed(&self, tool: usize) -> f32 {
         let step = self.scene.scale.frame_time as f32;
         let now = self.tools().get(tool);

@@ -1,11 +1,11 @@
-//! What a world is brought back from after its device is lost: a state on the host, and what was done since.
+//! Recovery of a world after its device is lost: from a state on the host and the acts since then.
 
 use super::{Look, PendingLoad, StepInput, World, WorldError, WorldState};
 use crate::solver::{LooksMemory, LooksMemoryRecord, SkinPart, SolverStateRecord};
 use std::sync::Arc;
 use vitriol_gpu::{QueueKind, Recorder};
 
-/// Something that was done with a world.
+/// An act on a world that [`World::revive`] can repeat.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Act {
     Step(QueueKind, StepInput),
@@ -16,7 +16,7 @@ pub(super) enum Act {
     Breakable(bool),
 }
 
-/// What a world is solved with, which is in no state.
+/// Numbers of the solver that are not part of a [`WorldState`].
 #[derive(Clone, Copy, Debug)]
 struct Settings {
     effort: [u32; 2],
@@ -24,29 +24,30 @@ struct Settings {
     intensity: Option<f64>,
 }
 
-/// What looks know, and the step behind which the last one was.
+/// Memory of the looks, and the step behind which the last one was.
 #[derive(Debug)]
 struct Remembered {
     memory: LooksMemory,
     looked: u64,
 }
 
-/// See the module. What is brought back has the same bits on a device of the same kind.
+/// A world's last state on the host, and the acts since then, from which [`World::revive`] makes the world again after its device is
+/// lost; on a device of the same kind with the same bits.
 #[derive(Clone, Debug)]
 pub struct Lifeline {
-    /// `None` stands for the start.
+    /// The state to begin from; `None` is the scene's start.
     state: Option<Arc<WorldState>>,
-    /// What looks knew then; `None` where none was made.
+    /// Memory of the looks at that state; `None` where none was made.
     looks: Option<Arc<Remembered>>,
-    /// What it was to be solved with from there on.
+    /// Settings from that state on.
     settings: Settings,
     since: Vec<Act>,
-    /// Acts before those; that another state was taken up is one.
+    /// Number of acts before those in `since`; taking up another state counts as one.
     gone: usize,
 }
 
 impl Lifeline {
-    /// Steps that are taken anew where a world is brought back.
+    /// Number of steps that [`World::revive`] repeats.
     pub fn steps(&self) -> usize {
         let steps = |act: &&Act| matches!(act, Act::Step(..));
         self.since.iter().filter(steps).count()
@@ -61,7 +62,7 @@ pub struct StateRecord {
     looks: LooksMemoryRecord,
     looked: u64,
     loads: Vec<Arc<PendingLoad>>,
-    /// Acts before it, and what it is to be solved with.
+    /// Number of acts before the state.
     before: usize,
     settings: Settings,
 }
@@ -75,7 +76,7 @@ impl StateRecord {
         Ok(self.kept()?.into_state())
     }
 
-    /// The place from which on a world is brought back; may be read on another thread than the one that steps.
+    /// The state in the form that [`World::keep`] takes; may be read on another thread than the one that steps.
     ///
     /// # Errors
     /// As for [`StateRecord::get`].
@@ -103,7 +104,7 @@ impl StateRecord {
     }
 }
 
-/// A state that has come, for [`World::keep`].
+/// A state that has reached the host, for [`World::keep`].
 pub struct Kept {
     state: Arc<WorldState>,
     looks: Arc<Remembered>,
@@ -118,7 +119,7 @@ impl Kept {
 }
 
 impl World {
-    /// From now on what is done is noted, so that [`World::revive`] can do it again. Each [`World::keep`] lets the notes before it go.
+    /// Records all acts from now on, so that [`World::revive`] can repeat them. Each [`World::keep`] drops the records before its state.
     pub fn follow(&mut self) {
         let settings = self.settings();
         self.lifeline.get_or_insert_with(|| Lifeline {
@@ -137,16 +138,16 @@ impl World {
         }
     }
 
-    /// What the world can be brought back from; `None` where nobody follows.
+    /// State and acts from which the world can be revived; `None` before [`World::follow`].
     pub fn lifeline(&self) -> Option<&Lifeline> {
         self.lifeline.as_ref()
     }
 
-    /// The state was replaced: what was done before says nothing of it.
+    /// Drops all acts, since the world's state was replaced by `state`, which does not follow from them.
     pub(super) fn begin_anew(&mut self, state: &WorldState) {
         let settings = self.settings();
         if let Some(lifeline) = &mut self.lifeline {
-            // One more, for what was done just now: a state that is on its way and was recorded right before is older than this one.
+            // One more, for this replacement: a state that is on its way and was recorded right before is older than this one.
             lifeline.gone += lifeline.since.len() + 1;
             lifeline.since.clear();
             lifeline.state = Some(Arc::new(state.clone()));
@@ -154,7 +155,7 @@ impl World {
         }
     }
 
-    /// The state that was taken up last is one of which looks know that.
+    /// Stores `memory` as that of the looks at the state that was taken up last, unless acts have followed.
     pub(super) fn keep_memory(&mut self, memory: &LooksMemory) {
         let looked = self.looked;
         if let Some(lifeline) = self.lifeline.as_mut().filter(|it| it.since.is_empty()) {
@@ -169,7 +170,7 @@ impl World {
         }
     }
 
-    /// Records the copies of which the state as it is now is made; on the queue of the steps, or after them.
+    /// Records the copies of the present state to the host; on the queue of the steps, or after them.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.
@@ -189,8 +190,7 @@ impl World {
         })
     }
 
-    /// From now on it is brought back from that state, which is of this world; one that is older than what it is brought back
-    /// from already is left alone.
+    /// From now on the world is revived from `kept`, a state of this world; a state older than the one in use is ignored.
     pub fn keep(&mut self, kept: Kept) {
         if let Some(lifeline) = &mut self.lifeline
             && let Some(passed) = kept.before.checked_sub(lifeline.gone)
@@ -203,8 +203,9 @@ impl World {
         }
     }
 
-    /// Brings a world back in this one, which is at the start of the same scene on another device: takes its state up and does
-    /// again what was done since. It is followed from there on. Gives the looks among that, of which the last may not have been read before.
+    /// Brings a lost world back in this one, which is at the start of the same scene on another device: takes up the state of
+    /// `lifeline` and repeats the acts since then, which it goes on to record. Gives the repeated looks, of which the last may not have
+    /// been read before.
     ///
     /// # Errors
     /// [`WorldError`] where the state is another scene's, or the device fails.

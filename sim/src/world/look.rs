@@ -1,4 +1,4 @@
-//! Looks at where the liquid is, behind a step.
+//! Looks: censuses of where the liquid is, each after a step.
 
 use super::lifeline::Act;
 use super::{World, WorldError};
@@ -14,7 +14,7 @@ pub struct Look {
 }
 
 impl World {
-    /// What looks know of the ones before, for another world that takes up this one's state; waits for the device.
+    /// The looks' memory of the ones before, for another world that takes up this one's state; waits for the device.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.
@@ -23,7 +23,7 @@ impl World {
         Ok(self.solver.looks_memory()?)
     }
 
-    /// Goes on with what the looks of another world of this scene know, whose state this one has taken up.
+    /// Takes up the looks' memory of another world of this scene, whose state this one has taken up.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.
@@ -33,16 +33,16 @@ impl World {
         Ok(())
     }
 
-    /// Looks at the state after the last step, on the queue of the steps; `skin` is that of the user. What came to a place is said by one
-    /// look alone, so each is to be read. A look after each step, with what the step was taken with, says the same in a session
-    /// and in its replay.
+    /// Takes a census of the state after the last step, on the queue of the steps; `skin` is that of the user. An arrival at a place is
+    /// counted in one look alone, so each is to be read. Looks after each step, with that step's input, have the same values in a
+    /// session and in its replay.
     ///
     /// # Errors
     /// [`WorldError`] where the device fails.
     pub fn look_on(&mut self, queue: QueueKind, skin: &[SkinPart]) -> Result<Look, WorldError> {
         let steps = self.step.saturating_sub(self.looked);
         let elapsed = steps as f64 * self.scene.scale.frame_time;
-        // Before it: where the device is lost in it, it is made again with the step that it is behind.
+        // Noted before the submission: where the device is lost in it, the look is repeated with the step before it.
         self.note(Act::Look(queue, skin.to_vec()));
         let mut rec = self.gpu.recorder(queue)?;
         let record = self.solver.record_census(&mut rec, skin, elapsed)?;
@@ -62,7 +62,7 @@ impl Look {
         &self.ticket
     }
 
-    /// What it saw, if the device has got so far; does not wait.
+    /// The census, if the device has finished it; does not wait.
     ///
     /// # Errors
     /// [`WorldError::Gpu`] where the device is lost.
@@ -73,7 +73,7 @@ impl Look {
         }
     }
 
-    /// What it saw; waits for the device.
+    /// The census; waits for the device.
     ///
     /// # Errors
     /// [`WorldError::Gpu`] where the device is lost.

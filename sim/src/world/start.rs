@@ -1,4 +1,4 @@
-//! What a world begins with, of its scene: particles, ground and rigid bodies.
+//! A scene's start for a world: particles, ground and rigid bodies.
 
 use crate::bodies::{BodiesSpec, BodySpec, Role, Table, ToolSpec, Worn};
 use crate::chemistry::table::SolutionTable;

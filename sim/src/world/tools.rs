@@ -11,7 +11,7 @@ use vitriol_gpu::Recorder;
 const FASTEST: f32 = 5.0;
 
 impl World {
-    /// Records what tools do to the liquid in the step that the bodies have taken. A rod that nobody holds lies still.
+    /// Records the action of tools on the liquid in the step that the bodies have taken. A rod that no hand holds lies still.
     pub(super) fn handle(&self, rec: &mut Recorder) -> Result<(), WorldError> {
         let scale = self.scene.scale;
         let step = scale.frame_time as f32;
@@ -46,7 +46,7 @@ impl World {
         Ok(())
     }
 
-    /// The pane of a sash whose bar is there.
+    /// The pane of a sash whose bar has the pose `bar` (stage_from_bar).
     fn pane(&self, bar: &Pose) -> Pane {
         let in_scene = |m: f64| (m / self.scene.scale.length_scale) as f32;
         let [_, width] = ToolKind::Sash.cylinder();

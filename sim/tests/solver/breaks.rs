@@ -1,4 +1,4 @@
-//! Liquid of a flask that breaks: nobody's, all there, and on the bench and the floor in the end.
+//! Liquid of a flask that breaks: in no flask, conserved, and on the bench and the floor in the end.
 
 use crate::common::*;
 use glam::Vec3;
@@ -56,7 +56,7 @@ mod long {
         breaks.follow();
         let stood = breaks.poses()[0].position;
         let (mut broke, mut before) = (0, None);
-        // What splashes up at 4 m/s is back after 0.8 s.
+        // Liquid that splashes up at 4 m/s is back after 0.8 s.
         let steps = LETS_GO + 150;
         for step in 0..steps {
             if broke == 0 {

@@ -10,7 +10,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::surface_tension::{SurfaceTension, WATER};
 use vitriol_tests::gpu;
 
-/// Inner radius and depth of a low beaker of 250 mL, m; what is in it at the start, m³.
+/// Inner radius and depth of a low beaker of 250 mL, m; volume of the liquid in it at the start, m³.
 const RADIUS: f64 = 0.033;
 const DEPTH: f64 = 0.09;
 const FILLING: f64 = 150e-6;
@@ -33,7 +33,7 @@ fn volume_below(tilt: f64, head: f64) -> f64 {
     integral(-RADIUS, RADIUS, |x| across(x) * deep(x))
 }
 
-/// How far (m) the level of what is in it lies above its lowest lip.
+/// Height (m) of the level of the liquid in it above its lowest lip.
 fn head(tilt: f64, volume: f64) -> f64 {
     let (mut low, mut high) = (0.0, 2.0 * RADIUS);
     for _ in 0..40 {

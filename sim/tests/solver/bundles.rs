@@ -1,4 +1,4 @@
-//! A frame's commands that are executed again say what they would if they were recorded anew.
+//! A frame's commands that are executed again equal those that are recorded anew.
 
 use crate::common::*;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! A flask that leaps takes with it what is in it, and that alone.
+//! A flask that leaps takes its contents with it, and nothing else.
 
 use crate::chemistry::bubbles::{of, quick};
 use crate::chemistry::setup::bubbly;
@@ -127,7 +127,7 @@ fn all_that_is_in_the_flask_moves_and_nothing_else() {
         }
     }
 
-    // Where that flask breaks, all that is in it is nobody's, stays where it is, and nothing else changes.
+    // Where that flask breaks, its contents belong to no flask and stay where they are, and nothing else changes.
     let mut rec = device.recorder(QueueKind::Main).unwrap();
     solver.release(&mut rec, 1).unwrap();
     device.submit(rec).unwrap().wait().unwrap();
@@ -158,7 +158,7 @@ fn all_that_is_in_the_flask_moves_and_nothing_else() {
     }
 }
 
-/// A beaker in the hand, recentred, and one that is not. Physics knows neither place nor direction on a level floor, so that
+/// A beaker in the hand, recentred, and one that is not. Physics does not depend on place or direction on a level floor, so that
 /// both have the same liquid in them, step by step, until rounding has grown.
 #[test]
 fn the_liquid_does_not_feel_a_leap() {
@@ -189,7 +189,7 @@ fn the_liquid_does_not_feel_a_leap() {
         stays.step(&hand(step, Pose::IDENTITY)).unwrap();
         leaps.step(&hand(step, Pose::IDENTITY)).unwrap();
     }
-    // 0.1 m to the side: slower than what is taken for a leap unasked.
+    // 0.1 m to the side: slower than a leap that is found without a call.
     let aside = Pose::new(Vec3::new(0.1, 0.05, 0.02), Quat::from_rotation_y(0.3));
     leaps.hands_leap();
     for step in 30..36 {
@@ -204,6 +204,6 @@ fn the_liquid_does_not_feel_a_leap() {
         most = most.max(b.position.distance(expected));
         assert_eq!(a.flask, b.flask);
     }
-    // 1 % of the spacing of 5 mm: what 35 substeps make of rounding. Left to itself the liquid would lie 0.1 m aside.
+    // 1 % of the spacing of 5 mm: the growth of rounding over 35 substeps. Without the leap the liquid would lie 0.1 m aside.
     assert!(most < 5e-5, "{most} m");
 }

@@ -1,4 +1,4 @@
-//! Where the liquid is: against counts of a snapshot on the host, and against what was arranged.
+//! Census of the liquid: against counts of a snapshot on the host, and against the arranged moves.
 
 use crate::chemistry::bubbles::{beaker, of};
 use crate::chemistry::setup::bubbly;
@@ -150,14 +150,15 @@ fn it_says_where_the_liquid_is_and_what_came_there() {
         }
         before = now;
     }
-    // What was arranged did happen: whole blocks came to their places.
+    // The arranged moves did happen: whole blocks came to their places.
     assert!(
         came[0] >= 100 && came[2] >= 100 && came[3] >= 100,
         "{came:?}"
     );
 }
 
-/// A glass is tipped out over a dish and the table beside it, on which it splashes: what came there is of that glass. A block that
+/// A glass is tipped out over a dish and the table beside it, on which it splashes: the liquid that came there is of that glass. A block
+/// that
 /// had never been in a flask is of none.
 #[test]
 fn it_says_from_which_flask_it_came() {
@@ -232,7 +233,7 @@ fn it_says_from_which_flask_it_came() {
         went += expected[0][1].0;
         before = now;
     }
-    // What was arranged did happen.
+    // The arranged moves did happen.
     assert!(fell > 100 && went > 100, "{fell} {went}");
 }
 
@@ -243,8 +244,8 @@ fn heat_of(state: &SolverState) -> Vec<[f32; 4]> {
     all.into_iter().map(|(_, heat)| *heat).collect()
 }
 
-/// Volumes are those of the liquid: 96 % acid has 1835.5 kg/m³ at 20 °C (Perry). And they are what the picture draws with, also where mixing and its heat
-/// have changed them.
+/// Volumes are those of the liquid: 96 % acid has 1835.5 kg/m³ at 20 °C (Perry). And they are what the picture draws with, also where
+/// mixing and its heat have changed them.
 #[test]
 fn volumes_are_of_the_liquid() {
     let device = gpu::device();
@@ -457,7 +458,7 @@ fn bubbles_that_collapse_are_told_from_those_that_burst() {
             }
         }
         assert_eq!(ends, expected, "at {temperature} °C");
-        // The largest that it was, not what was left of it at the last look.
+        // Its largest radius, not the one at the last look.
         assert!(frames_of_it > 2, "{frames_of_it}");
         assert!(radius > 1.35e-3, "{radius}");
     }

@@ -4,7 +4,7 @@
 use crate::common::*;
 use glam::{DVec3, Quat, Vec3};
 use vitriol_gpu::Gpu;
-use vitriol_sim::flask::{Profile, Region, glass};
+use vitriol_sim::flask::{Profile, Region, glassware};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::reference::placement::Placement;
 use vitriol_sim::solver::Particle;
@@ -30,7 +30,7 @@ struct Place {
     member: bool,
 }
 
-/// What happened on the way, so that no test is about nothing.
+/// Events on the way, which show that a test exercised something.
 #[derive(Debug, Default)]
 struct Events {
     left: usize,
@@ -262,7 +262,7 @@ fn spun_at_100_radians_a_second() {
 fn turned_over() {
     let device = gpu::device();
     // A vessel with a neck and a round belly: the lookup table's curved part.
-    let profile = glass::find("round-bottom-250")
+    let profile = glassware::find("round-bottom-250")
         .unwrap()
         .profile(0.4)
         .unwrap();
@@ -304,6 +304,6 @@ fn a_stream_never_passes_into_the_glass_it_meets() {
         )
     };
     let events = drive.along(&device, 250, pose_at);
-    // What goes in goes by the mouth: `along` has seen to that.
+    // Particles that enter do so by the mouth: `along` has seen to that.
     assert!(events.struck > 200, "{events:?}");
 }

@@ -1,4 +1,4 @@
-//! What the tests of the GPU solver share.
+//! Helpers of the GPU solver's tests.
 
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
@@ -48,7 +48,7 @@ pub fn parameters() -> Parameters {
     }
 }
 
-/// The same, each substep a frame, so that every one can be looked at.
+/// [`parameters`] with frames of one substep each, so that the state after every substep can be read.
 pub fn single_substeps() -> Parameters {
     Parameters {
         frame_time: SUBSTEP,
@@ -100,7 +100,7 @@ pub fn at(x: f32, y: f32, z: f32) -> Pose {
     Pose::from_position(Vec3::new(x, y, z))
 }
 
-/// What a solver is made of, owned; lanes are 1 unless a test asks for more.
+/// An owned [`SolverSpec`]; lanes are 1 unless a test sets more.
 #[derive(Clone, Debug)]
 pub struct Setup {
     pub parameters: Parameters,

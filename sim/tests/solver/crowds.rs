@@ -40,7 +40,7 @@ fn lists(mut setup: Setup, poses: &[Pose], longer: u32) -> Vec<(List, SolverStat
     lanes(&device).into_iter().map(list_by).collect()
 }
 
-/// Balls in which each sees all others. 56 neighbours have a place.
+/// Balls in which each particle has all others as neighbours; 56 neighbours have a place in the list.
 #[test]
 fn a_list_that_is_longer_than_its_place_is_whole_and_counted() {
     let mut random = Random(2);
@@ -62,7 +62,8 @@ fn a_list_that_is_longer_than_its_place_is_whole_and_counted() {
     }
 }
 
-/// 600 of whom each sees all ask for more room than there is for long lists: none has any, and each list ends with its places.
+/// 600 particles that are all neighbours need more room than there is for long lists: none has a long list, and each list ends with its
+/// places.
 #[test]
 fn where_long_lists_have_no_room_all_end_with_their_places() {
     let all = ball(&mut Random(4), 600, DVec3::ZERO, 0.003);
@@ -98,8 +99,8 @@ fn a_long_list_knows_nothing_behind_glass() {
     }
 }
 
-/// Pushes between particles of a crowd balance, because both of a pair know it. Where lists end with their places, 59 % of all momentum is left over. The
-/// density is that of all.
+/// Pushes between particles of a crowd balance, because both of a pair know it. Where lists end with their places, 59 % of all momentum
+/// is left over. The density is that of all.
 #[test]
 fn a_crowd_keeps_its_momentum() {
     let device = gpu::device();
@@ -141,7 +142,8 @@ fn a_crowd_keeps_its_momentum() {
     }
 }
 
-/// Long lists take their room in an order of chance. Nothing of the state shows it, also where they ask for too much and none has room.
+/// Long lists take their room in an order that varies from run to run. The state does not depend on it, even where they need more room
+/// than there is and none has any.
 #[test]
 fn crowds_repeat_and_go_on_where_they_were_kept() {
     let device = gpu::device();
@@ -162,8 +164,8 @@ fn crowds_repeat_and_go_on_where_they_were_kept() {
     }
 }
 
-/// In a crowd whose long lists have no room, some pairs are known to one side alone. What such a pair exchanged would come from nowhere.
-/// Where they have room, such particles exchange nothing either.
+/// In a crowd whose long lists have no room, some pairs are in one particle's list alone. The exchange of such a pair would not be
+/// conserved. Where they have room, such particles exchange nothing either.
 #[test]
 fn full_lists_make_no_acid() {
     let paper = Paper {
@@ -220,7 +222,7 @@ fn no_acid_is_made(chemistry: Chemistry, crowd: usize, radius: f64) {
     let after = sums();
     let drift = (after[0] - before[0]).abs() / before[0];
     assert!(drift < 1e-6, "{drift}");
-    // What has whole lists mixes all the same.
+    // Particles with complete lists mix all the same.
     let mixed = (before[1] - after[1]) / before[1];
     assert!(mixed > 1e-5, "{mixed}");
 }

@@ -172,7 +172,7 @@ fn forces_are_the_references() {
 /// Height of the rim of `narrow_glass` over its base, m.
 const RIM: f64 = 0.062;
 
-/// A column that stands over the rim: what is in the glass and what is above it are in each other's grid.
+/// A column that stands over the rim: liquid in the glass and liquid above it are in each other's grid.
 #[test]
 fn tension_through_a_mouth_is_the_references() {
     let device = gpu::device();
@@ -214,7 +214,7 @@ fn tension_through_a_mouth_is_the_references() {
     }
 }
 
-/// What walls hold acts in the substep after it was found, on liquid in a glass that moves and on what lies on the floor.
+/// The walls' holding acts in the substep after it was found, on liquid in a glass that moves and on liquid on the floor.
 #[test]
 fn lines_are_held_as_the_references() {
     let device = gpu::device();

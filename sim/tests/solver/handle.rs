@@ -1,4 +1,5 @@
-//! What tools do to the liquid: a rod's drag against that of a cylinder in a stream, and what a cloth takes up against what lay there.
+//! Action of tools on the liquid: a rod's drag against that of a cylinder in a stream, and the liquid that a cloth takes up against what
+//! lay there.
 
 use crate::common::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -38,7 +39,7 @@ fn with_tools(particles: Vec<Particle>) -> Setup {
 }
 
 /// In resting water the impulse of a step is ½ ρ C D u² L Δt across the rod, C = 1.2 (White), and none along it. A lattice has as many
-/// particles in a slanted cylinder as its volume asks for, to 3 %; that slower particles are dragged less takes some per cent more.
+/// particles in a slanted cylinder as its volume gives, to 3 %; that slower particles are dragged less takes some per cent more.
 #[test]
 fn a_rod_drags_as_a_cylinder_in_a_stream() {
     let gpu = gpu::device();
@@ -131,7 +132,7 @@ fn a_cloth_takes_up_what_it_lies_on() {
     assert!(solver.counters().unwrap().nan_particles == 0);
 }
 
-/// What is in a flask is in no cloth's reach, though it is near.
+/// A cloth does not take up liquid in a flask, though it is near.
 #[test]
 fn a_cloth_takes_nothing_out_of_a_flask() {
     let gpu = gpu::device();

@@ -58,7 +58,7 @@ pub fn scene(parameters: Parameters) -> Setup {
     particles.extend(outside.map(|position| drop_at(position, DVec3::ZERO)));
     for particle in &mut particles {
         particle.position += random.point(0.1 * D);
-        // What both solvers start with is the same float.
+        // Both solvers start with the same floats.
         particle.position = particle.position.as_vec3().as_dvec3();
         particle.velocity = random.point(0.1).as_vec3().as_dvec3();
         particle.carried = f64::from(-0.2 * random.number() as f32);

@@ -1,4 +1,4 @@
-//! What a world is brought back from after its device is lost.
+//! Recovery of a world after its device is lost.
 
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_shaders::Library;
@@ -37,7 +37,7 @@ fn kept(world: &World) -> Kept {
     record.kept().unwrap()
 }
 
-/// What another world is after it was brought back from this one's notes.
+/// State of another world after it was revived from this one's lifeline.
 fn revived(gpu: &Gpu, world: &World) -> World {
     let mut other = self::world(gpu);
     other.revive(world.lifeline().unwrap()).unwrap();
@@ -48,8 +48,7 @@ fn hash(world: &World) -> u64 {
     world.snapshot().unwrap().solver.hash()
 }
 
-/// A state that was on its way to the host when another took its place says nothing of what followed, though nothing was done between
-/// the two.
+/// A state that was on its way to the host when another took its place is ignored, though nothing was done between the two.
 #[test]
 fn a_state_from_before_another_was_taken_up_is_left_alone() {
     let gpu = gpu::device();
@@ -65,7 +64,7 @@ fn a_state_from_before_another_was_taken_up_is_left_alone() {
     let back = revived(&gpu, &world);
     assert_eq!((back.steps(), hash(&back)), (1, hash(&world)));
 
-    // What is recorded from then on serves, and lets the notes before it go.
+    // States recorded from then on are taken up, and drop the acts before them.
     let next = kept(&world);
     steps(&mut world, 2);
     world.keep(next);

@@ -1,4 +1,4 @@
-//! What had to be limited, or taken out, is counted.
+//! Limited motions and particles that were taken out are counted.
 
 use crate::common::{particles as particles_of, *};
 use glam::DVec3;
@@ -146,7 +146,7 @@ fn flask_constraints_are_counted() {
         solver.counters().unwrap().flask_constraints
     };
     assert_eq!(run(vec![inside(DVec3::Y * 0.03)]), 0);
-    // What is predicted into the glass is put back uncounted.
+    // Predictions into the glass are put back and not counted.
     let thrown = Particle {
         velocity: DVec3::X * 5.0,
         ..inside(DVec3::new(0.01, 0.03, 0.0))

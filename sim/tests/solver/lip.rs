@@ -1,4 +1,4 @@
-//! A brim that holds what stands above it, and a lip that liquid clings to.
+//! A brim that holds liquid standing above it, and a lip that liquid clings to.
 
 use crate::common::*;
 use crate::tension::tense;
@@ -23,7 +23,7 @@ const GRAVITY: f64 = 9.81;
 /// Time to come to rest before it is tipped, s.
 const REST: f64 = 0.4;
 
-/// What ran out of the beaker.
+/// Liquid that ran out of the beaker.
 struct Poured {
     /// Tilt (degrees) at which 20 particles were below the lip.
     starts: f64,
@@ -32,8 +32,8 @@ struct Poured {
     flow: f64,
 }
 
-/// Tips the beaker by `rate` (degrees/s) from `from` (degrees) up to `furthest`, with surface tension `tension` (N/m), filled with particles `spacing` (m)
-/// wide, for `time` s, or until it runs.
+/// Tips the beaker by `rate` (degrees/s) from `from` (degrees) up to `furthest`, with surface tension `tension` (N/m), filled with
+/// particles `spacing` (m) wide, for `time` s, or until it runs.
 fn tip(
     device: &Gpu,
     spacing: f64,
@@ -176,7 +176,8 @@ fn a_brim_of_fine_particles_holds_what_gibbs_lets_it() {
     holds_its_brim(0.4e-3, 15.0);
 }
 
-/// Teapot: what runs out slowly clings to the outside, what runs out fast leaves. Of water on a glass rod Jambon-Puillet et al.
+/// Teapot: liquid that runs out slowly clings to the outside, liquid that runs out fast leaves. Of water on a glass rod Jambon-Puillet et
+/// al.
 /// (2019) saw 0.5 mL/s cling and more than 1 mL/s go nearly straight.
 #[test]
 #[ignore = "minutes without a graphics card"]

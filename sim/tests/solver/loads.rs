@@ -1,4 +1,4 @@
-//! What the liquid does to a flask, by statics.
+//! Loads of the liquid on a flask, against statics.
 
 use crate::common::*;
 use glam::{DVec3, Quat, Vec3};
@@ -56,7 +56,7 @@ fn a_glass_bears_the_weight_of_its_water() {
     let found = particles(&solver.snapshot().unwrap());
     let centre = found.iter().map(|p| p.position).sum::<DVec3>() / 600.0;
     let weight = DVec3::Y * (-9.81 * mass * 600.0 * time);
-    // At rest but for what still sways.
+    // At rest apart from residual sloshing.
     let off = impulse.distance(weight) / weight.length();
     assert!(off < 0.02, "{impulse} for {weight}");
     let torque = (centre - poses[0].position.as_dvec3()).cross(weight);
@@ -194,7 +194,7 @@ fn what_walls_drag_and_wet_drags_and_pulls_the_glass() {
         if tension > 0.0 {
             assert!(gained.length() > 0.01 * whole, "{gained} of {whole}");
         }
-        // Where a way is cut to the neighbour list's, or to v_max, its momentum is nobody's.
+        // Where a way is cut to the neighbour list's, or to v_max, its momentum is lost.
         let counters = solver.counters().unwrap();
         assert_eq!((counters.list_limited, counters.speed_limited), (0, 0));
         // Sums of floats, and velocities that each step rounds: 2e-5 was seen.

@@ -1,4 +1,4 @@
-//! What a report says of states whose particles were put in place by hand.
+//! Measurements of a report on states whose particles were put in place by hand.
 
 use crate::chemistry::setup::{boiling, glass_of, with};
 use crate::common::*;
@@ -137,7 +137,7 @@ fn heat_is_summed_by_mass_and_superheat_by_composition() {
             "{own} for {expected}: {ledger:?}"
         );
     }
-    // What is held and has left, less what came in.
+    // Enthalpy held and carried off, less the heat gained.
     assert!(near(ledger.balance() / unit, 7e5 + 400.0 + 30.0));
     let mut later = ledger;
     later.held += 0.01 * ledger.turnover;

@@ -72,7 +72,7 @@ fn disc_layers(radius: f64, spacing: f64, base: f64) -> impl Iterator<Item = DVe
     })
 }
 
-/// Puts `count` particles that have fallen onto what is in the tube.
+/// Puts `count` particles that have fallen onto the liquid in the tube.
 fn feed(state: &mut SolverState, count: usize, radius: f64, spacing: f64) {
     let inside = (0..state.tags.len()).filter(|&slot| state.flask_of(slot).is_some());
     let heights = inside.map(|slot| state.positions[slot][1]);
@@ -131,7 +131,8 @@ fn nozzle(diameter: f64, spacing: f64) -> (Setup, Pose) {
 }
 
 /// The drop that falls from a nozzle `diameter` (m) wide outside, of particles `spacing` wide, fed so that one would fall in `period`
-/// seconds, its satellites with it: the first, as those after it are within 2 % of it. Its volume over Harkins and Brown's, and over what that is at this flow.
+/// seconds, its satellites with it: the first, as those after it are within 2 % of it. Its volume over Harkins and Brown's, and over what
+/// that is at this flow.
 fn drop_of(device: &Gpu, diameter: f64, spacing: f64, period: f64) -> [f64; 2] {
     let (setup, pose) = nozzle(diameter, spacing);
     let solver = setup.solver(device);

@@ -1,4 +1,4 @@
-//! A pane against flight in closed form: what flies at it stays before it, what flies past it does not know of it.
+//! A pane against flight in closed form: particles that fly at it stay before it, those that fly past it are not affected.
 
 use crate::chemistry::setup::bubbly;
 use crate::chemistry::spray::spraying;
@@ -72,7 +72,7 @@ fn drops_stay_before_a_pane() {
     }
 }
 
-/// Spray is stopped where it is thrown, and what is beside the pane flies on.
+/// Spray is stopped where it is thrown, and drops beside the pane fly on.
 #[test]
 fn spray_stays_before_a_pane() {
     let gpu = gpu::device();

@@ -1,4 +1,4 @@
-//! A scene pays for what it names, and for nothing else.
+//! A scene runs the passes of the features that it names, and no others.
 
 use crate::common::*;
 use vitriol_gpu::{GpuError, QueueKind, Timestamps};
@@ -153,7 +153,7 @@ fn frames_dispatch_what_the_scene_has() {
     assert_eq!(sum(&own), 15, "{own:?}");
     let theirs = passes(&full, &[Pose::IDENTITY]);
     assert_eq!(count(&theirs, "sim/load"), 1, "{theirs:?}");
-    // What is carried costs one more a substep.
+    // Carried multipliers take one more pass a substep.
     assert_eq!(sum(&theirs), 18, "{theirs:?}");
     let with_forces = |vorticity: f64, tension: f64| {
         let setup = Setup {

@@ -92,7 +92,7 @@ fn random_flasks_and_motions_keep_what_the_reference_keeps() {
         viscosity: 0.0,
         max_speed: 1e4,
         iterations: 1,
-        // What flasks put together stays so: nothing but the constraint moves a particle.
+        // Particles that flasks put together stay so: nothing but the constraint moves a particle.
         relaxation: Relaxation::Jacobi { omega: 1e-9 },
         ..single_substeps()
     };

@@ -143,7 +143,7 @@ fn state_on_a_new_device_goes_on_with_the_same_bits() {
     assert_eq!(solver.counters().unwrap().list_rebuilds, built);
     let resumed = run(&device, &solver, 0..8);
     assert_eq!(resumed.hash(), end.hash());
-    // The list and what was counted go on, too.
+    // The list and the counters go on, too.
     assert!(resumed == end);
     assert!(middle.hash() != end.hash());
 }

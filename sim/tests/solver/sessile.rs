@@ -88,7 +88,8 @@ fn half_a_ball(
     (setup.solver(device), volume)
 }
 
-/// The same of this contact angle after `frames`: height, radius where it stands, and volume.
+/// [`half_a_ball`] under gravity with contact angle `angle` (radians), after `frames_count` frames of 1/900 s: its height and the radius
+/// of its base (m), and its volume (m³).
 fn stand(device: &Gpu, spacing: f64, angle: f64, frames_count: usize) -> (Sessile, f64) {
     let surface = SurfaceTension {
         ground: angle,

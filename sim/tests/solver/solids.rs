@@ -171,7 +171,7 @@ fn maps_keep_the_volume_that_solids_do_not() {
     assert!(maps.time < solids.time, "{} {}", maps.time, solids.time);
 }
 
-/// The world makes the solids that its scene asks for.
+/// The world makes the solids that its scene names.
 #[test]
 fn a_scene_may_ask_for_solids() {
     let device = gpu::device();

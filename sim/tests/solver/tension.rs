@@ -166,7 +166,7 @@ fn a_ball_swings_as_rayleigh_says() {
     swings_as_rayleigh_says(3);
 }
 
-/// Cubes of eight particles in more places than the table has room for: nothing acts, and it is said. In a few places they draw
+/// Cubes of eight particles in more places than the table has room for: nothing acts, and it is counted. In a few places they draw
 /// together.
 #[test]
 fn a_table_that_is_full_is_counted() {
@@ -256,7 +256,7 @@ fn a_sheet_draws_in_as_taylor_and_culick_say() {
     }
 }
 
-/// What splashes: drops of 32 to 88 particles, 4 to 5.5 of them across, stay one for a second. With the F of thick liquid alone those
+/// Splashes: drops of 32 to 88 particles, 4 to 5.5 of them across, stay one for a second. With the F of thick liquid alone those
 /// of less than 60 fly apart at 0.15 m/s.
 #[test]
 fn small_drops_stay_whole() {
@@ -277,7 +277,7 @@ fn small_drops_stay_whole() {
     }
 }
 
-/// What lies on the bench: 104 particles that splash down as half a ball lie in puddles in the end, which rest. Their layer is one
+/// Puddles on the bench: 104 particles that splash down as half a ball lie in puddles in the end, which rest. Their layer is one
 /// particle thick, as thick as a puddle of 65° is (2a sin 32.5° = 2.9 mm). One that lies alone has 0.82 of a density.
 #[test]
 fn small_puddles_gather_and_rest() {

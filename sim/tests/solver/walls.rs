@@ -59,7 +59,7 @@ fn glasses_that_touch_do_not_feel_each_other() {
         })
         .collect();
     let solids = vec![sample(&thin_glass(), 0.5 * D, H); 2];
-    // Solids throw back what is as near to them as this, further than lists
+    // Solids throw back particles as near to them as this, further than lists
     // reach: relaxed less, they take their time.
     let gently = Parameters {
         relaxation: Relaxation::Jacobi { omega: 0.01 },
@@ -108,7 +108,7 @@ fn glasses_that_touch_do_not_feel_each_other() {
     }
 }
 
-/// Glass that moves along itself drags what touches it: by V of that glass
+/// Glass that moves along itself drags the liquid that touches it: by V of that glass
 /// and its velocity, or v_max where that is less; from inside, from outside,
 /// and between two that move against each other. Floors hold.
 #[test]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use vitriol_gpu::Gpu;
 use vitriol_run::{Blame, Failure, Ranks};
 use vitriol_sim::fill::{count_for_volume, fill};
-use vitriol_sim::flask::{Profile, glass, particles::sample};
+use vitriol_sim::flask::{Profile, glassware, particles::sample};
 use vitriol_sim::pose::Pose;
 use vitriol_sim::scene::Scene;
 use vitriol_sim::solver::{Particle, Solver, SolverSpec, SolverState};
@@ -106,7 +106,7 @@ struct Tank {
 impl Tank {
     fn new(gpu: &Gpu, scene: &Scene, setting: &Setting, volume: f64) -> Result<Self, Failure> {
         let parameters = setting.parameters(scene);
-        let vessel = glass::find(VESSEL).ok_or("the vessel of the trade is no glassware");
+        let vessel = glassware::find(VESSEL).ok_or("the vessel of the trade is no glassware");
         let profile = vessel.other()?.profile(1.0).other()?;
         let d = setting.spacing;
         let count = count_for_volume(volume, d);

@@ -168,7 +168,7 @@ fn every_text_of_the_panel_can_be_shown() {
     let context = context();
     let font = FontId::proportional(SIZE);
     for language in Language::ALL {
-        let table = std::fs::read_to_string(format!("texts/{language}.toml")).unwrap();
+        let table = std::fs::read_to_string(format!("../texts/{language}.toml")).unwrap();
         let missing: Vec<char> = context.fonts_mut(|fonts| {
             let texts = table.lines().filter(|line| !line.starts_with('#'));
             let all = texts.flat_map(str::chars).filter(|it| !it.is_whitespace());

@@ -1,4 +1,4 @@
-// The heat of the flasks' glass: rings of their walls (`chemistry/glass.rs`).
+// The heat of the flasks' glass: rings of their walls (`chemistry/wall_heat.rs`).
 
 /// Rings of a flask.
 const GLASS_RINGS: u32 = 32u;

@@ -1,4 +1,4 @@
-//! A free flask and liquid that answers two steps later.
+//! A free flask and liquid whose reaction comes two steps later.
 
 use super::*;
 

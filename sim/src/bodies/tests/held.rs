@@ -159,7 +159,7 @@ fn a_thrown_flask_flies_a_parabola() {
     assert!((found.angular - spin).length() < 1e-3, "{found:?}");
 }
 
-/// What a tracker's jerk leaves behind is no missile.
+/// A flask that is let go during a tracker's jerk does not fly off faster than a throw.
 #[test]
 fn release_velocity_is_limited() {
     let start = above_table(0.5);
@@ -226,7 +226,7 @@ fn a_leap_takes_no_time() {
     }
 }
 
-/// A hand of which nothing is known for a while leaves what it holds where it is, and finds it in itself again.
+/// A hand that is not tracked for a while leaves the body that it holds where it is, and still holds it when it is tracked again.
 #[test]
 fn a_hand_that_comes_back_leaps() {
     let start = above_table(0.5);
@@ -275,7 +275,7 @@ fn a_flask_changes_hands() {
     assert_eq!(bodies.holder(0), Some(0));
     bodies.step(&[left(0.0, 1.0), right(0.05, 1.0)], &[]);
     assert_eq!(bodies.holder(0), Some(1));
-    // The former hand goes away, still closed, and then opens: nothing comes of it.
+    // The former hand goes away, still closed, and then opens: the flask is not affected.
     for (x, squeeze) in [(0.3, 1.0), (0.4, 0.0)] {
         bodies.step(&[left(x, squeeze), right(0.15, 1.0)], &[]);
         assert_eq!(bodies.holder(0), Some(1));

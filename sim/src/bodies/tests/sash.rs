@@ -100,8 +100,8 @@ fn thrown_glass_stays_behind_a_sash() {
         let z = bodies.poses()[0].position.z;
         // The pane's near face, and a beaker that leans.
         assert_eq!(z < 0.05, stays, "{up} m up: {z} m");
-        // On the pane with the throw's 1 m/s, and what friction takes of the fall's 2 m/s; else on the table with √(2 g 0.25 m) = 2.2 m/s, and
-        // what it takes of the throw.
+        // On the pane with the throw's 1 m/s, and what friction takes of the fall's 2 m/s; else on the table with √(2 g 0.25 m) = 2.2
+        // m/s, and what it takes of the throw.
         let expected = if stays { 1.0..2.0 } else { 2.1..2.6 };
         assert!(expected.contains(&first.unwrap()), "{first:?} m/s");
     }
@@ -122,7 +122,7 @@ fn a_sash_leaps_nowhere() {
     }
 }
 
-/// What it is in a snapshot goes on from there, held.
+/// A sash that is held goes on from a snapshot.
 #[test]
 fn a_held_sash_is_restored() {
     let mut bodies = hood(Vec3::new(0.0, TABLE_TOP, -0.3), 0.3);

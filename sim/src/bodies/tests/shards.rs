@@ -132,7 +132,7 @@ fn a_hand_breaks_what_it_slams_down() {
     }
 }
 
-/// Thrown at each other, both break; what is clamped does not.
+/// Thrown at each other, both break; a clamped flask does not.
 #[test]
 fn glass_breaks_glass() {
     for fixed in [false, true] {
@@ -185,7 +185,7 @@ fn a_break_is_as_if_never_interrupted() {
         }
         assert_eq!(end(&again), end(&whole), "{from}");
     }
-    // What broke in the state before has not in the one that is taken up.
+    // A flask that broke in the state before has not in the one that is taken up.
     let mut again = drop();
     again.restore(&states[broke]).unwrap();
     again.step(&NO_HANDS, &[]);
@@ -220,7 +220,7 @@ fn the_base_goes_on_as_the_flask_went() {
     assert!(sum.length() < 6e-3, "{sum}");
 }
 
-/// Shards that have come to rest sleep; what is taken up then goes on with the same bits, and a beaker that falls among them wakes them.
+/// Shards that have come to rest sleep; a snapshot of them goes on with the same bits, and a beaker that falls among them wakes them.
 #[test]
 fn sleeping_shards_are_taken_up_as_well() {
     let fall = || {

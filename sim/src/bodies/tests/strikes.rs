@@ -1,4 +1,4 @@
-//! Blows against the momentum of what falls and is put down.
+//! Blows against the momentum of bodies that fall or are put down.
 
 use super::*;
 use crate::bodies::Strike;

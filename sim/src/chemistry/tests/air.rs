@@ -60,7 +60,7 @@ fn enthalpy_and_water_are_those_that_were_taken_in() {
         puff.advance(&room, G, 1.0 / 360.0);
         let taken = (puff.air - air) * room.humidity;
         assert!((puff.water - water - taken).abs() < 1e-12);
-        // What temperature and mist say it holds: five steps of Newton's
+        // Enthalpy that follows from temperature and mist: five steps of Newton's
         // leave less than 0.05 K.
         let vapour = puff.water - puff.mist;
         let t = puff.temperature;

@@ -173,7 +173,7 @@ fn temperature_inverts_enthalpy() {
             "{inside} {by_difference} {slope}"
         );
     }
-    // What is colder than cold stays a temperature.
+    // An enthalpy below that at absolute zero gives absolute zero at least.
     assert!(table.at(0.9).temperature(-1e9) >= ABSOLUTE_ZERO);
 }
 

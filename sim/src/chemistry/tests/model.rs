@@ -76,7 +76,7 @@ fn the_physical_chemistrys_numbers_arrive() {
         other => panic!("has the physical chemistry, not {other:?}"),
     };
     assert_eq!(of(&scene), all);
-    // What a scene does not model is off, and nothing else.
+    // Features that a scene does not model are off, and nothing else.
     type Off = fn(&mut Physical);
     let features: [(Feature, Off); 8] = [
         (Feature::Segregation, |law| law.lamella = None),

@@ -222,7 +222,7 @@ fn no_turnover_makes_new_extremes() {
     let table = SolutionTable::new();
     let mut random = Random(7);
     for (count, speed) in [(2, 1e9), (5, 1e9), (40, 1e9), (40, 0.03), (40, 0.001)] {
-        // In one place, where pairs exchange most; each knows the first ones, and these know all.
+        // In one place, where pairs exchange most; each has the first ones as neighbours, and these have all.
         let known = |i: usize, j: usize| i != j && (i < 2 || j < 2);
         let particles: Vec<_> = (0..count)
             .map(|i| {

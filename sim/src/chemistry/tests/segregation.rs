@@ -72,7 +72,7 @@ impl Layers {
     /// it, and all stays of one temperature.
     fn steam(&self, table: &SolutionTable) -> f64 {
         let lost = |temperature: f64| {
-            // What boils ends at the fraction that boils at T.
+            // Boiling liquid ends at the fraction that boils at T.
             let (mut low, mut high) = (0.0, FEED);
             for _ in 0..40 {
                 let middle = 0.5 * (low + high);
@@ -127,7 +127,8 @@ fn of_layers(table: &SolutionTable, mean: f64, feeds: [f64; 2]) -> [f64; 2] {
     most
 }
 
-/// The same of the closure.
+/// Largest superheat (K) and steam at once (share of the mass) as in [`of_layers`], by the closure from c and s² while s² falls from
+/// that of unmixed layers to 0.
 fn of_closure(table: &SolutionTable, mean: f64, feeds: [f64; 2]) -> [f64; 2] {
     let mut most = [f64::NEG_INFINITY, 0.0f64];
     for k in 1..400 {

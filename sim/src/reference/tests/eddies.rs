@@ -103,7 +103,7 @@ fn the_filter_is_as_wide_as_it_says() {
     assert!(errors[3].abs() < 0.02, "{errors:?}");
 }
 
-/// What jitters and does not flow: 1 mm/s from particle to particle, as liquid at rest has. As a difference of
+/// Jitter without flow: 1 mm/s from particle to particle, as liquid at rest has. As a difference of
 /// velocities over a spacing that is 0.5/s; filtered it is less, and the less the finer.
 #[test]
 fn jitter_is_filtered() {
@@ -165,7 +165,7 @@ fn stratification_damps_as_lilly_says() {
     }
 }
 
-/// What lifting acid takes, K·N² a kilogram, is never more than what the eddies take from the flow.
+/// The power that lifts acid, K·N² a kilogram, is never more than the eddies take from the flow.
 #[test]
 fn lifting_is_paid_for() {
     let mixing = Mixing::default();

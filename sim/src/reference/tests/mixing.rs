@@ -104,7 +104,7 @@ fn a_stirred_box_ends_where_the_formula_does_whichever_is_above() {
         .unwrap();
         for content in &physical.contents {
             let temperature = content.temperature(&physical.table);
-            // What is left of the differences after the stirring.
+            // Differences that remain after the stirring.
             assert!(
                 (temperature - formula.temperature).abs() < 0.05,
                 "{content:?} {formula:?}"

@@ -1,4 +1,4 @@
-//! What eddies mix lies on the straight line between the two liquids, in c and h.
+//! Mixtures by eddies lie on the straight line between the two liquids, in c and h.
 //!
 //! Of water and 98 % acid at 20 °C that line is at most 9.0 K above its boiling point, and at
 //! most 159.9 °C hot: by the tables of heats of mixing, heat capacities and boiling points,
@@ -14,7 +14,7 @@ use glam::DVec3;
 const WATER: (f64, f64) = (20.0, 0.0);
 const ACID: (f64, f64) = (20.0, 0.98);
 
-/// A cube of `side`³ particles of `around`, and of `drop` where `inside` says so of the site.
+/// A cube of `side`³ particles of `around`, and of `drop` at the sites for which `inside` is true.
 fn cube(
     side: i32,
     inside: impl Fn([i32; 3]) -> bool,

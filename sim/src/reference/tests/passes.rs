@@ -56,7 +56,7 @@ fn shaken_water(refinement: u32) -> Reference {
     Reference::new(parameters(), surroundings, positions, &[Pose::IDENTITY])
 }
 
-/// What the slope of a wall's volume, by differences, may be off the map's
+/// Tolerance of the slope of a wall's volume, by differences, from the map's
 /// gradient, in units of 1/h. The map is linear between nodes
 /// s = h/(6·`refinement`) apart and its slope is another table. So the
 /// difference is that of the interval's middle: V″·s/2 with V″ ≤ 3/h² for a

@@ -1,4 +1,4 @@
-//! What the whole step must do to a liquid that is left alone.
+//! Requirements on the whole step for a liquid that is left alone.
 
 use super::*;
 

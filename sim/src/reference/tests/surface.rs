@@ -160,7 +160,7 @@ fn lines_are_held_by_what_hysteresis_says() {
     }
 }
 
-/// What liquid does to itself sums to nothing, but for what lies between nodes.
+/// Internal forces of the liquid sum to zero, apart from the error between nodes.
 #[test]
 fn momentum_of_a_free_liquid_is_kept() {
     let mut random = Random(6);

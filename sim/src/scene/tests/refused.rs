@@ -1,4 +1,4 @@
-//! Scenes with a mistake, and what is said of it.
+//! Scenes with a mistake, and the errors for them.
 
 use super::GOOD;
 use crate::chemistry::Chemistry;

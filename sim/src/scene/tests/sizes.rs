@@ -154,7 +154,7 @@ fn coordinate() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Numbers as a file may have them; not such as ask for millions of particles.
+/// Numbers as a file may have them, without those that would give millions of particles.
 fn numbers() -> impl Strategy<Value = String> {
     prop_oneof![
         4 => (0.002..2.0f64).prop_map(|number| format!("{number:?}")),
@@ -183,7 +183,7 @@ fn number_places(text: &str) -> Vec<std::ops::Range<usize>> {
     places
 }
 
-/// What is allowed for a flask is not allowed for each of many: the sum has to fit.
+/// A size allowed for one flask is not allowed for each of many: the sum has to fit.
 #[test]
 fn all_flasks_together_have_a_size() {
     let from = GOOD.find("[[flask]]").unwrap();

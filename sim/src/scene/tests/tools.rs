@@ -1,4 +1,4 @@
-//! Where tools may be, and what is said of one that is elsewhere.
+//! Where tools may be, and the error for one that is elsewhere.
 
 use super::GOOD;
 use crate::scene::{Scene, ToolKind};
@@ -29,7 +29,7 @@ fn tools_lie_on_the_bench() {
         let error = cloth(position).unwrap_err();
         assert!(error.contains(field) && error.contains(must), "{error}");
     }
-    // What lies on its side counts by its middle.
+    // A tool that lies on its side counts by its middle.
     scene(TABLE, &[("rod", "[0.59, 0.5, 0.0]", "")]).unwrap();
     // Without a table it lies where it is put.
     scene("", &[("cloth", "[5.0, 0.0, 0.0]", "")]).unwrap();

@@ -1,4 +1,4 @@
-//! What a look says: what is in each place, and what came there since the look before.
+//! The result of a look: the liquid in each place, and the arrivals there since the look before.
 
 use glam::{DVec3, Vec3};
 
@@ -20,18 +20,18 @@ impl Skin {
     pub const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Face];
 }
 
-/// A part of a user that liquid can come to: the hull of two spheres in the scene's stage, m of the scene.
+/// A part of a user that liquid can touch: the hull of two spheres in the scene's stage, m of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinPart {
     /// Whose it is.
     pub whose: Skin,
-    /// The spheres' middles.
+    /// The spheres' centres.
     pub ends: [Vec3; 2],
     /// Their radii.
     pub radii: [f32; 2],
 }
 
-/// What is in a place.
+/// Liquid in a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Held {
     /// Particles in it.
@@ -40,30 +40,31 @@ pub struct Held {
     pub volume: f64,
     /// Mean temperature over them, °C; `None` of none, and where no heat is modelled.
     pub temperature: Option<f32>,
-    /// That of the hottest, °C, likewise.
+    /// Temperature of the hottest particle, °C; `None` of none, and where no heat is modelled.
     pub hottest: Option<f32>,
-    /// By how much the one that is furthest above its boiling point is above it, K, likewise; most are below.
+    /// Greatest superheat (temperature over the boiling point) of a particle, K, mostly negative; `None` of none, and where no heat is
+    /// modelled.
     pub superheat: Option<f32>,
     /// Mean acid mass fraction over them.
     pub acid: f32,
-    /// What came to it from elsewhere since the last look.
+    /// Liquid that came to it from elsewhere since the last look.
     pub came: Came,
     /// Its bubbles.
     pub bubbles: Bubbling,
 }
 
-/// Harmful liquid at somebody's skin.
+/// Harmful liquid at a user's skin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touching {
-    /// Particles that touch it; thrown drops are none.
+    /// Particles that touch it, without thrown drops.
     pub particles: u32,
-    /// What came to it that had not touched it before.
+    /// Harmful liquid that came to it and had not touched it before.
     pub came: Came,
-    /// Volume of what is not harmful that came to it, likewise, m³ of the scene; 0 in a scene without tools.
+    /// Volume of harmless liquid that came to it and had not touched it before, m³ of the scene; 0 in a scene without tools.
     pub rinsed: f64,
 }
 
-/// What came to a place since the last look; means are over particles.
+/// Liquid that came to a place since the last look; means are over particles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Came {
     /// Particles.
@@ -91,7 +92,7 @@ pub enum Place {
     Table,
     /// Lying on the floor.
     Floor,
-    /// At somebody's skin, and harmful.
+    /// At a user's skin, and harmful.
     Skin(Skin),
 }
 
@@ -108,7 +109,7 @@ impl Place {
     }
 }
 
-/// What came to a place since the last look and had been in one flask last.
+/// Liquid that came to a place since the last look and had been in a given flask last.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moved {
     /// Particles.
@@ -119,18 +120,18 @@ pub struct Moved {
     pub acid: f64,
 }
 
-/// Bubbles of a flask, and what became of them since the last look.
+/// Bubbles of a flask, and those that were born, collapsed or burst since the last look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bubbling {
-    /// That are there, and their mean radius, m.
+    /// Present bubbles, and their mean radius, m.
     pub here: BubbleCount,
     /// Their volume, m³ of the scene.
     pub volume: f64,
-    /// That came to be.
+    /// Number of bubbles born since the last look.
     pub born: u32,
-    /// That went out in liquid that is too cold for them, and the mean of their largest radii.
+    /// Bubbles that collapsed in liquid too cold for them, and the mean of their largest radii, m.
     pub collapsed: BubbleCount,
-    /// That burst at the surface, likewise.
+    /// Bubbles that burst at the surface, and the mean of their largest radii, m.
     pub burst: BubbleCount,
 }
 
@@ -154,17 +155,17 @@ pub struct Census {
     pub table: Held,
     /// Lying on the floor.
     pub floor: Held,
-    /// By [`Skin::ALL`]: of the liquid of no flask that is harmful ([`HARMFUL`](super::HARMFUL)) how much touches it and what came to it anew.
+    /// By [`Skin::ALL`]: harmful liquid of no flask ([`HARMFUL`](super::HARMFUL)) that touches it, and that newly came to it.
     pub skin: [Touching; 3],
-    /// By place and flask, as [`Census::moved`] says; empty where nothing did.
+    /// Liquid moved by place and flask, which [`Census::moved`] reads; empty where nothing moved.
     pub moves: Vec<Moved>,
-    /// By flask: what drops of its bubbles came to rest elsewhere since the start, m³ of the scene at rest density.
+    /// By flask: volume of the drops of its bubbles that came to rest elsewhere since the start, m³ of the scene at rest density.
     pub sprayed: Vec<f64>,
 }
 
 impl Census {
-    /// What came to a place and had been in `flask` last. On table and floor each particle counts once until it is in a flask again, so
-    /// that what bounces or runs off is no more than it is; at skin likewise.
+    /// Liquid that came to a place and had been in `flask` last. On table and floor, and at skin, each particle counts once until it is
+    /// in a flask again, so that liquid that bounces or runs off is not counted twice.
     pub fn moved(&self, to: Place, flask: usize) -> Moved {
         let flasks = self.flasks.len();
         let row = to.row(flasks);
@@ -176,7 +177,7 @@ impl Census {
         }
     }
 
-    /// The same with what was arranged, for tests of what reads it.
+    /// This census with `moved` as the value that [`Census::moved`] gives for `to` and `flask`, for tests of code that reads it.
     #[must_use]
     pub fn with_moved(mut self, to: Place, flask: usize, moved: Moved) -> Self {
         let flasks = self.flasks.len();

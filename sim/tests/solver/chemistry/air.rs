@@ -14,7 +14,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Ground, Particle, Solver};
 use vitriol_tests::gpu;
 
-/// Of air at 20 °C, kg/m³.
+/// Density of air at 20 °C, kg/m³.
 const AIR: f64 = 1.204;
 
 /// A stream that falls into a glass 50 mm wide.
@@ -33,7 +33,7 @@ fn pour(spacing: f64, length: f64, speed: f64, level: f64) -> Pour {
     pour_beside(spacing, length, speed, level, 0.0)
 }
 
-/// The same, `aside` (m) of the glass's axis.
+/// The stream of [`pour`], `aside` (m) of the glass's axis.
 fn pour_beside(spacing: f64, length: f64, speed: f64, level: f64, aside: f64) -> Pour {
     let profile = Profile::new(&[[0.0, 0.025], [0.16, 0.025]], 0.002).unwrap();
     let scale = spacing / D;
@@ -94,7 +94,7 @@ fn pour_beside(spacing: f64, length: f64, speed: f64, level: f64, aside: f64) ->
     }
 }
 
-/// What Biń (1993) says that the stream takes down, m³: 0.04 Fr^0.28 (L/D)^0.4 of it.
+/// Air that the stream takes down by Biń (1993), m³: 0.04 Fr^0.28 (L/D)^0.4 of its volume.
 fn by_bin(pour: &Pour) -> f64 {
     let volume = pour.setup.parameters.particle_volume();
     let of = |&(height, speed): &(f64, f64)| {
@@ -123,7 +123,7 @@ fn a_stream_onto_dry_glass_or_a_slow_one_takes_no_air_down() {
     for (speed, level) in [(1.5, 0.0), (0.3, 0.02)] {
         let mut pour = pour(D, 0.07, speed, level);
         if level > 0.0 {
-            // What falls further is faster.
+            // A stream that falls further is faster.
             let low = |p: &Particle| p.position.y < level + 0.03;
             pour.setup.particles.retain(low);
             pour.falling.retain(|&(height, _)| height < level + 0.03);
@@ -137,7 +137,7 @@ fn a_stream_onto_dry_glass_or_a_slow_one_takes_no_air_down() {
     }
 }
 
-/// What goes on after a restore has the same bits, with air in bubbles and particles that are falling.
+/// The frames after a restore have the same bits, with air in bubbles and particles that are falling.
 #[test]
 fn a_pour_with_air_repeats() {
     let device = gpu::device();
@@ -231,8 +231,8 @@ fn air_that_bursts_in_acid_keeps_the_ledger() {
 mod long {
     use super::*;
 
-    /// A bubble of air has the volume of an ideal gas at the liquid's temperature; in superheated water it grows by steam, as one of steam does, and keeps
-    /// its air; in water of 40 °C all of that steam condenses and the air is left.
+    /// A bubble of air has the volume of an ideal gas at the liquid's temperature; in superheated water it grows by steam, as one of
+    /// steam does, and keeps its air; in water of 40 °C all of that steam condenses and the air is left.
     #[test]
     fn air_takes_steam_up_and_is_left_by_it() {
         let device = gpu::device();
@@ -324,8 +324,8 @@ mod long {
         }
     }
 
-    /// Within 30 %: his data scatter by as much, and lots by 10 %. At two sizes of particles, three speeds, and in the middle and beside the
-    /// glass. What is taken down comes up again and bursts.
+    /// Within 30 %: his data scatter by as much, and lots by 10 %. At two sizes of particles, three speeds, and in the middle and beside
+    /// the glass. Air that is taken down comes up again and bursts.
     #[test]
     fn a_stream_takes_down_as_much_air_as_bin_says() {
         let device = gpu::device();

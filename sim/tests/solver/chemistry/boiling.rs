@@ -46,7 +46,7 @@ fn energy(state: &SolverState) -> f64 {
     0.5 * squares / state.velocities.len() as f64
 }
 
-/// What two frames add, J/kg, from when each particle knows what moves
+/// Kinetic energy that two frames add, J/kg, once each particle has the agitation of the motion
 /// around it, `speed` m/s at the start.
 fn gain(law: Boiling, substeps: u32, speed: f64) -> f64 {
     let device = gpu::device();

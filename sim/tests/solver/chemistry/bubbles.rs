@@ -1,4 +1,4 @@
-//! One bubble of steam, or two: growth, rise, collapse, joining and bursting, against what is published.
+//! One bubble of steam, or two: growth, rise, collapse, joining and bursting, against published values.
 
 use super::setup::*;
 use crate::common::*;
@@ -135,9 +135,9 @@ fn a_bubble_grows_as_scriven_says() {
     }
 }
 
-/// In acid growth waits for water, too (Scriven 1959, binary): by 1 + √(α/D)·c·(dT_b/dc)·cp/L, and by the other factors of the Jakob number. By
-/// hand at 50 %: α 1.42e-7, D 2.9e-9 m²/s, 128 K, 2577 J/(kg K), 2.6 MJ/kg, so 1.46 × 1.075 × 1.09. At 70 %: 1.29e-7, 2.3e-9, 302, 2126, 2.55,
-/// so 2.32 × 1.01 × 1.14. D is Stokes's and Einstein's of 1.7e-9 at 25 °C. 15 %.
+/// In acid growth waits for water, too (Scriven 1959, binary): by 1 + √(α/D)·c·(dT_b/dc)·cp/L, and by the other factors of the Jakob
+/// number. By hand at 50 %: α 1.42e-7, D 2.9e-9 m²/s, 128 K, 2577 J/(kg K), 2.6 MJ/kg, so 1.46 × 1.075 × 1.09. At 70 %: 1.29e-7, 2.3e-9,
+/// 302, 2126, 2.55, so 2.32 × 1.01 × 1.14. D is Stokes's and Einstein's of 1.7e-9 at 25 °C. 15 %.
 #[test]
 fn a_bubble_grows_slower_in_acid() {
     let device = gpu::device();
@@ -264,8 +264,8 @@ fn a_bubble_collapses_as_akiyama_found() {
     }
 }
 
-/// Two bubbles of 2 mm that touch are two until the film between them has drained, √(R³ρ/16σ)·9.2 (Prince and Blanch 1990), which is 9 ms, and then
-/// one that has what both had; whether particles are larger or smaller than they. Two that do not touch stay two.
+/// Two bubbles of 2 mm that touch are two until the film between them has drained, √(R³ρ/16σ)·9.2 (Prince and Blanch 1990), which is 9
+/// ms, and then one that has what both had; whether particles are larger or smaller than they. Two that do not touch stay two.
 #[test]
 fn bubbles_that_touch_join_when_their_film_has_drained() {
     let device = gpu::device();

@@ -59,7 +59,7 @@ fn put_bubbles(solver: &Solver, share: f64, radius: f64) {
     solver.restore(&state).unwrap();
 }
 
-/// Mean pressure in a layer of the column, and the weight of what is above it, Pa.
+/// Mean pressure in a layer of the column, and the weight of the column above it, Pa.
 fn pressure_and_weight(state: &SolverState, p: &Parameters, height: f64) -> [f64; 2] {
     let slots = 0..state.tags.len();
     let above: f64 = slots
@@ -75,7 +75,8 @@ fn pressure_and_weight(state: &SolverState, p: &Parameters, height: f64) -> [f64
     [layer.iter().sum::<f64>() / layer.len() as f64, weight]
 }
 
-/// What liquid and vapour hold: mass (kg); enthalpy, of which the work of expansion is part, with the liquid's kinetic and potential energy (J).
+/// Mass (kg) of liquid and vapour, and their enthalpy, which includes the work of expansion, with the liquid's kinetic and potential
+/// energy (J).
 pub fn held(solver: &Solver) -> [f64; 2] {
     let state = solver.snapshot().unwrap();
     let gravity = DVec3::from(solver.parameters().gravity);
@@ -150,10 +151,10 @@ fn bubbles_go_on_after_a_restore_and_their_number_is_bounded() {
     assert!(solver.counters().unwrap().bubbles_refused > 0);
 }
 
-/// What is heated, from the bottom up, m.
+/// Height over the bottom up to which liquid is heated, m.
 const HEATED: f64 = 0.006;
 
-/// Heats what is lowest with `power` (W) for a frame.
+/// Heats the lowest liquid with `power` (W) for a frame.
 fn heat_from_below(solver: &Solver, power: f64) {
     let mut state = solver.snapshot().unwrap();
     let m = solver.parameters().particle_mass();
@@ -254,7 +255,8 @@ mod long {
     use super::*;
 
     /// The column a third of a second after 5 % of it became bubbles of 0.6 mm, which have risen by a quarter of it.
-    /// The level, and the liquid within slices, by the volumes of liquid and bubbles; the pressure to 2 % by the weight of what is above. Pressures are
+    /// The level, and the liquid within slices, by the volumes of liquid and bubbles; the pressure to 2 % by the weight of the column
+    /// above. Pressures are
     /// followed in 0.4 s.
     #[test]
     fn bubbles_swell_the_liquid_and_make_it_lighter() {
@@ -289,7 +291,8 @@ mod long {
         };
         let gas = gas_below(1.0) / liquid;
         let level = top(&state) / flat - 1.0;
-        // Where bubbles still are, (their volume below a height, liquid that they pushed up past it), m³. A fit over heights, since particles lie in layers.
+        // Where bubbles still are, (their volume below a height, liquid that they pushed up past it), m³. A fit over heights, since
+        // particles lie in layers.
         let sums: Vec<_> = (0..=100)
             .map(|k| (0.45 + 0.0035 * f64::from(k)) * flat)
             .map(|height| {
@@ -307,7 +310,8 @@ mod long {
             "{} bubbles, gas {gas} of the liquid, level up by {level}; slices lose {slope} of their volume",
             live.len()
         );
-        // A tenth of the effect is 0.5 % of the level, of which d is 2.5 %. Slices are blurred by layers, of 84 particles each where 140 are pushed up.
+        // A tenth of the effect is 0.5 % of the level, of which d is 2.5 %. Slices are blurred by layers, of 84 particles each where 140
+        // are pushed up.
         assert!((level / gas - 1.0).abs() < 0.1, "{level}");
         assert!((slope - 1.0).abs() < 0.15, "{slope}");
         // Means of a ninth of a second, as layers come and go at a height.

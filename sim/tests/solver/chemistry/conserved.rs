@@ -124,7 +124,7 @@ fn no_diffusivity_makes_new_extremes() {
         let law = PaperDilution {
             heat_diffusivity: times * explicit,
             acid_diffusivity: times * explicit,
-            // No heat of solution: nothing may be hotter than what came in.
+            // No heat of solution: nothing may be hotter than the hottest liquid at the start.
             heat_generation: 0.0,
             ..dilution()
         };
@@ -154,8 +154,8 @@ fn no_diffusivity_makes_new_extremes() {
     }
 }
 
-/// The same of the physical one: a liquid of one composition, some of it hot,
-/// whose eddies mix up to ten thousand times as fast as they should.
+/// The physical chemistry's exchange makes no new extremes either, in contrast to [`no_diffusivity_makes_new_extremes`] in a liquid of one
+/// composition, part of it hot, whose eddies mix up to ten thousand times as fast as they should.
 #[test]
 fn no_eddies_make_new_extremes() {
     let device = gpu::device();

@@ -6,8 +6,8 @@ use vitriol_gpu::{Buffer, ComputePipeline, QueueKind, bytes_of_elements};
 use vitriol_shaders::layout::{Dew, DewRow, Flask, FlaskPose, Puff, Step};
 use vitriol_shaders::{Library, sim};
 use vitriol_sim::chemistry::dew::{AROUND, Air, QUANTUM, UP, flux, rows, still, swept};
-use vitriol_sim::chemistry::glass::RINGS;
 use vitriol_sim::chemistry::puff::dew_point;
+use vitriol_sim::chemistry::wall_heat::RINGS;
 use vitriol_sim::flask::Profile;
 use vitriol_sim::pose::Pose;
 use vitriol_tests::gpu::{self, Watched};
@@ -205,7 +205,8 @@ fn saturated_puff(position: Vec3, warm: f64, [radius, air, speed]: [f64; 3]) -> 
     }
 }
 
-/// A wall of 2 mm at 20 °C in steam that is saturated at 60 and 80 °C, at rest and in flow: what is on it after one second and two, and how warm it is.
+/// A wall of 2 mm at 20 °C in steam that is saturated at 60 and 80 °C, at rest and in flow: the water on it after one second and two, and
+/// its temperature.
 #[test]
 fn steam_condenses_on_a_cold_wall_by_stefans_law_and_warms_it() {
     for (warm, speed) in [(60.0, 0.0), (80.0, 0.0), (60.0, 1.0)] {
@@ -285,8 +286,8 @@ fn a_frame_has_the_flux_of_the_f64_law() {
     }
 }
 
-/// 10 g/m² in a room of 20 °C and 50 %: on a wall so thick that it stays as warm, as long as Lewis' relation and the psychrometric table say
-/// (17.3 g/m³ saturated). On one of 2 mm, which the film cools, as long as the integration.
+/// 10 g/m² in a room of 20 °C and 50 %: on a wall so thick that it stays as warm, as long as Lewis' relation and the psychrometric table
+/// say (17.3 g/m³ saturated). On one of 2 mm, which the film cools, as long as the integration.
 #[test]
 fn a_film_clears_in_the_time_of_lewis_relation() {
     let clears = |wall: f64, time: f64| {
@@ -354,7 +355,7 @@ fn dew_is_where_steam_is(pose: Pose) {
         (misted, clear) = (misted + u32::from(near), clear + u32::from(!near));
     }
     assert!(misted > 25 && clear > 900, "{misted} {clear}");
-    // Liquid touches two places of what is misted.
+    // Liquid touches two of the misted places.
     let row = (0..UP).find(|row| dew[row * AROUND].water > 0 && dew[row * AROUND + 1].water > 0);
     let row = row.unwrap();
     let mut wet = [0; 2 * UP];
@@ -384,7 +385,7 @@ fn dew_is_where_steam_is(pose: Pose) {
     assert!(after < 0.999 * before, "{after} of {before}");
 }
 
-/// What is on the walls left the puffs, to the last quantum, and its latent heat is in the glass, where none is lost.
+/// The water on the walls left the puffs, to the last quantum, and its latent heat is in the glass, where none is lost.
 #[test]
 fn mass_and_heat_are_kept() {
     let rig = Rig::new(&[Pose::IDENTITY], 0.002, 0.0, 1.0 / 90.0);
@@ -429,7 +430,7 @@ fn mass_and_heat_are_kept() {
     assert!((given / 2.538e6 - 1.0).abs() < 2e-3, "{given} J/kg");
 }
 
-/// A puff with little air gives no more than what it holds above the cold wall's saturation, however many places it reaches.
+/// A puff with little air gives no more water than it holds above the cold wall's saturation, however many places it reaches.
 #[test]
 fn a_puff_gives_what_it_has_and_no_more() {
     let rig = Rig::new(&[Pose::IDENTITY], 0.002, 12.0, 1.0 / 90.0);

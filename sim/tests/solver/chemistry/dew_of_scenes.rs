@@ -30,7 +30,7 @@ fn dew_is_over_what_boils_and_nowhere_else() {
     let device = gpu::device();
     let (setup, poses) = kettles();
     let solver = setup.solver(&device);
-    // What is under the liquid goes in the first frame.
+    // Dew under the liquid is washed off in the first frame.
     let mut state = solver.snapshot().unwrap();
     for place in &mut state.dew_mut()[..PLACES] {
         place.water = 1_000_000;
@@ -57,7 +57,7 @@ fn dew_is_over_what_boils_and_nowhere_else() {
     let under = dry(0..low) as f64 / (low * AROUND) as f64;
     assert!(under > 0.98, "{under} of what is under liquid");
     assert_eq!(dry(high..UP), 0);
-    // And what boils brings it back over the liquid, on this vessel alone.
+    // And steam brings it back over the liquid, on this vessel alone.
     let mut state = state;
     for place in state.dew_mut() {
         *place = Default::default();

@@ -1,4 +1,4 @@
-//! Liquids that no one pours.
+//! Liquids beyond any that is poured.
 
 use super::setup::*;
 use crate::common::*;
@@ -70,7 +70,7 @@ fn a_million_degrees_and_any_intensity() {
         for chemistry in papers(intensity) {
             for temperature in [1e6, 150.0] {
                 let (counters, _) = run(&chemistry, |_| (temperature, 0.0));
-                // What was cut is counted; at 150 °C and k_v = 1 nothing need be.
+                // Exchanges that were cut are counted; at 150 °C and k_v = 1 nothing need be.
                 let cut = counters.speed_limited + counters.list_limited;
                 assert!(cut > 0 || temperature < 1e5, "{counters:?}");
             }
@@ -115,7 +115,7 @@ fn one_particle_of_acid_in_water() {
 }
 
 /// A particle whose enthalpy is no number turns non-finite at a frame's end, after which the flow is filtered
-/// around it. It is taken out in the next frame, and nobody else is.
+/// around it. It is taken out in the next frame, and no other particle is.
 #[test]
 fn a_particle_that_is_no_number_spoils_no_other() {
     let device = gpu::device();

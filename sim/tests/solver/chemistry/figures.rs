@@ -1,4 +1,4 @@
-//! What the paper's figures show, as far as the suite has time for it.
+//! The scenes of the paper's figures, as far as the suite has time for them.
 
 use vitriol_shaders::Library;
 use vitriol_sim::bodies::Hand;

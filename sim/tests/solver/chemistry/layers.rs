@@ -13,7 +13,7 @@ use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::SolverState;
 use vitriol_tests::gpu;
 
-/// A lower half of 50 % acid, an upper one of 30 %, and what else the scenes have but losses and boiling.
+/// A lower half of 50 % acid, an upper one of 30 %, with the other features of the scenes, but without losses and boiling.
 fn layers(turbulence: f64) -> (Parameters, Setup) {
     let law = Physical {
         density: true,

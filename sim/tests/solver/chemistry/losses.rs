@@ -8,12 +8,12 @@ use vitriol_gpu::Gpu;
 use vitriol_sim::chemistry::adiabatic::{Feed, mix};
 use vitriol_sim::chemistry::eddies::Mixing;
 use vitriol_sim::chemistry::evaporation::StillAir;
-use vitriol_sim::chemistry::glass::RINGS;
 use vitriol_sim::chemistry::table::SolutionTable;
 use vitriol_sim::chemistry::transport::Losses;
+use vitriol_sim::chemistry::wall_heat::RINGS;
 use vitriol_sim::chemistry::{Chemistry, Physical};
 use vitriol_sim::fill::fill as fill_glass;
-use vitriol_sim::flask::glass::find;
+use vitriol_sim::flask::glassware::find;
 use vitriol_sim::parameters::Parameters;
 use vitriol_sim::pose::Pose;
 use vitriol_sim::solver::{Particle, Solver, SolverState};
@@ -50,7 +50,7 @@ fn a_glass_loses_heat_by_its_surface() {
     assert!((found - 1.0).abs() < 0.10, "{found} of the area");
 }
 
-/// What the liquid gives, the glass has; and it gives what Newton's law has for the glass that it wets, πr² +
+/// The glass gains the heat that the liquid gives; and that is the heat of Newton's law for the glass that it wets, πr² +
 /// 2πr·level, through a film of 700 W/(m² K) and half of 2 mm of glass of 1.2 W/(m K).
 ///
 /// 15 % are allowed: in the corner of wall and floor two gradients add as vectors and not as areas, and inside a
@@ -85,7 +85,7 @@ fn wetted(device: &Gpu, spacing: f64) -> f64 {
             (lost / given - 1.0).abs() < 1e-3,
             "{lost} J are lost, {given} J in the glass"
         );
-        // What lies on the glass is colder than the mean.
+        // Liquid on the glass is colder than the mean.
         let lying: Vec<f64> = (state.positions.iter().zip(&state.heat))
             .filter(|([x, y, z, _], _)| {
                 let at_wall = radius as f32 - x.hypot(*z) < 0.75 * spacing as f32;
@@ -112,7 +112,7 @@ fn wetted(device: &Gpu, spacing: f64) -> f64 {
     power / (0.5 * (before.1 + after.1))
 }
 
-/// What a plate gives, glass and liquid have.
+/// Glass and liquid gain the heat that a plate gives.
 #[test]
 fn what_a_plate_gives_glass_and_liquid_have() {
     let device = gpu::device();
@@ -229,7 +229,7 @@ fn open_water_evaporates_at_the_published_rate() {
         frames(&device, &solver, &[Pose::IDENTITY], 5);
         let (after, less, lower, taken) = totals();
         let gone = after[0] - before[0];
-        // What the glass gives or takes is the other term.
+        // The glass's exchange is the other term.
         let power = (after[1] - before[1] + lower - enthalpy + taken - given) / (5.0 * frame_time);
         let through = (taken - given) / (5.0 * frame_time);
         assert!(

@@ -1,4 +1,4 @@
-//! What a stirred glass mixes lies on the straight line between the two liquids, in c and h.
+//! Mixtures in a stirred glass lie on the straight line between the two liquids, in c and h.
 
 use super::setup::*;
 use crate::common::*;

@@ -105,7 +105,7 @@ fn against_the_reference() {
     }
 }
 
-/// Without a wall in reach, what the liquid warms by is the heat of solution.
+/// Without a wall in reach, the liquid warms by the heat of solution alone.
 #[test]
 fn pair_heats_sum_to_the_change_of_enthalpy() {
     let device = gpu::device();

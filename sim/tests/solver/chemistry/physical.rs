@@ -21,13 +21,13 @@ struct Errors {
     matter: [f64; 4],
     changed: [f64; 4],
     temperature: f64,
-    /// Of v, m/s: 98 % have less, all have less.
+    /// Error of v, m/s: 98 % of the particles have less, all have less.
     velocity: [f64; 2],
-    /// Of the eddies' diffusivity, over its largest.
+    /// Error of the eddies' diffusivity, over its largest value.
     eddies: f64,
-    /// Of the rings' temperatures (K), and their largest rise.
+    /// Error of the rings' temperatures (K), and their largest rise.
     glass: [f64; 2],
-    /// Of the variance of c, and its largest change.
+    /// Error of the variance of c, and its largest change.
     variance: [f64; 2],
     /// J and kg per kg of a particle at rest density: (exchanged, steam, its enthalpy), by the GPU and by the reference.
     ledger: [[f64; 3]; 2],
@@ -212,7 +212,7 @@ fn against_the_reference() {
     }
 }
 
-/// What boils in the glass: initial + exchanged = held + steam.
+/// Balance of liquid that boils in the glass: initial + exchanged = held + steam.
 #[test]
 fn the_ledger_closes_while_it_boils() {
     let device = gpu::device();
@@ -291,7 +291,7 @@ fn the_order_of_pouring_does_not_matter() {
     for heat in &ends {
         let mean = [0, 1].map(|k| sum(heat, |row| row[k]) / heat.len() as f64);
         for &[temperature, acid, ..] in heat {
-            // What the stirring left uneven.
+            // Differences that the stirring left.
             let off = (f64::from(temperature) - formula.temperature_unboiled).abs();
             assert!(off < 0.5, "{temperature} {formula:?}");
             let off = (f64::from(acid) - formula.acid).abs();

@@ -36,7 +36,7 @@ fn same_scene_twice_gives_the_same_bits() {
                 solver.snapshot().unwrap()
             });
             assert_eq!(states[0].hash(), states[1].hash());
-            // The ledger, what is lacking and what was counted, too.
+            // The ledger, rounding remainders and counters, too.
             assert!(states[0] == states[1]);
             // A hundredth of a kelvin of one particle is another run; its last
             // bit need not be, as diffusion evens it out.
@@ -73,7 +73,7 @@ fn state_on_a_new_device_goes_on_with_the_same_bits() {
     }
 }
 
-/// Temperature and contents are part of what a replay must repeat.
+/// A replay must repeat temperature and contents too.
 #[test]
 fn hash_is_of_heat_and_contents() {
     let device = gpu::device();

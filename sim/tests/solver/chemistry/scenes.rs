@@ -45,7 +45,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
     let impulses = p.surface.as_ref().map(of_surface).unwrap_or_default();
     for n in 0..p.substeps {
         all.extend(["cell_count", "cell_scan", "reorder", "list"]);
-        // What is carried displaces first.
+        // Carried multipliers displace first.
         all.extend((p.carry_rate > 0.0).then_some("displacement"));
         all.extend(["multiplier", "displacement"].repeat(p.iterations as usize));
         if impulses.iter().any(|&(first, _)| first == n) {
@@ -138,7 +138,7 @@ fn water_and_water_have_no_heat() {
     assert!(state.heat.is_empty() && state.matter.is_empty() && state.ledger.is_empty());
 }
 
-/// No pass touches what its scene has not.
+/// No pass binds buffers of features that its scene does not have.
 #[test]
 fn passes_bind_the_chemistry_of_their_scene() {
     let of_any = ["heat", "sorted_heat", "mixing"];
@@ -169,7 +169,7 @@ fn passes_bind_the_chemistry_of_their_scene() {
     }
 }
 
-/// Bytes a particle: what each chemistry has, and none of the other's.
+/// Bytes a particle: the buffers of each chemistry, and none of the other's.
 #[test]
 fn chemistry_costs_memory_where_it_is_asked_for() {
     let device = gpu::device();

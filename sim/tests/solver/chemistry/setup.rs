@@ -94,7 +94,7 @@ pub fn boiling() -> Physical {
 }
 
 /// All of it, with losses some hundred times the scene's, so that they are seen, and
-/// not alike, so that they are told apart.
+/// not alike, so that they can be distinguished.
 pub fn everything() -> Physical {
     let losses = |to_air: Losses| Losses {
         glass: 150.0 * to_air.glass,

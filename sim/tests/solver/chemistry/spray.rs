@@ -131,7 +131,8 @@ fn drops_of_jets_are_as_large_as_spiel_measured() {
     );
 }
 
-/// Drops that start with the speeds that Gunn and Kinzer (1949) measured keep them, to 10 %: a sphere's drag is 9 % more than they found at 0.1 mm.
+/// Drops that start with the speeds that Gunn and Kinzer (1949) measured keep them, to 10 %: a sphere's drag is 9 % more than they found
+/// at 0.1 mm.
 #[test]
 fn drops_fall_as_fast_as_gunn_and_kinzer_measured() {
     let device = gpu::device();
@@ -170,7 +171,7 @@ fn drops_fall_as_fast_as_gunn_and_kinzer_measured() {
     }
 }
 
-/// A glass that is raised by 12 mm in a frame takes in what hangs over its mouth, and one that goes back leaves it in the air.
+/// A glass that is raised by 12 mm in a frame takes in drops that hang over its mouth, and one that goes back leaves it in the air.
 #[test]
 fn a_glass_that_rises_takes_drops_in() {
     let device = gpu::device();
@@ -243,8 +244,8 @@ fn nothing_is_lost_of_what_is_thrown_up() {
 mod long {
     use super::*;
 
-    /// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the air,
-    /// and a glass that is moved over them takes them with it.
+    /// Those that meet the glass cling, those that fly over the rim leave, those that fall back are liquid again. Fine ones hang in the
+    /// air, and a glass that is moved over them takes them with it.
     #[test]
     fn drops_cling_leave_or_fall_back() {
         let device = gpu::device();

@@ -1,5 +1,5 @@
 #![allow(clippy::unwrap_used)]
-use vitriol_sim::flask::glass::GLASSWARE;
+use vitriol_sim::flask::glassware::GLASSWARE;
 
 use super::*;
 

@@ -1,8 +1,8 @@
 //! The heat of the flasks' glass, with line 26 of the physical chemistry.
 
 use super::surroundings::Vessel;
-use crate::chemistry::glass::{Ring, advance, rings};
 use crate::chemistry::transport::Losses;
+use crate::chemistry::wall_heat::{Ring, advance, rings};
 use crate::parameters::Parameters;
 
 /// Where a particle touches glass or air.
@@ -55,7 +55,7 @@ impl ReferenceRings {
         )
     }
 
-    /// The end of a frame: rings take what the liquid gave, conduct it and lose it to air of `ambient` °C.
+    /// The end of a frame: rings take the heat that the liquid gave, conduct it and lose it to air of `ambient` °C.
     pub(super) fn advance(&mut self, ambient: f64, frame_time: f64) {
         let flasks = self.rings.iter().zip(&mut self.temperatures);
         for ((rings, temperatures), taken) in flasks.zip(&mut self.taken) {

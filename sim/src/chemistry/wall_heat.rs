@@ -1,12 +1,12 @@
 //! The heat of a flask's glass: rings of its wall, each of one temperature.
 //!
 //! A 400 mL beaker holds 112 J/K against 630 J/K of 200 mL of acid and water,
-//! and warms within seconds: what the liquid gives to the air goes through it.
+//! and warms within seconds: the liquid's heat loss to the air goes through it.
 
 use super::constants::WATER_MOLAR_MASS;
 use super::transport::Losses;
 use crate::flask::Profile;
-use crate::flask::glass::BOROSILICATE;
+use crate::flask::glassware::BOROSILICATE;
 use std::f64::consts::PI;
 
 /// Rings of equal height from the inner floor up to the rim; the lowest has the base.

@@ -101,7 +101,7 @@ fn simplified(points: &[Vec2]) -> Vec<Vec2> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use vitriol_sim::flask::glass::GLASSWARE;
+    use vitriol_sim::flask::glassware::GLASSWARE;
 
     /// As the profile's own table says, for each vessel there is, outside and within.
     #[test]

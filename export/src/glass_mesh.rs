@@ -87,5 +87,5 @@ fn fine(outline: &[[f64; 2]], cell: f64) -> Vec<[f64; 2]> {
 }
 
 #[cfg(test)]
-#[path = "tests/glass.rs"]
+#[path = "tests/glass_mesh.rs"]
 mod tests;

@@ -1,9 +1,9 @@
 //! The heat of glass, by geometry and by the theory of conduction.
 
-use super::super::glass::{CAPACITY, CONDUCTIVITY, RINGS, advance, ring_at, rings};
 use super::super::transport::Losses;
+use super::super::wall_heat::{CAPACITY, CONDUCTIVITY, RINGS, advance, ring_at, rings};
 use crate::flask::Profile;
-use crate::flask::glass::{BOROSILICATE, GLASSWARE, find};
+use crate::flask::glassware::{BOROSILICATE, GLASSWARE, find};
 use std::f64::consts::PI;
 
 fn insulated() -> Losses {

@@ -1,12 +1,12 @@
-//! The heat of the flasks' glass as the shaders have it.
+//! The heat of the flasks' glass in the shaders' layout.
 
 use super::spec::SolverSpec;
 use crate::chemistry::Chemistry;
-use crate::chemistry::glass::{RINGS, rings};
 use crate::chemistry::transport::Losses;
+use crate::chemistry::wall_heat::{RINGS, rings};
 use vitriol_shaders::layout::GlassRing;
 
-/// What is lost to glass and air, where the scene models it.
+/// The heat losses to glass and air, where the scene models them.
 pub(super) fn losses(chemistry: Option<&Chemistry>) -> Option<&Losses> {
     match chemistry {
         Some(Chemistry::Physical(physical)) => physical.losses.as_ref(),
