@@ -291,7 +291,7 @@ impl Measurements {
         Self::after(0, format)
     }
 
-    /// The same after so many scenes.
+    /// Measurements as [`Measurements::new`] makes them, for a run that goes on after `scenes` scenes: its tables are numbered from there.
     pub fn after(scenes: u32, format: TableFormat) -> Self {
         Self {
             format,

@@ -1,4 +1,4 @@
-//! What can be heard of a world: looks at its liquid and blows of its glass, as events of sound in the scene's stage, real metres.
+//! Sounds of a world: observations of its liquid and blows of its glass become events of sound in the scene's stage, real metres.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const GLASS: u32 = 2000;
 const SPLASHES: [u32; 2] = [3000, 3001];
 const SKIN: u32 = 3002;
 
-/// How long a stream goes on after the look that saw it, s: two frames at 60 Hz, so that it does not stutter where one is late.
+/// How long a stream goes on after the observation that found it, s: two frames at 60 Hz, so that it does not stutter where one is late.
 const LASTS: f64 = 0.035;
 /// Speed below which what comes to a place takes nothing down and splashes nothing, m/s: a fall of 1 cm.
 const SLOW: f64 = 0.45;
@@ -26,31 +26,31 @@ const PUDDLE: f64 = 0.5;
 /// Of water at 20 °C, kg/m³.
 const WATER: f64 = 998.0;
 
-/// What a flask is to the ear.
+/// A flask's acoustic properties.
 struct Vessel {
-    /// Empty, and in nobody's hand.
+    /// Its glass while it is empty and in nobody's hand.
     glass: Glass,
-    /// Of its inside, m³.
+    /// Volume of its inside, m³.
     capacity: f64,
     /// Height of its inside, m.
     height: f64,
 }
 
-/// See the module.
+/// Makes events of sound from a scene's observations, blows and breaks.
 pub struct Audible {
     scale: f64,
     vessels: Vec<Vessel>,
     properties: Properties,
-    /// What lay on the bench at the last look, mL.
+    /// Volume of the liquid on the bench at the last observation, mL.
     puddle: f64,
-    /// What was in each flask then: its share of the capacity, and its density, kg/m³.
+    /// The liquid in each flask then: its share of the capacity, and its density, kg/m³.
     fills: Vec<[f64; 2]>,
     /// Whether boiling is not heard.
     muted: bool,
 }
 
 impl Audible {
-    /// Of a scene.
+    /// The sounds of a scene.
     pub fn of(scene: &Scene) -> Self {
         let scale = scene.scale.length_scale;
         Self {
@@ -63,13 +63,13 @@ impl Audible {
         }
     }
 
-    /// Whether boiling is heard no more, for who is frightened by it.
+    /// Whether boiling is heard no more, for users whom it frightens.
     pub fn mute_boiling(&mut self, on: bool) {
         self.muted = on;
     }
 
-    /// What a look at the liquid lets be heard, `elapsed` (s) after the look before, at `time` (s) of the listener's clock; `poses` are
-    /// the flasks', in the world.
+    /// Sounds of an observation of the liquid, `elapsed` (s) after the observation before, at `time` (s) of the listener's clock; `poses`
+    /// are the flasks', in the world.
     pub fn looked(
         &mut self,
         poses: &[Pose],
@@ -115,7 +115,7 @@ impl Audible {
         events
     }
 
-    /// Blows among the flasks, of which some are `held`, at `time` (s).
+    /// Sounds of blows among the flasks, of which some are `held`, at `time` (s).
     pub fn struck(
         &self,
         blows: &[bodies::Strike],
@@ -152,7 +152,7 @@ impl Audible {
         blows.iter().filter_map(event).collect()
     }
 
-    /// Flasks that broke, at `time` (s).
+    /// Sounds of flasks that broke, at `time` (s).
     pub fn broke(&self, breaks: &[bodies::Break], time: f64) -> Vec<Event> {
         let event = |broken: &bodies::Break| {
             let vessel = self.vessels.get(broken.flask)?;
@@ -166,7 +166,7 @@ impl Audible {
         breaks.iter().filter_map(event).collect()
     }
 
-    /// Acid came to somebody's skin, at `position` (m, real), at `time` (s).
+    /// The sound of acid that reaches the user's skin, at `position` (m, real), at `time` (s).
     pub fn burns(skin: Skin, position: DVec3, time: f64) -> Event {
         Event {
             time,

@@ -27,7 +27,7 @@ pub fn open(device: Option<&str>) -> Result<Gpu, Failure> {
     timed(device, Timestamps::None)
 }
 
-/// The same, with its clock read.
+/// Opens the device that was asked for as [`open`] does, with a choice of the device's timestamps.
 ///
 /// # Errors
 /// As for [`open`].

@@ -51,18 +51,18 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Says at the place of an error whose fault it is.
+/// Classes an error by whose fault it is, at the place where it occurs.
 pub trait Blame<T> {
     /// The user's input is at fault: [`Failure::Input`].
     ///
     /// # Errors
-    /// The same error, classed.
+    /// The error itself, as [`Failure::Input`].
     fn input(self) -> Result<T, Failure>;
 
-    /// Neither: [`Failure::Other`].
+    /// Neither input nor device is at fault: [`Failure::Other`].
     ///
     /// # Errors
-    /// The same error, classed.
+    /// The error itself, as [`Failure::Other`].
     fn other(self) -> Result<T, Failure>;
 }
 

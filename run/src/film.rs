@@ -54,7 +54,7 @@ impl Film {
         Self::begin(path, [width, height], fps, false)
     }
 
-    /// The same with a track of sound.
+    /// Begins a film of `size` (width and height, pixels) as [`Film::create`] does, with a track of sound at 48 kHz.
     ///
     /// # Errors
     /// As [`Film::create`].
@@ -144,14 +144,13 @@ impl Film {
     /// Encodes what is queued and puts the film in its place.
     ///
     /// # Errors
-    /// [`FilmError::Empty`] without a frame, else what the encoder, the muxer
-    /// or the file system said; also where a film of that name has appeared
-    /// meanwhile, which is kept.
+    /// [`FilmError::Empty`] without a frame, else an error of the encoder, the muxer or the file system; also where a film of that name has
+    /// appeared meanwhile, which is kept.
     pub fn finish(self) -> Result<PathBuf, FilmError> {
         self.finish_with(&[])
     }
 
-    /// The same with a track of text for each of these languages.
+    /// Ends the film as [`Film::finish`] does, with a track of subtitles for each of these languages.
     ///
     /// # Errors
     /// As [`Film::finish`], and [`FilmError::Subtitles`].
@@ -182,7 +181,7 @@ impl Drop for Film {
     }
 }
 
-/// What the file system says of the film at `path`.
+/// Makes an error of the file system one of the film at `path`.
 fn unwritten(path: &Path) -> impl FnOnce(std::io::Error) -> FilmError {
     let path = path.to_owned();
     move |source| FilmError::Write { path, source }

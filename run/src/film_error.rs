@@ -67,7 +67,7 @@ pub enum FilmError {
     Write {
         /// The film's path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The encoder thread ended early without saying why.

@@ -50,7 +50,8 @@ impl H264 {
         Self::with_quantiser(size, fps, FILM)
     }
 
-    /// The same for a view that is sent as it comes.
+    /// An encoder for a live view: of `size` (width and height, pixels) at `fps` frames a second, with a coarser quantiser than
+    /// [`H264::new`] uses for a film.
     ///
     /// # Errors
     /// What the encoder says.

@@ -20,7 +20,7 @@ pub use grasp::{Grasp, closed_on};
 pub use held_glass::Glass;
 pub use posture::Posture;
 
-/// The same hand without its glove.
+/// A hand's bones without the glove: the cuff is left out, and the rest is skin.
 fn bare(mut bones: Vec<Bone>) -> Vec<Bone> {
     bones.retain(|bone| bone.finish != Finish::Cuff);
     for bone in &mut bones {
@@ -47,7 +47,7 @@ impl Gloves {
     }
 
     /// The bones of both hands in the scene's stage, real metres, as they are at the flasks of `world`: of hands that are
-    /// tracked their own, of others what their controllers' poses say. None of a hand that is not there.
+    /// tracked their own, of others as their controllers' poses place them. None of a hand that is not there.
     pub fn worn(
         &self,
         world: &World,

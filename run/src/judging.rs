@@ -1,7 +1,7 @@
-//! A lesson that is judged look by look, in a session and in its replay alike.
+//! A lesson that is judged observation by observation, in a session and in its replay alike.
 //!
-//! What a student asks for counts behind the look of the first step after it: a track keeps it with that step, and both come to it at the
-//! same look.
+//! An action that a student asks for counts behind the observation of the first step after it: a track keeps it with that step, and session
+//! and replay come to it at the same observation.
 
 use std::collections::VecDeque;
 
@@ -11,15 +11,15 @@ use vitriol_lesson::{Event, Lesson, Mode, Procedure, Sight};
 use crate::action::Action;
 use crate::looks::Looked;
 
-/// See the module.
+/// Judges a lesson in a run, from the observations of the lesson's scene.
 #[derive(Clone, Debug)]
 pub struct Judging {
     procedure: Procedure,
     /// The lesson's scene, by the run's name of it.
     scene: String,
-    /// The last look.
+    /// The last observation.
     sight: Sight,
-    /// What was asked for and has not come to its look, each with the run's time, s.
+    /// Actions that were asked for and whose observation has not come yet, each with the run's time, s.
     asked: VecDeque<(f64, Action)>,
 }
 
@@ -34,7 +34,7 @@ impl Judging {
         }
     }
 
-    /// How it stands.
+    /// The procedure, which holds the lesson's state.
     pub fn procedure(&self) -> &Procedure {
         &self.procedure
     }
@@ -44,23 +44,23 @@ impl Judging {
         self.scene == scene
     }
 
-    /// Time of the last look at its scene, s.
+    /// Time of the last observation of its scene, s.
     pub fn time(&self) -> f64 {
         self.sight.t_s
     }
 
-    /// Something was asked for at the run's time `t_s`, before the step that comes next.
+    /// Takes in an action that was asked for at the run's time `t_s`, before the step that comes next.
     pub fn ask(&mut self, t_s: f64, action: Action) {
         self.asked.push_back((t_s, action));
     }
 
-    /// A scene is brought up before the next step: what was asked for since the last one was of the scene before.
+    /// A scene is brought up before the next step: actions that were asked for since the last step were of the scene before.
     pub fn bring_up(&mut self) {
         self.asked.clear();
     }
 
-    /// Takes in a look at the scene of that name; of another one than the lesson's nothing is judged. `so_far` says what the attempt would
-    /// end with now: who says that all is done has what is under way counted.
+    /// Takes in an observation of the scene of that name; in another scene than the lesson's nothing is judged. `so_far` gives the events
+    /// that the attempt would end with now: where the student says that all is done, those under way count too.
     pub fn looked(
         &mut self,
         scene: &str,

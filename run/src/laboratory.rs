@@ -74,7 +74,7 @@ pub fn prepare(setup: &Setup<'_>) -> Result<Box<dyn Experiment>, Failure> {
     on_device(&device::open(setup.device)?, setup)
 }
 
-/// The same on a device that is open already.
+/// The experiment of a scene on a device that is open already; [`prepare`] opens one.
 ///
 /// # Errors
 /// [`Failure::Input`] for a liquid that does not fit.
@@ -134,7 +134,7 @@ impl Laboratory {
         let library = &setup.shaders;
         let world = World::new(gpu, library, setup.scene, setup.seed).map_err(|error| {
             match blame_world(error) {
-                // What is wrong with a scene is said with its file.
+                // An error in a scene is reported with the scene's file.
                 Failure::Input(cause) => {
                     Failure::Input(format!("{}: {cause}", setup.scene_name).into())
                 }
@@ -214,7 +214,7 @@ impl Laboratory {
         Ok(())
     }
 
-    /// Does what the frame's switches say, in their order; whether that brought up a scene.
+    /// Carries out the frame's switches, in their order; returns whether that brought up a scene.
     fn switch(&mut self, switches: &[Switch]) -> Result<bool, Failure> {
         let mut anew = false;
         for switch in switches {

@@ -1,6 +1,6 @@
-//! Looks at the liquid, one behind each step, and what is found in them.
+//! Observations of the liquid, one behind each step, and the events that are found in them.
 //!
-//! A look is made with what its step was taken with and with nothing that a recording does not keep, so a replay sees what the session saw.
+//! An observation uses the inputs of its step and nothing that a recording does not keep, so a replay finds what the session found.
 
 use std::collections::VecDeque;
 
@@ -19,7 +19,7 @@ use crate::hands::Gloves;
 use crate::skin::skin;
 use crate::thermometer::Thermometer;
 
-/// A look that is under way, and what was done in its step.
+/// An observation that is under way, and the state of bench and user in its step.
 struct UnderWay {
     /// `None` where the device was lost in it.
     look: Option<Look>,
@@ -34,25 +34,25 @@ struct UnderWay {
     hands: [Vec<Bone>; 2],
 }
 
-/// What a look saw.
+/// The result of an observation.
 pub struct Looked {
-    /// Where the liquid is, and what went where.
+    /// Where the liquid is, and how much went where.
     pub census: Census,
     /// The run's time, s.
     pub t: f64,
-    /// Simulated time since the look before, s.
+    /// Simulated time since the observation before, s.
     pub elapsed: f64,
     /// stage_from_flask at that step, in the world.
     pub poses: Vec<Pose>,
     /// The bones of the gloves that it was made with, real metres.
     pub hands: [Vec<Bone>; 2],
-    /// What is over with it.
+    /// Events that are over with it.
     pub events: Vec<Event>,
-    /// What a lesson judges.
+    /// The part of it that a lesson judges.
     pub sight: Sight,
 }
 
-/// See the module.
+/// Makes the observations of a run's scene, and finds events in them.
 pub struct Looks {
     gloves: Gloves,
     finder: Finder,
@@ -71,8 +71,8 @@ impl Looks {
         }
     }
 
-    /// Looks at `world` behind the step that was taken with that frame, [near](crate::stage) the scene's own origin, on that queue, after which the run's
-    /// time is `t` (s). Does not wait; gives the submission that it is in.
+    /// Observes `world` behind the step that was taken with that frame, [near](crate::stage) the scene's own origin, on that queue, after
+    /// which the run's time is `t` (s). Does not wait; gives the submission that it is in.
     ///
     /// # Errors
     /// What the device says.
@@ -114,7 +114,7 @@ impl Looks {
         Ok(ticket)
     }
 
-    /// The oldest look that was not collected yet, if it has come; does not wait.
+    /// The oldest observation that was not collected yet, if it has come; does not wait.
     ///
     /// # Errors
     /// What the device says.
@@ -130,7 +130,7 @@ impl Looks {
         Ok(oldest.map(|it| self.seen(it, census, elapsed)))
     }
 
-    /// The oldest look that was not collected yet, if there is one; waits for the device.
+    /// The oldest observation that was not collected yet, if there is one; waits for the device.
     ///
     /// # Errors
     /// What the device says.
@@ -149,18 +149,18 @@ impl Looks {
         self.thermometer.celsius()
     }
 
-    /// Looks that are not collected yet.
+    /// Observations that are not collected yet.
     pub fn under_way(&self) -> usize {
         self.under_way.len()
     }
 
-    /// Forgets looks on a device that is gone: they will not come.
+    /// Forgets observations on a device that is gone: they will not come.
     pub fn forget(&mut self) {
         self.under_way.clear();
     }
 
-    /// Takes those of a world that was brought back on another device, oldest first, in the place of those that were under way: the last ones
-    /// are the same. What was under way from before them is lost.
+    /// Takes the observations of a world that was brought back on another device, oldest first, in the place of those that were under way:
+    /// the last ones are the same. What was under way from before them is lost.
     pub fn take_again(&mut self, again: Vec<Look>) {
         let lost = self.under_way.len().saturating_sub(again.len());
         self.under_way.drain(..lost);
@@ -171,12 +171,12 @@ impl Looks {
         }
     }
 
-    /// The attempt is over: what is to be said of it. What is under way is not waited for.
+    /// Ends the attempt, and returns its last events. Observations under way are not waited for.
     pub fn end(&mut self) -> Vec<Event> {
         self.finder.end()
     }
 
-    /// What [`Looks::end`] would say now.
+    /// The events that [`Looks::end`] would return now.
     pub fn so_far(&self) -> Vec<Event> {
         self.finder.clone().end()
     }
@@ -209,7 +209,7 @@ impl Looks {
     }
 }
 
-/// What of the world's tools is dipped.
+/// The world's tools that are dipped into liquid.
 fn dipped(world: &World) -> Vec<Dipped> {
     let tools = world.scene().tools.iter().zip(world.tools()).enumerate();
     tools

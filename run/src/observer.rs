@@ -82,7 +82,7 @@ impl Observer {
         self.finish_with(&[])
     }
 
-    /// The same, and each film has these subtitles.
+    /// Ends the films as [`Observer::finish`] does, each with these subtitles.
     ///
     /// # Errors
     /// What a film says.

@@ -17,7 +17,7 @@ pub const REPORT_JSON: &str = "report.json";
 pub const REPORT_HTML: &str = "report.html";
 /// The name of the table of incidents in the output folder.
 pub const INCIDENTS_CSV: &str = "incidents.csv";
-/// What is said of attempts to other programs, where it is.
+/// The name of the file of statements on attempts for other programs, where one is written.
 pub const STATEMENTS: &str = "statements.jsonl";
 /// The film's name in the output folder.
 pub const FILM: &str = "film.mp4";
@@ -46,7 +46,7 @@ enum OutputError {
     #[error("{path}: could not be written; is there room and permission?")]
     Write {
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
@@ -206,7 +206,7 @@ pub fn write_over(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     Ok(write().map_err(|source| OutputError::write(path, source))?)
 }
 
-/// The same as [`write_new`] of an object, as JSON.
+/// Writes an object as JSON to a whole new file, by way of [`write_new`].
 ///
 /// # Errors
 /// As for [`write_new`].

@@ -10,7 +10,7 @@ const LAG_IN_AIR: f64 = 60.0;
 /// A room, °C, in a scene that does not name its own.
 const ROOM: f64 = 20.0;
 
-/// See the module.
+/// A thermometer's reading, which follows the temperature around it with a lag.
 pub(crate) struct Thermometer {
     room: f64,
     celsius: f64,
@@ -28,7 +28,7 @@ impl Thermometer {
         }
     }
 
-    /// Takes in a look, `elapsed` (s) after the one before. In liquid it follows the mean of the flask's.
+    /// Takes in an observation, `elapsed` (s) after the one before. In liquid it follows the mean of the flask's.
     pub fn looked(&mut self, sight: &Sight, elapsed: f64) {
         let Some(dip) = &sight.thermometer else {
             return;
@@ -41,7 +41,7 @@ impl Thermometer {
         self.celsius = about + (self.celsius - about) * (-elapsed / lag).exp();
     }
 
-    /// °C.
+    /// The reading, °C.
     pub fn celsius(&self) -> f64 {
         self.celsius
     }

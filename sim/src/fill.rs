@@ -135,7 +135,7 @@ pub fn split_mix(state: u64) -> u64 {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::flask::glass;
+    use crate::flask::glassware;
     use glam::{Quat, Vec3};
 
     const D: f64 = 0.0025;

@@ -107,7 +107,7 @@ impl ReplayPlan {
         Self::of(ask, track::load(ask.track)?)
     }
 
-    /// The same of a track that is loaded.
+    /// Checks what is asked for as [`ReplayPlan::new`] does, for a track that is loaded already.
     ///
     /// # Errors
     /// As for [`ReplayPlan::new`].
@@ -182,7 +182,8 @@ impl ReplayPlan {
 mod tests {
     use super::*;
 
-    /// Glass breaks from the first step on where that is asked for, whatever the track says of it later, and else as the track says.
+    /// Glass breaks from the first step on where that is asked for, whatever switches the track has for it later, and else as the track's
+    /// switches set it.
     #[test]
     fn glass_breaks_as_asked_for_or_as_recorded() {
         let switches = |track: &str, breakable| {

@@ -22,7 +22,7 @@ pub enum RawPicture {
     Rgba(Vec<u8>, [u32; 2]),
 }
 
-/// See the module. It ends when it is dropped.
+/// Codes pictures for the console on a thread of its own, which ends when this is dropped.
 pub struct Coder {
     port: Port,
     /// One waits at most: what is older than that is not live.

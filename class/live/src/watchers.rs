@@ -14,19 +14,19 @@ use vitriol_run::Spread;
 /// Time between two switches. Our choice: a second has three.
 const EVERY: Duration = Duration::from_millis(300);
 
-/// What they saw.
+/// The measurements of watching pages.
 #[derive(Clone, Debug, Serialize)]
 pub struct WatchReport {
     /// How many looked.
     pub watchers: usize,
     /// Pictures that came to all of them.
     pub pictures: u64,
-    /// From an order to the state that says that it counts, as a page sees it, ms.
+    /// From an order to the first state in which it counts, as a page receives it, ms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub switch_ms: Option<Spread>,
 }
 
-/// See the module. They look until they are asked what they saw.
+/// Pages that watch a session, each on a thread of its own, until they are asked for their measurements.
 pub struct Watchers {
     over: Arc<AtomicBool>,
     pictures: Arc<AtomicU64>,

@@ -2,18 +2,19 @@
 
 use vitriol_run::Action;
 
-/// What the user wants.
+/// A request of the user to the session.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Decision {
-    /// Something that is done to the run.
+    /// Does an action in the run.
     Act(Action),
-    /// The bench before the user.
+    /// Moves the bench before the user.
     Recentre,
-    /// What happened, or the panel as it was.
+    /// Shows the summary of the attempt on the panel, or hides it.
     Summary,
-    /// The session's end.
+    /// Ends the session.
     End,
-    /// The same, if it is asked for twice: a key is soon pressed by mistake.
+    /// Ends the session as [`Decision::End`] does, but only where it is asked for again within five seconds: a key is soon pressed by
+    /// mistake.
     AskEnd,
 }
 

@@ -1,8 +1,8 @@
 //! What someone who never held a controller does first: takes a flask, lifts it, pours, puts it down. Each is shown as a sign
 //! until it has been done once, in this order.
 //!
-//! It is judged by what the simulation says of the flasks, not by what the hands pressed. What implies another counts for both: who
-//! has poured has lifted as well.
+//! It is judged by the flasks' state in the simulation, not by the buttons that were pressed. An action that implies another counts for
+//! both: who has poured has lifted as well.
 
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ const STAYS: f32 = 0.02;
 const UPRIGHT: f32 = 0.98;
 const SETTLES: f64 = 0.5;
 
-/// What is learnt.
+/// An action that a first user learns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lesson {
     /// A hand takes a flask.
@@ -43,7 +43,7 @@ pub struct Handled {
     pub height: f32,
     /// Cosine of its tilt: 1 where it is upright.
     pub upright: f32,
-    /// Whether it has broken: what was to become of it is not known any more.
+    /// Whether it has broken: whether it would have stood is not known any more.
     pub broken: bool,
 }
 
@@ -68,7 +68,7 @@ pub struct FirstMinuteReport {
 #[derive(Clone, Debug, Default)]
 struct Known {
     held: Option<Hold>,
-    /// Height at which it was let go (m) and when (s), until it is known what became of it.
+    /// Height at which it was let go (m) and when (s), until it is known whether it stands.
     let_go: Option<(f32, f64)>,
 }
 
@@ -78,11 +78,11 @@ struct Hold {
     /// Height at which it was taken, m.
     height: f32,
     lifted: bool,
-    /// What was in each flask then, mL; `None` before the first look.
+    /// Volume of the liquid in each flask then, mL; `None` before the first observation.
     before: Option<Vec<f64>>,
 }
 
-/// See the module.
+/// Which actions of a first minute the user has done, and when.
 #[derive(Clone, Debug, Default)]
 pub struct FirstMinute {
     /// Time of the first frame, s.
@@ -121,7 +121,7 @@ impl FirstMinute {
         }
     }
 
-    /// A look has come: what is in each flask, mL, in the frame that is shown at `time` (s).
+    /// Takes in an observation: the volume of the liquid in each flask, mL, in the frame that is shown at `time` (s).
     pub fn looked(&mut self, millilitres: &[f64], time: f64) {
         let mut poured = false;
         for (index, known) in self.flasks.iter_mut().enumerate() {
@@ -140,7 +140,7 @@ impl FirstMinute {
         }
     }
 
-    /// What is to be shown: what was not done yet. Where no other vessel is there to be poured into, nobody is asked to.
+    /// The lesson that is to be shown: one that was not done yet. Pouring is left out where there is no other vessel to pour into.
     pub fn next(&self, can_pour: bool) -> Option<Lesson> {
         let is_new = |lesson: &Lesson| self.done[*lesson as usize].is_none();
         let mut lessons = Lesson::ALL.into_iter().filter(is_new);

@@ -1,5 +1,5 @@
-//! Keeps frames within the display's period: it is told what frames took on the device and decides how much work the
-//! next ones are given. It knows only times and the costs of rungs. What a rung means is in `ladder`.
+//! Keeps frames within the display's period: it takes in the times of frames on the device and decides how much work the
+//! next ones are given. Its input is these times and the costs of rungs; `ladder` defines what a rung is.
 //!
 //! A dropped frame is visible, so the governor reduces work before one drops. It extrapolates the times of the last
 //! quarter of a second by their trend; where the sum is more than [`FULL`] of a period, it takes the dearer part of
@@ -30,7 +30,7 @@ const TREND: usize = 12;
 /// Frames that a trend is extrapolated by: those under way, and those until a step down takes effect.
 const AHEAD: f64 = 12.0;
 
-/// Frames of a new bench or device in which times tell nothing yet: pipelines are used for the first time, which has a driver
+/// Frames of a new bench or device whose times do not count yet: pipelines are used for the first time, which has a driver
 /// compile some of them, and the device's clock rises.
 const YOUNG: u32 = 2 * WINDOW as u32;
 /// So many frames that are missed one after the other are a load all the same.
@@ -54,11 +54,11 @@ pub struct FrameTimes {
     pub times: [f64; 2],
     /// The display's period, ms.
     pub period: f64,
-    /// Time since the frame before it that the governor was told of, s.
+    /// Time since the frame before it that the governor took in, s.
     pub since: f64,
 }
 
-/// See the module.
+/// Chooses the rungs of solver and picture so that frames fit the display's period.
 #[derive(Clone, Debug)]
 pub struct Governor {
     /// By part, what each rung costs in units of its own; falling.

@@ -19,7 +19,7 @@ use super::info::Info;
 /// Display time between two of the window's pictures, ns: 30 a second.
 const EVERY: i64 = 1_000_000_000 / 30;
 
-/// See the module.
+/// Shows the left eye's picture in a window on the computer, 30 times a second of display time.
 pub struct Mirror {
     window: Window,
     shrink: Shrink,

@@ -35,10 +35,10 @@ struct Part {
     indices: u32,
 }
 
-/// See the module.
+/// Draws egui's triangles into a picture.
 pub struct Painter {
     gpu: Gpu,
-    /// What it paints, for who measures.
+    /// Name of what it paints, for measurements.
     label: &'static str,
     pipeline: RasterPipeline,
     texture: Texture,

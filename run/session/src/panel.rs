@@ -44,7 +44,7 @@ const RAY: f32 = 0.0015;
 /// The trigger presses from this value on, and releases below half of it.
 const PRESSES: f32 = 0.6;
 
-/// See the module.
+/// The panel: its layout and picture, and the hand that points at it.
 pub struct Panel {
     words: PanelTexts,
     context: egui::Context,
@@ -107,7 +107,7 @@ impl Panel {
         })
     }
 
-    /// The same in the words of another language.
+    /// This panel with the texts of another language.
     pub fn in_words(mut self, words: &PanelTexts) -> Self {
         self.words = words.clone();
         self

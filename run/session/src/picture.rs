@@ -27,7 +27,7 @@ const UNDER_WAY: usize = 2;
 pub struct Eyes {
     /// Width and height of each, pixels.
     pub extent: [u32; 2],
-    /// The same of a second pair, where there is one.
+    /// Width and height of each picture of a second pair, the inset, pixels, where there is one.
     pub inset: Option<[u32; 2]>,
     /// By eye, corners of the triangles that the lens hides.
     pub hidden: [Vec<[f32; 2]>; 2],
@@ -68,7 +68,7 @@ pub struct Picture {
     half_depth: HalfDepth,
     /// The steam as each slot's picture draws it: a copy, since the solver goes on meanwhile.
     puffs: Option<[Buffer; 2]>,
-    /// The same of what condensed on glass.
+    /// The water that condensed on glass as each slot's picture draws it: a copy too.
     dew: Option<[Buffer; 2]>,
     gloves: Gloves,
     /// The last pictures, the oldest first; at most [`UNDER_WAY`].
@@ -76,19 +76,19 @@ pub struct Picture {
     drawn: usize,
 }
 
-/// What there is to be drawn of a world.
+/// The parts of a world that a picture is made to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject {
     /// Its liquid.
     liquid: LiquidDesc,
     /// Bytes of the puffs of steam, where there are any.
     puffs: Option<u64>,
-    /// Those of the water on glass.
+    /// Bytes of the water on glass, where there is any.
     dew: Option<u64>,
 }
 
 impl Subject {
-    /// That of a world.
+    /// The parts of this world.
     pub fn of(world: &World) -> Self {
         Self {
             liquid: drawn_liquid(world),
@@ -109,13 +109,13 @@ pub struct Outlook {
 
 /// What one picture shows.
 pub struct Sight<'a> {
-    /// From the eyes.
+    /// The views from the eyes.
     pub eyes: Outlook,
-    /// The same for the inset.
+    /// The views of the inset, where there is one.
     pub inset: Option<Outlook>,
     /// The bones of the hands.
     pub hands: [&'a [Bone]; 2],
-    /// Those of the tools.
+    /// The bones of the tools.
     pub tools: &'a [Bone],
     /// The panel.
     pub panel: Option<Panel<'a>>,

@@ -101,7 +101,7 @@ pub struct Options {
     pub console: Option<Console>,
     /// The lesson that it goes through, if it does.
     pub course: Option<Course>,
-    /// Of what panel and announcements say.
+    /// Language of panel and announcements.
     pub language: Language,
 }
 
@@ -121,7 +121,7 @@ pub struct SessionOutcome {
     pub frames: u64,
     /// Display periods without a frame, of those that count.
     pub skipped: u64,
-    /// Where the pictures were to be sharp; `None` where that was the governor's to say.
+    /// Where the pictures were to be sharp; `None` where the governor decided.
     pub foveating: Option<Foveating>,
     /// Width and height of the pictures of the runtime's own inset, pixels, where there was one.
     pub inset: Option<[u32; 2]>,
@@ -135,7 +135,7 @@ pub struct SessionOutcome {
     pub governor: GovernorReport,
     /// What the process held when counting began, and at the end.
     pub holdings: [Option<Holdings>; 2],
-    /// What became of the sound.
+    /// How the sound was played.
     pub sound: SoundReport,
     /// What lies beside the flasks, and acid that touched the user.
     pub spilt: Spilt,
@@ -143,17 +143,18 @@ pub struct SessionOutcome {
     pub contacts: Contacts,
     /// Flasks that broke.
     pub broken: u32,
-    /// What was done of a first minute; `None` without hints.
+    /// When each action of a first minute was done; `None` without hints.
     pub first_minute: Option<FirstMinuteReport>,
-    /// What became of the recording, if there was one.
+    /// State of the recording at the end, if there was one.
     pub recorded: Option<RecordingStatus>,
     /// What was done and what went wrong, from each start of a scene on.
     pub attempts: Vec<Attempt>,
-    /// What the lesson came to, if there was one.
+    /// The lesson's result, if there was a lesson.
     pub verdict: Option<Verdict>,
 }
 
-/// See the module. Each part keeps one thing and knows no other part but those that it is handed.
+/// A session in a headset: the run and the parts that each frame goes through. Each part keeps one thing, and uses no other parts but those
+/// that it is handed.
 pub struct Session {
     /// The bench in use and the one that is being built.
     benches: Benches,
@@ -173,17 +174,17 @@ pub struct Session {
     steps: Steps,
     /// The world, and what is observed, judged and recorded of it.
     run: Run,
-    /// What the panel says of the flasks.
+    /// Temperature and acid in the flasks, as the panel shows them.
     readings: Readings,
-    /// What the bench is brought back from where the device is lost.
+    /// States from which the bench is restored where the device is lost.
     checkpoints: Checkpoints,
-    /// What was spilt, and on whom.
+    /// Liquid that was spilt, and acid that touched the user.
     spills: Spills,
     /// What the user hears.
     sounds: Sounds,
-    /// What a first user is shown.
+    /// The signs for a first user.
     hints: Hints,
-    /// What happened, for who asks.
+    /// The summary of the attempt.
     summary: Summary,
     /// The bones of the hands as they were drawn last, in the scene's stage, real metres.
     gloves: [Vec<Bone>; 2],
@@ -191,7 +192,7 @@ pub struct Session {
     panel: Panel,
     /// The lesson.
     guide: Guide,
-    /// Who directs it from elsewhere.
+    /// The instructor's end of the session.
     instructor: Instructor,
     /// The window on the computer, if there is one.
     mirror: Option<Mirror>,
@@ -203,7 +204,7 @@ pub struct Session {
     most: Option<u64>,
     renewals: u64,
     losses: Losses,
-    /// What is said, in the user's language.
+    /// The texts in the user's language.
     texts: Texts,
 }
 
@@ -278,7 +279,7 @@ impl Session {
         })
     }
 
-    /// The same, with what the left eye sees in `window`.
+    /// This session, with the left eye's picture shown in `window`.
     ///
     /// # Errors
     /// What the device says.
@@ -383,7 +384,7 @@ impl Session {
             mirror.move_to(gpu, library, eyes.extent)?;
         }
         self.instructor.move_to(gpu, library, eyes.extent)?;
-        // What was under way on the old device will not come, and what it took says nothing of the new one.
+        // What was under way on the old device will not come, and its times do not apply to the new one.
         self.pacing.forget();
         self.pacing.forget_rates();
         self.counts.tally.restart();

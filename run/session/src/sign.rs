@@ -1,6 +1,6 @@
 //! A sign in the scene: a disc near a flask, that shows with a moving picture what to do there.
 //!
-//! It is drawn and nothing more: neither simulation nor recording knows it.
+//! It is drawn and nothing more: it is part of neither simulation nor recording.
 
 pub mod drawing;
 pub mod place;
@@ -28,7 +28,7 @@ const STEPS_A_SECOND: f64 = 10.0;
 /// Time in which the sign comes to where it should be but for a third, s. Ours.
 const FOLLOWS: f64 = 0.12;
 
-/// See the module.
+/// A sign: a disc with a moving pictogram, and its place in the scene.
 pub struct Sign {
     painter: Painter,
     image: Image,

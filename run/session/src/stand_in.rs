@@ -63,7 +63,7 @@ pub struct Ready {
     pub after: Duration,
 }
 
-/// See the module.
+/// A headset without hardware: it has images on the device at hand, a clock that paces frames, and a pose track as its wearer.
 pub struct StandIn {
     gpu: Gpu,
     spec: StandInSpec,
@@ -81,7 +81,7 @@ pub struct StandIn {
     leaving: bool,
     /// Display rates that it offers, Hz.
     pub rates: Vec<f32>,
-    /// Where its wearer looks, in the stage; `None` where it does not tell.
+    /// Where its wearer looks, in the stage; `None` where it does not report that.
     pub gaze: Option<Pose>,
     /// What the left and the right hand feel.
     pub felt: [f32; 2],
@@ -138,7 +138,7 @@ impl StandIn {
         })
     }
 
-    /// The same, which goes on with what `reopens` opens where its device is lost.
+    /// This stand-in, which goes on with the device that `reopens` opens where its own is lost.
     pub fn reopening(mut self, reopens: impl FnMut() -> Result<Gpu, GpuError> + 'static) -> Self {
         self.reopens = Some(Box::new(reopens));
         self

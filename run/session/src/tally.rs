@@ -21,7 +21,7 @@ pub struct Tally {
     /// From the time of the hands' poses that the flasks in the picture follow to the picture's display time,
     /// simulation steps.
     pub delay_steps: Vec<f64>,
-    /// The same, display periods.
+    /// The delay of [`Tally::delay_steps`] in display periods.
     pub delay_frames: Vec<f64>,
     /// A frame's work on the device on the solver's queue, ms: its steps and the picture's part that
     /// reads them.
@@ -45,7 +45,7 @@ pub struct Frames {
     pub waits: LockWaits,
 }
 
-/// The same as `vitriol vr --json` prints it.
+/// The times and waits of [`Frames`] as `vitriol vr --json` prints them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FramesReport {
     /// How many.
@@ -204,7 +204,7 @@ fn total(ticket: &Ticket) -> Result<f64, Failure> {
     Ok(timings.last().map_or(0.0, |total| 1e-6 * total.nanoseconds))
 }
 
-/// What the process holds of the machine, where the system says so.
+/// What the process holds of the machine, where the system reports it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Holdings {
     /// Memory in use, bytes.

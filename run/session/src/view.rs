@@ -13,7 +13,7 @@ use vitriol_live::{Coder, RawPicture, VIEW_FPS, VIEW_SIDE};
 /// Display time between two pictures, ns.
 const EVERY: i64 = 1_000_000_000 / VIEW_FPS as i64;
 
-/// See the module.
+/// Sends the left eye's picture to the console while somebody looks.
 pub struct View {
     shrink: Shrink,
     coder: Coder,

@@ -19,7 +19,7 @@ pub(super) const FINGERS: [usize; 4] = [6, 11, 16, 21];
 /// How many bones the thumb has: the first ones.
 pub(super) const THUMB_BONES: usize = 3;
 
-/// What a runtime's radii are taken for at least and at most, m: one that knows none says 0.
+/// What a runtime's radii are taken for at least and at most, m: a runtime that has none gives 0.
 const RADII: [f32; 2] = [0.004, 0.025];
 /// Radius of the skin between thumb and index finger, and over the knuckles, m. Our choice.
 const WEB: f32 = 0.0085;

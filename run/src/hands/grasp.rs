@@ -72,7 +72,8 @@ impl Held<'_> {
             .fold(f32::INFINITY, f32::min)
     }
 
-    /// The same of a chain's bones beyond a joint that it bends about: that one stays, and may touch the glass already.
+    /// Least distance, m, from the glass to a chain's bones beyond a joint that it bends about: the joint itself stays, and may touch the
+    /// glass already.
     fn beyond(&self, chain: &Chain, joint: usize) -> f32 {
         let bones = chain.windows(2).enumerate().skip(joint);
         bones

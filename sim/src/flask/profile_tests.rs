@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
-use crate::flask::glass;
+use crate::flask::glassware;
 use glam::Quat;
 use std::f64::consts::PI;
 

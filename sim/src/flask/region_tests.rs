@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
-use crate::flask::glass;
+use crate::flask::glassware;
 use proptest::prelude::*;
 
 /// 0.001 h at h = 5 mm.

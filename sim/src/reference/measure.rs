@@ -33,7 +33,7 @@ impl DensityError {
 pub struct Masses {
     /// In each flask.
     pub in_flasks: Vec<f64>,
-    /// In none.
+    /// In no flask.
     pub elsewhere: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What `vitriol vr` says of a session at its end, as a document and in words.
+//! The report of `vitriol vr` on a session at its end, as a document and in words.
 
 use std::fmt::Write;
 
@@ -44,7 +44,7 @@ pub(super) struct SessionReport {
     devices_lost: u32,
     /// What was done to keep pace with the display.
     governor: GovernorReport,
-    /// Where the pictures were to be sharp; absent where that was the governor's to say.
+    /// Where the pictures were to be sharp; absent where the governor decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     foveation: Option<Foveating>,
     /// Width and height of the pictures of the runtime's own inset (quad views), pixels; absent where it had none.
@@ -77,7 +77,7 @@ pub(super) struct SessionReport {
     /// From the hand's pose to the flask in the picture, simulation steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_steps: Option<Spread>,
-    /// The same, displayed frames.
+    /// From the hand's pose to the flask in the picture, displayed frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     input_to_flask_frames: Option<Spread>,
     /// Sound, and how much of it is buffered.
@@ -110,7 +110,7 @@ pub(super) struct SessionReport {
     state_hash: String,
 }
 
-/// What there is to say of a session; `stand_in` is what timed its frames, if not a headset.
+/// The report of a session; `stand_in` is what timed its frames, if not a headset.
 pub(super) fn report(
     headset: String,
     outcome: &SessionOutcome,
@@ -239,7 +239,7 @@ pub(super) fn describe(session: &SessionReport) -> String {
             "every pixel shaded about where the user looks, if known, fewer beyond\n"
         }
         Some(Foveating::Fixed) => "every pixel shaded about the lenses' axes, fewer beyond\n",
-        // The settings say it.
+        // The settings show it.
         None => "",
     };
     let rows = [

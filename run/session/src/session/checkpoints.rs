@@ -1,4 +1,4 @@
-//! What the session brings the bench back from after its device is lost: a state that is read back again and again.
+//! States from which the session restores the bench after its device is lost: they are read back again and again.
 //!
 //! The copies go to the host behind a frame's steps; a thread of its own makes a state of them, because they are some
 //! megabytes. With the steps since that state, which are taken again, nothing of the liquid is lost.
@@ -13,7 +13,7 @@ use vitriol_sim::world::{Kept, StateRecord, World, WorldError};
 /// taken again at most.
 const EVERY: u64 = 22;
 
-/// See the module.
+/// Reads the world's state back at intervals, so that it can be restored where the device is lost.
 #[derive(Default)]
 pub(super) struct Checkpoints {
     /// The step that is kept next.
@@ -38,12 +38,12 @@ impl Checkpoints {
         world.record_state(rec).other().map(Some)
     }
 
-    /// The copies are in that submission.
+    /// Takes in that the copies are part of that submission.
     pub fn submitted(&mut self, record: StateRecord, ticket: Ticket) {
         self.under_way = Some((record, ticket));
     }
 
-    /// Takes what has come; does not wait.
+    /// Takes the copies that have arrived; does not wait.
     pub fn collect(&mut self, world: &mut World) -> Result<(), Failure> {
         if let Some(thread) = self.reading.take_if(|thread| thread.is_finished()) {
             let read = thread.join();

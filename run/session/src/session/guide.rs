@@ -9,7 +9,7 @@ use crate::info::Shown;
 use crate::listing::{self, Words};
 use vitriol_run::texts::LessonTexts;
 
-/// How long the panel says why a step failed, simulated s. Our choice: it is read twice in that.
+/// How long the panel shows why a step failed, simulated s. Our choice: it is read twice in that.
 const SAID: f64 = 8.0;
 
 /// A lesson, and how it is gone through.
@@ -17,9 +17,9 @@ const SAID: f64 = 8.0;
 pub struct Course {
     /// The lesson.
     pub lesson: Lesson,
-    /// How.
+    /// The mode in which it is gone through.
     pub mode: Mode,
-    /// In which language its texts are.
+    /// The language of its texts.
     pub language: Language,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Guide {
     hints: Vec<(f64, String)>,
     /// The step whose hint was given last.
     hinted: Option<String>,
-    /// Why a step failed last, and when that was said, s.
+    /// Why a step failed last, and when that was reported, s.
     failed: Option<(f64, String)>,
 }
 
@@ -54,8 +54,8 @@ impl Guide {
         })
     }
 
-    /// The same with the step that it is of, of what the user asks for in the run's scene; `None` where the mode has no such thing, or
-    /// there is no step.
+    /// The action that the user asks for in the run's scene, with the id of the step whose hint is given or that is skipped. `None` where
+    /// there is no lesson in this scene, it is over, its mode does not offer that action, or it has no such step.
     pub fn named(&self, run: &Run, action: Action) -> Option<Action> {
         let (course, judging) = self.of(run)?;
         let state = judging.procedure().state();
@@ -75,7 +75,7 @@ impl Guide {
         })
     }
 
-    /// Takes in how the lesson went on.
+    /// Takes in the run's progress in the lesson since the last call.
     pub fn follow(&mut self, run: &Run) {
         let new = &run.progress()[self.taken..];
         self.taken = run.progress().len();
@@ -109,7 +109,7 @@ impl Guide {
         Some((self.course.as_ref()?, judging))
     }
 
-    /// Whether a user in the run's scene is told what was done and what went wrong: not who is examined, before the end.
+    /// Whether a user in the run's scene is told what was done and what went wrong: in an examination not before the end.
     pub fn tells(&self, run: &Run) -> bool {
         let course = self.of(run);
         course

@@ -13,18 +13,18 @@ use crate::sign::Sign;
 use crate::sign::drawing::Pictogram;
 use crate::sign::place::{Stands, spot};
 
-/// See the module.
+/// Shows a first user the next action as a sign, until each has been done once.
 pub(super) struct Hints {
     minute: FirstMinute,
     /// What is shown; `None` where no hints are wanted.
     pub sign: Option<Sign>,
     /// Whether another press lets go of what a controller holds.
     toggles: bool,
-    /// What was in each flask at the last look, mL.
+    /// Volume of the liquid in each flask at the last observation, mL.
     millilitres: Vec<f64>,
     /// The flask that the sign was at.
     before: Option<usize>,
-    /// The hand that it was of.
+    /// The hand that the sign was for.
     side: Side,
 }
 
@@ -63,7 +63,7 @@ impl Hints {
         self.before = None;
     }
 
-    /// A look has come, in the frame that is shown at `time` (s).
+    /// Takes in an observation, in the frame that is shown at `time` (s).
     pub fn looked(&mut self, world: &World, census: &Census, time: f64) {
         let real = 1e6 * world.scene().scale.length_scale.powi(3);
         let volumes = census.flasks.iter().map(|held| real * held.volume);
@@ -72,7 +72,7 @@ impl Hints {
     }
 
     /// Takes in the frame that is shown at `time` (s), and shows what is to be done next. `seen` are head and hands in the scene's
-    /// stage, if they are known; `bare` says which hands have no controller.
+    /// stage, if they are known; `bare` is true of a hand without a controller.
     pub fn update(&mut self, world: &World, seen: Option<&PoseFrame>, bare: [bool; 2], time: f64) {
         let Some(sign) = &mut self.sign else {
             return;

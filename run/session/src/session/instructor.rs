@@ -1,4 +1,4 @@
-//! The instructor's end of a session: what is asked for on the console, and what the console is told.
+//! The instructor's end of a session: the orders that come from the console, and the state that is sent to it.
 //!
 //! Orders act with the next frame, the student reads of each on the panel, and a recording keeps what a replay is to do again.
 
@@ -21,25 +21,25 @@ use vitriol_live::{Console, incidents, readings};
 use vitriol_run::choices::CHOICES;
 use vitriol_run::texts::InstructorTexts;
 
-/// How long the panel says what the instructor has done, ns of the display. Our choice: it is read twice in that.
+/// How long the panel shows what the instructor has done, ns of the display. Our choice: it is read twice in that.
 const SAID: i64 = 6_000_000_000;
-/// How long hands feel that something is said, ns.
+/// How long the hands feel a new announcement, ns.
 const FELT: i64 = 250_000_000;
-/// How strongly, 0 to 1.
+/// How strongly they feel it, 0 to 1.
 const STRENGTH: f32 = 0.5;
-/// Over which frames' times are told.
+/// Time over which frames' times are sent to the console.
 const LATELY: Duration = Duration::from_secs(1);
 
-/// What is told of a frame.
+/// The state in a frame that is sent to the console.
 pub(super) struct Now<'a> {
     pub frame: u64,
     /// Simulated time, s.
     pub time: f64,
-    /// The scene's name, and what it is.
+    /// The scene's name, and the scene.
     pub scene: (&'a str, &'a Scene),
     pub intensity: Option<f64>,
     pub spilt: Spilt,
-    /// All that was found so far.
+    /// All events so far.
     pub events: &'a [Event],
     /// The display's period, s.
     pub period: Option<f64>,
@@ -50,7 +50,8 @@ pub(super) struct Now<'a> {
     pub ended: bool,
 }
 
-/// See the module.
+/// The instructor's end of a session: takes orders from the console, announces them on the panel, and sends the console the session's
+/// state.
 pub(super) struct Instructor {
     console: Option<Console>,
     view: Option<View>,
@@ -58,13 +59,13 @@ pub(super) struct Instructor {
     controls: Controls,
     /// The last order that was taken up.
     done: u64,
-    /// What the panel says of the last one, and the display time of the first frame that did, ns.
+    /// The panel's text on the last order, and the display time of the first frame that showed it, ns.
     said: Option<(String, Option<i64>)>,
-    /// By flask, at the last look.
+    /// Liquid in each flask at the last observation.
     flasks: Vec<Held>,
-    /// Of the last frames, s.
+    /// Processor times of the last frames, s.
     took: VecDeque<(Instant, f64)>,
-    /// Of how many events it is made, and what went wrong in them.
+    /// The number of events that were evaluated, and the incidents in them.
     incidents: (usize, Vec<vitriol_console::Incident>),
 }
 
@@ -93,8 +94,8 @@ impl Instructor {
         })
     }
 
-    /// What was asked for since the last call, each with its order's number. Of what this program cannot do the instructor sees that it
-    /// was not done.
+    /// Orders since the last call, each with its number and the decision that it asks for; `None` where this program cannot carry it out,
+    /// which the instructor sees as not done.
     pub fn orders(&self) -> Vec<(u64, Option<Decision>)> {
         let Some(Console { port, student }) = &self.console else {
             return Vec::new();
@@ -123,7 +124,7 @@ impl Instructor {
             Action::Speed(rate) => controls.rate = *rate,
             Action::Mute(on) => controls.spared = *on,
             Action::Message(text) => controls.message = Text::clipped(text),
-            // The world's own k_v is told.
+            // The console is sent the world's own k_v.
             _ => {}
         }
     }
@@ -138,7 +139,7 @@ impl Instructor {
         self.controls.spared
     }
 
-    /// How strongly both hands feel at `now` (ns) that something is said, 0 to 1.
+    /// How strongly both hands feel a new announcement at `now` (ns), 0 to 1.
     pub fn felt(&self, now: i64) -> f32 {
         let at = self.said.as_ref().and_then(|(_, at)| *at);
         match at {
@@ -147,7 +148,7 @@ impl Instructor {
         }
     }
 
-    /// What the panel says in the frame that is shown at `now` (ns).
+    /// The panel's texts from the instructor in the frame that is shown at `now` (ns).
     pub fn told(&mut self, words: &InstructorTexts, now: i64) -> Told {
         if let Some((_, at)) = &mut self.said {
             at.get_or_insert(now);
@@ -166,7 +167,7 @@ impl Instructor {
         }
     }
 
-    /// Takes in a look.
+    /// Takes in an observation.
     pub fn looked(&mut self, census: &Census) {
         if self.console.is_some() {
             self.flasks.clone_from(&census.flasks);
@@ -178,7 +179,7 @@ impl Instructor {
         self.flasks.clear();
     }
 
-    /// A frame has taken so long on the processor, s.
+    /// Takes in the time of a frame on the processor, s.
     pub fn took(&mut self, seconds: f64) {
         let now = Instant::now();
         self.took.push_back((now, seconds));
@@ -188,7 +189,7 @@ impl Instructor {
         }
     }
 
-    /// Tells the console how it is now.
+    /// Sends the console the session's present state.
     pub fn tell(&mut self, now: &Now<'_>) {
         let Some(port) = self.console.as_ref().map(|console| console.port.clone()) else {
             return;
@@ -272,7 +273,7 @@ impl Instructor {
     }
 }
 
-/// `None` of what this program cannot do.
+/// The decision that a command asks for; `None` where this program cannot carry it out.
 fn asked(command: Command, student: &Student) -> Option<Decision> {
     command.check(student).ok()?;
     Some(Decision::Act(match command {

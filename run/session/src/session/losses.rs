@@ -4,10 +4,10 @@
 const APART: u64 = 900;
 /// Losses in a row after which the session ends: what loses each device anew is no accident, but a driver or the program.
 const MOST: u32 = 3;
-/// Frames in which the panel speaks of it: ten seconds at 90 Hz.
+/// Frames in which the panel reports a loss: ten seconds at 90 Hz.
 const SAID: u64 = 900;
 
-/// See the module.
+/// Counts devices that were lost, and decides when the session gives up.
 #[derive(Debug, Default)]
 pub(super) struct Losses {
     /// Those after which the bench was brought back.
@@ -20,8 +20,8 @@ pub(super) struct Losses {
 }
 
 impl Losses {
-    /// A device was lost in that frame; whether the session is to go on with another. Told once more of the same one, no other was
-    /// found for as long as it was looked for.
+    /// Takes in that a device was lost in that frame; returns whether the session is to go on with another. A second call for the same loss
+    /// means that no other device was found, and returns false.
     pub fn may_go_on(&mut self, frame: u64) -> bool {
         if std::mem::replace(&mut self.pending, true) {
             return false;
@@ -32,7 +32,7 @@ impl Losses {
         self.in_a_row <= MOST
     }
 
-    /// In that frame the bench is on another device, where what was on the lost one goes on.
+    /// Takes in that in that frame the bench is on another device, and goes on there.
     pub fn brought_back(&mut self, frame: u64) {
         self.pending = false;
         self.count += 1;

@@ -9,7 +9,7 @@ use vitriol_sim::solver::{Census, Skin};
 use vitriol_sound::{Caption, Device, Ear, Event, Listener, Mixer, Output, State};
 use vitriol_xr::Pose;
 
-/// What became of the sound.
+/// How a session's sound was played.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SoundReport {
     /// Whether it was played to the end.
@@ -17,8 +17,8 @@ pub struct SoundReport {
     /// Why not, where it was to be.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cause: Option<String>,
-    /// What the buffers of server and device hold, ms. To that come the wait for the frame's end, the frame or two until a look is read
-    /// (blows need none), and up to 20 ms in which uneven frames are evened out.
+    /// What the buffers of server and device hold, ms. To that come the wait for the frame's end, the frame or two until an observation is
+    /// read (blows need none), and up to 20 ms in which uneven frames are evened out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buffered_ms: Option<f64>,
     /// What they are asked to hold, ms: more after they have run dry.
@@ -30,20 +30,20 @@ pub struct SoundReport {
     pub events: u64,
 }
 
-/// See the module.
+/// Hands the run's sounds to the mixer, and gives captions of them.
 pub(super) struct Sounds {
     output: Output,
     /// Why there is no output, where one was asked for.
     cause: Option<String>,
     ear: Ear,
-    /// Of this frame.
+    /// Sounds of this frame.
     events: Vec<Event>,
     made: u64,
     buffered_ms: Option<f64>,
 }
 
 impl Sounds {
-    /// Played there. Without an output the session is silent, and its captions go on.
+    /// Sounds that are played on that device. Without an output the session is silent, and its captions go on.
     pub fn new(device: Device, seed: u64) -> Self {
         let opened = Output::open(device, Mixer::new(seed));
         let (output, cause) = match opened {
@@ -69,13 +69,13 @@ impl Sounds {
         self.ear.clear();
     }
 
-    /// What the run makes heard in the frame that is shown at `time` (s): it sounds with its picture, whenever it was simulated.
+    /// Takes in the run's sounds in the frame that is shown at `time` (s): each is heard with its picture, whenever it was simulated.
     pub fn add(&mut self, events: Vec<Event>, time: f64) {
         let shown = events.into_iter().map(|event| Event { time, ..event });
         self.events.extend(shown);
     }
 
-    /// Acid came to the skin of these, of a scene with that length scale.
+    /// Adds the sounds of acid that reached these parts of the skin, in a scene with that length scale.
     pub fn burnt(&mut self, burnt: &[Skin], census: &Census, length_scale: f64, time: f64) {
         for skin in burnt {
             let at: DVec3 = length_scale * census.skin[*skin as usize].came.position;
@@ -83,7 +83,7 @@ impl Sounds {
         }
     }
 
-    /// Hands over what happened to who is in that place, in the scene's stage.
+    /// Hands this frame's sounds to the mixer, with the listener's head in the scene's stage.
     pub fn hear(&mut self, scene_from_head: Option<&Pose>) {
         let Some(head) = scene_from_head else {
             self.events.clear();
@@ -104,12 +104,12 @@ impl Sounds {
         }
     }
 
-    /// What can be heard at `time` (s).
+    /// Captions of the sounds that can be heard at `time` (s).
     pub fn captions(&self, time: f64) -> Vec<Caption> {
         self.ear.audible(time).collect()
     }
 
-    /// What became of it.
+    /// How the sound was played.
     pub fn report(&self) -> SoundReport {
         let state = self.output.state();
         let ended = match &state {

@@ -58,7 +58,7 @@ impl Contacts {
     }
 }
 
-/// See the module.
+/// Counts liquid beside the flasks and acid that touched the user, and marks gloves and goggles with it.
 #[derive(Debug, Default)]
 pub(super) struct Spills {
     /// What lies beside the flasks now.
@@ -97,8 +97,8 @@ impl Spills {
         }
     }
 
-    /// Takes in a look, in the frame that is shown at `now` (ns). `length_scale` is the scene's, and `hands` are the bones that the
-    /// look was made with, real metres. Returns whose skin was touched by a new splash.
+    /// Takes in an observation, in the frame that is shown at `now` (ns). `length_scale` is the scene's, and `hands` are the bones that the
+    /// observation was made with, real metres. Returns whose skin was touched by a new splash.
     pub fn take(
         &mut self,
         census: &Census,

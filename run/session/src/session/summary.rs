@@ -1,4 +1,4 @@
-//! What happened in the attempt, for who asks on the panel.
+//! The summary of the attempt, which the user asks for on the panel.
 
 use vitriol_lesson::{Attempt, Language, Rubric, Score, Sentence, Texts, Tone, sentences};
 use vitriol_run::{Blame, Failure, Run};
@@ -10,7 +10,7 @@ use vitriol_run::texts::SummaryTexts;
 const LINES: usize = 15;
 const LINE: usize = 58;
 
-/// See the module.
+/// The summary of the attempt, as the panel shows it when the user asks for it.
 pub(super) struct Summary {
     texts: Texts,
     rubric: Rubric,
@@ -34,20 +34,20 @@ impl Summary {
         })
     }
 
-    /// It is asked for, or enough of it.
+    /// Asks for the summary, or takes that back.
     pub fn toggle(&mut self) {
         self.asked = !self.asked;
         self.shown = None;
     }
 
-    /// Another bench is there: who works at it needs the panel.
+    /// Hides the summary for another bench, at which the user needs the panel.
     pub fn begin(&mut self) {
         self.asked = false;
         self.shown = None;
     }
 
-    /// What the panel shows of it, where it was asked for or the session `ends`. It is of what was found in the run so far, and of what goes
-    /// on; it is made anew where more was found.
+    /// The summary as the panel shows it, where it was asked for or the session `ends`. It covers the run's events so far and those that
+    /// are still going on; it is made anew where there are more events.
     pub fn shown(&mut self, words: &SummaryTexts, run: &Run, ends: bool) -> Option<Happened> {
         if !self.asked && !ends {
             self.shown = None;
@@ -63,7 +63,7 @@ impl Summary {
         self.shown.as_ref().map(|(_, happened)| happened.clone())
     }
 
-    /// Of the last attempt in which something happened.
+    /// The summary of the last attempt in which something happened.
     fn of(&self, words: &SummaryTexts, attempts: &[Attempt]) -> Happened {
         let (title, back) = (words.title.clone(), words.back.clone());
         let happened = |it: &&Attempt| !it.pours.is_empty() || !it.incidents.is_empty();
@@ -87,7 +87,7 @@ impl Summary {
     }
 }
 
-/// Those that fit, in their order, and how many do not: what went wrong before what went well, and that before the rest.
+/// Sentences that fit, in their order, and how many do not: what went wrong before what went well, and that before the rest.
 fn fitting(all: Vec<Sentence>) -> (Vec<Sentence>, usize) {
     let lines = |it: &Sentence| columns(&it.text).div_ceil(LINE);
     let mut chosen = vec![false; all.len()];

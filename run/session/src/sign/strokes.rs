@@ -145,7 +145,7 @@ impl Canvas {
         }
     }
 
-    /// The same, parted from what is under it.
+    /// A line as [`Canvas::line`] draws it, with a dark edge that parts it from what is under it.
     pub fn edged(&mut self, ends: [Vec2; 2], half_width: f32, colour: Color32) {
         self.line(ends, half_width + EDGE, ground());
         self.line(ends, half_width, colour);

@@ -89,7 +89,7 @@ fn strongest(samples: &[f64], from: u32, to: u32) -> f64 {
         .unwrap()
 }
 
-/// French 1983 by hand (`run/sound/src/glass.rs`): 764, 2138 and 4095 Hz; a full one is lower by √3.797.
+/// French 1983 by hand (`run/sound/src/modes.rs`): 764, 2138 and 4095 Hz; a full one is lower by √3.797.
 #[test]
 fn a_beaker_rings_at_frenchs_modes() {
     let empty = clink(0.0);
