@@ -7,7 +7,7 @@ use vitriol_run::{EYES_APART, HEAD_FIELD, stage, tripod};
 use vitriol_sim::scene::Scene;
 use vitriol_xr::PoseFrame;
 
-/// Width over height of a picture where no headset says it.
+/// Width over height of a picture where no headset gives it.
 const ASPECT: f32 = 16.0 / 9.0;
 
 /// A camera in the stage, m: it looks along its −Z, its +Y is up.

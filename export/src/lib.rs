@@ -118,7 +118,7 @@ pub struct Export {
     progress: Progress,
 }
 
-/// What a recording says of the run that it is of.
+/// What a recording holds on its run.
 #[derive(Debug, Clone)]
 pub struct Origin {
     /// Scene, seed, preset.
@@ -133,7 +133,7 @@ impl Export {
     /// Of a run of that span into `out`.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     pub fn new(
         formats: &[Format],
         times: Times,
@@ -171,7 +171,7 @@ impl Export {
     /// Ends all files; `hash` is that of the final state. The folder is not complete yet.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     pub fn finish(mut self, hash: u64) -> Result<(OutDir, u64), Failure> {
         for sink in &mut self.sinks {
             sink.finish(hash, &mut self.out)?;
@@ -183,7 +183,7 @@ impl Export {
 /// Writes measurements that are there already, of a run that brought up `scenes_before` others before.
 ///
 /// # Errors
-/// What the file system says.
+/// An error of the file system.
 pub fn tables(
     samples: &[Sample],
     scenes_before: u32,

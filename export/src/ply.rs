@@ -3,7 +3,7 @@
 use crate::cloud::Cloud;
 use crate::mesh::Mesh;
 
-/// A mesh as the bytes of a file. `comment` says in a line what it is.
+/// A mesh as the bytes of a file. `comment` is a line that describes it.
 pub fn bytes(mesh: &Mesh, comment: &str) -> Vec<u8> {
     let header = format!(
         "ply\nformat binary_little_endian 1.0\ncomment {comment}\nelement vertex {}\n\

@@ -28,7 +28,7 @@ pub struct Recording {
     last: Option<PoseFrame>,
     /// Simulated time so far, ns.
     now_ns: i64,
-    /// Substeps and iterations that the first frame says.
+    /// Substeps and iterations that the first frame sets.
     solver: Option<[u32; 2]>,
     schema: String,
 }
@@ -37,7 +37,7 @@ impl Recording {
     /// One of a run of that origin.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     pub fn new(origin: &Origin, out: &mut OutDir) -> Result<Self, Failure> {
         let path = out.join(FILE);
         let writer = TrackWriter::create(&path, &origin.metadata, Existing::Refuse);

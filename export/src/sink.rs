@@ -35,7 +35,7 @@ impl<'a> Frame<'a> {
     /// Reads the state; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(number: u64, moment: &Moment<'a>, world: &'a World) -> Result<Self, Failure> {
         Ok(Self {
             number,
@@ -85,7 +85,7 @@ pub trait Sink {
     /// After each step, and before the first.
     ///
     /// # Errors
-    /// What the device or the file system says.
+    /// An error of the device or the file system.
     fn step(
         &mut self,
         moment: &Moment<'_>,
@@ -99,7 +99,7 @@ pub trait Sink {
     /// At the moments that are exported.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn frame(&mut self, frame: &Frame<'_>, out: &mut OutDir) -> Result<(), Failure> {
         let _ = (frame, out);
         Ok(())
@@ -108,7 +108,7 @@ pub trait Sink {
     /// At a sample's times.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn sample(&mut self, sample: &Sample, out: &mut OutDir) -> Result<(), Failure> {
         let _ = (sample, out);
         Ok(())
@@ -117,7 +117,7 @@ pub trait Sink {
     /// What follows is another scene, or the same from its start.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn start_over(&mut self, out: &mut OutDir) -> Result<(), Failure> {
         let _ = out;
         Ok(())
@@ -126,7 +126,7 @@ pub trait Sink {
     /// Ends its files; `hash` is that of the final state.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn finish(&mut self, hash: u64, out: &mut OutDir) -> Result<(), Failure>;
 }
 
@@ -286,12 +286,13 @@ pub struct Measurements {
 }
 
 impl Measurements {
-    /// As that format.
+    /// Measurements in that format, for a run from its first scene on.
     pub fn new(format: TableFormat) -> Self {
         Self::after(0, format)
     }
 
-    /// Measurements as [`Measurements::new`] makes them, for a run that goes on after `scenes` scenes: its tables are numbered from there.
+    /// Measurements in that format, for a run that goes on after `scenes` scenes: the tables' numbers go on from there, in place of those
+    /// from [`Measurements::new`].
     pub fn after(scenes: u32, format: TableFormat) -> Self {
         Self {
             format,

@@ -42,7 +42,7 @@ impl Surfaces {
         Self::around(scene, poses, Liquid::of(scene, state)).into_stage(scene)
     }
 
-    /// Those of a liquid, in the scene's frame and unit.
+    /// The surfaces of a liquid, in the scene's frame and unit.
     pub fn around(scene: &Scene, poses: &[Pose], liquid: Liquid) -> Self {
         let Liquid {
             positions,

@@ -149,24 +149,24 @@ pub trait Table {
     /// Adds a row.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn row(&mut self, columns: &[Column], sample: &Sample) -> Result<(), Failure>;
 
     /// Ends it.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     fn finish(self: Box<Self>) -> Result<(), Failure>;
 }
 
-/// As CSV (RFC 4180).
+/// A table as CSV (RFC 4180).
 pub struct Csv(csv::Writer<BufWriter<File>>);
 
 impl Csv {
-    /// Of those columns.
+    /// A table of those columns.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
         let mut writer = csv::WriterBuilder::new()
             .terminator(csv::Terminator::CRLF)
@@ -189,7 +189,7 @@ impl Table for Csv {
     }
 }
 
-/// As Parquet.
+/// A table as Parquet.
 pub struct Parquet {
     writer: SerializedFileWriter<BufWriter<File>>,
     /// Of each column the values that are not written yet.
@@ -197,10 +197,10 @@ pub struct Parquet {
 }
 
 impl Parquet {
-    /// Of those columns.
+    /// A table of those columns.
     ///
     /// # Errors
-    /// What the file system says.
+    /// An error of the file system.
     pub fn new(file: File, columns: &[Column]) -> Result<Self, Failure> {
         let field = |column: &Column| -> Result<_, Failure> {
             let field = Type::primitive_type_builder(&column.header, Physical::DOUBLE)

@@ -34,11 +34,11 @@ const FRAMES: [u32; 2] = [4, 40];
 const SURE: usize = 4;
 
 /// Substeps and iterations for `scene` (as its preset `balanced` left it) by which the 99th
-/// percentile of a frame's time is at most `budget` ms, and that time: what `calibrate` says, with whether that is
+/// percentile of a frame's time is at most `budget` ms, and that time: what `calibrate` returns, with whether that is
 /// the whole time, which is kept under `key` (device, driver and scene).
 ///
 /// # Errors
-/// [`Failure::Input`] where even the cheapest takes longer; what the device says.
+/// [`Failure::Input`] where even the cheapest takes longer; an error of the device.
 fn pick(
     cache: &Cache,
     scene: &Scene,
@@ -86,7 +86,7 @@ fn pick(
 /// left it; for a budget that is `balanced`); `None` where neither was.
 ///
 /// # Errors
-/// [`Failure::Input`] for what the liquid does not stand up under; what the device says.
+/// [`Failure::Input`] for what the liquid does not stand up under; an error of the device.
 pub fn chosen(
     solver: Option<[u32; 2]>,
     budget: Option<f64>,

@@ -142,11 +142,10 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera for such pictures of that scene, where the shot says
-    /// until [`Camera::follow`] takes it away.
+    /// A camera for such pictures of that scene, where the shot sets it until [`Camera::follow`] takes it away.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library, scene: &Scene, shot: &Shot) -> Result<Self, Failure> {
         let extent = shot.extent;
         let drawn_tint = tint(shot.tint.unwrap_or(scene.picture.tint));
@@ -218,7 +217,7 @@ impl Camera {
     /// Waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn shoot(&self, world: &World, colour: Colour) -> Result<Vec<u8>, Failure> {
         let gpu = world.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).other()?;
@@ -241,16 +240,15 @@ impl Camera {
     /// before on that queue.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn record(&self, rec: &mut Recorder, world: &World, colour: Colour) -> Result<(), Failure> {
         self.with_frame(world, colour, |frame| self.renderer.record(rec, frame))
     }
 
-    /// Records the two parts of a picture of liquid for two queues, as
-    /// [`Renderer::record_shapes`] tells.
+    /// Records the two parts of a picture of liquid for two queues, as [`Renderer::record_shapes`] describes.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn record_apart(
         &self,
         shapes: &mut Recorder,
@@ -268,7 +266,7 @@ impl Camera {
     /// is now. Waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn passes(&self, world: &World) -> Result<Vec<PassPicture>, Failure> {
         let gpu = world.gpu();
         let mut rec = gpu.recorder(QueueKind::Main).other()?;

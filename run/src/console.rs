@@ -43,7 +43,7 @@ pub fn emit<T: Serialize>(
     }
 }
 
-/// What a program ends with as a line of JSON.
+/// A program's final error, message and exit code, as a line of JSON.
 pub fn error_line(message: &str, exit_code: u8) -> String {
     let line = serde_json::json!({ "error": message, "exit_code": exit_code });
     json_escaped(&line.to_string())

@@ -46,7 +46,7 @@ pub fn pipelines() -> Option<PathBuf> {
     dirs::cache_dir().map(|folder| folder.join("vitriol").join("pipelines"))
 }
 
-/// What a report says of it.
+/// The device and driver as a report names them.
 pub fn statement(gpu: &Gpu) -> DeviceStatement {
     let info = gpu.info();
     DeviceStatement {

@@ -1,4 +1,4 @@
-//! What the loop drives, and what it learns of it.
+//! The experiment that the loop drives, and the data that the loop reads from it.
 
 use std::collections::BTreeMap;
 
@@ -18,11 +18,10 @@ use crate::sample::Sample;
 
 /// What the loop drives: the simulated world, and the picture of it.
 pub trait Experiment {
-    /// Does what the frame's switches say, and advances by one fixed step with
-    /// what the user did at its time.
+    /// Carries out the frame's switches, and advances by one fixed step with the user's poses at its time.
     ///
     /// # Errors
-    /// What device or solver say; [`Failure::Input`] for a switch to a scene
+    /// An error of device or solver; [`Failure::Input`] for a switch to a scene
     /// that is not there.
     fn step(&mut self, frame: &PoseFrame) -> Result<Taken, Failure>;
 
@@ -30,7 +29,7 @@ pub trait Experiment {
     /// device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     fn sample(&mut self, t: f64) -> Result<Sample, Failure>;
 
     /// Draws the state now for one of the films, counted as they were asked
@@ -38,52 +37,52 @@ pub trait Experiment {
     /// Waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     fn picture(&mut self, film: usize) -> Result<&[u8], Failure>;
 
-    /// What could be heard since the last call, and from where; nothing where no pictures were asked for. Waits for the
+    /// The sounds since the last call, and the place where they are heard; nothing where no pictures were asked for. Waits for the
     /// device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     fn heard(&mut self) -> Result<Heard, Failure>;
 
     /// What each pass of a picture of the liquid leaves behind, now; nothing where
     /// no pictures were asked for. Waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     fn passes(&mut self) -> Result<Vec<PassPicture>, Failure>;
 
-    /// Has a lesson judged over what is seen from now on: asked before the first step, if at all.
+    /// Has a lesson judged over the observations from now on: to be called before the first step, if at all.
     fn judge(&mut self, lesson: Judging);
 
-    /// How it is after the last step, for who watches; `None` where nobody can. Does not wait: what is measured is some steps old.
+    /// The state after the last step, for those who watch; `None` where nobody can. Does not wait: what is measured is some steps old.
     fn glimpse(&self) -> Option<Glimpse<'_>> {
         None
     }
 
-    /// What came of it, and on what device.
+    /// The outcome, and the device that it was found on.
     ///
     /// # Errors
-    /// What the device says while the final state is read.
+    /// An error of the device while the final state is read.
     fn outcome(&mut self) -> Result<Outcome, Failure>;
 }
 
-/// What there is to be seen of a run while it goes on.
+/// The state of a run while it goes on, for those who watch.
 #[derive(Clone, Copy, Debug)]
 pub struct Glimpse<'a> {
     /// The scene, and its name where a switch brought it up.
     pub scene: (&'a Scene, Option<&'a str>),
-    /// By flask.
+    /// The liquid in each flask.
     pub flasks: &'a [Held],
-    /// What lies on the bench and on the floor, real m³.
+    /// Liquid on the bench and on the floor, real m³.
     pub spilt: [f64; 2],
     /// k_v, where there is one.
     pub intensity: Option<f64>,
-    /// What was found.
+    /// Events so far.
     pub events: &'a [vitriol_lesson::Event],
-    /// What an instructor did when it was recorded.
+    /// Actions of an instructor when it was recorded, each with the run's time, s.
     pub instructions: &'a [(f64, Action)],
 }
 
@@ -123,11 +122,11 @@ pub struct Outcome {
     pub state_hash: u64,
     /// Device and driver.
     pub device: DeviceStatement,
-    /// What was found in looks at the liquid, over the whole run.
+    /// Events that were found in observations of the liquid, over the whole run.
     pub events: Vec<vitriol_lesson::Event>,
-    /// What was said of the lesson that is judged; empty without one.
+    /// Progress of the lesson that is judged; empty without one.
     pub progress: Vec<vitriol_lesson::procedure::Progress>,
-    /// What an instructor did, each with the run's time, s.
+    /// Actions of an instructor, each with the run's time, s.
     pub instructions: Vec<(f64, Action)>,
     /// What was counted.
     pub counters: Counters,

@@ -45,7 +45,7 @@ impl H264 {
     /// Of `width` × `height` pixels at `fps` frames a second.
     ///
     /// # Errors
-    /// What the encoder says.
+    /// An error of the encoder.
     pub fn new(size: [u32; 2], fps: u32) -> Result<Self, openh264::Error> {
         Self::with_quantiser(size, fps, FILM)
     }
@@ -54,7 +54,7 @@ impl H264 {
     /// [`H264::new`] uses for a film.
     ///
     /// # Errors
-    /// What the encoder says.
+    /// An error of the encoder.
     pub fn live(size: [u32; 2], fps: u32) -> Result<Self, openh264::Error> {
         Self::with_quantiser(size, fps, LIVE)
     }
@@ -82,7 +82,7 @@ impl H264 {
     /// The next frame, of rows from the top, RGBA; `None` where it has more detail than the stream holds.
     ///
     /// # Errors
-    /// What the encoder says.
+    /// An error of the encoder.
     pub fn encode(&mut self, rgba: &[u8]) -> Result<Option<Coded<'_>>, openh264::Error> {
         self.picture.read_rgba8(RgbaSliceU8::new(rgba, self.size));
         let stream = self.encoder.encode(&self.picture)?;

@@ -37,7 +37,7 @@ pub struct Gloves {
 }
 
 impl Gloves {
-    /// For a scene.
+    /// The gloves of a scene's user.
     pub fn of(scene: &Scene) -> Self {
         let scale = scene.scale.length_scale;
         let glass = |flask: &vitriol_sim::scene::Flask| Glass::of(&flask.profile, scale);

@@ -37,7 +37,7 @@ pub struct Setup<'a> {
     pub scene_name: &'a str,
     /// Where scenes that the track switches to are looked up.
     pub scenes: &'a Scenes,
-    /// That preset, for scenes that the track switches to.
+    /// The preset that was applied, for scenes that the track switches to.
     pub preset: Preset,
     /// Seed of the initial jitter.
     pub seed: u64,
@@ -126,7 +126,7 @@ pub struct Laboratory {
 }
 
 impl Laboratory {
-    /// One of the scene that was asked for.
+    /// A laboratory with the scene that was asked for.
     ///
     /// # Errors
     /// [`Failure::Input`] for a liquid that does not fit.
@@ -283,7 +283,7 @@ impl Experiment for Laboratory {
         let frame_time = self.run.world.scene().scale.frame_time;
         self.run.step(QueueKind::Main, frame)?;
         if self.film.is_none() {
-            // Nobody hears them.
+            // They are not played.
             drop(self.run.sounds());
         }
         self.collect(MOST_LOOKS)?;

@@ -30,7 +30,7 @@ pub struct Legend {
 }
 
 impl Legend {
-    /// That of temperature or acid; speed has none, since its colours only set
+    /// The legend of temperature or acid; speed has none, since its colours only set
     /// what moves off from what rests.
     pub fn of(colour_by: ColourBy) -> Option<Self> {
         let (title, step, decimals) = match colour_by {

@@ -16,7 +16,7 @@ pub struct Liquid {
 }
 
 impl Liquid {
-    /// Those of a state of that scene.
+    /// The particles of a state of that scene.
     pub fn of(scene: &Scene, state: &SolverState) -> Self {
         let present: Vec<usize> = (0..state.positions.len())
             .filter(|&slot| state.is_present(slot))

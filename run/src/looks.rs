@@ -75,7 +75,7 @@ impl Looks {
     /// which the run's time is `t` (s). Does not wait; gives the submission that it is in.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn look(
         &mut self,
         world: &mut World,
@@ -117,7 +117,7 @@ impl Looks {
     /// The oldest observation that was not collected yet, if it has come; does not wait.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
         let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
         let Some((census, elapsed)) = (match oldest {
@@ -133,7 +133,7 @@ impl Looks {
     /// The oldest observation that was not collected yet, if there is one; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn wait(&mut self) -> Result<Option<Looked>, Failure> {
         let oldest = self.under_way.front().and_then(|it| it.look.as_ref());
         let Some(look) = oldest else {

@@ -20,12 +20,12 @@ pub trait Watch<E: Experiment + ?Sized> {
     /// Takes what is due.
     ///
     /// # Errors
-    /// What the experiment or the place of the results say.
+    /// An error of the experiment or of the place of the results.
     fn observe(&mut self, moment: &Moment<'_>, experiment: &mut E) -> Result<(), Failure>;
 
     /// What follows is another scene, or the same from its start.
     ///
     /// # Errors
-    /// What the place of the results says.
+    /// An error of the place of the results.
     fn start_over(&mut self) -> Result<(), Failure>;
 }

@@ -77,7 +77,7 @@ impl Observer {
     /// Ends the films and hands over what was kept.
     ///
     /// # Errors
-    /// What a film says.
+    /// An error of a film.
     pub fn finish(self) -> Result<Observations, Failure> {
         self.finish_with(&[])
     }
@@ -85,7 +85,7 @@ impl Observer {
     /// Ends the films as [`Observer::finish`] does, each with these subtitles.
     ///
     /// # Errors
-    /// What a film says.
+    /// An error of a film.
     pub fn finish_with(mut self, texts: &[Subtitles]) -> Result<Observations, Failure> {
         self.sound(self.film_frames)?;
         let films = self.films.into_iter().map(|film| film.finish_with(texts));

@@ -21,7 +21,7 @@ pub const INCIDENTS_CSV: &str = "incidents.csv";
 pub const STATEMENTS: &str = "statements.jsonl";
 /// The film's name in the output folder.
 pub const FILM: &str = "film.mp4";
-/// Likewise of the film coloured by temperature.
+/// The name of the film coloured by temperature.
 pub const FILM_TEMPERATURE: &str = "film-temperature.mp4";
 
 /// What can go wrong with the place of the results.
@@ -84,7 +84,7 @@ impl Staged {
     /// Begins the file that will be found at `path`.
     ///
     /// # Errors
-    /// `AlreadyExists` where `path` exists, else what the system says.
+    /// `AlreadyExists` where `path` exists, else an error of the system.
     pub fn create(path: &Path) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::ErrorKind::AlreadyExists.into());
@@ -112,7 +112,7 @@ impl Staged {
     /// A second handle to the file being written.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the system.
     pub fn try_clone(&self) -> io::Result<File> {
         self.file.as_file().try_clone()
     }
@@ -121,7 +121,7 @@ impl Staged {
     ///
     /// # Errors
     /// `AlreadyExists` where a file of that name has appeared meanwhile, which
-    /// is kept; else what the system says.
+    /// is kept; else an error of the system.
     pub fn keep(self) -> io::Result<()> {
         self.file.as_file().sync_all()?;
         self.file.persist_noclobber(&self.path)?;
@@ -292,7 +292,7 @@ impl OutDir {
     /// How many files of the run it holds, and how many bytes they have.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the system.
     pub fn sizes(&self) -> io::Result<(usize, u64)> {
         let mut bytes = 0;
         for file in &self.files {

@@ -28,7 +28,7 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Those of a state of that world.
+    /// The particles of a state of that world.
     pub fn of(world: &World, state: &SolverState) -> Self {
         let scene = world.scene();
         let scale = scene.scale.length_scale;

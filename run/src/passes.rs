@@ -36,7 +36,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Of times in ms, one a frame; NaN where there is none. The percentile
+    /// The timing of times in ms, one a frame; NaN where there is none. The percentile
     /// is the nearest rank, so it is always a time that was measured.
     pub fn of(times: &[f64]) -> Self {
         let ranks = Ranks::of(times);
@@ -71,7 +71,7 @@ impl Tally {
     /// Adds a frame; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn add(&mut self, ticket: &Ticket) -> Result<(), Failure> {
         ticket.wait().other()?;
         let mut frame: BTreeMap<String, (u32, u64, f64)> = BTreeMap::new();
@@ -114,7 +114,7 @@ impl Tally {
 /// Begins a frame of a scene at rest.
 ///
 /// # Errors
-/// What the device says.
+/// An error of the device.
 pub fn solve(gpu: &Gpu, world: &World) -> Result<Ticket, Failure> {
     let mut rec = gpu.recorder(QueueKind::Main).other()?;
     let poses = world.poses();
@@ -126,7 +126,7 @@ pub fn solve(gpu: &Gpu, world: &World) -> Result<Ticket, Failure> {
 /// asks for it, and bytes of device memory a particle.
 ///
 /// # Errors
-/// What the device says.
+/// An error of the device.
 pub fn anatomy(gpu: &Gpu, scene: &Scene) -> Result<(Vec<PassRow>, u64), Failure> {
     let world = World::new(gpu, &Library::watching(), scene, 0).other()?;
     let mut tally = Tally::default();

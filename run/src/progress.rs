@@ -1,4 +1,4 @@
-//! How far runs are: a bar each for who watches, JSON lines for a program.
+//! How far runs are: a bar each for a person who watches, JSON lines for a program.
 
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -20,7 +20,7 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// For runs whose results are handed over in that format.
+    /// Progress for runs whose results are handed over in that format.
     pub fn new(format: Format) -> Self {
         Self {
             bars: MultiProgress::new(),
@@ -28,7 +28,7 @@ impl Runs {
         }
     }
 
-    /// That of a run of that name and span.
+    /// The progress of a run of that name and span.
     pub fn of(&self, name: &str, span: Span) -> Progress {
         let shown = match self.format {
             Format::Json => Shown::Lines(Line::new(name, span)),
@@ -52,12 +52,12 @@ enum Shown {
 }
 
 impl Progress {
-    /// Of which nothing is shown.
+    /// Progress of which nothing is shown.
     pub fn hidden() -> Self {
         Self(Shown::Nothing)
     }
 
-    /// So far the run is.
+    /// Shows that the run is at that time.
     pub fn at(&mut self, time: &SimulatedTime) {
         match &mut self.0 {
             Shown::Nothing => {}

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Ranks(Vec<f64>);
 
 impl Ranks {
-    /// Of values in any order.
+    /// Ranks values, which are given in any order.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);

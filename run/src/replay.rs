@@ -14,7 +14,7 @@ use crate::moment::{Moment, Watch};
 /// at the start; where a switch brings up one with others, the time counts.
 ///
 /// # Errors
-/// What source, experiment or film say.
+/// An error of source, experiment or film.
 pub fn replay<E: Experiment + ?Sized>(
     source: &mut dyn PoseSource,
     experiment: &mut E,

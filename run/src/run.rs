@@ -48,9 +48,9 @@ pub struct Run {
 /// Where the liquid was in the last observation that was collected; nowhere before the first one of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LastSeen {
-    /// By flask.
+    /// The liquid in each flask.
     pub flasks: Vec<Held>,
-    /// What lay on the bench and on the floor, real m³.
+    /// Liquid on the bench and on the floor, real m³.
     pub spilt: [f64; 2],
 }
 
@@ -113,22 +113,22 @@ impl Run {
         self.judging.as_ref()
     }
 
-    /// What was found in observations that were collected.
+    /// Events that were found in observations that were collected.
     pub fn events(&self) -> &[lesson::Event] {
         &self.events
     }
 
-    /// What would be found if the attempt ended now, beside [`Run::events`].
+    /// Events that would be found if the attempt ended now, beside [`Run::events`].
     pub fn so_far(&self) -> Vec<lesson::Event> {
         self.looks.so_far()
     }
 
-    /// How the lesson went so far.
+    /// The lesson's progress so far.
     pub fn progress(&self) -> &[Progress] {
         &self.progress
     }
 
-    /// What an instructor did, each with simulated time, s.
+    /// Actions of an instructor, each with simulated time, s.
     pub fn instructions(&self) -> &[(f64, Action)] {
         &self.instructions
     }
@@ -158,7 +158,7 @@ impl Run {
         std::mem::take(&mut self.sounds)
     }
 
-    /// Whether something was done since the last step that a replay does again before a step.
+    /// Whether an action was done since the last step that a replay does again before a step.
     pub fn awaits_step(&self) -> bool {
         let again =
             |it: &Action| it.brings_up().is_some() || it.is_instructors() || it.is_of_lesson();
@@ -216,7 +216,7 @@ impl Run {
     /// Ends the attempt, and gives the observations that were under way; waits for the device. A scene may be brought up then.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn end_attempt(&mut self) -> Result<Vec<Looked>, Failure> {
         let mut late = Vec::new();
         while let Some(looked) = self.wait(0)? {
@@ -255,7 +255,7 @@ impl Run {
     /// gives both submissions. Does not wait for the observation.
     ///
     /// # Errors
-    /// What device or solver say. [`Run::time`] tells whether the step was taken: if only its observation failed, it was.
+    /// An error of device or solver. [`Run::time`] shows whether the step was taken: if only its observation failed, it was.
     pub fn step(&mut self, queue: QueueKind, frame: &PoseFrame) -> Result<Vec<Ticket>, Failure> {
         let near = stage::near_from_stage(frame, self.world.scene());
         let input = stage::input(&near, self.world.scene());
@@ -287,7 +287,7 @@ impl Run {
     /// The oldest observation that was not collected yet, if it has come; does not wait.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn collect(&mut self) -> Result<Option<Looked>, Failure> {
         let looked = self.looks.collect()?;
         Ok(looked.map(|it| self.take(it)))
@@ -296,7 +296,7 @@ impl Run {
     /// The oldest observation that was not collected yet, if there are more than `newest` of them; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn wait(&mut self, newest: usize) -> Result<Option<Looked>, Failure> {
         if self.looks.under_way() <= newest {
             return Ok(None);

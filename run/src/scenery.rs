@@ -51,7 +51,7 @@ pub fn drawn_liquid(world: &World) -> LiquidDesc {
     }
 }
 
-/// What the renderer calls a scene's filter.
+/// The renderer's name for a scene's filter.
 pub fn filter(filter: PictureFilter) -> SurfaceFilter {
     match filter {
         PictureFilter::NarrowRange => SurfaceFilter::NarrowRange,
@@ -59,7 +59,7 @@ pub fn filter(filter: PictureFilter) -> SurfaceFilter {
     }
 }
 
-/// What the renderer calls a scene's tint.
+/// The renderer's name for a scene's tint.
 pub fn tint(tint: PictureTint) -> Tint {
     match tint {
         PictureTint::Artificial => Tint::Artificial,
@@ -228,7 +228,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// What a number says is below its mark: the outline's integral, by frustums, of all vessels of all scenes.
+    /// The volume that a number names is below its mark: the outline's integral, by frustums, of all vessels of all scenes.
     #[test]
     fn a_mark_stands_where_its_volume_does() {
         let mut numbers = 0;
@@ -255,7 +255,7 @@ mod tests {
         assert!(numbers > 50, "{numbers}");
     }
 
-    /// What holds liquid at the start says which; a funnel and an empty beaker say nothing.
+    /// A vessel that holds liquid at the start is labelled with it; a funnel and an empty beaker have no label.
     #[test]
     fn labels_say_what_is_in_it() {
         let lines = |scene: &str| -> Vec<Option<Vec<String>>> {

@@ -1,6 +1,6 @@
 //! Subtitles in an MP4 file: a track of timed text (3GPP TS 26.245, `tx3g`) for each language.
 //!
-//! The muxer of pictures and sound knows no text. So its finished file is opened once more: the texts are put behind its samples, and
+//! The muxer of pictures and sound writes no text. So its finished file is opened once more: the texts are put behind its samples, and
 //! their tracks into its `moov`, which grows and moves the samples on.
 
 mod boxes;
@@ -71,7 +71,7 @@ pub enum SubtitlesError {
 /// Adds tracks of text to a film's file, which is an MP4 with its `moov` before its samples.
 ///
 /// # Errors
-/// As [`SubtitlesError`] says; the file is spoiled only where writing fails.
+/// See [`SubtitlesError`]; the file is spoiled only where writing fails.
 pub(crate) fn add(
     file: &mut File,
     size: [u32; 2],

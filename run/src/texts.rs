@@ -13,80 +13,80 @@ use vitriol_sound::Caption;
 #[serde(deny_unknown_fields)]
 pub struct Texts {
     heard: Heard,
-    /// What an instructor did.
+    /// Texts on an instructor's actions.
     pub instructor: InstructorTexts,
-    /// Around a lesson's own texts.
+    /// Texts around a lesson's own.
     pub lesson: LessonTexts,
-    /// Around what is said of an attempt.
+    /// Texts around the summary of an attempt.
     pub summary: SummaryTexts,
-    /// Of the panel itself.
+    /// Texts of the panel itself.
     pub panel: PanelTexts,
 }
 
-/// Of the panel itself.
+/// Texts of the panel itself.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PanelTexts {
-    /// Over buttons that take a hold.
+    /// Text over buttons that take a hold.
     pub hold: String,
-    /// Of the button that starts a scene anew.
+    /// Text of the button that starts a scene anew.
     pub start: String,
-    /// In the ring that fills meanwhile.
+    /// Text in the ring that fills meanwhile.
     pub starting: String,
-    /// Of the button that brings the bench before the user.
+    /// Text of the button that brings the bench before the user.
     pub recentre: String,
-    /// Of the button that asks what happened.
+    /// Text of the button that asks for the summary.
     pub happened: String,
     coming: String,
     ends: String,
     recording: String,
-    /// The disk is full.
+    /// Text for a full disk.
     pub waits: String,
     unwritten: String,
-    /// Another device took over.
+    /// Text for a device that was lost, where another took over.
     pub device_lost: String,
     slow: String,
     missed: String,
-    /// Of a flask.
+    /// State of a flask that broke.
     pub broken: String,
     acid: String,
-    /// What its tint stands for.
+    /// Name of water, beside its tint.
     pub water: String,
-    /// What its tint stands for.
+    /// Name of sulfuric acid, beside its tint.
     pub sulfuric_acid: String,
-    /// That the tints are artificial.
+    /// Note that the tints are artificial.
     pub tints: String,
-    /// What lies beside the flasks.
+    /// Texts on liquid beside the flasks.
     pub spilt: SpiltTexts,
-    /// What acid has touched.
+    /// Texts on where acid has touched the user.
     pub acid_on: AcidOnTexts,
-    /// What is solved and drawn with.
+    /// Texts on the effort of solver and picture.
     pub effort: EffortTexts,
-    /// By scene: what it is.
+    /// What each scene is, by its name.
     scene: BTreeMap<String, String>,
 }
 
-/// What lies beside the flasks.
+/// Texts on liquid beside the flasks.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpiltTexts {
-    /// Around the places.
+    /// Sentence around the places.
     pub text: String,
     /// A volume on the bench.
     pub bench: String,
     /// A volume on the floor.
     pub floor: String,
-    /// Between two places.
+    /// Separator of two places.
     pub next: String,
     /// The decimal point.
     pub decimal: String,
 }
 
-/// What acid has touched.
+/// Texts on where acid has touched the user.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AcidOnTexts {
-    /// Around the places.
+    /// Sentence around the places.
     pub text: String,
     /// The left hand.
     pub left: String,
@@ -94,19 +94,19 @@ pub struct AcidOnTexts {
     pub right: String,
     /// The face.
     pub face: String,
-    /// Between two places.
+    /// Separator of two places.
     pub next: String,
-    /// Before the last one.
+    /// Separator before the last place.
     pub last: String,
 }
 
-/// What is solved and drawn with, where that is less than was asked for.
+/// Texts on the effort of solver and picture, where it is less than was asked for.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EffortTexts {
-    /// Around its parts, after a change for the better.
+    /// Sentence around its parts, after a change for the better.
     pub finer: String,
-    /// Around its parts, after one for the worse.
+    /// Sentence around its parts, after a change for the worse.
     pub coarser: String,
     /// Substeps and iterations.
     pub solver: String,
@@ -118,38 +118,38 @@ pub struct EffortTexts {
     pub picture: String,
     /// The display's rate.
     pub display: String,
-    /// Between two parts.
+    /// Separator of two parts.
     pub next: String,
 }
 
 impl PanelTexts {
-    /// A scene is being set up.
+    /// Text for a scene that is being set up.
     pub fn coming(&self, scene: &str) -> String {
         self.coming.replace("{scene}", scene)
     }
 
-    /// That key ends the session.
+    /// Note that this key ends the session.
     pub fn ends(&self, key: char) -> String {
         self.ends.replace("{key}", &key.to_string())
     }
 
-    /// So many seconds are recorded.
+    /// Text for a recording of so many seconds.
     pub fn recording(&self, seconds: u64) -> String {
         let text = (self.recording).replace("{minutes}", &(seconds / 60).to_string());
         text.replace("{seconds}", &format!("{:02}", seconds % 60))
     }
 
-    /// So many steps could not be recorded.
+    /// Text for so many steps that could not be recorded.
     pub fn unwritten(&self, steps: u64) -> String {
         self.unwritten.replace("{number}", &steps.to_string())
     }
 
-    /// At so many per cent of real time.
+    /// Text for slow motion at so many per cent of real time.
     pub fn slow(&self, per_cent: u32) -> String {
         self.slow.replace("{percent}", &per_cent.to_string())
     }
 
-    /// Display periods without a frame.
+    /// Text for so many display periods without a frame.
     pub fn missed(&self, pictures: u64) -> String {
         self.missed.replace("{number}", &pictures.to_string())
     }
@@ -165,7 +165,7 @@ impl PanelTexts {
     }
 }
 
-/// Around a lesson's own texts.
+/// Texts around a lesson's own.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LessonTexts {
@@ -189,7 +189,7 @@ impl LessonTexts {
     }
 }
 
-/// What an instructor did.
+/// Texts on an instructor's actions.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InstructorTexts {
@@ -216,7 +216,7 @@ impl InstructorTexts {
         self.scene.replace("{scene}", title)
     }
 
-    /// What the student is told.
+    /// The message to the student.
     pub fn message(&self, text: &str) -> String {
         self.message.replace("{text}", text)
     }
@@ -242,17 +242,17 @@ impl InstructorTexts {
     }
 }
 
-/// Around what is said of an attempt, whose sentences are of [`vitriol_lesson::Texts`].
+/// Texts around the summary of an attempt, whose sentences are of [`vitriol_lesson::Texts`].
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SummaryTexts {
-    /// What it is.
+    /// Its title.
     pub title: String,
     points: String,
     /// Where nothing has happened.
     pub nothing: String,
     more: String,
-    /// Of the button that ends it.
+    /// Text of the button that closes it.
     pub back: String,
 }
 
@@ -263,7 +263,7 @@ impl SummaryTexts {
         text.replace("{of}", &of.to_string())
     }
 
-    /// That so many sentences do not fit; `None` of none.
+    /// Note that so many sentences do not fit; `None` for 0.
     pub fn more(&self, count: usize) -> Option<String> {
         (count > 0).then(|| self.more.replace("{number}", &count.to_string()))
     }
@@ -296,7 +296,7 @@ struct Heard {
 }
 
 impl Texts {
-    /// Those of English.
+    /// The texts in English.
     ///
     /// # Errors
     /// As for [`Texts::of`].
@@ -304,7 +304,7 @@ impl Texts {
         Self::of(Language::En)
     }
 
-    /// Those of that language, which the program carries.
+    /// The texts in that language, which the program carries.
     ///
     /// # Errors
     /// [`Failure::Other`] where a key is missing or unknown, which a test rules out.
@@ -312,7 +312,7 @@ impl Texts {
         toml::from_str(table(language)).other()
     }
 
-    /// Sounds, for who does not hear them; `None` in silence.
+    /// Sounds in words, for users who do not hear them; `None` in silence.
     pub fn heard(&self, captions: &[Caption]) -> Option<String> {
         let words: Vec<&str> = captions
             .iter()

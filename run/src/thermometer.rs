@@ -17,7 +17,7 @@ pub(crate) struct Thermometer {
 }
 
 impl Thermometer {
-    /// One that lay in the room of that scene.
+    /// A thermometer that lay in the room of that scene.
     pub fn of(scene: &Scene) -> Self {
         let room = scene.physical.and_then(|it| it.ambient);
         let room = room.or_else(|| scene.paper.and_then(|it| it.T_a));

@@ -184,8 +184,8 @@ mod tests {
         }
     }
 
-    /// The scale is on the stem, over the bulb and under the top, and shows what it is told; a degree is longer than a millimetre,
-    /// so that it can be read.
+    /// The scale is on the stem, over the bulb and under the top, and shows the temperature that it is given; a degree is longer than a
+    /// millimetre, so that it can be read.
     #[test]
     fn a_thermometer_has_a_scale() {
         let [bulb, stem] = parts(ToolKind::Thermometer, 37.5)[..] else {

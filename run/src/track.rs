@@ -9,7 +9,9 @@ use crate::failure::Failure;
 
 pub use spelling::{SpellingError, key};
 
-/// Names under which a recording says with what it was made, and how it ended.
+// Names of a recording's metadata on how it was made and how it ended.
+
+/// The preset.
 pub const PRESET: &str = "preset";
 /// The device's name.
 pub const DEVICE: &str = "device";
@@ -19,14 +21,14 @@ pub const DRIVER: &str = "driver";
 pub const LESSON: &str = "lesson";
 /// Hash of that lesson's text.
 pub const LESSON_HASH: &str = "lesson_hash";
-/// How it goes through it.
+/// The mode in which it goes through the lesson.
 pub const MODE: &str = "mode";
-/// In which language.
+/// The language of the lesson's texts.
 pub const LANGUAGE: &str = "language";
 /// Hash of the final state, hexadecimal.
 pub const STATE_HASH: &str = "state_hash";
 
-/// That it is not whole, and by what: written in place of the hash, and where a track that breaks off is saved again.
+/// Why the recording is not whole: written in place of the hash, and where a track that breaks off is saved again.
 pub const BROKEN_OFF: &str = "broken_off";
 
 /// Reads a track by name or file.

@@ -108,7 +108,7 @@ fn look() -> Findings {
     }
 }
 
-/// What of OpenXR is there, and what is missing.
+/// The parts of OpenXR that are there, and those that are missing.
 #[cfg(feature = "vr")]
 fn openxr() -> (Option<OpenXr>, Vec<String>) {
     let probe = vitriol_xr::probe::probe();

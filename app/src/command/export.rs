@@ -212,7 +212,7 @@ fn simulated(
     Ok(done)
 }
 
-/// What a report says of how its run was made.
+/// A report's data on how its run was made.
 #[derive(Default)]
 struct Made<'a> {
     track: Option<&'a str>,
@@ -227,7 +227,7 @@ struct Made<'a> {
 
 impl<'a> Made<'a> {
     /// A report may come from anyone, as a track may: a scene's file is opened where the user names it, and not the report.
-    /// (The track's is: what a reader of tracks says of another file tells nothing of what is in it.)
+    /// (The track's is: the track reader's error for another kind of file reveals nothing of its contents.)
     fn of(report: &'a Report) -> Result<Self, Failure> {
         let name = &report.preset;
         let preset = Preset::ALL.into_iter().find(|preset| preset.name() == name);
@@ -290,7 +290,7 @@ fn times(args: &ExportArgs, plan: &ReplayPlan, whole: Option<f64>) -> Result<Tim
     })
 }
 
-/// What an exported recording says of itself: it replays like one that was recorded.
+/// The metadata of an exported recording: it replays like one that was recorded.
 fn metadata(plan: &ReplayPlan, device: &vitriol_run::DeviceStatement) -> TrackMetadata {
     let mut metadata = TrackMetadata {
         scene: plan.name.clone(),

@@ -21,7 +21,7 @@ struct HubReport {
     console: String,
     /// What students' programs take for `--hub`.
     students: Option<String>,
-    /// Of its certificate.
+    /// Fingerprint of its certificate.
     fingerprint: Option<String>,
 }
 
@@ -50,7 +50,7 @@ pub fn run(args: &HubArgs, format: Format) -> Result<(), Failure> {
     let (say, said) = channel();
     let end = say.clone();
     ctrlc::set_handler(move || {
-        // One that has ended hears nothing.
+        // A hub that has ended takes no messages.
         let _ = end.send(Said::End);
     })
     .other()?;

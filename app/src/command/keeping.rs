@@ -11,7 +11,7 @@ use vitriol_run::{Blame, Failure};
 
 use crate::cli::KeepArgs;
 
-/// What came of it.
+/// What was kept in the class's file, and sent.
 #[derive(Debug, Serialize)]
 pub struct Kept {
     /// The class's file.
@@ -23,12 +23,12 @@ pub struct Kept {
     /// The file of statements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub statements: Option<String>,
-    /// What came of sending.
+    /// The result of sending the statements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sent: Option<Delivered>,
 }
 
-/// What came of sending.
+/// The result of sending statements to their store.
 #[derive(Debug, Serialize)]
 pub struct Delivered {
     /// Statements that the store has since.

@@ -1,4 +1,4 @@
-//! What a recording says of how it is to be replayed, and what is asked for instead.
+//! A recording's settings for its replay, and what is asked for instead.
 
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
@@ -12,7 +12,7 @@ use vitriol_xr::track::{Hole, Track, TrackMetadata};
 use crate::cli::CameraName;
 
 /// The track, if all of it is there, or what of it is whole where that is `accepted`. Else what its film shows would
-/// not be what was recorded, and nothing would say so.
+/// not be what was recorded, and nothing would report that.
 pub fn whole(name: &str, track: Track, accepted: bool) -> Result<Track, Failure> {
     let first = track.frames.first().map_or(0, |frame| frame.step);
     if first > 0 {
@@ -67,7 +67,7 @@ pub fn scene_of(
     Ok(found)
 }
 
-/// Whether the track is a recording, and not made of keyframes, which say their own name.
+/// Whether the track is a recording, and not made of keyframes, which hold their own name.
 pub fn is_recording(metadata: &TrackMetadata) -> bool {
     !metadata.parameters.contains_key("track")
 }
@@ -120,7 +120,7 @@ fn has_recorded_text(metadata: &TrackMetadata, name: &str, scenes: &Scenes) -> b
     recorded.is_none_or(|recorded| scenes.text(name) == Some(recorded))
 }
 
-/// What was found in the session; what is no event of this version is left out.
+/// The events that the session recorded; one that this version cannot read is left out.
 pub fn recorded_events(track: &Track) -> Vec<Event> {
     let events = track.events.iter();
     events
@@ -128,7 +128,7 @@ pub fn recorded_events(track: &Track) -> Vec<Event> {
         .collect()
 }
 
-/// What was said of its lesson, likewise.
+/// The progress that the session recorded of its lesson; what this version cannot read is left out.
 pub fn recorded_progress(track: &Track) -> Vec<Progress> {
     let said = track.progress.iter();
     said.filter_map(|(_, json)| serde_json::from_str(json).ok())

@@ -274,7 +274,7 @@ struct Recorded {
     said: BTreeMap<String, String>,
     asked: Vec<&'static str>,
     events: Vec<Event>,
-    /// What was said of the lesson, where it went through the one that is judged.
+    /// Recorded progress of the lesson, where it went through the one that is judged.
     progress: Option<Vec<Progress>>,
 }
 

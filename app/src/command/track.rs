@@ -30,7 +30,7 @@ struct TrackInfo {
     parameters: BTreeMap<String, String>,
     /// Names of the scenes that it carries.
     scenes: Vec<String>,
-    /// What its recorder said at the end.
+    /// Values that its recorder wrote at the end, by name.
     outcome: BTreeMap<String, String>,
 }
 

@@ -124,7 +124,7 @@ pub fn run(args: &VrArgs, format: Format) -> Result<(), Failure> {
         out: None,
     };
     let kept = keeping::keep_under(&args.keep, &keeper, &sitting, &report.attempts);
-    // What could not be kept is at least said.
+    // What could not be kept is at least reported.
     let failure = match kept {
         Ok(kept) => {
             report.kept = kept;
@@ -180,7 +180,7 @@ fn sound(args: &VrArgs) -> Device {
     }
 }
 
-/// A session that hears the computer's keys, and has a window there if it is to be `mirrored` and
+/// A session that takes the computer's keys, and has a window there if it is to be `mirrored` and
 /// there is a screen.
 fn begin(
     headset: &dyn Headset,
@@ -220,7 +220,7 @@ fn keys(serving: Option<Arc<Serving>>) -> Result<(Sender<Decision>, Receiver<Dec
     let of_window = decisions.clone();
     let asked = decisions.clone();
     ctrlc::set_handler(move || {
-        // A session that has ended hears nothing.
+        // A session that has ended takes no decisions.
         let _ = asked.send(Decision::End);
     })
     .other()?;

@@ -49,7 +49,7 @@ impl Report {
     }
 }
 
-/// A lesson's steps and rules, each with what became of it.
+/// A lesson's steps and rules, each with its result.
 fn judged(verdict: &Verdict, texts: &Texts, film: bool) -> Markup {
     let row = |line: &VerdictLine| {
         html! {
@@ -213,7 +213,7 @@ fn clock(t_s: f64) -> String {
     }
 }
 
-/// Points in a picture; the words beside it say the same.
+/// Points in a picture; the words beside it give them too.
 fn bar(points: u32, of: u32) -> Markup {
     let share = 100.0 * f64::from(points) / f64::from(of.max(1));
     html! {

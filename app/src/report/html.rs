@@ -10,7 +10,7 @@ use vitriol_run::{LedgerSample, Sample};
 use super::model::Report;
 use super::plot::{Curve, Plot, over_time};
 
-/// Of air at 20 °C and one atmosphere, kg/m³.
+/// Density of air at 20 °C and one atmosphere, kg/m³.
 const AIR_DENSITY: f64 = 1.204;
 
 const SCRIPT: &str = include_str!("report.js");

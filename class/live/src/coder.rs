@@ -31,7 +31,7 @@ pub struct Coder {
 }
 
 impl Coder {
-    /// For who looks at that port's student.
+    /// A coder for the pages that look at that port's student.
     ///
     /// # Errors
     /// Where no thread can be started.
@@ -67,7 +67,7 @@ impl Drop for Coder {
     fn drop(&mut self) {
         self.pictures = None;
         if let Some(thread) = self.thread.take() {
-            // One that panicked has said so itself.
+            // A thread that panicked has reported that itself.
             let _ = thread.join();
         }
     }

@@ -14,12 +14,12 @@ use super::watchers::Watchers;
 use crate::args::ConsoleArgs;
 use vitriol_run::choices::CHOICES;
 
-/// A run's end of the console: what its loop tells and hears, and what was said of the program.
+/// A run's end of the console: the states that its loop sends, the orders that it receives, and the program's description.
 #[derive(Clone, Debug)]
 pub struct Console {
     /// Where states go and orders come from.
     pub port: Port,
-    /// What the instructor was told that this program is.
+    /// The description of this program that the instructor was sent.
     pub student: Student,
 }
 
@@ -41,7 +41,7 @@ struct Said<'a> {
 }
 
 impl Serving {
-    /// Serves it as `args` say, or dials, for a session or a replay.
+    /// Serves it or dials, as `args` set it, for a session or a replay.
     ///
     /// # Errors
     /// [`Failure::Input`] for an address that cannot be listened on.
@@ -143,7 +143,7 @@ pub fn invitation(hub: &Hub, format: Format) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// What an instructor is told that a program of that name is: a session, in which scenes can be brought up, or a replay.
+/// The description of a program of that name for an instructor: a session, in which scenes can be brought up, or a replay.
 pub fn student(name: Option<&str>, is_session: bool) -> Student {
     let name = name.map(str::to_owned).or_else(computer);
     let name = name.unwrap_or_else(|| "computer".to_owned());

@@ -1,4 +1,4 @@
-//! What the console is told of a run's liquid, and of what went wrong.
+//! The state of a run's liquid and its incidents, as they are sent to the console.
 
 use vitriol_console::{Flask, Incident, List, Readings, Text};
 use vitriol_lesson::{Attempt, Event, Texts, What};

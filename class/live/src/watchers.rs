@@ -64,7 +64,7 @@ impl Watchers {
         self.over.store(true, Ordering::Relaxed);
         let watchers = self.threads.len();
         let took: Vec<f64> = (self.threads.into_iter())
-            // One that panicked has said so itself.
+            // A thread that panicked has reported that itself.
             .filter_map(|thread| thread.join().ok())
             .flatten()
             .collect();

@@ -160,7 +160,7 @@ mod tests {
             assert_eq!(due.ends.last(), Some(&1.0));
             simulated += STEP * due.ends.len() as f64;
         }
-        // What was not simulated was said, to the last bit of it.
+        // All time that was not simulated is counted in `slowed`.
         assert!((clock.slowed + simulated + clock.since - 4.0).abs() < 1e-9);
         // And nothing is made up for.
         assert_eq!(clock.advance(ns(4.0 + STEP), STEP).ends.len(), 1);

@@ -1,8 +1,8 @@
 //! A bare hand grips by closing round a flask.
 //!
-//! How far fingers are bent does not tell: a hand at rest is bent as much as one that holds a beaker. So it is closed where
+//! How far fingers are bent is no measure of that: a hand at rest is bent as much as one that holds a beaker. So it is closed where
 //! thumb and fingers touch the same flask from opposite sides, and open where they no longer do. The glass does not stop
-//! them: fingers that go into it touch it, too. What comes of it is the hand's squeeze, which a recording keeps.
+//! them: fingers that go into it touch it, too. The result is the hand's squeeze, which a recording keeps.
 
 use glam::Vec3;
 use vitriol_sim::world::World;

@@ -140,7 +140,8 @@ impl FirstMinute {
         }
     }
 
-    /// The lesson that is to be shown: one that was not done yet. Pouring is left out where there is no other vessel to pour into.
+    /// The lesson that is to be shown: the first one that was not done yet. Pouring is left out where there is no other vessel to pour
+    /// into.
     pub fn next(&self, can_pour: bool) -> Option<Lesson> {
         let is_new = |lesson: &Lesson| self.done[*lesson as usize].is_none();
         let mut lessons = Lesson::ALL.into_iter().filter(is_new);

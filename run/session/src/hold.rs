@@ -9,7 +9,7 @@ const LONG: i64 = 1_000_000_000;
 pub struct Hold {
     /// Display time at which it was pressed, ns.
     since: Option<i64>,
-    /// It has been held for long enough, and was said.
+    /// It has been held for long enough, and this was returned.
     done: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What a session says of itself, on the panel and in the mirror window's title.
+//! A session's state, as the panel and the mirror window's title show it.
 
 use vitriol_lesson::Tone;
 
@@ -14,7 +14,7 @@ pub struct Info {
     pub flasks: Vec<FlaskLine>,
     /// Whether there is acid with a tint, which is explained.
     pub acid: bool,
-    /// What lies beside the flasks.
+    /// Liquid beside the flasks.
     pub spilt: Lying,
     /// Whether acid has touched the left hand, the right hand, the face.
     pub burns: [bool; 3],
@@ -32,7 +32,7 @@ pub struct Info {
     pub unwritten: u64,
     /// Display periods without a frame.
     pub missed: u64,
-    /// What is solved and drawn with, where that is less than was asked for.
+    /// The effort of solver and picture, where it is less than was asked for.
     pub effort: Option<Effort>,
     /// The scene that is being set up.
     pub coming: Option<String>,
@@ -40,30 +40,30 @@ pub struct Info {
     pub holding: Option<u32>,
     /// The end was asked for once.
     pub ends: bool,
-    /// What happened in the attempt, for who asks.
+    /// The summary of the attempt, where the panel shows it.
     pub happened: Option<Happened>,
-    /// What the instructor says.
+    /// The instructor's message and actions.
     pub told: Told,
-    /// What is to be done in the lesson.
+    /// The lesson, as the panel shows it.
     pub lesson: Option<Shown>,
 }
 
 /// What the panel shows of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shown {
-    /// What is to be done, or what it came to.
+    /// The step that is to be done, or the lesson's result.
     pub step: String,
     /// Its steps, where they are listed.
     pub steps: Vec<(Mark, String)>,
     /// How many steps there are, or beside those that are listed.
     pub note: Option<String>,
-    /// How, for who does not get on.
+    /// How to do it; `None` where no hint is shown.
     pub hint: Option<String>,
     /// Why something failed a short time ago.
     pub failed: Option<String>,
-    /// What can be asked for.
+    /// The actions that the user can ask for.
     pub acts: Vec<ActLine>,
-    /// Whether nothing is told of what happened before the end.
+    /// Whether the panel shows nothing of what happened before the end, as in an examination.
     pub quiet: bool,
 }
 
@@ -83,18 +83,18 @@ pub enum Mark {
 /// A button of the lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActLine {
-    /// What it asks for.
+    /// The action that it asks for.
     pub act: Action,
-    /// What it says.
+    /// Its text.
     pub text: String,
-    /// Whether there is any now.
+    /// Whether the action can be asked for now.
     pub on: bool,
 }
 
-/// What the instructor says.
+/// The instructor's message and actions, as the panel shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Told {
-    /// What she holds up, and did last.
+    /// In words: that time is held, while it is, and her last action.
     pub done: Vec<String>,
     /// Her message.
     pub message: Option<String>,
@@ -103,19 +103,19 @@ pub struct Told {
 /// What happened in an attempt, as far as it fits the panel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Happened {
-    /// What it is.
+    /// Its title.
     pub title: String,
     /// Points, of how many; `None` where nothing could be judged.
     pub points: Option<String>,
     /// Sentences.
     pub said: Vec<(Tone, String)>,
-    /// That some do not fit.
+    /// Note that some sentences do not fit; `None` where all do.
     pub more: Option<String>,
-    /// Of the button that ends it.
+    /// Text of the button that closes the summary.
     pub back: String,
 }
 
-/// Liquid beside the flasks, in tenths of a mL: as much as is said of it.
+/// Liquid beside the flasks, in tenths of a mL, to which the panel shows it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lying {
     bench: u32,
@@ -123,7 +123,7 @@ pub struct Lying {
 }
 
 impl Lying {
-    /// Of so many mL.
+    /// Rounds these volumes on bench and floor, mL.
     pub fn of(bench: f64, floor: f64) -> Self {
         let tenths = |millilitres: f64| (10.0 * millilitres).round() as u32;
         Self {

@@ -72,7 +72,7 @@ mod tests {
         };
         // A press in the air closes the hand, and no longer than it lasts.
         assert_eq!([frame(1.0, false), frame(0.0, false)], [1.0, 0.0]);
-        // One that takes hold: the world says so a frame later.
+        // One that takes hold: the world has it a frame later.
         assert_eq!([frame(1.0, false), frame(1.0, true)], [1.0, 1.0]);
         assert_eq!([frame(0.0, true), frame(0.3, true)], [1.0, 1.0]);
         // The next opens at once, and the hand stays open for as long as it lasts.

@@ -1,7 +1,7 @@
 //! In the headset: the frame loop that feeds the flasks from a live session.
 //!
 //! `session` is the loop, over the trait [`Headset`](vitriol_xr::Headset) that an OpenXR session and the stand-in
-//! implement. The other files are what it uses, and know no session. `docs/headset.md` lists what happens in a
+//! implement. The other files hold its parts, which do not depend on it. `docs/headset.md` lists what happens in a
 //! frame, in that order.
 
 pub mod blame;

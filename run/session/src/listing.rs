@@ -1,4 +1,4 @@
-//! What the panel says of a lesson: its steps as the mode allows, and what the user can ask for.
+//! A lesson on the panel: its steps as the mode allows, and the actions that the user can ask for.
 
 use vitriol_lesson::procedure::{State, Status, StepState};
 use vitriol_lesson::{Language, Lesson, Mode, Procedure, Texts};
@@ -12,19 +12,19 @@ use vitriol_run::texts::LessonTexts;
 const LINES: usize = 9;
 const LINE: usize = 54;
 
-/// What words are taken from.
+/// The texts that a lesson is shown with.
 #[derive(Clone, Copy)]
 pub struct Words<'a> {
-    /// Around a lesson's texts.
+    /// The texts around a lesson's own.
     pub around: &'a LessonTexts,
-    /// Likewise, in the lesson's language.
+    /// The texts of buttons and notes, in the lesson's language.
     pub texts: &'a Texts,
     /// That language.
     pub language: Language,
 }
 
-/// What is said of a lesson that is judged so. `hinted` is the step whose hint was given last, `failed` why something failed a short time
-/// ago.
+/// The panel's view of a lesson that is judged so. `hinted` is the step whose hint was given last, `failed` why something failed a short
+/// time ago.
 pub fn shown(
     judge: &Procedure,
     words: Words<'_>,
@@ -75,7 +75,7 @@ pub fn shown(
                 ..Shown::default()
             }
         }
-        // Who is examined is told the task, and not how it stands.
+        // A user who is examined is told the task, and not its state.
         Mode::Examination => Shown {
             step: format!("{title}: {}", of_lesson.summary),
             note: Some(words.texts.steps_in_all(state.steps.len())),
@@ -110,7 +110,7 @@ fn hint_of<'a>(state: &'a State, hinted: Option<&str>) -> Option<&'a str> {
     found.map(|it| it.id.as_str())
 }
 
-/// What can be asked for in that mode.
+/// The actions that the user can ask for in that mode.
 pub fn can_ask(mode: Mode) -> &'static [Action] {
     match mode {
         Mode::Guided => &[Action::Hint(None), Action::Skip(None)],
@@ -158,7 +158,7 @@ fn fitting(
     if takes.iter().sum::<usize>() <= room {
         return (all, 0);
     }
-    // A line says how many there are beside.
+    // One line gives the number of those that are left out.
     let mut left = room - 1;
     let left_open = |(mark, _): &(Mark, String)| matches!(mark, Mark::Open | Mark::Waiting);
     let first = all.iter().position(left_open).unwrap_or(0);
@@ -205,7 +205,7 @@ mod tests {
         judge
     }
 
-    /// What a lesson says at its beginning in English.
+    /// The panel's view of a lesson at its beginning, in English.
     fn said(judge: &Procedure, hinted: Option<&str>) -> Shown {
         in_language(judge, Language::En, hinted)
     }

@@ -32,7 +32,7 @@ impl Mirror {
     /// In `window`, for pictures of `eye` pixels an eye.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(
         gpu: &Gpu,
         library: &Library,
@@ -61,7 +61,7 @@ impl Mirror {
     /// if it is time for one. To be called between frames, behind the picture.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         let Some(extent) = self.window.extent() else {
             return Ok(());
@@ -77,7 +77,7 @@ impl Mirror {
     /// Hands over what the device is done with; does not wait.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         while let Some(shrunk) = self.shrink.done()? {
             self.window.say(Say::Picture(shrunk));

@@ -18,7 +18,7 @@ pub const GROUND: [f32; 4] = [0.075, 0.085, 0.10, 1.0];
 /// A picture to be painted.
 ///
 /// # Errors
-/// What the device says.
+/// An error of the device.
 pub fn image(gpu: &Gpu, label: &str, extent: [u32; 2]) -> Result<Image, Failure> {
     let desc = ImageDesc {
         extent,
@@ -70,7 +70,7 @@ impl Painter {
     /// A painter of what is called `label`.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library, label: &'static str) -> Result<Self, Failure> {
         let compile = |entry| library.compile(&panel::PANEL, entry, &[]).other();
         let (vertex, fragment) = (compile("vertex")?, compile("fragment")?);
@@ -126,7 +126,7 @@ impl Painter {
     /// Records the picture, if there is a new one.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn record(&mut self, rec: &mut Recorder, image: &Image) -> Result<(), Failure> {
         if !std::mem::take(&mut self.changed) {
             return Ok(());

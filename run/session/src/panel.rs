@@ -86,7 +86,7 @@ impl Panel {
     /// A panel that shows nothing yet, in English.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         let context = egui::Context::default();
         view::style(&context);
@@ -226,7 +226,7 @@ impl Panel {
     /// Records the picture, if it has changed since it was recorded last.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn record(&mut self, rec: &mut Recorder) -> Result<(), Failure> {
         self.kept_back |= self.painter.changed;
         self.painter.record(rec, &self.image)
@@ -235,7 +235,7 @@ impl Panel {
     /// Records the picture's copy to what the headset shows.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn hand_over(&mut self, rec: &mut Recorder, target: &Image) -> Result<(), Failure> {
         rec.copy_image(&self.image, target).other()?;
         self.kept_back = false;

@@ -36,7 +36,7 @@ pub struct Eyes {
 }
 
 impl Eyes {
-    /// Those of a headset.
+    /// The pictures of a headset.
     pub fn of(headset: &dyn Headset, foveating: Option<Foveating>) -> Self {
         Self {
             extent: headset.extent(),
@@ -133,7 +133,7 @@ impl Picture {
     /// Leaves out of the pictures what the lenses hide; waits for the device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn hide(&mut self, hidden: &[Vec<[f32; 2]>; 2]) -> Result<(), Failure> {
         let [left, right] = hidden;
         self.renderer.set_visibility_mask(&[left, right]).other()
@@ -142,7 +142,7 @@ impl Picture {
     /// Pictures of a scene.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(
         gpu: &Gpu,
         library: &Library,
@@ -185,7 +185,7 @@ impl Picture {
     /// behind it on its queue; `also` records what else reads them.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn shapes(
         &self,
         gpu: &Gpu,
@@ -217,7 +217,7 @@ impl Picture {
     /// before it.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn draw(
         &mut self,
         world: &World,
@@ -276,7 +276,7 @@ impl Picture {
     /// Waits until at most two pictures are under way. Only while no frame is open.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn keep_up(&mut self) -> Result<(), Failure> {
         while self.under_way.len() > UNDER_WAY {
             self.under_way.remove(0).wait().other()?;

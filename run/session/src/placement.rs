@@ -89,8 +89,8 @@ impl Placement {
     }
 
     /// Lays the bench before the user where that is `asked`, where she has not been seen yet, and where she is elsewhere
-    /// after an interruption. `Some` where, seen from the bench, the hands leap in the next step, with the action that says
-    /// so in a recording; then the last frame is forgotten, since between it and the next one lies the leap.
+    /// after an interruption. `Some` where, seen from the bench, the hands leap in the next step, with the action that a recording keeps of
+    /// it; then the last frame is forgotten, since between it and the next one lies the leap.
     pub fn place(&mut self, now: &PoseFrame, asked: bool) -> Option<Action> {
         let interrupted = self.interrupted.take();
         let elsewhere = interrupted.is_some_and(|then| is_elsewhere(&then, &now.stage_from_view));
@@ -149,7 +149,7 @@ fn yaw_of(stage_from_view: &Pose) -> f32 {
     (-level.x).atan2(-level.z)
 }
 
-/// `stage_from_scene` for a user whose head is there.
+/// `stage_from_scene` for a user whose head is at `stage_from_view`.
 fn before(stage_from_view: &Pose, posture: Posture, chosen: Option<f32>) -> Pose {
     let head = stage_from_view.position;
     let stands = match posture {
@@ -181,7 +181,7 @@ pub fn in_scene(frame: &PoseFrame, stage_from_scene: &Pose) -> PoseFrame {
     frame
 }
 
-/// See [`Action::Leap`].
+/// The bench's place as the text of [`Action::Leap`].
 fn as_text(stage_from_scene: &Pose) -> String {
     let Vec3 { x, y, z } = stage_from_scene.position;
     let (yaw, _, _) = stage_from_scene.orientation.to_euler(EulerRot::YXZ);

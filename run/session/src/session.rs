@@ -212,8 +212,7 @@ impl Session {
     /// A session at its start, which does what comes from `decisions`.
     ///
     /// # Errors
-    /// [`Failure::Input`] for a scene that is not there, or a recording that is already; what the
-    /// device says.
+    /// [`Failure::Input`] for a scene that is not there, or a recording that exists already; an error of the device.
     pub fn new(
         headset: &dyn Headset,
         options: Options,
@@ -282,7 +281,7 @@ impl Session {
     /// This session, with the left eye's picture shown in `window`.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn mirrored(mut self, window: Window) -> Result<Self, Failure> {
         let (gpu, benches) = (self.run.world.gpu(), &self.benches);
         let mirror = Mirror::new(gpu, &benches.library, benches.eyes.extent, window)?;
@@ -293,7 +292,7 @@ impl Session {
     /// Runs until the runtime, the user or the number of frames ends it.
     ///
     /// # Errors
-    /// What headset or device say.
+    /// An error of headset or device.
     pub fn run(mut self, headset: &mut dyn Headset) -> Result<SessionOutcome, Failure> {
         let mut lost = false;
         loop {

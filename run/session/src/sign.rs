@@ -49,7 +49,7 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// As the renderer takes it, in the scene's stage.
+    /// The sign as the renderer takes it, in the scene's stage.
     pub fn panel(&self) -> Panel<'_> {
         Panel {
             image: &self.image,
@@ -60,10 +60,10 @@ impl Drawn {
 }
 
 impl Sign {
-    /// One that shows nothing yet.
+    /// A sign that shows nothing yet.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         Ok(Self {
             painter: Painter::new(gpu, library, "sign")?,
@@ -102,12 +102,12 @@ impl Sign {
         }
     }
 
-    /// Shows nothing.
+    /// Hides the sign.
     pub fn hide(&mut self) {
         self.shown = None;
     }
 
-    /// As it is drawn, if it is shown. Its picture is to be recorded before.
+    /// The sign as it is drawn, if it is shown. Its picture is to be recorded before.
     pub fn drawn(&self) -> Option<Drawn> {
         self.shown.is_some().then(|| Drawn {
             image: self.image.clone(),
@@ -118,7 +118,7 @@ impl Sign {
     /// Records its picture, if it has changed since it was recorded last.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn record(&mut self, rec: &mut Recorder) -> Result<(), Failure> {
         self.painter.record(rec, &self.image)
     }

@@ -70,7 +70,7 @@ pub struct WaitsReport {
 }
 
 impl Frames {
-    /// What is reported of them; `None` where there were none.
+    /// The report of these frames; `None` where there were none.
     pub fn report(&self) -> Option<FramesReport> {
         Some(FramesReport {
             frames: self.cpu_ms.len() as u64,
@@ -166,7 +166,7 @@ impl Tally {
     /// Collects the device's times of frames that are done; does not wait.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn collect(&mut self) -> Result<(), Failure> {
         while let Some(frame) = self.pending.front() {
             if !frame.picture.is_done().other()? {
@@ -192,7 +192,7 @@ impl Tally {
         Ok(())
     }
 
-    /// Forgets what was measured so far.
+    /// Forgets all measurements so far.
     pub fn restart(&mut self) {
         *self = Self::new(self.counts, self.timed);
     }

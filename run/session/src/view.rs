@@ -27,7 +27,7 @@ impl View {
     /// Of pictures of `eye` pixels an eye, for who looks at that port's student.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2], port: &Port) -> Result<Self, Failure> {
         Ok(Self {
             shrink: Shrink::new(gpu, library, eye)?,
@@ -40,7 +40,7 @@ impl View {
     /// Goes on with another device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
         self.shrink = Shrink::new(gpu, library, eye)?;
         self.due = i64::MIN;
@@ -51,7 +51,7 @@ impl View {
     /// called between frames, behind the picture.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         // As in the mirror: display times are rounded.
         if !self.coder.is_wanted() || time < self.due.saturating_sub(EVERY / 8) {
@@ -64,7 +64,7 @@ impl View {
     /// Hands over what the device is done with.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         while let Some(shrunk) = self.shrink.done()? {
             let time_us = u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX);

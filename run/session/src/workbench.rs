@@ -54,8 +54,7 @@ impl Workbench {
     /// The bench at its start, and its world.
     ///
     /// # Errors
-    /// [`Failure::Input`] for a scene that is not there or whose liquid does not fit; what the
-    /// device says.
+    /// [`Failure::Input`] for a scene that is not there or whose liquid does not fit; an error of the device.
     pub fn new(
         gpu: &Gpu,
         library: &Library,

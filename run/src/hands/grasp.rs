@@ -35,7 +35,7 @@ pub struct Grasp {
 }
 
 impl Grasp {
-    /// Of a hand that holds nothing: closed by 0 to 1.
+    /// A hand that holds nothing, closed by 0 (open) to 1 (a fist).
     pub fn empty(closed: f32) -> Self {
         Self {
             posture: Posture::empty(closed),

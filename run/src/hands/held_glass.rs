@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use vitriol_sim::flask::glassware::GLASSWARE;
 
-    /// As the profile's own table says, for each vessel there is, outside and within.
+    /// As in the profile's own table, for each vessel there is, outside and within.
     #[test]
     fn a_few_segments_are_as_good_as_the_table() {
         for named in &GLASSWARE {

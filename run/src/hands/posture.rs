@@ -58,7 +58,7 @@ const SPREAD: [f32; 4] = [0.09, 0.01, -0.06, -0.16];
 pub struct Posture {
     /// Of each finger, from the index to the little one, the angles at the knuckle and the two joints, rad.
     pub fingers: [[f32; 3]; 4],
-    /// Of the thumb.
+    /// The thumb's posture.
     pub thumb: Thumb,
 }
 
@@ -109,7 +109,7 @@ impl Posture {
         }
     }
 
-    /// Of a hand that holds nothing: closed by 0 to 1.
+    /// The posture of a hand that holds nothing, closed by 0 (open) to 1 (a fist).
     pub fn empty(closed: f32) -> Self {
         OPEN.towards(&FIST, closed.clamp(0.0, 1.0))
     }

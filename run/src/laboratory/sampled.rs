@@ -1,4 +1,4 @@
-//! Measurements of a world, as a sample says them.
+//! Measurements of a world, as a sample holds them.
 
 use std::collections::BTreeMap;
 

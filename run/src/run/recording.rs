@@ -23,21 +23,21 @@ const BETWEEN_TRIES: Duration = Duration::from_millis(500);
 
 const BROKE_DOWN: &str = "the recorder broke down; report it";
 
-/// What waits to be written.
+/// An entry that waits to be written.
 enum Entry {
     /// A step: what it consumed, and stage_from_flask of each flask after it (real m). `None` for the frame that marks the
     /// end, which is no step.
     Step(Box<PoseFrame>, Option<Vec<Pose>>),
-    /// Something that was found or said, and the track's time, ns.
+    /// An event or the lesson's progress, and the track's time, ns.
     Note(i64, Note),
 }
 
-/// What is kept beside the steps: an object as JSON.
+/// An entry beside the steps: an object as JSON.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
-    /// Something that was found.
+    /// An event.
     Event(String),
-    /// Something that was said of the lesson.
+    /// Progress of the lesson.
     Progress(String),
 }
 
@@ -49,7 +49,7 @@ pub trait Sink: Send {
     /// As for [`TrackWriter::write`]: after [`TrackError::Io`] it waits for the disk, else it was not taken.
     fn write(&mut self, frame: &PoseFrame, flasks: &[Pose]) -> Result<(), TrackError>;
 
-    /// Takes something that was found or said at that time of the track, ns.
+    /// Takes a note at that time of the track, ns.
     ///
     /// # Errors
     /// As for [`Sink::write`].
@@ -58,14 +58,14 @@ pub trait Sink: Send {
     /// Frames that are in the file.
     fn written(&self) -> u64;
 
-    /// Ends the file, which says this of the end.
+    /// Ends the file, and writes `outcome` to it.
     ///
     /// # Errors
     /// As for [`TrackWriter::finish`].
     fn finish(&mut self, outcome: &Said) -> Result<(), TrackError>;
 }
 
-/// What is said of a recording's end, by name.
+/// Values that a recording holds on its end, by name.
 pub type Said = BTreeMap<String, String>;
 
 impl Sink for TrackWriter {
@@ -133,7 +133,7 @@ pub struct TrackRecording {
     outcome: Arc<Mutex<Said>>,
     /// Switches of steps for which the queue was full. They go with the next step that is queued.
     switches: Vec<Switch>,
-    /// Likewise what was found and said meanwhile.
+    /// Likewise the notes from meanwhile.
     notes: Vec<(i64, Note)>,
     /// The last step, for the frame that marks the end.
     last: Option<PoseFrame>,
@@ -189,7 +189,7 @@ impl TrackRecording {
         lock(&self.done).lose(cause.into());
     }
 
-    /// Queues something that was found or said at that time of the track, ns; where the queue is full, it goes with the next step that
+    /// Queues a note at that time of the track, ns; where the queue is full, it goes with the next step that
     /// is queued. Does not wait.
     pub fn found(&mut self, time_ns: i64, note: Note) {
         self.notes.push((time_ns, note));
@@ -216,7 +216,7 @@ impl TrackRecording {
         lock(&self.done).clone()
     }
 
-    /// Marks the end, of which the file is to say `outcome`, and waits for the file. `step` and `time_ns` are those
+    /// Marks the end, of which the file is to hold `outcome`, and waits for the file. `step` and `time_ns` are those
     /// that the next step would have had: a track's length is the time of its last frame, so without this one a
     /// replay would leave out the last step.
     pub fn finish(mut self, step: u64, time_ns: i64, outcome: Said) -> RecordingStatus {
@@ -228,7 +228,7 @@ impl TrackRecording {
                 scenario: std::mem::take(&mut self.switches),
                 ..last
             };
-            // No frame is open any more, so it may wait. A thread that has ended has said why.
+            // No frame is open any more, so it may wait. A thread that has ended has reported why.
             let _ = queue.send(Entry::Step(Box::new(end), None));
             for (time_ns, note) in std::mem::take(&mut self.notes) {
                 let _ = queue.send(Entry::Note(time_ns, note));

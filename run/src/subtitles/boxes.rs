@@ -67,7 +67,7 @@ pub fn made(name: &[u8; 4], parts: &[&[u8]]) -> Result<Vec<u8>, SubtitlesError> 
     Ok(bytes)
 }
 
-/// Moves on what each track of a `moov` says of where its samples are; `None` where a track does not say it.
+/// Adds `by` to the offsets of the samples in each track of a `moov`; `None` where a track holds no offsets.
 pub fn shift_chunks(moov: &mut [u8], by: u32) -> Option<()> {
     let mut boxes = Boxes::new(moov);
     let mut tracks = Vec::new();

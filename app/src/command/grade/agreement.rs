@@ -1,4 +1,4 @@
-//! How what a simulation finds agrees with what a recording says.
+//! How the findings of a simulation agree with those in a recording.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::str::FromStr;
@@ -10,11 +10,11 @@ use vitriol_lesson::Attempt;
 /// How far what is found on two devices may be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
-    /// Of a moment, s.
+    /// Tolerance of a moment, s.
     pub time_s: f64,
-    /// Of a volume, as a share of the larger.
+    /// Tolerance of a volume, as a share of the larger one.
     pub share: f64,
-    /// Of a volume beside that, m³.
+    /// Tolerance of a volume beside that share, m³.
     pub volume_m3: f64,
 }
 
@@ -65,7 +65,7 @@ pub struct Agreement {
 }
 
 /// Pours from one flask to another, or incidents of one kind in one place. They are summed up: where one of two devices sees a
-/// gap of a second, it says two pours in place of one.
+/// gap of a second, it counts two pours in place of one.
 #[derive(Default)]
 struct Sum {
     count: usize,
@@ -76,7 +76,7 @@ struct Sum {
 }
 
 impl Agreement {
-    /// How attempts that a recording says agree with those that were found.
+    /// How the attempts in a recording agree with those that were found.
     pub fn of(recorded: &[Attempt], found: &[Attempt], tolerance: Tolerance) -> Self {
         let mut agreement = Self::default();
         if recorded.len() != found.len() {

@@ -1,4 +1,4 @@
-//! What must hold of a track that is graded. It comes from the command line; what a track says of itself is only compared with
+//! What must hold of a track that is graded. It comes from the command line; a track's own metadata is only compared with
 //! it, since a student could have diluted "acid" in a scene of the same name.
 
 use serde::{Deserialize, Serialize};

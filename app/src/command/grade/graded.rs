@@ -61,7 +61,7 @@ pub struct Scored {
 }
 
 impl Graded {
-    /// Of a track of that name and content.
+    /// The grade of a track of that name and content.
     pub fn new(
         (track, content): (String, String),
         asked: &Asked,

@@ -1,4 +1,4 @@
-//! The lesson that a class is graded by: what a track says of it, and how that agrees with what a simulation finds.
+//! The lesson that a class is graded by: what a track holds on it, and how that agrees with what a simulation finds.
 
 use serde::Serialize;
 use vitriol_lesson::procedure::{Verdict, VerdictLine};
@@ -11,13 +11,13 @@ use super::agreement::{Agreement, Tolerance};
 pub struct OfLesson {
     /// Points.
     pub points: u32,
-    /// Of how many.
+    /// Points that could be had.
     pub of: u32,
     /// By step, then by rule, in the order of the lesson's file.
     pub items: Vec<Item>,
 }
 
-/// What became of a step or a rule.
+/// The result of a step or a rule.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
     /// Its id.
@@ -26,12 +26,12 @@ pub struct Item {
     pub became: &'static str,
     /// Points.
     pub points: u32,
-    /// Of how many.
+    /// Points that could be had.
     pub of: u32,
 }
 
 impl OfLesson {
-    /// Of a verdict.
+    /// A verdict as a line of the table shows it.
     pub fn of(verdict: &Verdict) -> Self {
         let item = |line: &VerdictLine| Item {
             id: line.id.clone(),
@@ -114,7 +114,7 @@ impl Columns {
 }
 
 impl Agreement {
-    /// Beside what happened, how what a recording says of the lesson agrees with what was found.
+    /// Adds how the lesson's results in a recording agree with those that were found.
     pub fn with_lesson(
         mut self,
         recorded: &[Verdict],

@@ -47,7 +47,7 @@ pub struct Line {
     pub attempt: Option<u32>,
     /// Points.
     pub points: Option<u32>,
-    /// Of how many.
+    /// Points that could be had.
     pub of: Option<u32>,
     /// Whether it came to its end.
     pub finished: Option<bool>,
@@ -55,12 +55,12 @@ pub struct Line {
     pub criteria: BTreeMap<Criterion, [u32; 2]>,
     /// How often what went wrong, by kind.
     pub incidents: BTreeMap<&'static str, u32>,
-    /// What the lesson came to.
+    /// The lesson's result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lesson: Option<OfLesson>,
     /// Whether a simulation found the same; `None` where none was asked for.
     pub verified: Option<Verdict>,
-    /// What else there is to say.
+    /// Remarks on the line.
     pub note: String,
 }
 
@@ -143,7 +143,7 @@ impl Class {
         }
     }
 
-    /// Those whose recording says what did not happen.
+    /// The number of tracks whose recording differs from its simulation.
     pub fn refuted(&self) -> usize {
         let lines = self.lines.iter();
         lines

@@ -1,4 +1,4 @@
-//! Simulates a track again, and compares what happens with what its recording says.
+//! Simulates a track again, and compares the result with what its recording holds.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ pub struct Verified {
     pub lesson: Vec<LessonVerdict>,
 }
 
-/// Whether a recording says what happened.
+/// Whether a recording agrees with its simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -64,10 +64,10 @@ impl Verdict {
 }
 
 impl Verified {
-    /// Simulates `track` again, of which `recorded` is what its recording says, in the scene that was asked for.
+    /// Simulates `track` again, of which `recorded` is what its recording holds, in the scene that was asked for.
     ///
     /// # Errors
-    /// As for [`Plan::new`], and what the experiment says.
+    /// As for [`Plan::new`], and errors of the experiment.
     pub fn of(
         (args, file): (&GradeArgs, &Path),
         (track, truncated): (Track, bool),
@@ -143,7 +143,7 @@ impl Verified {
         })
     }
 
-    /// Whether the recording says what happened: to the bit where nothing is known to differ.
+    /// Whether the recording agrees with its simulation: to the bit where nothing is known to differ.
     pub fn verdict(&self) -> Verdict {
         if self.to_the_bit {
             Verdict::ToTheBit

@@ -1,4 +1,5 @@
-//! What a lesson's film says, and when: the title at its beginning, each step while it is to be done, what went wrong, the points.
+//! The subtitles of a lesson's film, and their times: the title at its beginning, each step while it is to be done, what went wrong, the
+//! points.
 
 use vitriol_lesson::procedure::{LessonTexts, Progress, Verdict, Why};
 use vitriol_lesson::{Attempt, Texts};
@@ -10,16 +11,16 @@ use vitriol_run::texts::SummaryTexts;
 const TITLE: f64 = 4.0;
 /// How long the points stand at the end at least, s.
 const POINTS: f64 = 4.0;
-/// How long it is said what went wrong, s: two lines are read in that.
+/// How long a subtitle shows what went wrong, s: two lines are read in that.
 const NOTE: f64 = 6.0;
 /// And at least, where the next thing goes wrong meanwhile, s.
 const SHORTEST: f64 = 3.0;
 
-/// What came of the track.
+/// The results of a track.
 pub struct JudgedTrack<'a> {
-    /// What was said of the lesson.
+    /// Progress of the lesson.
     pub progress: &'a [Progress],
-    /// What was found.
+    /// Attempts that were found.
     pub attempts: &'a [Attempt],
     /// What it comes to.
     pub verdict: Option<&'a Verdict>,
@@ -31,7 +32,7 @@ pub struct JudgedTrack<'a> {
 pub struct SubtitleWords<'a> {
     /// The lesson's own.
     pub lesson: &'a LessonTexts,
-    /// Of what happens.
+    /// The texts on what happens.
     pub texts: &'a Texts,
     /// Around them.
     pub summary: &'a SummaryTexts,
@@ -72,7 +73,7 @@ pub fn cues(words: &SubtitleWords<'_>, told: &JudgedTrack<'_>) -> Vec<Cue> {
     cues
 }
 
-/// When the points are said first, s.
+/// When the points are shown first, s.
 fn points_from(told: &JudgedTrack<'_>) -> f64 {
     let over = told.progress.iter().rev().find_map(|it| match it {
         Progress::Over { t_s } => Some(Some(*t_s)),

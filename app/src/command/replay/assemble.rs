@@ -1,4 +1,4 @@
-//! A run's report, made of what came of it.
+//! A run's report, made of the run's outcome.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::report::{
 };
 use vitriol_run::texts::Texts;
 
-/// The report, without what it says of the recording and without its score.
+/// The report, without its part on the recording and without its score.
 ///
 /// # Errors
 /// [`Failure::Other`] where a text is missing, which a test rules out.

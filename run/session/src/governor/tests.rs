@@ -28,7 +28,7 @@ impl Run {
     }
 }
 
-/// Runs so many seconds of frames whose parts take what `load` says at a time (s) and a level, in
+/// Runs so many seconds of frames whose parts take what `load` gives for a time (s) and a level, in
 /// shares of the period.
 fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
     let mut governor = Governor::new(ladders());
@@ -59,7 +59,7 @@ fn run(seconds: f64, mut load: impl FnMut(f64, Level) -> [f64; 2]) -> Run {
     run
 }
 
-/// What shares come to at a level, if it costs what the ladders say.
+/// The shares at a level whose costs are those of the ladders.
 fn at(level: Level, full: [f64; 2]) -> [f64; 2] {
     let costs = ladders();
     [0, 1].map(|part| full[part] * costs[part][level[part]])
@@ -133,8 +133,8 @@ fn noise_at_the_limit_settles() {
     assert!(run.changes.len() <= 3, "{run:?}");
 }
 
-/// The finer rung takes what no ladder says: there seems to be room for it below, and is not. It
-/// is tried, and ever more seldom.
+/// The finer rung costs more than its ladder gives: from below there seems to be room for it, and there is not. It is tried, and ever more
+/// seldom.
 #[test]
 fn a_trap_is_not_walked_into_over_and_over() {
     let run = run(600.0, |_, [solver, picture]| {

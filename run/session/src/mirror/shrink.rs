@@ -28,7 +28,7 @@ impl Shrunk {
     /// The pixels, 0x00RRGGBB, row by row.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn pixels(&self) -> Result<Vec<u32>, GpuError> {
         let [width, height] = self.extent.map(|side| side as usize);
         self.pixels.read_host(width * height)
@@ -57,7 +57,7 @@ impl Shrink {
     /// For pictures of `eye` pixels an eye.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<Self, Failure> {
         let compiled = library.compile(&mirror::MIRROR, "main", &[]).other()?;
         let most = fit(eye, eye.map(|side| side.min(LONGEST)));
@@ -77,7 +77,7 @@ impl Shrink {
     /// behind what was submitted before. Does nothing where no slot is free.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn begin(
         &mut self,
         picture: &Image,
@@ -114,7 +114,7 @@ impl Shrink {
     /// The next picture that the device is done with.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn done(&mut self) -> Result<Option<Shrunk>, Failure> {
         match self.under_way.front() {
             Some((ticket, _)) if ticket.is_done().other()? => {}

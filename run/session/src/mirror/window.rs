@@ -27,7 +27,7 @@ const OPENS_AT: u32 = 800;
 /// Longest wait for the screen's server, at the beginning and at the end.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// What the window is told.
+/// A message to the window.
 pub enum Say {
     /// A new title.
     Title(String),
@@ -174,7 +174,7 @@ struct Face {
     shown: Option<(Vec<u32>, [u32; 2])>,
 }
 
-/// What screen or device say.
+/// Nothing, or an error of screen or device.
 type WindowResult = Result<(), Box<dyn std::error::Error>>;
 
 impl Face {
@@ -277,7 +277,7 @@ impl ApplicationHandler<Say> for Face {
                     && !event.repeat
                     && let Some(decision) = text.chars().next().and_then(menu::decision)
                 {
-                    // A session that has ended hears nothing.
+                    // A session that has ended takes no decisions.
                     let _ = self.decisions.send(decision);
                 }
             }

@@ -12,7 +12,7 @@ pub(super) const WARNING: Color32 = Color32::from_rgb(255, 176, 60);
 pub(super) const RECORDING: Color32 = Color32::from_rgb(255, 132, 122);
 pub(super) const GOOD: Color32 = Color32::from_rgb(120, 220, 150);
 pub(super) const COLD: Color32 = Color32::from_rgb(80, 150, 230);
-/// Ground of what the instructor says.
+/// Ground of the instructor's message and actions.
 pub(super) const SAID: Color32 = Color32::from_rgb(54, 34, 84);
 /// Ground of the scene's button that is shown; egui's own is too bright for white text.
 pub(super) const CHOSEN: Color32 = Color32::from_rgb(0, 72, 104);

@@ -86,7 +86,7 @@ mod tests {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height))),
             ..RawInput::default()
         };
-        // A strip knows how high it is in its second frame.
+        // The height of a strip is known from its second frame on.
         let mut shapes = Vec::new();
         for _ in 0..2 {
             let output = context.run(input(), |context| {
@@ -106,7 +106,7 @@ mod tests {
         found
     }
 
-    /// As much as a lesson may say, in a language's longest words: fifty characters a line, and half of them of Chinese.
+    /// As much text as a lesson may have, in a language's longest words: fifty characters a line, and half of them of Chinese.
     fn longest(language: Language) -> Shown {
         let texts = Texts::of(language).unwrap();
         let (word, most) = match language {
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// In a lesson its own buttons stand in place of the scenes'; who is examined is told nothing of what happened.
+    /// In a lesson its own buttons stand in place of the scenes'; a user who is examined is told nothing of what happened.
     #[test]
     fn a_lesson_has_its_own_buttons() {
         let has = |shown: &Shown, part: &str| {

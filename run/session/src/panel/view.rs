@@ -99,7 +99,7 @@ pub fn show(
     seen
 }
 
-/// What the instructor says, or else the lesson, over all else: both together would leave no room for the buttons.
+/// The instructor's message and actions, or else the lesson, over all else: both together would leave no room for the buttons.
 fn told(context: &Context, info: &Info) {
     let told = &info.told;
     let shown = info.lesson.as_ref().filter(|_| told.message.is_none());
@@ -134,7 +134,7 @@ fn filling(painter: &Painter, middle: Pos2, radius: f32, share: f32) {
     }
 }
 
-/// What happened, over the whole panel.
+/// The summary, over the whole panel.
 fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened, seen: &mut Seen) {
     ui.horizontal(|ui| {
         ui.heading(&happened.title);
@@ -175,7 +175,7 @@ fn summary(ui: &mut Ui, (info, words): (&Info, &PanelTexts), happened: &Happened
 fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     ui.heading(&info.scene);
     ui.add_space(6.0);
-    // Who is examined is told nothing that it is judged by.
+    // A user who is examined is told nothing that the lesson is judged by.
     let quiet = info.lesson.as_ref().is_some_and(|it| it.quiet);
     for flask in &info.flasks {
         let acid = flask.acid.filter(|_| !quiet);
@@ -203,7 +203,7 @@ fn readings(ui: &mut Ui, info: &Info, words: &PanelTexts) {
     lines(ui, [missed], FAINT);
 }
 
-/// Those that are there, each as many lines as it takes; a column alone would justify all but the last.
+/// Shows the texts that are there, each in as many lines as it takes; a column alone would justify all but the last.
 fn lines<const N: usize>(ui: &mut Ui, texts: [Option<String>; N], colour: Color32) {
     ui.with_layout(Layout::top_down(Align::Min), |ui| {
         for text in texts.into_iter().flatten() {

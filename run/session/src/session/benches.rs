@@ -23,7 +23,7 @@ pub(super) struct Benches {
     /// The bench in use.
     pub current: Workbench,
     coming: Option<Coming>,
-    /// What was to come, and was on a device that was lost meanwhile.
+    /// The next bench and the action that brings it up, where it was being built on a device that was lost meanwhile.
     again: Option<(Plan, Action)>,
 }
 
@@ -33,7 +33,7 @@ struct Coming {
     /// What its picture is made for.
     eyes: Eyes,
     thread: JoinHandle<Result<(Workbench, World), Failure>>,
-    /// What brings it up.
+    /// The action that brings it up.
     action: Action,
 }
 
@@ -98,8 +98,8 @@ impl Benches {
         coming.is_some_and(|coming| coming.thread.is_finished())
     }
 
-    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a failure, and gives its
-    /// world and what brings that up. Waits until the old one has given back its memory.
+    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a failure, and returns its
+    /// world and the action that brings that up. Waits until the old one has given back its memory.
     pub fn replace_if_built(&mut self, gpu: &Gpu, _: &NoFrameOpen) -> Option<(Action, World)> {
         let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
         let made = coming.thread.join();

@@ -43,7 +43,7 @@ impl Checkpoints {
         self.under_way = Some((record, ticket));
     }
 
-    /// Takes the copies that have arrived; does not wait.
+    /// Has a thread make a state of copies that have arrived, and gives `world` a state that is made; does not wait.
     pub fn collect(&mut self, world: &mut World) -> Result<(), Failure> {
         if let Some(thread) = self.reading.take_if(|thread| thread.is_finished()) {
             let read = thread.join();

@@ -34,7 +34,7 @@ impl Choices {
         }
     }
 
-    /// Takes in what the keys said until `now`; whether the end was asked for, which waits for no frame.
+    /// Takes in the decisions of keys until `now`; returns whether the end was asked for, which waits for no frame.
     pub fn hear(&mut self, now: Instant) -> bool {
         let mut ends = false;
         for decision in self.elsewhere.try_iter() {

@@ -134,7 +134,7 @@ impl Session {
         self.benches.coming().is_some() || self.pacing.is_repainting()
     }
 
-    /// Does what the user decided by button, key and panel; what the panel says in this frame is for the next one.
+    /// Does what the user decided by button, key and panel; decisions on the panel in this frame are for the next one.
     fn decide(
         &mut self,
         headset: &dyn Headset,
@@ -436,7 +436,7 @@ impl Session {
             .map_or(0, |last| last.info.xr_time)
     }
 
-    /// What panel and window title say.
+    /// The state that panel and window title show.
     pub(super) fn info(&mut self) -> Info {
         let ends = self.choices.asks_to_end(Instant::now());
         let (bench, run) = (&self.benches.current, &self.run);

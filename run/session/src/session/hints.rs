@@ -29,10 +29,10 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// Those of a session that wants them or not.
+    /// The hints of a session; none are shown unless they are `wanted`.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn new(wanted: bool, toggles: bool, gpu: &Gpu, library: &Library) -> Result<Self, Failure> {
         let sign = wanted.then(|| Sign::new(gpu, library)).transpose()?;
         Ok(Self {
@@ -48,7 +48,7 @@ impl Hints {
     /// Goes on with another device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library) -> Result<(), Failure> {
         if let Some(sign) = &mut self.sign {
             *sign = Sign::new(gpu, library)?;

@@ -174,7 +174,7 @@ impl Instructor {
         }
     }
 
-    /// Another bench is there.
+    /// Takes in that another bench is in use.
     pub fn begin(&mut self) {
         self.flasks.clear();
     }
@@ -245,7 +245,7 @@ impl Instructor {
     /// Goes on with another device.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn move_to(&mut self, gpu: &Gpu, library: &Library, eye: [u32; 2]) -> Result<(), Failure> {
         match &mut self.view {
             Some(view) => view.move_to(gpu, library, eye),
@@ -256,7 +256,7 @@ impl Instructor {
     /// Takes the first `drawn` pixels of the picture that is shown at `time` (ns), where somebody looks.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn take(&mut self, picture: &Image, drawn: [u32; 2], time: i64) -> Result<(), Failure> {
         match &mut self.view {
             Some(view) => view.take(picture, drawn, time),
@@ -267,7 +267,7 @@ impl Instructor {
     /// Hands over the pictures that the device is done with.
     ///
     /// # Errors
-    /// What the device says.
+    /// An error of the device.
     pub fn hand_over(&mut self) -> Result<(), Failure> {
         self.view.as_mut().map_or(Ok(()), View::hand_over)
     }

@@ -40,7 +40,7 @@ impl Losses {
         self.last = Some(frame);
     }
 
-    /// Whether the user is to be told in that frame.
+    /// Whether the panel reports the loss in that frame.
     pub fn is_said(&self, frame: u64) -> bool {
         self.last.is_some_and(|last| frame - last < SAID)
     }

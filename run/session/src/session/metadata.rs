@@ -1,4 +1,4 @@
-//! What a session's recording says of itself.
+//! The metadata of a session's recording.
 
 use vitriol_run::DeviceStatement;
 use vitriol_run::track::{DEVICE, DRIVER, LANGUAGE, LESSON, LESSON_HASH, MODE, PRESET};

@@ -1,4 +1,4 @@
-//! Fits frames into the display's period: what the governor decides is done here, said and recorded.
+//! Fits frames into the display's period: the governor's decisions are carried out here, shown and recorded.
 
 use serde::Serialize;
 use vitriol_gpu::{Gpu, Timestamps};
@@ -42,7 +42,7 @@ pub struct FramesWith {
     pub frames: u64,
 }
 
-/// The governor, and what it is told and has decided.
+/// The governor, its input and its decisions.
 #[derive(Default)]
 pub(super) struct Pacing {
     /// `None` where everything stays as it begins.
@@ -51,15 +51,15 @@ pub(super) struct Pacing {
     level: Level,
     /// Counts changes, and goes with each frame that is submitted, see [`FrameLoad::stamp`].
     pub stamp: u64,
-    /// A display period went by without a frame since the governor was told of one.
+    /// A display period went by without a frame since the governor took one in.
     pub missed: bool,
-    /// Time since the governor was told of a frame, s. Frames without a step tell it nothing.
+    /// Time since the governor took in a frame, s. It takes in none without a step.
     since: f64,
     /// The last change was to more accuracy or pixels.
     finer: bool,
     /// What it did in the frames that count.
     pub report: GovernorReport,
-    /// The display's rates; `None` until a frame has told its period.
+    /// The display's rates; `None` until a frame has given its period.
     rates: Option<Rates>,
     /// A rate that the headset is to be asked for.
     pub wants_rate: Option<f32>,
@@ -121,7 +121,7 @@ impl Pacing {
         (self.rates, self.wants_rate) = (None, None);
     }
 
-    /// Something changed, so that the frames under way say nothing about the next ones.
+    /// Something changed, so that the times of frames under way do not apply to the next ones.
     fn settle(&mut self) {
         self.stamp += 1;
         self.missed = false;
@@ -130,7 +130,7 @@ impl Pacing {
         }
     }
 
-    /// Tells the governor what the frames that are done took, and does what it decides; `period` is the display's,
+    /// Gives the governor the times of frames that are done, and carries out its decision; `period` is the display's,
     /// ms, and `rates` are those that it offers, Hz.
     pub fn govern(
         &mut self,
@@ -140,7 +140,7 @@ impl Pacing {
         run: &mut Run,
         no_frame: &NoFrameOpen,
     ) -> Result<(), Failure> {
-        // A runtime may not say how long a frame is shown. While another picture is in the making nothing is
+        // A runtime may not report how long a frame is shown. While another picture is in the making nothing is
         // decided, since it changes what frames take.
         if period > 0.0 && !self.repainter.is_busy() {
             (self.rates).get_or_insert_with(|| Rates::new(rates, 1e3 / period));
@@ -161,7 +161,7 @@ impl Pacing {
         Ok(())
     }
 
-    /// Tells the governor of a frame that is done; the new level, if it wants another.
+    /// Gives the governor a frame that is done; returns the new level, if it wants another.
     fn heed(&mut self, load: &FrameLoad, period: f64, run: &Run) -> Option<Level> {
         let governor = self.governor.as_mut()?;
         self.since += 1e-3 * period;
@@ -271,7 +271,7 @@ impl Pacing {
         Ok(())
     }
 
-    /// What the panel says of it; `None` where all is as it was asked for.
+    /// The effort as the panel shows it; `None` where all is as it was asked for.
     pub fn effort(&self, bench: &Workbench) -> Option<Effort> {
         let (now, asked) = (self.setting(bench), bench.ladder.setting([0, 0]));
         let rate = self.rates.as_ref().and_then(Rates::lowered);

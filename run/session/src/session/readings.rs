@@ -7,20 +7,20 @@ use vitriol_sim::solver::{Census, Held};
 
 use crate::info::FlaskLine;
 
-/// Looks between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
+/// Observations between two readings of the panel: ten a second at 90 Hz. It is drawn anew for each.
 const EVERY: u64 = 9;
 
 /// The last reading.
 #[derive(Default)]
 pub(super) struct Readings {
-    /// What the panel says, by flask; empty before the first.
+    /// The liquid in each flask at the last reading; empty before the first one.
     last: Vec<Held>,
-    /// Looks so far.
+    /// Observations so far.
     looks: u64,
 }
 
 impl Readings {
-    /// Takes in a look.
+    /// Takes in an observation.
     pub fn take(&mut self, census: &Census) {
         if self.looks.is_multiple_of(EVERY) {
             self.last.clone_from(&census.flasks);
@@ -97,7 +97,7 @@ mod tests {
             (&names[1], Some(20))
         );
         assert_eq!((lines.len(), lines[0].acid), (names.len() - 1, Some(0)));
-        // Where there is no acid, none is said.
+        // Where there is no acid, none is shown.
         for liquid in &mut scene.liquids {
             liquid.acid_fraction = 0.0;
         }

@@ -83,7 +83,7 @@ impl Sounds {
         }
     }
 
-    /// Hands this frame's sounds to the mixer, with the listener's head in the scene's stage.
+    /// Hands this frame's sounds to the mixer, with the listener's head in the scene's stage; without a head they are dropped.
     pub fn hear(&mut self, scene_from_head: Option<&Pose>) {
         let Some(head) = scene_from_head else {
             self.events.clear();

@@ -37,7 +37,7 @@ pub struct Touched {
     pub liquid_ml: f64,
 }
 
-/// Acid that touched the user since the session began.
+/// Acid that touched the user since the session began, by part of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Contacts {
     /// The left hand.

@@ -11,7 +11,7 @@ use super::ended::NoFrameOpen;
 use crate::clock::StepClock;
 use crate::placement::{self, Placement};
 
-/// Share of real time below which the panel says that it is slow motion.
+/// Share of real time below which the panel shows slow motion.
 const SLOW: f64 = 0.97;
 /// How much a frame counts in the mean speed of the last ones.
 const SMOOTHING: f64 = 0.05;

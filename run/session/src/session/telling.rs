@@ -1,4 +1,4 @@
-//! A session and its instructor: what she asks for is done, and she is told what goes on.
+//! A session and its instructor: her orders are carried out, and the console is sent the session's state.
 
 use vitriol_console::List;
 use vitriol_run::{Action, Failure};
@@ -9,7 +9,7 @@ use super::instructor::Now;
 use crate::decision::Decision;
 
 impl Session {
-    /// Does what the instructor asked for; whether that is to end.
+    /// Carries out the instructor's orders; returns whether one ends the session.
     pub(super) fn obey(&mut self) -> bool {
         let mut ends = false;
         for (order, asked) in self.instructor.orders() {
@@ -30,7 +30,7 @@ impl Session {
         ends
     }
 
-    /// Does what the instructor does, from the next step on, and gives it in words; `None` where it is not done.
+    /// Carries out an instructor's action from the next step on, and returns it in words; `None` where it is not done.
     fn follow(&mut self, action: Action) -> Option<String> {
         let words = &self.texts.instructor;
         let said = match &action {
@@ -79,7 +79,7 @@ impl Session {
         Ok(())
     }
 
-    /// Tells the instructor how it is.
+    /// Sends the console the session's present state.
     pub(super) fn tell(&mut self, ended: bool) {
         let run = &self.run;
         let info = self.placement.last.as_ref().map(|last| last.info);

@@ -39,7 +39,7 @@ impl Stands {
     }
 }
 
-/// What a sign is of, and where its middle is to be.
+/// The flask that a sign is at, and where the sign's middle is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// The flask that it is at.
