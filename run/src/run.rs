@@ -185,6 +185,8 @@ impl Run {
             Action::Leap(_) => self.world.hands_leap(),
             Action::Intensity(value) if self.world.intensity().is_none() => {
                 tracing::warn!("a switch of k_v to {value} is left out: this scene has none");
+                // What an instructor did is reported all the same.
+                self.instructions.push((now, action));
                 return Ok(false);
             }
             Action::Intensity(value) => {
@@ -213,24 +215,21 @@ impl Run {
         Ok(true)
     }
 
-    /// Ends the attempt, and gives the observations that were under way; waits for the device. A scene may be brought up then.
+    /// Ends the attempt, after which a scene may be brought up. Waits for observations that are under way; whoever shows them collects
+    /// them before.
     ///
     /// # Errors
     /// An error of the device.
-    pub fn end_attempt(&mut self) -> Result<Vec<Looked>, Failure> {
-        let mut late = Vec::new();
-        while let Some(looked) = self.wait(0)? {
-            late.push(looked);
-        }
+    pub fn end_attempt(&mut self) -> Result<(), Failure> {
+        while self.wait(0)?.is_some() {}
         let events = self.looks.end();
-        if let Some(judging) = &mut self.judging {
-            let said = judging.ended(&self.scene, &events);
-            self.found(events);
-            self.progressed(said);
-        } else {
-            self.found(events);
-        }
-        Ok(late)
+        let said = self
+            .judging
+            .as_mut()
+            .map(|judging| judging.ended(&self.scene, &events));
+        self.found(events);
+        self.progressed(said.unwrap_or_default());
+        Ok(())
     }
 
     /// Goes on in `world`, which `action` brings up at its start. [`Run::end_attempt`] comes before it: what is observed of a scene is
@@ -258,7 +257,7 @@ impl Run {
     /// An error of device or solver. [`Run::time`] shows whether the step was taken: if only its observation failed, it was.
     pub fn step(&mut self, queue: QueueKind, frame: &PoseFrame) -> Result<Vec<Ticket>, Failure> {
         let near = stage::near_from_stage(frame, self.world.scene());
-        let input = stage::input(&near, self.world.scene());
+        let input = stage::input(frame, self.world.scene());
         self.world.step_on(queue, &input).map_err(blame_world)?;
         let mut submitted: Vec<Ticket> = self.world.last_step().cloned().into_iter().collect();
         let actions = std::mem::take(&mut self.actions);

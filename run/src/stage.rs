@@ -44,25 +44,23 @@ fn moved(frame: &PoseFrame, by: Vec3) -> PoseFrame {
     frame
 }
 
-/// A frame near the scene's own origin (m) as a step's input.
-pub fn input(near: &PoseFrame, scene: &Scene) -> StepInput {
-    let scale = scene.scale.length_scale;
-    let head = &near.stage_from_view;
-    StepInput {
-        hands: near.hands.each_ref().map(|hand| grip(hand, scale)),
-        head: Some(Pose::new(head.position / scale as f32, head.orientation)),
-    }
-}
-
-/// A hand near the scene's own origin (m) in the scene's unit. The greater of squeeze and trigger closes it.
-fn grip(hand: &Hand, length_scale: f64) -> bodies::Hand {
-    bodies::Hand {
-        stage_from_grip: Pose {
-            position: hand.stage_from_grip.position / length_scale as f32,
-            orientation: hand.stage_from_grip.orientation,
-        },
+/// A frame of the stage as a step's input. It goes to the scene's unit first, and then to its origin: the bits of a step depend on it.
+pub fn input(frame: &PoseFrame, scene: &Scene) -> StepInput {
+    let (scale, origin) = (scene.scale.length_scale as f32, scene.origin.as_vec3());
+    let place = |at: Vec3| at / scale - origin;
+    let head = &frame.stage_from_view;
+    // The greater of squeeze and trigger closes a hand.
+    let grip = |hand: &Hand| bodies::Hand {
+        stage_from_grip: Pose::new(
+            place(hand.stage_from_grip.position),
+            hand.stage_from_grip.orientation,
+        ),
         squeeze: hand.squeeze.max(hand.trigger),
         present: hand.active && hand.valid,
+    };
+    StepInput {
+        hands: frame.hands.each_ref().map(grip),
+        head: Some(Pose::new(place(head.position), head.orientation)),
     }
 }
 
@@ -98,7 +96,7 @@ mod tests {
             info: FrameInfo::default(),
         };
         let near = near_from_stage(&frame, &scene);
-        let input = input(&near, &scene);
+        let input = input(&frame, &scene);
         // Some roundings of 32 bits of 40.
         let at = input.hands[0].stage_from_grip.position;
         assert!((at - Vec3::new(2.0, 16.0, -8.0)).length() < 1e-5, "{at}");

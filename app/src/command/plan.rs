@@ -1,12 +1,13 @@
 //! A replay before it runs: its track, scene, preset, solver and length, all checked.
 
+use vitriol_run::track::key;
 use vitriol_run::{Action, Blame, Failure, Scenes, Span, device, track};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_xr::Switch;
 use vitriol_xr::track::{Track, limits};
 
 use crate::command::recorded::{
-    actions, changes_scene, differences, is_recording, own_solver, preset_of, scene_of, whole,
+    changes_scene, differences, is_recording, own_solver, preset_of, scene_of, whole,
 };
 use vitriol_run::budget;
 
@@ -70,11 +71,13 @@ fn track_preset(track: &Track) -> Option<&str> {
 fn breaks_glass(track: &Track) -> bool {
     let first = track.frames.first();
     let mut from_start = first.into_iter().flat_map(|frame| &frame.scenario);
-    from_start.any(is_of_glass) && actions(track).all(|action| action != Action::Glass(false))
+    let mut all = track.frames.iter().flat_map(|frame| &frame.scenario);
+    let breaks = Action::Glass(true).switch();
+    from_start.any(is_of_glass) && all.all(|switch| !is_of_glass(switch) || *switch == breaks)
 }
 
 fn is_of_glass(switch: &Switch) -> bool {
-    matches!(Action::of(switch), Ok(Some(Action::Glass(_))))
+    switch.key == key::GLASS
 }
 
 /// What is to run.

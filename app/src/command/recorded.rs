@@ -2,7 +2,7 @@
 
 use vitriol_lesson::Event;
 use vitriol_lesson::procedure::Progress;
-use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET};
+use vitriol_run::track::{BROKEN_OFF, DEVICE, DRIVER, PRESET, key};
 use vitriol_run::units::three_digits;
 use vitriol_run::{Action, Blame, DeviceStatement, Failure, Scenes, escaped, in_a_line};
 use vitriol_sim::scene::Preset;
@@ -160,7 +160,8 @@ pub fn own_solver(
     let mut any = false;
     for frame in &mut track.frames {
         frame.scenario.retain(|switch| {
-            let kept = !matches!(Action::of(switch), Ok(Some(Action::Solver(_))));
+            // Also one that cannot be read.
+            let kept = switch.key != key::SOLVER;
             any |= !kept;
             kept
         });
@@ -196,7 +197,7 @@ pub fn head(camera: CameraName, name: &str, track: &Track) -> Result<Option<Pose
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use vitriol_run::track::{self, key};
+    use vitriol_run::track;
 
     /// A recording's own changes of the solver are repeated, unless something else is asked for.
     #[test]

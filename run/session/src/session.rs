@@ -398,10 +398,7 @@ impl Session {
     fn finish(mut self) -> Result<SessionOutcome, Failure> {
         self.step_for_switches()?;
         self.catch_up(&NoFrameOpen::in_a_turn_without())?;
-        for looked in self.run.end_attempt()? {
-            self.observed(&looked);
-        }
-        self.guide.follow(&self.run);
+        self.end_attempt()?;
         self.run.world.gpu().wait_idle().other()?;
         self.counts.tally.collect()?;
         self.tell(true);

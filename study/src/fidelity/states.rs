@@ -88,8 +88,7 @@ pub fn run(gpu: &Gpu, library: &Library, preset: Preset) -> Result<Vec<State>, F
             let Some(frame) = source.next(step, time).other()? else {
                 break;
             };
-            let near = stage::near_from_stage(&frame, &scene);
-            let hands = stage::input(&near, &scene).hands;
+            let hands = stage::input(&frame, &scene).hands;
             world.step(&StepInput::of_hands(hands)).other()?;
         }
         State::new(spec, world)

@@ -125,8 +125,7 @@ pub fn boil(
         let Some(frame) = &held else {
             return Err("the track has no pose at its start; record it again").input();
         };
-        let near = stage::near_from_stage(frame, scene);
-        let hands = stage::input(&near, scene).hands;
+        let hands = stage::input(frame, scene).hands;
         let begin = std::time::Instant::now();
         world.step(&StepInput::of_hands(hands)).other()?;
         if let Some(ticket) = world.last_step() {

@@ -151,8 +151,7 @@ pub fn replay(track: &Track) -> Replayed {
         if frame.scenario.iter().any(|it| it.key == key::PLACEMENT) {
             world.hands_leap();
         }
-        let near = stage::near_from_stage(frame, &scene);
-        let hands = stage::input(&near, &scene).hands;
+        let hands = stage::input(frame, &scene).hands;
         world.step(&StepInput::of_hands(hands)).unwrap();
         assert_eq!(&stage::flasks(&world), flasks, "step {}", frame.step);
         lifted = lifted.max(flasks[0].position.y);

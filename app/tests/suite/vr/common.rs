@@ -47,8 +47,17 @@ pub fn scene(folder: &Path) -> PathBuf {
     file
 }
 
+/// What a test does at a line of the log.
+type Then = (&'static str, Box<dyn FnOnce()>);
+
 thread_local! {
     static HEARD: RefCell<BTreeMap<String, u64>> = const { RefCell::new(BTreeMap::new()) };
+    static THEN: RefCell<Option<Then>> = const { RefCell::new(None) };
+}
+
+/// Does that once, in the middle of what the session does when it next logs a line with that target on this thread.
+pub fn when_heard(target: &'static str, then: impl FnOnce() + 'static) {
+    THEN.set(Some((target, Box::new(then))));
 }
 
 /// How many lines with that target the sessions of this thread have logged.
@@ -65,7 +74,11 @@ impl Subscriber for Ear {
     }
     fn event(&self, event: &Event<'_>) {
         let target = event.metadata().target().to_owned();
+        let then = THEN.with_borrow_mut(|then| then.take_if(|(of, _)| *of == target));
         HEARD.with_borrow_mut(|heard| *heard.entry(target).or_default() += 1);
+        if let Some((_, then)) = then {
+            then();
+        }
     }
     fn new_span(&self, _: &Attributes<'_>) -> Id {
         Id::from_u64(1)

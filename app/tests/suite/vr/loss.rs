@@ -1,15 +1,19 @@
 //! A runtime that goes away in mid-pour and comes back with another device.
 
 use crate::vr::common::{
-    Trouble, Worn, carried, hash, nobody, options, options_where, pour, pour_at_once, session,
-    session_with,
+    Trouble, Worn, carried, hash, heard, nobody, options, options_where, pour, pour_at_once,
+    session, session_with, when_heard,
 };
 use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
+use vitriol_run::track::key;
 use vitriol_run::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_device};
+use vitriol_session::decision::Decision;
 use vitriol_session::session::Session;
 use vitriol_session::stand_in::StandIn;
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
@@ -229,6 +233,48 @@ fn a_device_that_is_lost_again_and_again_ends_the_session() {
     let session = Session::new(&headset, options(folder.path()), nobody()).unwrap();
     let failure = session.run(&mut headset).err().unwrap();
     assert!(failure.to_string().contains("device was lost"), "{failure}");
+}
+
+/// Starts the scene over.
+struct StartsOver(Sender<Decision>);
+
+/// The frame that asks, and the one before which the new bench is there: it is ready twice, since its device is lost.
+const ASKS: u64 = 5;
+const COMES: u64 = 6;
+
+impl Trouble for StartsOver {
+    fn awaits(&self, after: u64) -> bool {
+        after == COMES && heard(TAKEN_UP) < 2
+    }
+
+    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
+        if after == ASKS {
+            let start = Decision::Act(Action::Start(None));
+            self.0.send(start).unwrap();
+        }
+    }
+}
+
+/// The device is lost when the new bench is ready and what was under way on the old one is waited for: the attempt ends as it was, and the
+/// scene begins anew on the next device.
+#[test]
+fn a_device_lost_at_a_scene_change_loses_neither_scene() {
+    let (first, second) = (gpu::another_device(|_| {}), gpu::another_device(|_| {}));
+    let folder = tempfile::tempdir().unwrap();
+    let (sender, decisions) = channel();
+    let trouble = StartsOver(sender);
+    let mut headset = Worn::new(&first, pour().sample_track(), 90.0, COMES + 10, trouble);
+    let then = Gpu::clone(&second);
+    headset.inner = headset.inner.reopening(move || Ok(then.clone()));
+    let lost = Gpu::clone(&first);
+    when_heard(TAKEN_UP, move || lost.lose());
+    let (outcome, track) = session_with(&mut headset, options(folder.path()), decisions);
+    assert_eq!((outcome.devices_lost, outcome.renewals), (1, 1));
+    assert_eq!(outcome.attempts.len(), 2);
+    let switches = track.frames.iter().flat_map(|frame| &frame.scenario);
+    let starts = switches.filter(|it| it.key == key::START);
+    assert_eq!(starts.count(), 1);
+    assert_eq!(replayed(&second, track), hash(&outcome));
 }
 
 /// Taken off for a while.

@@ -37,6 +37,22 @@ struct Coming {
     action: Action,
 }
 
+/// A bench that is ready and not in use yet.
+pub(super) struct Built {
+    bench: Workbench,
+    world: World,
+    plan: Plan,
+    eyes: Eyes,
+    action: Action,
+}
+
+impl Built {
+    /// Its scene.
+    pub fn scene(&self) -> &str {
+        &self.plan.scene
+    }
+}
+
 impl Benches {
     /// The first bench, and its world at its start.
     pub fn new(
@@ -98,21 +114,26 @@ impl Benches {
         coming.is_some_and(|coming| coming.thread.is_finished())
     }
 
-    /// Puts the bench that was being built in place of the one in use, if it is ready and was built without a failure, and returns its
-    /// world and the action that brings that up. Waits until the old one has given back its memory.
-    pub fn replace_if_built(&mut self, gpu: &Gpu, _: &NoFrameOpen) -> Option<(Action, World)> {
+    /// The bench that was being built, if it is ready and was built without a failure; the one in use stays. Does not wait.
+    pub fn take_built(&mut self, gpu: &Gpu) -> Option<Built> {
         let coming = self.coming.take_if(|coming| coming.thread.is_finished())?;
-        let made = coming.thread.join();
+        let Coming {
+            plan,
+            eyes,
+            thread,
+            action,
+        } = coming;
+        let made = thread.join();
         match made.unwrap_or_else(|_| Err("the bench's builder broke down; report it").other()) {
-            Ok((bench, world)) => {
-                self.current = bench;
-                // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
-                // these.
-                self.eyes = coming.eyes;
-                Some((coming.action, world))
-            }
+            Ok((bench, world)) => Some(Built {
+                bench,
+                world,
+                plan,
+                eyes,
+                action,
+            }),
             Err(_) if gpu.is_lost() => {
-                self.again = Some((coming.plan, coming.action));
+                self.again = Some((plan, action));
                 None
             }
             Err(failure) => {
@@ -120,6 +141,21 @@ impl Benches {
                 None
             }
         }
+    }
+
+    /// The device was lost before that bench was put to use: it is built anew on the next one.
+    pub fn build_again(&mut self, built: Built) {
+        self.again = Some((built.plan, built.action));
+    }
+
+    /// Puts that bench in place of the one in use, and gives its world and the action that brings that up. Waits until the old picture
+    /// has given back its memory.
+    pub fn put(&mut self, built: Built, _: &NoFrameOpen) -> (Action, World) {
+        self.current = built.bench;
+        // The lenses may hide other pixels by now: `take_mask` finds out, since its picture was made for
+        // these.
+        self.eyes = built.eyes;
+        (built.action, built.world)
     }
 
     /// Leaves out of the pictures what the lenses hide. That is known with the eyes' fields of view, which come

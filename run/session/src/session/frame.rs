@@ -188,18 +188,21 @@ impl Session {
     fn replace_bench(&mut self, no_frame: &NoFrameOpen) -> Result<(), Failure> {
         let drawn = self.pacing.setting(&self.benches.current);
         let gpu = self.run.world.gpu().clone();
-        let Some((action, world)) = self.benches.replace_if_built(&gpu, no_frame) else {
+        let Some(built) = self.benches.take_built(&gpu) else {
             return Ok(());
         };
-        for looked in self.run.end_attempt()? {
-            self.observed(&looked);
+        tracing::info!(target: TAKEN_UP, "set up: {}", built.scene());
+        if let Err(failure) = self.end_attempt() {
+            if gpu.is_lost() {
+                self.benches.build_again(built);
+            }
+            return Err(failure);
         }
-        self.guide.follow(&self.run);
         self.hear();
+        let (action, world) = self.benches.put(built, no_frame);
         let same = matches!(action, Action::Start(_));
         // Before the actions of its settings: a replay brings up the scene first.
         self.run.bring_up(action, world);
-        tracing::info!(target: TAKEN_UP, "set up: {}", self.run.scene());
         self.fade.close();
         let (bench, run) = (&self.benches.current, &mut self.run);
         self.pacing.begin(same, Some(drawn), bench, run)?;
@@ -394,6 +397,14 @@ impl Session {
         self.counts.tally.collect()
     }
 
+    /// Ends the attempt, all of whose observations are taken in; waits for the device.
+    pub(super) fn end_attempt(&mut self) -> Result<(), Failure> {
+        self.observe(true)?;
+        self.run.end_attempt()?;
+        self.guide.follow(&self.run);
+        Ok(())
+    }
+
     /// Takes in the observations that have come, or all where it shall `wait`.
     pub(super) fn observe(&mut self, wait: bool) -> Result<(), Failure> {
         while let Some(looked) = match wait {
@@ -406,7 +417,7 @@ impl Session {
         Ok(())
     }
 
-    pub(super) fn observed(&mut self, looked: &Looked) {
+    fn observed(&mut self, looked: &Looked) {
         let now = self.shown_at();
         let time = 1e-9 * now as f64;
         let (world, census) = (&self.run.world, &looked.census);

@@ -32,7 +32,7 @@ fn go_through(track: &str, scene: &Scene, mut each: impl FnMut(&Sight, &[vitriol
     let mut t = 0.0;
     for frame in &track.frames {
         let near = stage::near_from_stage(frame, scene);
-        let input = stage::input(&near, scene);
+        let input = stage::input(frame, scene);
         world.step(&input).unwrap();
         t += scene.scale.frame_time;
         looks.look(&mut world, QueueKind::Main, &near, t).unwrap();
