@@ -7,7 +7,7 @@ use vitriol_gpu::{QueueKind, Ticket};
 use vitriol_lesson as lesson;
 use vitriol_lesson::procedure::Progress;
 use vitriol_sim::solver::Held;
-use vitriol_sim::world::{Look, World};
+use vitriol_sim::world::World;
 use vitriol_sound as sound;
 use vitriol_xr::PoseFrame;
 
@@ -304,14 +304,30 @@ impl Run {
         Ok(looked.map(|it| self.take(it)))
     }
 
-    /// Goes on in that world, which is the present one on another device. `again` are its observations behind steps that were taken
-    /// again there; without them those that are under way are lost.
-    pub fn move_to(&mut self, world: World, again: Option<Vec<Look>>) {
-        self.world = world;
-        match again {
-            Some(looks) => self.looks.take_again(looks),
-            None => self.looks.forget(),
+    /// Goes on in `world`, which is the present scene's at its start on another device, every particle where it was. Where the old device
+    /// is lost, which may only now be found out, the world is brought back from the last state that was kept of it, and the steps since
+    /// are taken and observed again; else observations that are under way are lost. Whether the old device was lost.
+    ///
+    /// # Errors
+    /// An error of either device, or a world of another scene.
+    pub fn move_to(&mut self, mut world: World) -> Result<bool, Failure> {
+        let before = &self.world;
+        let state = before.snapshot();
+        let lost = before.gpu().is_lost();
+        let lifeline = before.lifeline().filter(|_| lost);
+        if let Some(lifeline) = lifeline {
+            self.looks.take_again(world.revive(lifeline).other()?);
+            tracing::info!("brought back, {} steps taken again", lifeline.steps());
+        } else {
+            world.solve_like(before).other()?;
+            world.restore(&state.other()?).other()?;
+            let memory = before.looks_memory().other()?;
+            world.remember_looks(&memory).other()?;
+            self.looks.forget();
         }
+        let revived = lifeline.is_some();
+        self.world = world;
+        Ok(revived)
     }
 
     /// Ends the recording, if there is one, in the state whose hash is given, and waits for its file.

@@ -13,6 +13,8 @@ use vitriol_run::budget;
 
 /// Target of the log's lines on what was made beside the frames and is used from now on.
 pub const TAKEN_UP: &str = "vitriol::vr::taken_up";
+/// Target of the log's line on a bench that is built again, since its device was lost before it was put to use.
+pub const BUILT_AGAIN: &str = "vitriol::vr::built_again";
 
 /// What a bench is made of.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use vitriol_xr::Headset;
 use super::ended::NoFrameOpen;
 use crate::foveating::Foveating;
 use crate::picture::Eyes;
-use crate::workbench::{Plan, Workbench};
+use crate::workbench::{BUILT_AGAIN, Plan, Workbench};
 
 /// The bench in use, what it and its like are made with, and the next one.
 pub(super) struct Benches {
@@ -145,6 +145,8 @@ impl Benches {
 
     /// The device was lost before that bench was put to use: it is built anew on the next one.
     pub fn build_again(&mut self, built: Built) {
+        let scene = built.scene();
+        tracing::info!(target: BUILT_AGAIN, "{scene} is built again on another device");
         self.again = Some((built.plan, built.action));
     }
 
@@ -169,33 +171,13 @@ impl Benches {
         Ok(())
     }
 
-    /// Moves the bench and its run to the headset's new device, every particle where it was, and begins the one that was being built
-    /// anew. Where the old device is lost, which may only now be found out, the bench is brought back from what was kept of it, and what
-    /// was observed behind the steps that are taken again is observed again. Whether that was so.
+    /// Moves the bench and its run to the headset's new device ([`Run::move_to`]), and begins the bench that was being built anew.
+    /// Whether the old device was lost.
     pub fn move_to(&mut self, headset: &dyn Headset, run: &mut Run) -> Result<bool, Failure> {
         let gpu = headset.gpu();
         self.eyes = Eyes::of(headset, self.eyes.foveating);
-        let before = &run.world;
-        let (bench, mut world) =
-            Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
-        let state = before.snapshot();
-        let lost = before.gpu().is_lost();
-        let again = match before.lifeline().filter(|_| lost) {
-            Some(lifeline) => {
-                let again = world.revive(lifeline).other()?;
-                tracing::info!("brought back, {} steps taken again", lifeline.steps());
-                Some(again)
-            }
-            None => {
-                world.solve_like(before).other()?;
-                world.restore(&state.other()?).other()?;
-                let memory = before.looks_memory().other()?;
-                world.remember_looks(&memory).other()?;
-                None
-            }
-        };
-        let revived = again.is_some();
-        run.move_to(world, again);
+        let (bench, world) = Workbench::new(gpu, &self.library, &self.current.plan, &self.eyes)?;
+        let revived = run.move_to(world)?;
         self.current = bench;
         let coming = self.coming.take();
         let coming = coming.map(|coming| (coming.plan, coming.action));
