@@ -3,21 +3,21 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
 use tracing::span::{Attributes, Id, Record};
 use tracing::{Event, Metadata, Subscriber};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Language;
-use vitriol_run::Scenes;
+use vitriol_run::{Action, Scenes};
 use vitriol_session::decision::Decision;
 use vitriol_session::foveating::Foveating;
 use vitriol_session::latch::Grip;
 use vitriol_session::placement::Posture;
 use vitriol_session::session::{Options, Session, SessionOutcome};
 use vitriol_session::stand_in::{StandIn, StandInSpec, Timing};
-use vitriol_session::workbench::Plan;
+use vitriol_session::workbench::{BUILT_AGAIN, Plan, TAKEN_UP};
 use vitriol_sim::scene::Preset;
 use vitriol_sound::Device;
 use vitriol_tests::wait::PATIENCE;
@@ -111,6 +111,28 @@ pub trait Trouble {
 pub struct Calm;
 
 impl Trouble for Calm {}
+
+/// Asks in a frame that the scene begins anew. Frames after it do not count until the new bench is taken up; one whose device was lost
+/// before that is built again.
+pub struct StartsOver {
+    /// The frame that asks.
+    pub asks: u64,
+    /// Where it asks.
+    pub decisions: Sender<Decision>,
+}
+
+impl Trouble for StartsOver {
+    fn awaits(&self, after: u64) -> bool {
+        after == self.asks + 1 && heard(TAKEN_UP) < 1 + heard(BUILT_AGAIN)
+    }
+
+    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
+        if after == self.asks {
+            let start = Decision::Act(Action::Start(None));
+            self.decisions.send(start).unwrap();
+        }
+    }
+}
 
 /// A stand-in with trouble, taken off after some frames.
 pub struct Worn<T> {

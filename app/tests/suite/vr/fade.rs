@@ -1,16 +1,14 @@
 //! The picture is dark where the world leaps: the head's place is lost and found, a scene follows another.
 
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, channel};
 
 use vitriol_gpu::{Gpu, QueueKind};
-use vitriol_run::Action;
 use vitriol_session::decision::Decision;
-use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::HeadsetFrame;
 use vitriol_xr::track::Track;
 
-use crate::vr::common::{Trouble, Worn, hash, heard, nobody, pour, session};
+use crate::vr::common::{StartsOver, Trouble, Worn, hash, nobody, pour, session};
 use crate::vr::loss::replayed;
 
 /// What a session ended with: mean level of the last frame's picture, 0 to 255, whether the panel had its own layer then, the recording
@@ -52,31 +50,24 @@ impl Trouble for Lost {
     }
 }
 
-/// Starts the scene over.
-struct StartsOver(Sender<Decision>);
-
 /// The frame that asks, and the one that the new bench comes in or the next.
 const ASKS: u64 = 5;
 const COMES: u64 = 6;
-
-impl Trouble for StartsOver {
-    fn awaits(&self, after: u64) -> bool {
-        after == COMES && heard(TAKEN_UP) == 0
-    }
-
-    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
-        if after == ASKS {
-            self.0.send(Decision::Act(Action::Start(None))).unwrap();
-        }
-    }
-}
 
 #[test]
 fn a_scene_comes_in_the_dark() {
     let gpu = gpu::device();
     let after = |frames: u64| {
         let (sender, decisions) = channel();
-        light(&gpu, frames, StartsOver(sender), decisions)
+        light(
+            &gpu,
+            frames,
+            StartsOver {
+                asks: ASKS,
+                decisions: sender,
+            },
+            decisions,
+        )
     };
     let whole = after(ASKS).level;
     // In the frame in which it is there.

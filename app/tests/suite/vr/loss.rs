@@ -1,19 +1,18 @@
 //! A runtime that goes away in mid-pour and comes back with another device.
 
 use crate::vr::common::{
-    Trouble, Worn, carried, hash, heard, nobody, options, options_where, pour, pour_at_once,
+    StartsOver, Trouble, Worn, carried, hash, nobody, options, options_where, pour, pour_at_once,
     session, session_with, when_heard,
 };
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
 use vitriol_run::track::key;
 use vitriol_run::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_device};
-use vitriol_session::decision::Decision;
 use vitriol_session::session::Session;
 use vitriol_session::stand_in::StandIn;
-use vitriol_session::workbench::{BUILT_AGAIN, TAKEN_UP};
+use vitriol_session::workbench::TAKEN_UP;
 use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
@@ -235,26 +234,6 @@ fn a_device_that_is_lost_again_and_again_ends_the_session() {
     assert!(failure.to_string().contains("device was lost"), "{failure}");
 }
 
-/// Starts the scene over.
-struct StartsOver(Sender<Decision>);
-
-/// The frame that asks, and the one before which the new bench is there.
-const ASKS: u64 = 5;
-const COMES: u64 = 6;
-
-impl Trouble for StartsOver {
-    fn awaits(&self, after: u64) -> bool {
-        after == COMES && heard(TAKEN_UP) < 1 + heard(BUILT_AGAIN)
-    }
-
-    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
-        if after == ASKS {
-            let start = Decision::Act(Action::Start(None));
-            self.0.send(start).unwrap();
-        }
-    }
-}
-
 /// The device is lost when the new bench is ready. Where observations of the old one are still under way then, as on a software driver,
 /// the attempt ends on the next device and the bench is built again there; where none is, the new bench is brought back.
 #[test]
@@ -262,8 +241,11 @@ fn a_device_lost_at_a_scene_change_loses_neither_scene() {
     let (first, second) = (gpu::another_device(|_| {}), gpu::another_device(|_| {}));
     let folder = tempfile::tempdir().unwrap();
     let (sender, decisions) = channel();
-    let trouble = StartsOver(sender);
-    let mut headset = Worn::new(&first, pour().sample_track(), 90.0, COMES + 10, trouble);
+    let trouble = StartsOver {
+        asks: 5,
+        decisions: sender,
+    };
+    let mut headset = Worn::new(&first, pour().sample_track(), 90.0, 16, trouble);
     let then = Gpu::clone(&second);
     headset.inner = headset.inner.reopening(move || Ok(then.clone()));
     let lost = Gpu::clone(&first);

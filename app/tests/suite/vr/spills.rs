@@ -2,18 +2,16 @@
 
 use std::ops::Range;
 use std::path::Path;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 
-use crate::vr::common::{Calm, Trouble, Worn, hash, heard, nobody, options, session_with};
+use crate::vr::common::{Calm, StartsOver, Trouble, Worn, hash, nobody, options, session_with};
 use crate::vr::loss::replayed;
 use crate::vr::seen::Seen;
 use glam::{Quat, Vec3};
 use vitriol_gpu::Gpu;
 use vitriol_lesson::{Attempt, Cause, Incident, Skin as SkinOf, Surface, What};
-use vitriol_run::{Action, Scenes};
-use vitriol_session::decision::Decision;
+use vitriol_run::Scenes;
 use vitriol_session::session::Contacts;
-use vitriol_session::workbench::TAKEN_UP;
 use vitriol_tests::gpu;
 use vitriol_xr::track::Keyframes;
 use vitriol_xr::{HeadsetFrame, Pose};
@@ -210,24 +208,8 @@ fn seen_under(gpu: &Gpu, fraction: &str, ducks: Range<u64>) -> (Seen, Contacts) 
     (Seen::last(gpu, &name, &headset), outcome.contacts)
 }
 
-/// Begins the scene anew while acid is poured over her left hand.
-struct StartsOver(Sender<Decision>);
-
-/// The frame that asks, and the one before which the new bench is there: it flows from 2.6 to 3.2 s.
+/// The frame that asks for the new start: it flows from 2.6 to 3.2 s, frames 117 to 144.
 const ASKS: u64 = 117;
-const COMES: u64 = 118;
-
-impl Trouble for StartsOver {
-    fn awaits(&self, after: u64) -> bool {
-        after == COMES && heard(TAKEN_UP) == 0
-    }
-
-    fn frame(&mut self, _: &mut HeadsetFrame, after: u64) {
-        if after == ASKS {
-            self.0.send(Decision::Act(Action::Start(None))).unwrap();
-        }
-    }
-}
 
 /// What touched her is summed by the session and found for the lesson, from the same observations: also from those that are under way
 /// when a scene is begun anew.
@@ -237,8 +219,11 @@ fn a_touch_just_before_a_new_start_counts() {
     let folder = tempfile::tempdir().unwrap();
     let keyframes = Keyframes::parse(TRACK, Path::new("beside.toml")).unwrap();
     let (sender, decisions) = channel();
-    let trouble = StartsOver(sender);
-    let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, COMES + 5, trouble);
+    let trouble = StartsOver {
+        asks: ASKS,
+        decisions: sender,
+    };
+    let mut headset = Worn::new(&gpu, keyframes.sample_track(), 45.0, ASKS + 6, trouble);
     let mut plan = options(folder.path());
     let mut scenes = Scenes::default();
     plan.plan.scene = scenes.open(acid(folder.path()).to_str().unwrap()).unwrap();
