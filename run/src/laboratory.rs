@@ -65,6 +65,35 @@ pub struct Setup<'a> {
     pub shaders: Arc<Library>,
 }
 
+impl<'a> Setup<'a> {
+    /// Of a scene on the best device, with the shaders of the program and without pictures. `scenes` are those that a
+    /// track may bring up.
+    pub fn without_pictures(
+        scene: &'a Scene,
+        (scene_name, scenes): (&'a str, &'a Scenes),
+        preset: Preset,
+        seed: u64,
+    ) -> Self {
+        Self {
+            scene,
+            scene_name,
+            scenes,
+            preset,
+            seed,
+            device: None,
+            picture: None,
+            colours: Vec::new(),
+            eyes: 1,
+            filter: None,
+            tint: None,
+            room: None,
+            head: None,
+            look: None,
+            shaders: Arc::new(Library::embedded()),
+        }
+    }
+}
+
 /// The experiment of a scene on the device that was asked for.
 ///
 /// # Errors

@@ -3,12 +3,10 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::SystemTime;
 
 use vitriol_lesson::{Cause, Event, Incident, Surface, What};
 use vitriol_run::{Observer, Progress, Scenes, Setup, Span, on_device};
-use vitriol_shaders::Library;
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_tests::program::{Program, words};
 use vitriol_tests::slurm::Slurm;
@@ -65,23 +63,8 @@ fn recording(folder: &Path) -> Track {
         .open(folder.join("small.toml").to_str().unwrap())
         .unwrap();
     let scene = scenes.get(&name).unwrap().with_preset(Preset::Fast);
-    let setup = Setup {
-        scene: &scene,
-        scene_name: &name,
-        scenes: &scenes,
-        preset: Preset::Fast,
-        seed: track.metadata.seed,
-        device: None,
-        picture: None,
-        colours: Vec::new(),
-        eyes: 1,
-        filter: None,
-        tint: None,
-        room: None,
-        head: None,
-        look: None,
-        shaders: Arc::new(Library::embedded()),
-    };
+    let setup =
+        Setup::without_pictures(&scene, (&name, &scenes), Preset::Fast, track.metadata.seed);
     let mut experiment = on_device(&gpu, &setup).unwrap();
     let span = Span::covering(track.duration(), scene.scale.frame_time);
     let mut observer = Observer::new(span, Vec::new(), Progress::hidden());

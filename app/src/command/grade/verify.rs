@@ -1,14 +1,12 @@
 //! Simulates a track again, and compares the result with what its recording holds.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use vitriol_lesson::procedure::{Progress, Verdict as LessonVerdict};
 use vitriol_lesson::{Attempt, Score, Texts};
 use vitriol_run::progress::Runs;
 use vitriol_run::{Blame, DeviceStatement, Experiment, Failure, Observer, Setup};
-use vitriol_shaders::Library;
 use vitriol_xr::track::{Track, TrackSource};
 
 use super::agreement::{Agreement, Tolerance};
@@ -89,21 +87,13 @@ impl Verified {
         let metadata = track.metadata.clone();
         let plan = ReplayPlan::of(&ask, track)?;
         let mut experiment = prepare(&Setup {
-            scene: &plan.scene,
-            scene_name: &plan.name,
-            scenes: &plan.scenes,
-            preset: plan.preset,
-            seed: plan.seed,
             device: args.device.as_deref(),
-            picture: None,
-            colours: Vec::new(),
-            eyes: 1,
-            filter: None,
-            tint: None,
-            room: None,
-            head: None,
-            look: None,
-            shaders: Arc::new(Library::embedded()),
+            ..Setup::without_pictures(
+                &plan.scene,
+                (&plan.name, &plan.scenes),
+                plan.preset,
+                plan.seed,
+            )
         })?;
         if let Some((lesson, mode)) = &expected.lesson {
             let scene = (plan.name.as_str(), plan.scenes.text(&plan.name));

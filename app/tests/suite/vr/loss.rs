@@ -4,7 +4,6 @@ use crate::vr::common::{
     StartsOver, Trouble, Worn, carried, hash, nobody, options, options_where, pour, pour_at_once,
     session, session_with, when_heard,
 };
-use std::sync::Arc;
 use std::sync::mpsc::channel;
 use vitriol_gpu::Gpu;
 use vitriol_lesson::Event;
@@ -13,7 +12,6 @@ use vitriol_run::{Action, Judging, Observer, Outcome, Progress, Setup, Span, on_
 use vitriol_session::session::Session;
 use vitriol_session::stand_in::StandIn;
 use vitriol_session::workbench::TAKEN_UP;
-use vitriol_shaders::Library;
 use vitriol_sim::scene::Preset;
 use vitriol_tests::gpu;
 use vitriol_xr::track::{Track, TrackSource};
@@ -49,23 +47,12 @@ fn replay_of(gpu: &Gpu, track: Track, lesson: Option<Judging>) -> (Vec<Event>, O
     let scene = scenes.get(&name).unwrap();
     let mut experiment = on_device(
         gpu,
-        &Setup {
-            scene: &scene,
-            scene_name: &name,
-            scenes: &scenes,
-            preset: Preset::Balanced,
-            seed: track.metadata.seed,
-            device: None,
-            picture: None,
-            colours: Vec::new(),
-            eyes: 1,
-            filter: None,
-            tint: None,
-            room: None,
-            head: None,
-            look: None,
-            shaders: Arc::new(Library::embedded()),
-        },
+        &Setup::without_pictures(
+            &scene,
+            (&name, &scenes),
+            Preset::Balanced,
+            track.metadata.seed,
+        ),
     )
     .unwrap();
     if let Some(lesson) = lesson {

@@ -1,7 +1,5 @@
 //! A run: what is done before its steps is recorded with them, and a replay of that is the same run.
 
-use std::sync::Arc;
-
 use glam::Quat;
 use vitriol_gpu::{Gpu, QueueKind};
 use vitriol_lesson::procedure::Progress;
@@ -94,23 +92,8 @@ fn steps_are_recorded_with_what_is_done_before_them_and_replay() {
 
     let mut scenes = Scenes::default();
     scenes.carry(&track.metadata);
-    let setup = Setup {
-        scene: &scenes.get("a").unwrap(),
-        scene_name: "a",
-        scenes: &scenes,
-        preset: Preset::Balanced,
-        seed: 7,
-        device: None,
-        picture: None,
-        colours: Vec::new(),
-        eyes: 1,
-        filter: None,
-        tint: None,
-        room: None,
-        head: None,
-        look: None,
-        shaders: Arc::new(Library::embedded()),
-    };
+    let scene = scenes.get("a").unwrap();
+    let setup = Setup::without_pictures(&scene, ("a", &scenes), Preset::Balanced, 7);
     let mut replay = on_device(&gpu, &setup).unwrap();
     for frame in &track.frames[..3] {
         replay.step(frame).unwrap();

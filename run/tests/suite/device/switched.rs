@@ -1,11 +1,8 @@
 //! A scene that follows another in a replay: what is shown of a run is of its own scene.
 
-use std::sync::Arc;
-
 use glam::Quat;
 use vitriol_gpu::Gpu;
-use vitriol_run::{Colour, Experiment, Scenes, Setup, on_device};
-use vitriol_shaders::Library;
+use vitriol_run::{Experiment, Scenes, Setup, on_device};
 use vitriol_sim::scene::{Preset, Scene};
 use vitriol_tests::gpu;
 use vitriol_xr::{Pose, Switch};
@@ -34,23 +31,7 @@ fn overturned() -> String {
 
 fn experiment(gpu: &Gpu, scenes: &Scenes) -> Box<dyn Experiment> {
     let scene = scenes.get("over.toml").unwrap();
-    let setup = Setup {
-        scene: &scene,
-        scene_name: "over.toml",
-        scenes,
-        preset: Preset::Balanced,
-        seed: 1,
-        device: None,
-        picture: None,
-        colours: vec![Colour::Liquid],
-        eyes: 1,
-        filter: None,
-        tint: None,
-        room: None,
-        head: None,
-        look: None,
-        shaders: Arc::new(Library::embedded()),
-    };
+    let setup = Setup::without_pictures(&scene, ("over.toml", scenes), Preset::Balanced, 1);
     on_device(gpu, &setup).unwrap()
 }
 
