@@ -407,7 +407,6 @@ impl Experiment for Laboratory {
             ("density taken at the end of its table", counted.table_ends),
             ("surface tension left out", counted.tension_skipped),
             ("bubble without a place", counted.bubbles_refused),
-            ("gas cut to what a neighbourhood holds", counted.gas_limited),
             ("drops of a jet or film left out", counted.spray_refused),
         ];
         Ok(Outcome {

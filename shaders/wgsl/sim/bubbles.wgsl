@@ -6,6 +6,7 @@
 //!include common/chemistry/bubble.wgsl
 //!include common/chemistry/bubble_surroundings.wgsl
 //!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/dividing.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/live_places.wgsl
 //!include common/chemistry/plunging.wgsl
@@ -41,9 +42,16 @@ override GRAVITY_Z: f32 = 0.0;
 /// By step and slot: quanta of steam, enthalpy and air of what joins the bubble.
 @group(0) @binding(11) var<storage, read_write> merging: array<atomic<i32>>;
 @group(0) @binding(12) var<storage, read_write> counters: Counters;
+/// (acid fraction, enthalpy in J/kg, …, mass over V0·ρ0)
+@group(0) @binding(13) var<storage, read> matter: array<vec4<f32>>;
 /// By identity, see `sim/forces.wgsl`.
 @group(0) @binding(17) var<storage, read> falls: array<vec2<f32>>;
 @group(0) @binding(19) var<storage, read> live: array<u32>;
+/// By set of records and slot: one more than the place of the other half of a bubble that divides (`sim/live.wgsl`).
+@group(0) @binding(56) var<storage, read_write> splits: array<u32>;
+/// Share of a particle's neighbourhood that cavities take.
+@group(0) @binding(54) var<storage, read> hollow: array<f32>;
+@group(0) @binding(55) var<storage, read> bulk: array<vec4<f32>>;
 
 /// Particle spacing d, m.
 override SPACING: f32 = 0.0025;
@@ -53,6 +61,8 @@ const NUCLEUS: f32 = 3e-4;
 const VANISHED: f32 = 1e-4;
 /// Where fewer neighbours than this are above, over a full neighbourhood's, a bubble is at the surface.
 const COVERED: f32 = 0.7;
+/// The same of a cavity: with more, those inside of a swarm would count as at its surface.
+const CAVITY_COVERED: f32 = 0.35;
 /// Share of solid space around a bubble from which on glass holds it back.
 const AT_GLASS: f32 = 0.2;
 /// Share of solid space, a support radius below a particle that plunges, from which on it takes no air down.
@@ -63,8 +73,24 @@ const MOST_EXCHANGED: f32 = 0.03;
 const MOST_OF_SUPERHEAT: f32 = 0.5;
 /// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
 const MOST_GIVEN: f32 = 8.0;
-/// Cells around its own that a bubble reaches at most.
-const MOST_CELLS: i32 = 3;
+/// How fast the share of a bubble that is a cavity follows the crowd, in a step.
+const FOLLOWS: f32 = 0.3;
+/// Share of the overlap of two cavities that they leave in a step.
+const PARTED: f32 = 0.5;
+/// Most of such ways in a step, over h: a cavity that leaps crushes particles.
+const MOST_SHIFT: f32 = 0.2;
+/// Quantum of that way, m.
+const WAY_QUANTUM: f32 = 1e-8;
+/// Share of a vessel's width that a bubble has at most.
+const WIDEST_BUBBLE: f32 = 0.5;
+/// How far from its place each half of a bubble that divides begins and ends the step, over its radius.
+const HALF_FROM: f32 = 0.3;
+const HALF_TO: f32 = 0.7;
+/// Most acceleration of the liquid around a bubble that its velocity is changed by, over gravity's: more is noise.
+const MOST_ACCELERATION: f32 = 1.0;
+
+/// Step of the differences by which the way from glass is found, m.
+const GAP_STEP: f32 = 2e-4;
 
 var<workgroup> claimed: array<u32, 64>;
 var<workgroup> joined: array<vec3<i32>, 64>;
@@ -116,7 +142,8 @@ fn scatter(bubble: Bubble, s: Surrounding, c: Conductance, reach: f32, cells: i3
     let count = select(0u, count_around(cells), is_there(bubble) && s.weight > 0.0);
     let own_specific = bubble.enthalpy / max(bubble.mass, 1e-20);
     let stirring = 2.0 * bubble.radius * length(bubble.velocity - s.velocity);
-    let gas_share = bubble_volume(bubble.radius) / (VOLUME * max(s.weight, 1e-12));
+    let held = (1.0 - bubble.cavity) * bubble_volume(bubble.radius);
+    let gas_share = held / (VOLUME * max(s.weight, 1e-12));
     for (var n = lane; n < count; n += LANES) {
         let run = cell_around(cell, cells, n);
         for (var j = run.first; j < run.end; j++) {
@@ -188,10 +215,12 @@ fn taken_along(before: Bubble, i: u32) -> Bubble {
 fn born(before: Bubble, i: u32, of_air: bool) -> Bubble {
     var bubble = before;
     bubble.position = position[i].xyz;
+    bubble.position_before = bubble.position;
     bubble.velocity = velocity[i].xyz;
     bubble.membership = tags[i].x;
     bubble.surfaced = 0.0;
     bubble.touching = 0.0;
+    bubble.cavity = 0.0;
     if (of_air) { return taken_along(bubble, i); }
     let temperature = heat[i].x;
     let volume = 4.0 / 3.0 * BUBBLE_PI * NUCLEUS * NUCLEUS * NUCLEUS;
@@ -208,6 +237,8 @@ fn emptied(before: Bubble) -> Bubble {
     bubble.mass = 0.0;
     bubble.enthalpy = 0.0;
     bubble.air = 0.0;
+    bubble.radius = 0.0;
+    bubble.divides = 0.0;
     return bubble;
 }
 
@@ -218,6 +249,151 @@ fn beside_glass(v: vec3<f32>, wall: vec4<f32>) -> vec3<f32> {
     if (wall_volume(wall) < AT_GLASS || steepness <= 0.0) { return v; }
     let into = slope / steepness;
     return v - into * max(dot(v, into), 0.0);
+}
+
+/// A bubble's velocity relative to the liquid, m/s, and the force by which, as far as it is a cavity, it drags the liquid along,
+/// V0·ρ0·m/s²: where particles hold its gas, they are lighter by it.
+struct Motion {
+    relative: vec3<f32>,
+    drag: vec3<f32>,
+}
+
+fn motion_of(bubble: Bubble, s: Surrounding, around: Around, gravity: vec3<f32>, is_born: bool, at_surface: bool, time: f32) -> Motion {
+    if (at_surface) { return Motion(vec3<f32>(0.0), vec3<f32>(0.0)); }
+    let before = bubble.velocity - select(bubble.flow, s.velocity, is_born);
+    var gained = select((s.velocity - bubble.flow) / time, vec3<f32>(0.0), is_born);
+    gained *= min(MOST_ACCELERATION * GRAVITY / max(length(gained), 1e-6), 1.0);
+    let rate = drag_rate(before, bubble.radius, around);
+    let relative = risen(before, gained - gravity, rate, time);
+    let displaced = bubble.cavity * bubble_volume(bubble.radius) * around.density / MASS;
+    return Motion(relative, 0.5 * displaced * rate * relative);
+}
+
+/// Drags the liquid behind a cavity along, where its wake is: beside and before it, it would move what `gather` finds its velocity by.
+fn drag_along(bubble: Bubble, motion: Motion, reach: f32, cells: i32, lane: u32) {
+    let speed = length(motion.relative);
+    if (speed <= 0.0 || bubble.cavity <= 0.0) { return; }
+    let wake = bubble.position - motion.relative * (reach / speed);
+    let force = motion.drag * (VOLUME / (FULL * reach * reach * reach));
+    let cell = cell_of(wake);
+    for (var n = lane; n < count_around(cells); n += LANES) {
+        let run = cell_around(cell, cells, n);
+        for (var j = run.first; j < run.end; j++) {
+            let offset = position[j].xyz - wake;
+            let weight = share_at(dot(offset, offset) / (reach * reach));
+            if (weight <= 0.0 || tags[j].x != bubble.membership) { continue; }
+            let acceleration = force * (weight * unpack_bulk(bulk[j]).lightness);
+            let word = tags[j].y * BUBBLED_WORDS + BUBBLED_LIFT;
+            for (var axis = 0u; axis < 3u; axis++) { atomicAdd(&bubbled[word + axis], quanta(acceleration[axis], LIFT_QUANTUM)); }
+        }
+    }
+}
+
+/// Which bubble's other half comes to a place, or goes from it: itself then.
+struct Half {
+    parent: u32,
+    side: f32,
+}
+
+fn half_of(slot: u32, first: u32) -> Half {
+    if (splits[first + slot] > 0u) { return Half(slot, 1.0); }
+    let parent = parent_of(slot, first);
+    if (parent == NO_PARENT || splits[first + parent] != slot + 1u) { return Half(NO_PARENT, 0.0); }
+    return Half(parent, -1.0);
+}
+
+/// A half of `whole`, as it was before this step: the one that stays, with what joins it, or the one that goes.
+fn divided(before: Bubble, whole: Bubble, side: f32) -> Bubble {
+    var bubble = before;
+    if (side < 0.0) {
+        bubble = whole;
+        bubble.gone = before.gone;
+        bubble.vented = before.vented;
+        bubble.air_gone = before.air_gone;
+    }
+    bubble.mass -= 0.5 * whole.mass;
+    bubble.enthalpy -= 0.5 * whole.enthalpy;
+    bubble.air -= 0.5 * whole.air;
+    let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
+    let across = sideways(-gravity / max(length(gravity), 1e-9), bitcast<u32>(whole.position.x), bitcast<u32>(whole.radius));
+    bubble.position_before = whole.position + side * HALF_FROM * whole.radius * across;
+    bubble.position = whole.position + side * HALF_TO * whole.radius * across;
+    return bubble;
+}
+
+/// Share of a bubble that is a cavity: what of it particles cannot resolve, but for what they cannot hold.
+fn cavity_of(bubble: Bubble, s: Surrounding) -> f32 {
+    let crowd = (s.crowded - 1.0) * (1.0 - bubble.cavity + 0.05);
+    return clamp(bubble.cavity + FOLLOWS * crowd, cavity_share(bubble.radius), 1.0);
+}
+
+/// Sum of the cubes of two bubbles' radii, m³.
+fn together(a: Bubble, b: Bubble) -> f32 {
+    return a.radius * a.radius * a.radius + b.radius * b.radius * b.radius;
+}
+
+/// Whether what two bubbles become is narrow enough to last.
+fn can_join(a: Bubble, b: Bubble, around: Around) -> bool {
+    let stable = stable_radius(around);
+    return together(a, b) <= stable * stable * stable;
+}
+
+/// Bubbles that touch a cavity.
+struct Touching {
+    /// Key of the largest larger one that it can join; 0 for none.
+    larger: u32,
+    /// Way in which it leaves those that it overlaps and, as both are too wide, will not join, m.
+    way: vec3<f32>,
+}
+
+/// What touches a cavity, of all bubbles: the particle nearest to another may be out of its reach. All lanes must ask.
+fn touching_of(bubble: Bubble, around: Around, slot: u32, first: u32, lane: u32) -> Touching {
+    var way = vec3<i32>(0);
+    var larger = 0u;
+    let key = key_of(bubble, slot);
+    let count = select(0u, live[count_of_live()], bubble.cavity > 0.0);
+    for (var n = lane; n < count; n += LANES) {
+        let other = bubbles[first + live[n]];
+        let offset = bubble.position - other.position;
+        let distance = length(offset);
+        let overlap = bubble.radius + other.radius - distance;
+        if (live[n] == slot || !is_there(other) || other.membership != bubble.membership || overlap <= 0.0) { continue; }
+        if (can_join(bubble, other, around)) {
+            let others = key_of(other, live[n]);
+            if (others > key) { larger = max(larger, others); }
+        } else if (other.cavity > 0.0) {
+            let own = other.radius * other.radius * other.radius / together(bubble, other);
+            way += vec3<i32>(round(offset * (PARTED * overlap * own / max(distance, 1e-5) / WAY_QUANTUM)));
+        }
+    }
+    let sum = vec3<i32>(lane_sum_of_integers(way.x), lane_sum_of_integers(way.y), lane_sum_of_integers(way.z));
+    return Touching(lane_max(larger), vec3<f32>(sum) * WAY_QUANTUM);
+}
+
+/// Whether a bubble is wider than half of its vessel where it is.
+fn is_too_wide(bubble: Bubble) -> bool {
+    if (FLASKS == 0u || bubble.membership == NOBODYS) { return false; }
+    let k = bubble.membership - 1u;
+    let y = flask_from_stage(poses[step.after + k], bubble.position).y;
+    return bubble.radius > WIDEST_BUBBLE * inner_radius(k, clamp(y, flasks[k].floor + bubble.radius, flasks[k].rim));
+}
+
+/// Where a cavity lies beside glass and not in it.
+fn clear_of_glass(bubble: Bubble) -> vec3<f32> {
+    let wanted = bubble.cavity * bubble.radius;
+    if (SOLIDS || FLASKS == 0u || wanted <= 0.0 || bubble.membership == NOBODYS) { return bubble.position; }
+    let k = bubble.membership - 1u;
+    let pose = poses[step.after + k];
+    let p = flask_from_stage(pose, bubble.position);
+    let r = length(p.xz);
+    let first = flasks[k].inside_first;
+    let gap = sample_map(k, first, r, p.y).distance;
+    if (gap >= wanted) { return bubble.position; }
+    let further = vec2<f32>(sample_map(k, first, r + GAP_STEP, p.y).distance, sample_map(k, first, r, p.y + GAP_STEP).distance);
+    let slope = (further - gap) / GAP_STEP;
+    let to = (wanted - gap) / max(dot(slope, slope), 0.1) * slope;
+    let out = p.xz / max(r, 1e-9);
+    return stage_from_flask(pose, p + vec3<f32>(out.x * to.x, to.y, out.y * to.x));
 }
 
 /// What covers a bubble, with what glass hides beside it and what is of glass above it.
@@ -260,8 +436,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.enthalpy += f32(joins.y) * JOINED_ENTHALPY_QUANTUM;
     bubble.air += f32(joins.z) * JOINED_MASS_QUANTUM;
     let is_born = !is_there(bubble) && claim > 0u;
+    let half = half_of(slot, first);
+    if (lane == 0u) { splits[other_first + slot] = 0u; }
+    bubble.radius_before = bubble.radius;
+    bubble.position_before = bubble.position;
     if (is_born) { bubble = born(bubble, claim - 1u, of_air); }
-    bubble.radius = radius_of_volume(volume_of(bubble));
+    if (half.parent != NO_PARENT) { bubble = divided(bubble, bubbles[first + half.parent], half.side); }
+    bubble.radius = select(0.0, radius_of_volume(volume_of(bubble)), is_there(bubble));
+    if (half.parent != NO_PARENT) { bubble.radius_before = bubble.radius; }
     // All lanes of a place return alike.
     if (!is_there(bubble)) {
         if (lane == 0u) { bubbles[other_first + slot] = bubble; }
@@ -277,13 +459,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         if (lane == 0u) { bubbles[other_first + slot] = emptied(bubble); }
         return;
     }
-    let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, MOST_CELLS);
+    let cells = clamp(i32(ceil((SUPPORT + bubble.radius) / CELL)), 1, CAVITY_CELLS);
     let reach = min(SUPPORT + bubble.radius, f32(cells) * SUPPORT);
 
     let s = gather(bubble, slot, first, reach, cells, lane, up);
     if (s.weight > 0.0) { bubble.air_temperature = s.temperature; }
+    bubble.cavity = cavity_of(bubble, s);
     let around = around_of(s.acid, s.temperature);
-    let bursts = bubble.surfaced > FOAM_TIME;
+    // Surface tension holds no wider cap.
+    let bursts = bubble.surfaced > select(FOAM_TIME, 0.0, bubble.radius > stable_radius(around));
     if (SPRAY) {
         var jet: Burst;
         var film: Burst;
@@ -296,7 +480,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     }
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
+    let at_surface = cover_of(s.cover, wall, up) < mix(COVERED, CAVITY_COVERED, bubble.cavity);
+    let motion = motion_of(bubble, s, around, gravity, is_born, at_surface, time);
+    drag_along(bubble, motion, reach, cells, lane);
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
+    let touching = touching_of(bubble, around, slot, first, lane);
+    let larger = select(s.larger, touching.larger, bubble.cavity > 0.0);
     if (lane != 0u) { return; }
     let nearest = tags[s.nearest.particle].y;
     if (is_born && !of_air) {
@@ -312,12 +501,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         bubble.mass = 0.0;
         bubble.enthalpy = 0.0;
         if (bubble.air <= 0.0) {
-            bubbles[other_first + slot] = bubble;
+            bubbles[other_first + slot] = emptied(bubble);
             return;
         }
     }
 
-    let at_surface = cover_of(s.cover, wall, up) < COVERED;
     // What new ones push under for a moment is no younger for it.
     bubble.surfaced = max(bubble.surfaced + select(-time, time, at_surface), 0.0);
     if (alone || bursts) {
@@ -328,18 +516,21 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
         return;
     }
 
-    var relative = risen(bubble.velocity - s.velocity, up, bubble.radius, around, time);
-    if (at_surface) { relative = vec3<f32>(0.0); }
-    bubble.velocity = beside_glass(s.velocity + relative, wall);
+    bubble.flow = s.velocity;
+    bubble.velocity = beside_glass(s.velocity + motion.relative, wall);
     bubble.position += bubble.velocity * time;
+    bubble.radius = radius_of_volume(volume_of(bubble));
+    let shift = touching.way + clear_of_glass(bubble) - bubble.position;
+    bubble.position += shift * min(MOST_SHIFT * SUPPORT / max(length(shift), 1e-9), 1.0);
+    bubble.divides = select(0.0, 1.0, is_too_wide(bubble));
 
-    let other_slot = s.larger & 0xffffu;
+    let other_slot = larger & 0xffffu;
     let other = bubbles[first + other_slot];
-    let together = bubble.radius * bubble.radius * bubble.radius + other.radius * other.radius * other.radius;
-    let stable = stable_radius(around);
-    let joins_other = s.larger > 0u && together <= stable * stable * stable;
+    let joins_other = larger > 0u && can_join(bubble, other, around);
     bubble.touching = select(0.0, bubble.touching + time, joins_other);
     if (joins_other) {
+        // Each would follow the liquid that it moves itself, away from the other.
+        bubble.velocity = other.velocity;
         if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
             let words = 3u * (other_first + other_slot);
             let steam = quanta(bubble.mass, JOINED_MASS_QUANTUM);

@@ -58,8 +58,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     if (BUBBLES && i < SLOTS) {
-        if (is_there(bubbles[i]) && bubbles[i].membership == carry.membership) {
+        let seen = is_there(bubbles[i]) || bubbles[i].radius_before > 0.0;
+        if (seen && bubbles[i].membership == carry.membership) {
             bubbles[i].position = moved(bubbles[i].position);
+            bubbles[i].position_before = moved(bubbles[i].position_before);
+            bubbles[i].flow = turned(bubbles[i].flow);
             bubbles[i].velocity = turned(bubbles[i].velocity);
             bubbles[i].membership = carry.becomes;
         }

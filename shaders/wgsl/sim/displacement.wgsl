@@ -4,6 +4,7 @@
 // A wall is a mirror (common/glass/mirror.wgsl): it bears the particle's own pressure, and what stands behind it has
 // the pressure gradient along it that the particle has.
 //!include common/chemistry/bulk.wgsl
+//!include common/chemistry/cavity.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/chemistry/heat.wgsl
 //!include common/glass/boundary.wgsl
@@ -50,6 +51,9 @@ override HYSTERESIS: f32 = 0.0;
 @group(0) @binding(15) var<storage, read_write> eddies: array<vec2<f32>>;
 /// Over V0, as the first iteration's multipliers had them.
 @group(0) @binding(16) var<storage, read> volumes: array<f32>;
+@group(0) @binding(53) var<storage, read_write> cavities: array<vec4<i32>>;
+/// Σ B at x*, for the bubbles.
+@group(0) @binding(54) var<storage, read_write> hollow: array<f32>;
 /// By identity: what walls hold the line of a surface with (`sim/tension.wgsl`).
 @group(0) @binding(50) var<storage, read> held: array<vec4<f32>>;
 
@@ -100,8 +104,11 @@ struct Displacement {
 
 /// Line 19: Δx by the constraints' gradients at a particle; `sum` is that of its neighbours, `walls` its record `boundary`.
 fn displacement(i: u32, own: vec4<f32>, sum: vec3<f32>, walls: vec4<f32>) -> Displacement {
-    let by_liquid = sum * (weight_scale() / SUPPORT);
-    var delta = Displacement(by_liquid, by_walls(by_liquid, change_of(i, own), walls));
+    let change = change_of(i, own);
+    var by_liquid = sum * (weight_scale() / SUPPORT);
+    // As across a wall, a cavity has the particle's own pressure.
+    if (BUBBLES) { by_liquid += 2.0 * change * cavity_gradient(cavities[i]); }
+    var delta = Displacement(by_liquid, by_walls(by_liquid, change, walls));
     if (DENSITY) {
         // The same pressure moves what is light further: water rises in acid.
         let lightness = unpack_bulk(bulk[i]).lightness;
@@ -219,6 +226,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (DENSITY) { volume = volume_of(i, own); }
         trial[i] = pack_trial(x_star, volume);
         return;
+    }
+    if (BUBBLES) {
+        hollow[i] = cavity_volume(cavities[i], x_star - position[i].xyz);
+        cavities[i] = vec4<i32>(0);
     }
     let tag = tags[i];
     let multiplied = multiplier[i];

@@ -276,9 +276,6 @@ fn without_water(before: State, gone: f32, enthalpy: f32) -> State {
 /// Acid fraction that boiling leaves at most: a little more than the azeotrope's.
 const STRONGEST: f32 = 0.99;
 
-/// Most gas of a particle over its liquid: with more, the neighbours are too far.
-const MOST_GAS: f32 = 1.5;
-
 /// What a particle keeps at least, V0·ρ0, whatever is asked of it: what it holds is known by its mass, and of no mass it is no number.
 const LEAST_MASS: f32 = 0.01;
 
@@ -297,8 +294,9 @@ fn part_of(quanta: i32, share: f32) -> i32 {
 }
 
 /// Line 26: what bubbles took of this particle and gave it. Of the mass what f32 can add is taken over; the rest waits.
-fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
-    let did = bubbled[2u * identity];
+fn take_from_bubbles(before: State, identity: u32) -> State {
+    let first = BUBBLED_VECTORS * identity;
+    let did = bubbled[first];
     var state = before;
     // No water but what there is, whatever bubbles took.
     let water = state.content.mass * (1.0 - clamp(state.acid.value, 0.0, 1.0) / STRONGEST);
@@ -316,15 +314,13 @@ fn take_from_bubbles(before: State, identity: u32, liquid: f32) -> State {
     state.enthalpy = compensated(state.enthalpy, (enthalpy - state.enthalpy.value * change) / mass);
     state.content.mass = mass;
     let comes = f32(did.z) * GAS_QUANTUM;
-    let most = MOST_GAS * liquid;
-    if (comes > most) { atomicAdd(&counters.gas_limited, 1u); }
     let before_gas = gas[identity];
-    gas[identity] = vec4<f32>(before_gas.x, min(comes, most), f32(did.w) * CONDUCTANCE_QUANTUM, before_gas.w);
-    bubbled[2u * identity] = vec4<i32>(did.x - i32(change / MASS_QUANTUM), did.y - enthalpy_quanta, 0, 0);
-    let others = bubbled[2u * identity + 1u];
-    // What gas has no place stirs nothing.
-    let stirring = i32(f32(others.z) * min(most / max(comes, GAS_QUANTUM), 1.0));
-    bubbled[2u * identity + 1u] = vec4<i32>(0, others.x, 0, stirring);
+    gas[identity] = vec4<f32>(before_gas.x, comes, f32(did.w) * CONDUCTANCE_QUANTUM, before_gas.w);
+    bubbled[first] = vec4<i32>(did.x - i32(change / MASS_QUANTUM), did.y - enthalpy_quanta, 0, 0);
+    let others = bubbled[first + 1u];
+    bubbled[first + 1u] = vec4<i32>(0, others.x, 0, others.z);
+    bubbled[first + BUBBLED_LIFTED] = bubbled[first + BUBBLED_LIFTED - 1u];
+    bubbled[first + BUBBLED_LIFTED - 1u] = vec4<i32>(0);
     return state;
 }
 
@@ -396,7 +392,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     state = take_up(state, i, tag.x, extent.volume, own, received);
     if (BUBBLES) {
         if ((step.bubbles & BUBBLES_ACTED) > 0u) {
-            state = take_from_bubbles(state, tag.y, extent.volume - gas[tag.y].x);
+            state = take_from_bubbles(state, tag.y);
             if (SPRAY) { state = take_from_drops(state, tag.y); }
         }
     }

@@ -7,6 +7,7 @@
 // 28: internal forces. Then line 24 once more, since they may pass v_max.
 // 16: within a frame, the next substep's prediction, which saves a pass.
 //!include common/chemistry/boils.wgsl
+//!include common/chemistry/bubbled.wgsl
 //!include common/chemistry/bulk.wgsl
 //!include common/chemistry/mixing.wgsl
 //!include common/chemistry/pair_share.wgsl
@@ -63,6 +64,8 @@ override MIXES: bool = DILUTION || BOILING || PHYSICAL;
 /// By place of a bubble: one more than the particle at which it is to be born, and whether it is of air.
 @group(0) @binding(19) var<storage, read_write> claims: array<atomic<u32>>;
 
+/// By identity: what bubbles did to a particle.
+@group(0) @binding(41) var<storage, read> bubbled: array<vec4<i32>>;
 /// By identity: the fastest that a particle fell since it was at rest, less than zero once it has plunged into liquid (m/s), and the
 /// width of the stream that it fell in, m.
 @group(0) @binding(40) var<storage, read_write> falls: array<vec2<f32>>;
@@ -275,6 +278,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var v = before.xyz;
     if (DRAGS) { v += step.viscosity * drag; } // 27
     if (CONFINEMENT > 0.0) { v += step.time * confinement(sums.eta, omega); } // 28
+    if (BUBBLES) { v += step.time * LIFT_QUANTUM * vec3<f32>(bubbled[BUBBLED_VECTORS * tags[i].y + BUBBLED_LIFTED].xyz); } // 28
     v = clamp_speed(v); // 24
     velocity[i] = pack_velocity(v, carried_by(before));
     var volume = 1.0;

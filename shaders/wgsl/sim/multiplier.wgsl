@@ -11,6 +11,7 @@
 // filled, and the multiplier is −p/ρ0·Δt² of every particle, whatever its own
 // density: that of a neighbour of another liquid is its equal.
 //!include common/chemistry/bulk.wgsl
+//!include common/chemistry/cavity.wgsl
 //!include common/chemistry/features.wgsl
 //!include common/glass/boundary.wgsl
 //!include common/liquid/kernel.wgsl
@@ -48,6 +49,7 @@ const MOST_MIRRORED: f32 = 0.1;
 @group(0) @binding(11) var<storage, read> bulk: array<vec4<f32>>;
 /// Volumes over V0, where they differ, for the displacements: theirs are records of x* and dλ.
 @group(0) @binding(12) var<storage, read_write> volumes: array<f32>;
+@group(0) @binding(53) var<storage, read> cavities: array<vec4<i32>>;
 
 /// Line 19: Σ V_j W over the neighbours, over its value at rest density but for the kernel's scale.
 fn sum_weights(i: u32, lane: u32, x: vec3<f32>) -> f32 {
@@ -135,5 +137,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     boundary[i] = wall;
-    update_multiplier(i, x, density_constraint(sum, volume_in(own), wall_volume(wall), before));
+    var constraint = density_constraint(sum, volume_in(own), wall_volume(wall), before);
+    // No more than the wall leaves.
+    if (BUBBLES) { constraint += min(cavity_volume(cavities[i], x - position[i].xyz), max(1.0 - wall_volume(wall), 0.0)); }
+    update_multiplier(i, x, constraint);
 }

@@ -29,7 +29,7 @@ const BUBBLE_EDDIES: f32 = 0.6;
 /// K of the bubbles that rise past a particle, m²/s: its gas is a share of its volume.
 fn stirred_by_bubbles(i: u32) -> f32 {
     if (!BUBBLES) { return 0.0; }
-    let swept = f32(bubbled[2u * tags[i].y + 1u].w) * STIRRING_QUANTUM;
+    let swept = f32(bubbled[BUBBLED_VECTORS * tags[i].y + 1u].w) * STIRRING_QUANTUM;
     return BUBBLE_EDDIES / SCHMIDT * swept / unpack_bulk(bulk[i]).volume;
 }
 

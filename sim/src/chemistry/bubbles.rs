@@ -69,6 +69,19 @@ impl Bubbles {
         })
     }
 
+    /// The next step after or behind substep `n`.
+    pub fn step_from(n: u32, substeps: u32) -> Option<BubbleStep> {
+        (n..substeps).find_map(|n| Self::step_after(n, substeps))
+    }
+
+    /// Share of the time from the step before substep `n` to the next one that has passed at its end.
+    pub fn covered(n: u32, substeps: u32) -> f64 {
+        let next = (n..substeps).find_map(|at| Some((at, Self::step_after(at, substeps)?)));
+        next.map_or(1.0, |(at, step)| {
+            1.0 - f64::from(at - n) / f64::from(step.substeps)
+        })
+    }
+
     /// Share of the way to its next volume that a particle's gas goes in substep `n`, so that it is there when bubbles act.
     pub fn approach(n: u32, substeps: u32) -> f64 {
         let left = (n..substeps).find(|&n| Self::step_after(n, substeps).is_some());
@@ -95,7 +108,17 @@ mod tests {
             );
             assert!(Bubbles::step_after(substeps - 1, substeps).is_some());
             let mut way = 1.0;
+            let mut covered = 0.0;
             for n in 0..substeps {
+                let step = Bubbles::step_from(n, substeps).expect("a step ends the frame");
+                covered += 1.0 / f64::from(step.substeps);
+                assert!(
+                    f64::abs(covered - Bubbles::covered(n, substeps)) < 1e-12,
+                    "{substeps}, {n}"
+                );
+                if Bubbles::step_after(n, substeps).is_some() {
+                    covered = 0.0;
+                }
                 way *= 1.0 - Bubbles::approach(n, substeps);
                 if Bubbles::step_after(n, substeps).is_some() {
                     assert!(f64::abs(way) < 1e-12, "{substeps}: {way}");

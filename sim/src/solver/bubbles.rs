@@ -1,7 +1,7 @@
 //! Line 26, of vapour: bubbles, and their part of the state.
 
 use super::buffers::{BUBBLE_WORDS, BUBBLED_WORDS};
-use super::{Solver, SolverError};
+use super::{Solver, SolverError, lanes};
 use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::table::steam_enthalpy;
 use crate::chemistry::{ABSOLUTE_ZERO, GAS_CONSTANT, WATER_MOLAR_MASS};
@@ -19,6 +19,12 @@ const ACT: u32 = 2;
 /// `common/chemistry/live_places.wgsl`.
 const SET_ARGS: u64 = 32;
 const DROPS_ARGS: u64 = 12;
+
+/// `live_args` where no place of a bubble has anything: of each set of records two dispatches of no workgroups, and padding.
+const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
+
+/// Threads of a workgroup of the passes over bubbles.
+const GROUP: u32 = 64;
 
 /// Flags of substep `n` of `substeps`: whether bubbles acted right before it ([`ACTED`]), and whether they act after it ([`ACT`]).
 pub(super) fn flags(n: u32, substeps: u32) -> u32 {
@@ -46,7 +52,7 @@ const ATMOSPHERE: f64 = 101_325.0;
 
 /// Quanta of mass (V0·ρ0) and enthalpy (J per V0·ρ0) of the exchange of bubbles with particles, and of bubbles that join others, as in
 /// `common/chemistry/bubbled.wgsl`.
-const QUANTA: [f64; 2] = [1.0 / 8_589_934_592.0, 1.0 / 2048.0];
+const QUANTA: [f64; 2] = [1.0 / 2_147_483_648.0, 1.0 / 512.0];
 const JOINED: [f64; 2] = [1.0 / 16_777_216.0, 1.0 / 16.0];
 
 /// Mass and enthalpy of vapour, over V0·ρ0 and in J per V0·ρ0.
@@ -79,6 +85,8 @@ pub(super) fn record(
         enthalpy: (mass * steam_enthalpy(temperature)) as f32,
         membership: tag,
         radius: radius as f32,
+        radius_before: radius as f32,
+        position_before: position.as_vec3().to_array(),
         ..Bubble::default()
     }
 }
@@ -137,6 +145,52 @@ impl BubbleState {
 }
 
 impl Solver {
+    /// The constants `step` of substep `n` with those of the next step of the bubbles.
+    pub(super) fn with_bubbles(&self, step: Step, n: u32) -> Step {
+        let substeps = self.parameters.substeps;
+        let (Some(bubbles), Some(next)) =
+            (self.parameters.bubbles(), Bubbles::step_from(n, substeps))
+        else {
+            return step;
+        };
+        Step {
+            bubbles: flags(n, substeps),
+            approach: Bubbles::approach(n, substeps) as f32,
+            bubble_time: (f64::from(next.substeps) * self.parameters.substep_time()) as f32,
+            before_bubbles: u32::from(next.second) * bubbles.slots(),
+            cavity: Bubbles::covered(n, substeps) as f32,
+            ..step
+        }
+    }
+
+    /// `live` and `live_args` at a frame's end: the places of bubbles that are a cavity, or were one a step before, as the frame's last
+    /// step listed them; of drops none, as those are listed anew before they fly.
+    pub(super) fn listed_places(&self, bubbles: &[Bubble]) -> (Vec<u32>, [u32; 16]) {
+        let seen = (0u32..).zip(bubbles);
+        let seen = seen.filter(|(_, bubble)| bubble.radius > 0.0 || bubble.radius_before > 0.0);
+        let mut live: Vec<u32> = seen.map(|(slot, _)| slot).collect();
+        let count = live.len() as u32;
+        live.resize(bubbles.len(), 0);
+        live.extend([0, count]);
+        let lanes = lanes::of_bubbles(&self.gpu, self.lanes);
+        let mut args = NO_PLACES;
+        args[(SET_ARGS / 4) as usize] = (count * lanes).div_ceil(GROUP);
+        (live, args)
+    }
+
+    /// Line 18, of cavities.
+    pub(super) fn displace(&self, rec: &mut Recorder, step: &Step) -> Result<(), SolverError> {
+        let Some(pass) = &self.pipelines.cavity else {
+            return Ok(());
+        };
+        // The places that the step of the bubbles before this substep listed.
+        let set = u64::from(step.before_bubbles == 0);
+        self.pass(rec, pass)
+            .constants(step)
+            .indirect(&self.buffers.live_args, set * SET_ARGS)?;
+        Ok(())
+    }
+
     /// The step of the bubbles after substep `n`, if there is one.
     pub(super) fn bubble(
         &self,
@@ -152,24 +206,17 @@ impl Solver {
         let Some(part) = Bubbles::step_after(n, substeps) else {
             return Ok(());
         };
-        let step = Step {
-            bubble_time: (f64::from(part.substeps) * self.parameters.substep_time()) as f32,
-            before_bubbles: u32::from(part.second) * bubbles.slots(),
-            ..*step
-        };
         let args = &self.buffers.live_args;
         let first = u64::from(part.second) * SET_ARGS;
         if let Some(live) = &self.pipelines.live {
             self.pass(rec, live)
-                .constants(&step)
+                .constants(step)
                 .invocations(bubbles.slots())?;
         }
-        self.pass(rec, pass)
-            .constants(&step)
-            .indirect(args, first)?;
+        self.pass(rec, pass).constants(step).indirect(args, first)?;
         if let Some(spray) = &self.pipelines.spray {
             self.pass(rec, spray)
-                .constants(&step)
+                .constants(step)
                 .indirect(args, first + DROPS_ARGS)?;
         }
         Ok(())

@@ -20,8 +20,8 @@ use vitriol_shaders::layout::{Dew, Puff};
 pub(super) const LOAD_GROUP: u32 = 256;
 
 /// Words of a bubble's record, and of the exchange of bubbles with a particle, as in `common/chemistry`.
-pub(super) const BUBBLE_WORDS: usize = 20;
-pub(super) const BUBBLED_WORDS: usize = 8;
+pub(super) const BUBBLE_WORDS: usize = 28;
+pub(super) const BUBBLED_WORDS: usize = 16;
 /// Words of the drops of a bubble's jet or film, and of the exchange of drops with a particle, as in `common/chemistry`.
 pub(super) const DROPS_WORDS: usize = 16;
 pub(super) const SPRAYED_WORDS: usize = 4;
@@ -152,6 +152,10 @@ buffers! {
         held: 4 * s.held,
         /// Sums of the exchange of bubbles with particles (mass, enthalpy, gas and more) in whole quanta, by identity.
         bubbled: BUBBLED_WORDS as u64 * s.bubbly,
+        /// What of the density at each particle is cavities', in whole quanta; 0 between substeps.
+        cavities: 4 * s.bubbly,
+        /// Share of a particle's neighbourhood that cavities take, by slot.
+        hollow: s.bubbly,
         /// Gas volume of particles, the one that it goes to (V0), conductance of the bubbles around, and nucleation delay (s), by identity.
         gas: 4 * s.bubbly,
         /// Boiling state of particles, which bubbles read, by slot.
@@ -178,6 +182,8 @@ buffers! {
         claims: s.bubbles,
         /// By step and bubble: quanta of steam, enthalpy and air of the bubbles that join it.
         merging: 6 * s.bubbles,
+        /// By set of records and bubble, the place that takes its half if it divides, plus one.
+        splits: 2 * s.bubbles,
         /// Places that have a bubble or drops, by set of records.
         live: s.live,
         /// Sizes of the dispatches over them.
@@ -312,9 +318,6 @@ impl Sizes {
 fn bytes_of<T: bytemuck::NoUninit>(rows: Option<Vec<T>>) -> Vec<u8> {
     rows.map_or(Vec::new(), |rows| bytemuck::cast_slice(&rows).to_vec())
 }
-
-/// `live_args` where no place of a bubble has anything: of each set of records two dispatches of no workgroups, and padding.
-pub(super) const NO_PLACES: [u32; 16] = [0, 1, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0];
 
 impl Buffers {
     /// The buffers of a scene, with its tables written.

@@ -36,8 +36,6 @@ pub struct Counters {
     pub tension_skipped: u32,
     /// Nuclei that found no place among the bubbles, which are bounded in number.
     pub bubbles_refused: u32,
-    /// Particles and steps of the bubbles in which more gas came to a particle than it can hold.
-    pub gas_limited: u32,
     /// Jets and films whose drops were not thrown up, as those of the one before in their place still fly.
     pub spray_refused: u32,
     /// Particles that a cloth took up.

@@ -1,12 +1,10 @@
 //! The simulation loop, Algorithm 1, as passes in its order. `docs/paper-map.md` has each line's shader and function.
 
-use super::bubbles;
 use super::buffers::LOAD_GROUP;
 use super::pipelines::SolverPass;
 use super::vessels::flask_pose;
 use super::{Solver, SolverError};
 use crate::chemistry::Chemistry;
-use crate::chemistry::bubbles::Bubbles;
 use crate::chemistry::paper::Boiling;
 use crate::pose::Pose;
 use std::sync::atomic::Ordering;
@@ -83,6 +81,7 @@ impl Solver {
         for n in 0..substeps {
             let step = self.step(n);
             self.find_neighbours(rec, &step)?; // lines 9 to 12
+            self.displace(rec, &step)?; // 18, of cavities
             self.solve_density(rec, &step)?; // lines 18 to 21, and 22 to 25
             if let Some(&(_, substeps)) = impulses.iter().find(|&&(first, _)| first == n) {
                 self.hold_together(rec, &step, substeps)?; // 28, surface tension
@@ -213,18 +212,17 @@ impl Solver {
     /// Constants of substep `n`.
     fn step(&self, n: u32) -> Step {
         let flasks = self.flasks as u32;
-        Step {
+        let step = Step {
             time: self.parameters.substep_time() as f32,
             viscosity: self.viscosity_unit() as f32,
             carry: self.parameters.carried_share() as f32,
             before: n * flasks,
             after: (n + 1) * flasks,
             next: (n + 2) * flasks,
-            bubbles: bubbles::flags(n, self.parameters.substeps),
-            approach: Bubbles::approach(n, self.parameters.substeps) as f32,
             intensity: self.intensity().unwrap_or(0.0) as f32,
             ..Step::default()
-        }
+        };
+        self.with_bubbles(step, n)
     }
 
     /// XSPH coefficient of a substep, in whose units those of boiling particles

@@ -32,6 +32,8 @@ pub(super) struct Pipelines {
     /// Stops drops at the sash as `pane` stops particles; where there are tools, and bubbles throw up drops.
     pub(super) pane_spray: Option<SolverPass>,
     pub(super) predict: SolverPass,
+    /// Where there are bubbles.
+    pub(super) cavity: Option<SolverPass>,
     pub(super) cell_count: SolverPass,
     pub(super) cell_scan: SolverPass,
     pub(super) reorder: SolverPass,
@@ -159,6 +161,7 @@ impl Pipelines {
             tension,
             forces: make(sim::FORCES, &[("PREDICT", 1.0)])?,
             last_forces: make(sim::FORCES, &[])?,
+            cavity: of_bubbles(sim::CAVITY)?,
             live: of_bubbles(sim::LIVE)?,
             bubbles: of_bubbles(sim::BUBBLES)?,
             spray: match spec.parameters.bubbles() {

@@ -1,7 +1,7 @@
 //! The solver's state, taken from a device and put on one again: one table of its arrays, by which it is read, checked, written and
 //! hashed.
 
-use super::buffers::{Buffers, NO_PLACES};
+use super::buffers::Buffers;
 use super::transfer::{read, write};
 use super::{Counters, Solver, SolverError, SolverState};
 use bytemuck::Pod;
@@ -249,8 +249,11 @@ impl Solver {
         if self.pipelines.bubbles.is_some() {
             // At a frame's end nothing is to be born.
             rec.fill(&b.claims, 0)?;
-            rec.fill(&b.live, 0)?;
-            rec.upload(&b.live_args, &NO_PLACES)?;
+            rec.fill(&b.cavities, 0)?;
+            rec.fill(&b.splits, 0)?;
+            let (live, args) = self.listed_places(state.bubbles());
+            rec.upload(&b.live, &live)?;
+            rec.upload(&b.live_args, &args)?;
         }
         if self.steam.is_some() {
             rec.fill(&b.taken, 0)?;

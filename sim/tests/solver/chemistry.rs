@@ -7,6 +7,7 @@ mod bubbly_liquid;
 mod conserved;
 mod dew;
 mod dew_of_scenes;
+mod displaced;
 mod extremes;
 mod figures;
 mod idle;

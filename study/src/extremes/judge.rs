@@ -225,7 +225,6 @@ fn limiters(run: &Run) -> BTreeMap<Name, u32> {
         ("density taken at the end of its table", c.table_ends),
         ("surface tension left out", c.tension_skipped),
         ("bubble without a place", c.bubbles_refused),
-        ("gas cut to what a neighbourhood holds", c.gas_limited),
         ("drops of a jet or film left out", c.spray_refused),
     ]
     .into_iter()

@@ -24,6 +24,16 @@ struct Bubble {
     air: f32,
     air_temperature: f32,
     air_gone: f32,
+    /// Radius at the step before, m; 0 where there was none.
+    radius_before: f32,
+    /// Position then, m.
+    position_before: vec3<f32>,
+    /// Share of its volume that is a cavity.
+    cavity: f32,
+    /// Velocity of the liquid around it at the step before, m/s.
+    flow: vec3<f32>,
+    /// Whether it is wider than its vessel lets it be, and divides as soon as there is a place.
+    divides: f32,
 }
 
 fn is_there(bubble: Bubble) -> bool {

@@ -79,11 +79,16 @@ fn drag_speed(radius: f32, speed: f32, around: Around) -> f32 {
     return moving * max(sphere, min(2.0 / 3.0 * sqrt(eotvos), 8.0 / 3.0));
 }
 
-/// Velocity relative to the liquid after `time`, m/s: buoyancy and drag on a bubble that takes half of its volume of liquid along.
+/// Rate at which drag slows down a bubble that takes half of its volume of liquid along, 1/s.
+fn drag_rate(relative: vec3<f32>, radius: f32, around: Around) -> f32 {
+    return 0.75 / radius * drag_speed(radius, length(relative), around);
+}
+
+/// Velocity relative to the liquid after `time`, m/s: drag, and twice the acceleration that the liquid lacks or has over free fall
+/// (`buoyancy`, m/s²), as a bubble has the inertia of half of the liquid that it displaces (Magnaudet and Eames 2000).
 /// Others around it do not slow it down: in a pool that is churned they rise in one another's wakes (Ishii and Zuber 1979).
-fn risen(relative: vec3<f32>, up: vec3<f32>, radius: f32, around: Around, time: f32) -> vec3<f32> {
-    let drag = 0.75 / radius * drag_speed(radius, length(relative), around);
-    return (relative + 2.0 * GRAVITY * time * up) / (1.0 + drag * time);
+fn risen(relative: vec3<f32>, buoyancy: vec3<f32>, drag: f32, time: f32) -> vec3<f32> {
+    return (relative + 2.0 * time * buoyancy) / (1.0 + drag * time);
 }
 
 /// Nusselt number of a bubble with that speed, as Chen and Mayinger measured it (1992); of a sphere at rest 2.

@@ -2,6 +2,8 @@
 // For passes that bind particles, `boils`, `gas`, `bubbles` and `bubbled` as `sim/bubbles.wgsl` does.
 //!include common/chemistry/bubble_laws.wgsl
 //!include common/chemistry/bubbled.wgsl
+//!include common/chemistry/bulk.wgsl
+//!include common/chemistry/cavity.wgsl
 //!include common/liquid/cells_around.wgsl
 //!include common/liquid/lane_nearest.wgsl
 
@@ -19,6 +21,31 @@ fn share_at(square: f32) -> f32 {
 fn contact_at(square: f32, radius: f32) -> f32 {
     let reach = radius + CONTACT * SPACING;
     return share_at(square / (reach * reach));
+}
+
+/// Least share of liquid that is divided by: of a lone drop between cavities.
+const LEAST_LIQUID: f32 = 0.25;
+/// Most gas of a particle over its liquid: with more, its neighbours are too far.
+const HELD: f32 = 1.5;
+
+/// Share of a particle's neighbourhood that cavities but for `bubble` leave to liquid, and to its own cavity.
+fn liquid_share(j: u32, distance: f32, bubble: Bubble) -> f32 {
+    var others = hollow[j];
+    if (bubble.cavity > 0.0) { others -= bubble.cavity * cavity_at(distance, bubble.radius).x; }
+    return clamp(1.0 - others, LEAST_LIQUID, 1.0);
+}
+
+/// How much what lies in a direction of that cosine with upwards covers a bubble: of a cavity what lies straight above it, as its sides
+/// may lie at glass. Both have the same integral over all directions.
+fn above_at(cosine: f32, cavity: f32) -> f32 {
+    let square = cosine * cosine;
+    return mix(cosine, 2.5 * square * square, cavity);
+}
+
+/// Share of the integral of `share_at` that lies beyond the share q of the reach.
+fn covered_beyond(q: f32) -> f32 {
+    let square = q * q;
+    return 1.0 - q * square * (35.0 - square * (42.0 - 15.0 * square)) / 8.0;
 }
 
 /// The larger of two bubbles has the larger key.
@@ -52,6 +79,8 @@ struct Surrounding {
     nearest_of_all: Nearest,
     /// Key of the largest larger bubble that it touches; 0 for none.
     larger: u32,
+    /// Gas of what is around over what it can hold.
+    crowded: f32,
 }
 
 /// Of `bubble` in `slot` within `reach`, in cells `cells` around its own; others are those from `first` on. All lanes must ask.
@@ -60,6 +89,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.nearest = Nearest(1e9, 0u);
     s.nearest_of_all = Nearest(1e9, 0u);
     let key = key_of(bubble, slot);
+    let share = bubble.cavity;
     let cell = cell_of(bubble.position);
     let count = select(0u, count_around(cells), is_there(bubble));
     for (var n = lane; n < count; n += LANES) {
@@ -82,7 +112,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             let lack = contact * max(-boil.x, 0.0);
             s.weight += weight;
             s.contact += contact;
-            s.cover += max(dot(offset, up) / distance, 0.0) * weight * (1.0 + gas[tags[j].y].x);
+            s.cover += above_at(max(dot(offset, up) / distance, 0.0), share) * weight * (1.0 + gas[tags[j].y].x) / liquid_share(j, distance, bubble);
             s.velocity += weight * velocity[j].xyz;
             s.temperature += weight * heat[j].x;
             s.acid += weight * heat[j].y;
@@ -91,10 +121,14 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
             s.growing += excess * boil.z;
             s.shrinking += lack * boil.z;
             s.nearest = nearer(s.nearest, Nearest(distance, j));
+            let held = gas[tags[j].y];
+            s.crowded += weight * held.y / max(HELD * (unpack_bulk(bulk[j]).volume - held.x), 1e-3);
         }
     }
     s.weight = lane_sum(s.weight);
-    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * reach * reach * reach);
+    let around = 1.0 - share * (1.0 - covered_beyond(bubble.radius / reach));
+    s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * around * reach * reach * reach);
+    s.crowded = lane_sum(s.crowded);
     s.velocity = lane_sum3(s.velocity);
     let thermal = lane_sum3(vec3<f32>(s.temperature, s.acid, s.contact));
     s.contact = thermal.z;
@@ -105,6 +139,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
     s.nearest_of_all = lane_nearest(s.nearest_of_all);
     s.larger = lane_max(s.larger);
     s.velocity *= per_weight;
+    s.crowded *= per_weight;
     s.temperature = thermal.x * per_weight;
     s.acid = thermal.y * per_weight;
     s.superheat = excess.x / max(s.contact, 1e-12);

@@ -13,6 +13,10 @@ fn count_of_live() -> u32 {
     return SLOTS + set_of_step();
 }
 
+/// Places whose numbers differ from a place's in one of these bits may take the half of a bubble in it that divides.
+const HALVES: u32 = 6u;
+const NO_PARENT: u32 = 0xffffffffu;
+
 /// Words of `live_args` of a set, and where in them are the sizes of the dispatches over bubbles and over drops, as `solver/bubbles.rs`
 /// reads them.
 const SET_ARGS: u32 = 8u;

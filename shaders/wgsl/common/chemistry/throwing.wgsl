@@ -6,8 +6,6 @@
 //!include common/liquid/counters.wgsl
 //!include common/maths/lot.wgsl
 
-/// (acid fraction, enthalpy in J/kg, …, mass over V0·ρ0)
-@group(0) @binding(13) var<storage, read> matter: array<vec4<f32>>;
 @group(0) @binding(14) var<storage, read_write> drops: array<Drops>;
 /// By identity: what drops did to a particle.
 @group(0) @binding(15) var<storage, read_write> sprayed: array<atomic<i32>>;

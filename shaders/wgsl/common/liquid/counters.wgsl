@@ -23,8 +23,6 @@ struct Counters {
     tension_skipped: atomic<u32>,
     /// Nuclei that found no place among the bubbles.
     bubbles_refused: atomic<u32>,
-    /// Particles whose gas was cut to what a neighbourhood can hold.
-    gas_limited: atomic<u32>,
     /// Jets and films whose drops were not thrown: those of the one before still fly.
     spray_refused: atomic<u32>,
     /// Particles that a cloth took up.

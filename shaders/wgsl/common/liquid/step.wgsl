@@ -22,9 +22,11 @@ struct Step {
     bubbles: u32,
     /// Share of the way to its next volume that a particle's gas goes in this substep.
     approach: f32,
-    /// Time of a step of the bubbles, seconds, and first of their records before it.
+    /// Time of the next step of the bubbles, seconds, and first of their records before it.
     bubble_time: f32,
     before_bubbles: u32,
+    /// Share of the way from a cavity's last place and size to its present ones at this substep's end.
+    cavity: f32,
     /// k_v of Eq. 17.
     intensity: f32,
 }

@@ -270,7 +270,7 @@ fn a_bubble_collapses_as_akiyama_found() {
 fn bubbles_that_touch_join_when_their_film_has_drained() {
     let device = gpu::device();
     for spacing in [D, 0.4 * D] {
-        for (apart, joins) in [(1.9e-3, true), (2.2e-3, false)] {
+        for (apart, joins) in [(1.6e-3, true), (2.2e-3, false)] {
             let mut setup = ball(100.0, 0.0, 14);
             let scale = spacing / D;
             setup.parameters.spacing = spacing;

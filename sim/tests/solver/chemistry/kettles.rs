@@ -183,7 +183,8 @@ fn more_bubbles_than(most: u32, places: usize) {
         .filter(|b| b.mass > 0.0 || b.gone[0] > 0.0)
         .count();
     eprintln!("{used} of {places} used, {counters:?}");
-    assert!(counters.bubbles_refused > 1000, "{counters:?}");
+    // In the cup of 65,536 places most of the liquid is thrown out before more are asked for.
+    assert!(counters.bubbles_refused > 500, "{counters:?}");
     assert!(used > places.min(1000) / 2, "{used}");
 }
 

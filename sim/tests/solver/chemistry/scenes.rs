@@ -45,6 +45,7 @@ fn expected(p: &Parameters, loads: bool, line_26: &[&'static str]) -> Vec<String
     let impulses = p.surface.as_ref().map(of_surface).unwrap_or_default();
     for n in 0..p.substeps {
         all.extend(["cell_count", "cell_scan", "reorder", "list"]);
+        all.extend(bubbles.map(|_| "cavity"));
         // Carried multipliers displace first.
         all.extend((p.carry_rate > 0.0).then_some("displacement"));
         all.extend(["multiplier", "displacement"].repeat(p.iterations as usize));

@@ -238,7 +238,9 @@ fn nothing_is_lost_of_what_is_thrown_up() {
     let other = setup.solver(&device);
     other.restore(&middle).unwrap();
     frames(&device, &other, &[Pose::IDENTITY], 6);
-    assert_eq!(solver.snapshot().unwrap(), other.snapshot().unwrap());
+    let [a, b] = [&solver, &other].map(|it| it.snapshot().unwrap());
+    assert_eq!(a.hash(), b.hash());
+    assert!(a == b, "a restored run has another state");
 }
 
 mod long {
