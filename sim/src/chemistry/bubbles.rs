@@ -110,8 +110,8 @@ mod tests {
             let mut way = 1.0;
             let mut covered = 0.0;
             for n in 0..substeps {
-                let step = Bubbles::step_from(n, substeps).expect("a step ends the frame");
-                covered += 1.0 / f64::from(step.substeps);
+                let step = Bubbles::step_from(n, substeps).map_or(0, |step| step.substeps);
+                covered += 1.0 / f64::from(step);
                 assert!(
                     f64::abs(covered - Bubbles::covered(n, substeps)) < 1e-12,
                     "{substeps}, {n}"
