@@ -68,13 +68,15 @@ const AT_GLASS: f32 = 0.2;
 /// Share of solid space, a support radius below a particle that plunges, from which on it takes no air down.
 const BESIDE_GLASS: f32 = 0.01;
 /// Most steam that all bubbles around a particle exchange with it in a step, V0·ρ0, and over what its superheat makes. How many bubbles
-/// there are is known of the step before; since then they may be more by what a radius grows, and a word of quanta holds 8 times that.
+/// there are is known of the step before; since then they may be more by what a radius grows, and a word of quanta holds 33 times that.
 const MOST_EXCHANGED: f32 = 0.03;
 const MOST_OF_SUPERHEAT: f32 = 0.5;
 /// Most gas that a bubble gives a particle, V0: many times what it can hold, and a word of quanta holds it of 256 bubbles.
 const MOST_GIVEN: f32 = 8.0;
 /// How fast the share of a bubble that is a cavity follows the crowd, in a step.
 const FOLLOWS: f32 = 0.3;
+/// Most of it in a step: until the next one, particles hold what has become a cavity too.
+const MOST_FOLLOWED: f32 = 0.2;
 /// Share of the overlap of two cavities that they leave in a step.
 const PARTED: f32 = 0.5;
 /// Most of such ways in a step, over h: a cavity that leaps crushes particles.
@@ -83,10 +85,12 @@ const MOST_SHIFT: f32 = 0.2;
 const WAY_QUANTUM: f32 = 1e-8;
 /// Share of a vessel's width that a bubble has at most.
 const WIDEST_BUBBLE: f32 = 0.5;
-/// How far from its place each half of a bubble that divides begins and ends the step, over its radius.
-const HALF_FROM: f32 = 0.3;
-const HALF_TO: f32 = 0.7;
-/// Most acceleration of the liquid around a bubble that its velocity is changed by, over gravity's: more is noise.
+/// How far from its place each half of a bubble that divides is at the step's end, over its radius.
+const PARTS_BY: f32 = 0.7;
+/// Radius over h beyond which a bubble divides anywhere: `CAVITY_CELLS` have no room for what is around it.
+const MOST_RADIUS: f32 = 7.0;
+/// Most acceleration of the liquid around a bubble that its velocity is changed by, over gravity's: more is noise. Without weight
+/// there is none.
 const MOST_ACCELERATION: f32 = 1.0;
 
 /// Step of the differences by which the way from glass is found, m.
@@ -315,16 +319,19 @@ fn divided(before: Bubble, whole: Bubble, side: f32) -> Bubble {
     bubble.enthalpy -= 0.5 * whole.enthalpy;
     bubble.air -= 0.5 * whole.air;
     let gravity = vec3<f32>(GRAVITY_X, GRAVITY_Y, GRAVITY_Z);
-    let across = sideways(-gravity / max(length(gravity), 1e-9), bitcast<u32>(whole.position.x), bitcast<u32>(whole.radius));
-    bubble.position_before = whole.position + side * HALF_FROM * whole.radius * across;
-    bubble.position = whole.position + side * HALF_TO * whole.radius * across;
+    let weight = length(gravity);
+    let up = select(vec3<f32>(0.0, 1.0, 0.0), -gravity / max(weight, 1e-9), weight > 1e-6);
+    let across = sideways(up, bitcast<u32>(whole.position.x), bitcast<u32>(whole.radius));
+    // Both begin the step as the whole: where cavities overlap there is one.
+    bubble.position_before = whole.position;
+    bubble.position = whole.position + side * PARTS_BY * whole.radius * across;
     return bubble;
 }
 
-/// Share of a bubble that is a cavity: what of it particles cannot resolve, but for what they cannot hold.
+/// Share of a bubble that is a cavity: as it is wider than particles resolve, and what of it they cannot hold.
 fn cavity_of(bubble: Bubble, s: Surrounding) -> f32 {
-    let crowd = (s.crowded - 1.0) * (1.0 - bubble.cavity + 0.05);
-    return clamp(bubble.cavity + FOLLOWS * crowd, cavity_share(bubble.radius), 1.0);
+    let crowd = FOLLOWS * (s.crowded - 1.0) * (1.0 - bubble.cavity + 0.05);
+    return clamp(bubble.cavity + clamp(crowd, -MOST_FOLLOWED, MOST_FOLLOWED), cavity_share(bubble.radius), 1.0);
 }
 
 /// Sum of the cubes of two bubbles' radii, m³.
@@ -332,9 +339,9 @@ fn together(a: Bubble, b: Bubble) -> f32 {
     return a.radius * a.radius * a.radius + b.radius * b.radius * b.radius;
 }
 
-/// Whether what two bubbles become is narrow enough to last.
+/// Whether what two bubbles become is narrow enough to last, and for their vessel.
 fn can_join(a: Bubble, b: Bubble, around: Around) -> bool {
-    let stable = stable_radius(around);
+    let stable = min(stable_radius(around), widest_at(a));
     return together(a, b) <= stable * stable * stable;
 }
 
@@ -351,13 +358,13 @@ fn touching_of(bubble: Bubble, around: Around, slot: u32, first: u32, lane: u32)
     var way = vec3<i32>(0);
     var larger = 0u;
     let key = key_of(bubble, slot);
-    let count = select(0u, live[count_of_live()], bubble.cavity > 0.0);
+    let count = select(0u, live[count_of_live()], cavity_share(bubble.radius) > 0.0);
     for (var n = lane; n < count; n += LANES) {
         let other = bubbles[first + live[n]];
         let offset = bubble.position - other.position;
         let distance = length(offset);
         let overlap = bubble.radius + other.radius - distance;
-        if (live[n] == slot || !is_there(other) || other.membership != bubble.membership || overlap <= 0.0) { continue; }
+        if (live[n] == slot || !is_there(other) || other.divides > 0.0 || other.membership != bubble.membership || overlap <= 0.0) { continue; }
         if (can_join(bubble, other, around)) {
             let others = key_of(other, live[n]);
             if (others > key) { larger = max(larger, others); }
@@ -370,12 +377,13 @@ fn touching_of(bubble: Bubble, around: Around, slot: u32, first: u32, lane: u32)
     return Touching(lane_max(larger), vec3<f32>(sum) * WAY_QUANTUM);
 }
 
-/// Whether a bubble is wider than half of its vessel where it is.
-fn is_too_wide(bubble: Bubble) -> bool {
-    if (FLASKS == 0u || bubble.membership == NOBODYS) { return false; }
+/// Greatest radius of a bubble where one is, m: half of its vessel's.
+fn widest_at(bubble: Bubble) -> f32 {
+    if (FLASKS == 0u || bubble.membership == NOBODYS) { return MOST_RADIUS * SUPPORT; }
     let k = bubble.membership - 1u;
     let y = flask_from_stage(poses[step.after + k], bubble.position).y;
-    return bubble.radius > WIDEST_BUBBLE * inner_radius(k, clamp(y, flasks[k].floor + bubble.radius, flasks[k].rim));
+    let lowest = min(flasks[k].floor + bubble.radius, flasks[k].rim);
+    return min(WIDEST_BUBBLE * inner_radius(k, clamp(y, lowest, flasks[k].rim)), MOST_RADIUS * SUPPORT);
 }
 
 /// Where a cavity lies beside glass and not in it.
@@ -443,7 +451,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     if (is_born) { bubble = born(bubble, claim - 1u, of_air); }
     if (half.parent != NO_PARENT) { bubble = divided(bubble, bubbles[first + half.parent], half.side); }
     bubble.radius = select(0.0, radius_of_volume(volume_of(bubble)), is_there(bubble));
-    if (half.parent != NO_PARENT) { bubble.radius_before = bubble.radius; }
+    if (half.parent != NO_PARENT) { bubble.radius_before = bubbles[first + half.parent].radius; }
     // All lanes of a place return alike.
     if (!is_there(bubble)) {
         if (lane == 0u) { bubbles[other_first + slot] = bubble; }
@@ -480,12 +488,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     }
     var c: Conductance;
     if (!bursts) { c = conductance_of(bubble, s, around, time); }
-    let at_surface = cover_of(s.cover, wall, up) < mix(COVERED, CAVITY_COVERED, bubble.cavity);
+    // Only lane 0 has a map's wall.
+    let uncovered = lane == 0u && cover_of(s.cover, wall, up) < mix(COVERED, CAVITY_COVERED, bubble.cavity);
+    let at_surface = lane_max(u32(uncovered)) > 0u;
     let motion = motion_of(bubble, s, around, gravity, is_born, at_surface, time);
     drag_along(bubble, motion, reach, cells, lane);
     let gained = scatter(bubble, s, c, reach, cells, lane, time);
     let touching = touching_of(bubble, around, slot, first, lane);
-    let larger = select(s.larger, touching.larger, bubble.cavity > 0.0);
+    // A bubble that divides in this step joins none.
+    let larger = select(select(s.larger, touching.larger, cavity_share(bubble.radius) > 0.0), 0u, half.parent != NO_PARENT);
     if (lane != 0u) { return; }
     let nearest = tags[s.nearest.particle].y;
     if (is_born && !of_air) {
@@ -522,7 +533,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.radius = radius_of_volume(volume_of(bubble));
     let shift = touching.way + clear_of_glass(bubble) - bubble.position;
     bubble.position += shift * min(MOST_SHIFT * SUPPORT / max(length(shift), 1e-9), 1.0);
-    bubble.divides = select(0.0, 1.0, is_too_wide(bubble));
+    bubble.divides = select(0.0, 1.0, bubble.radius > widest_at(bubble));
 
     let other_slot = larger & 0xffffu;
     let other = bubbles[first + other_slot];
@@ -530,6 +541,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.touching = select(0.0, bubble.touching + time, joins_other);
     if (joins_other) {
         // Each would follow the liquid that it moves itself, away from the other.
+        bubble.flow += other.velocity - bubble.velocity;
         bubble.velocity = other.velocity;
         if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
             let words = 3u * (other_first + other_slot);

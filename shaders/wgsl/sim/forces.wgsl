@@ -278,7 +278,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var v = before.xyz;
     if (DRAGS) { v += step.viscosity * drag; } // 27
     if (CONFINEMENT > 0.0) { v += step.time * confinement(sums.eta, omega); } // 28
-    if (BUBBLES) { v += step.time * LIFT_QUANTUM * vec3<f32>(bubbled[BUBBLED_VECTORS * tags[i].y + BUBBLED_LIFTED].xyz); } // 28
+    if (BUBBLES && tag != REMOVED) { v += step.time * LIFT_QUANTUM * vec3<f32>(bubbled[BUBBLED_VECTORS * tags[i].y + BUBBLED_LIFTED].xyz); } // 28
     v = clamp_speed(v); // 24
     velocity[i] = pack_velocity(v, carried_by(before));
     var volume = 1.0;

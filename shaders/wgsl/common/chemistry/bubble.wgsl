@@ -24,7 +24,7 @@ struct Bubble {
     air: f32,
     air_temperature: f32,
     air_gone: f32,
-    /// Radius at the step before, m; 0 where there was none.
+    /// Radius with which this step began, m; 0 where there was no bubble.
     radius_before: f32,
     /// Position then, m.
     position_before: vec3<f32>,

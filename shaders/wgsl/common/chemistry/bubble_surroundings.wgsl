@@ -25,10 +25,10 @@ fn contact_at(square: f32, radius: f32) -> f32 {
 
 /// Least share of liquid that is divided by: of a lone drop between cavities.
 const LEAST_LIQUID: f32 = 0.25;
-/// Most gas of a particle over its liquid: with more, its neighbours are too far.
+/// Gas of a particle over its liquid from which on bubbles around it become cavities: with more, its neighbours are too far.
 const HELD: f32 = 1.5;
 
-/// Share of a particle's neighbourhood that cavities but for `bubble` leave to liquid, and to its own cavity.
+/// Share of a particle's neighbourhood that no cavity takes but that of `bubble`.
 fn liquid_share(j: u32, distance: f32, bubble: Bubble) -> f32 {
     var others = hollow[j];
     if (bubble.cavity > 0.0) { others -= bubble.cavity * cavity_at(distance, bubble.radius).x; }
@@ -126,7 +126,7 @@ fn gather(bubble: Bubble, slot: u32, first: u32, reach: f32, cells: i32, lane: u
         }
     }
     s.weight = lane_sum(s.weight);
-    let around = 1.0 - share * (1.0 - covered_beyond(bubble.radius / reach));
+    let around = max(1.0 - share * (1.0 - covered_beyond(min(bubble.radius / reach, 1.0))), 0.1);
     s.cover = lane_sum(s.cover) * 4.0 * VOLUME / (FULL * around * reach * reach * reach);
     s.crowded = lane_sum(s.crowded);
     s.velocity = lane_sum3(s.velocity);
