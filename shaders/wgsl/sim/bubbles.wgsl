@@ -541,7 +541,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>, @builtin(local_invocation_
     bubble.touching = select(0.0, bubble.touching + time, joins_other);
     if (joins_other) {
         // Each would follow the liquid that it moves itself, away from the other.
-        bubble.flow += other.velocity - bubble.velocity;
         bubble.velocity = other.velocity;
         if (bubble.touching > drainage_time(bubble.radius, other.radius, around)) {
             let words = 3u * (other_first + other_slot);
