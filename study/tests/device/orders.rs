@@ -44,18 +44,18 @@ fn coarse_water_into_acid_boils_and_acid_into_water_hardly_does() {
 mod long {
     use super::*;
 
-    /// Water poured into acid boils far more than acid into water at the preset's resolution, and it goes on boiling at the surface. Ten
-    /// seeds on an H200 differ by a factor of twelve at the end of the track `two-flasks`. By then five times as much has been thrown out
-    /// too; two seconds earlier it is still on its way. Acid in water makes all of its steam while it falls in, within 1.4 s: 40 mg here.
-    /// Water on acid makes 160 mg by 3.9 s, and half as much again by 5.
+    /// Water poured into acid boils more than acid into water at the preset's resolution, and it goes on boiling at the surface. Seeds on
+    /// an H200 differ by a factor of two to three (`docs/measurements/bubbles.md`). Until bubbles displaced liquid it was ten: the coarse
+    /// particles around a bubble averaged cold water in, and it died; finer ones had four. Acid in water makes all of its steam while it
+    /// falls in, within 1.4 s: 78 mg here, where water on acid makes 187 mg.
     #[test]
     fn water_into_acid_boils_and_acid_into_water_hardly_does() {
         let [wrong, right] = both_ways(5.0, |_| {});
-        assert!(wrong.steam > 5.0 * right.steam, "{wrong:?} {right:?}");
-        // Bursting bubbles throw milligrams: no liquid leaves in bulk.
+        assert!(wrong.steam > 1.8 * right.steam, "{wrong:?} {right:?}");
+        // Bursting bubbles throw milligrams, and particles of 24 mg beside them: no liquid leaves in bulk. Seeds have up to 0.25 g.
         for boiled in [wrong, right] {
             assert!(
-                boiled.thrown > 0.0 && boiled.thrown < 0.1,
+                boiled.thrown > 0.0 && boiled.thrown < 0.4,
                 "{wrong:?} {right:?}"
             );
         }
