@@ -11,14 +11,14 @@ use vitriol_tests::gpu;
 
 const PLACES: usize = AROUND * UP;
 
-/// A kettle that loses heat, and an empty one like it beside it.
+/// A kettle that loses heat, and an empty one like it, further than what boils up flies.
 fn kettles() -> (Setup, [Pose; 2]) {
     let mut setup = kettle(0.002, 4096);
     if let Some(Chemistry::Physical(law)) = &mut setup.parameters.chemistry {
         law.losses = built_in().losses;
     }
     setup.flasks.push(setup.flasks[0].clone());
-    (setup, [Pose::IDENTITY, at(0.2, 0.0, 0.0)])
+    (setup, [Pose::IDENTITY, at(3.0, 0.0, 0.0)])
 }
 
 fn film(state: &SolverState, place: usize) -> f64 {
