@@ -51,11 +51,12 @@ mod long {
     #[test]
     fn water_into_acid_boils_and_acid_into_water_hardly_does() {
         let [wrong, right] = both_ways(5.0, |_| {});
-        assert!(wrong.steam > 1.8 * right.steam, "{wrong:?} {right:?}");
-        // Bursting bubbles throw milligrams, and particles of 24 mg beside them: no liquid leaves in bulk. Seeds have up to 0.25 g.
+        assert!(wrong.steam > 2.0 * right.steam, "{wrong:?} {right:?}");
+        // Bursting bubbles throw milligrams, and particles of 24 mg beside them: no liquid leaves in bulk. On an H200 seeds have up to
+        // 0.25 g.
         for boiled in [wrong, right] {
             assert!(
-                boiled.thrown > 0.0 && boiled.thrown < 0.4,
+                boiled.thrown > 0.0 && boiled.thrown < 0.3,
                 "{wrong:?} {right:?}"
             );
         }

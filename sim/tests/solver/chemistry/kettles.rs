@@ -171,8 +171,8 @@ fn a_cup_that_boils_upside_down() {
 }
 
 /// A nucleus at each particle, and fewer places, or more than the 65,536 that a key has bits for. Those without one are counted.
-fn more_bubbles_than(most: u32, places: usize) {
-    let (particles, profile) = cup(1200, 108.0, 0.0);
+fn more_bubbles_than(most: u32, places: usize, count: usize) {
+    let (particles, profile) = cup(count, 108.0, 0.0);
     let setup = boils(particles, profile, 1e-4, most);
     let (solver, counters) = run(&setup, Pose::IDENTITY);
     let state = solver.snapshot().unwrap();
@@ -183,14 +183,13 @@ fn more_bubbles_than(most: u32, places: usize) {
         .filter(|b| b.mass > 0.0 || b.gone[0] > 0.0)
         .count();
     eprintln!("{used} of {places} used, {counters:?}");
-    // In the cup of 65,536 places most of the liquid is thrown out before more are asked for.
-    assert!(counters.bubbles_refused > 500, "{counters:?}");
+    assert!(counters.bubbles_refused > 1000, "{counters:?}");
     assert!(used > places.min(1000) / 2, "{used}");
 }
 
 #[test]
 fn more_bubbles_than_there_are_places() {
-    more_bubbles_than(64, 64);
+    more_bubbles_than(64, 64, 1200);
 }
 
 /// Acid of 300 °C under water of 300 °C, with all that the built-in scenes have: water boils away but for a few per cent, and so many
@@ -232,6 +231,6 @@ mod long {
 
     #[test]
     fn more_bubbles_than_there_may_be_places() {
-        more_bubbles_than(1_000_000, 65_536);
+        more_bubbles_than(1_000_000, 65_536, 2000);
     }
 }
