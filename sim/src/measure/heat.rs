@@ -75,6 +75,10 @@ pub struct Ledger {
     pub gas: f64,
     /// Volume of those that lie at the surface, m³.
     pub foam: f64,
+    /// Mass of the particles that a cloth took up, or that turned non-finite, kg.
+    pub taken_out: f64,
+    /// Their enthalpy then, J.
+    pub taken_out_enthalpy: f64,
     /// Enthalpy that is held, J.
     pub held: f64,
     /// Heat gained from around, J; negative where it was lost.
@@ -92,9 +96,9 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// held + steam − exchanged, J: the conserved enthalpy.
+    /// held + steam + taken out − exchanged, J: the conserved enthalpy.
     pub fn balance(&self) -> f64 {
-        self.held + self.steam_enthalpy - self.exchanged
+        self.held + self.steam_enthalpy + self.taken_out_enthalpy - self.exchanged
     }
 
     /// Change of the balance since `start`, over the enthalpy that
@@ -201,8 +205,8 @@ fn superheat(chemistry: &Chemistry, state: &SolverState, present: &[usize]) -> O
             let boiling_point = paper.boiling?.boiling_point;
             Box::new(move |_| boiling_point)
         }
-        Chemistry::Physical(_) => {
-            let table = SolutionTable::new();
+        Chemistry::Physical(physical) => {
+            let table = SolutionTable::fed_by(physical.feed);
             // A particle's acid fraction there is that of its liquid, of which the most watery part boils.
             Box::new(move |slot| {
                 let variance = state.eddies[slot][1].into();
@@ -246,6 +250,14 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         sum.held += mass * enthalpy;
         sum.turnover += mass * enthalpy.abs();
     }
+    for slot in (0..state.matter.len()).filter(|&slot| !state.is_present(slot)) {
+        let [_, enthalpy, _, mass] = state.matter[slot].map(f64::from);
+        // Of one that turned non-finite that may not be known.
+        if (mass * enthalpy).is_finite() {
+            sum.taken_out += mass;
+            sum.taken_out_enthalpy += mass * enthalpy;
+        }
+    }
     // Also of particles that were taken out: their exchange until then counts.
     for &entry in &state.ledger {
         let [exchanged, steam, steam_enthalpy, _] = entry.map(f64::from);
@@ -285,6 +297,8 @@ fn ledger(state: &SolverState, present: &[usize], particle_mass: f64) -> Option<
         mass: m * sum.mass,
         acid: m * sum.acid,
         vapour: m * sum.vapour,
+        taken_out: m * sum.taken_out,
+        taken_out_enthalpy: m * sum.taken_out_enthalpy,
         spray: m * sum.spray,
         spray_fallen: m * sum.spray_fallen,
         air: m * sum.air,

@@ -102,7 +102,9 @@ fn heat_is_summed_by_mass_and_superheat_by_composition() {
         state.tags[i][0] = [1, 2, 2, 0][i];
     }
     state.ledger.fill([0.0; 4]);
-    // Of one that was taken out, too.
+    // Of those that were taken out, too.
+    state.matter[4..].fill([0.0; 4]);
+    state.matter[6] = [0.2, -1e5, 0.0, 1.5];
     state.ledger[0] = [-20.0, 0.5, 300.0, 0.0];
     state.ledger[6] = [-10.0, 0.25, 100.0, 0.0];
     let found = measure_heat(&p, &state).unwrap();
@@ -131,14 +133,16 @@ fn heat_is_summed_by_mass_and_superheat_by_composition() {
         (ledger.exchanged, -30.0),
         (ledger.steam, 0.75),
         (ledger.steam_enthalpy, 400.0),
+        (ledger.taken_out, 1.5),
+        (ledger.taken_out_enthalpy, -1.5e5),
     ] {
         assert!(
             near(own / unit, expected),
             "{own} for {expected}: {ledger:?}"
         );
     }
-    // Enthalpy held and carried off, less the heat gained.
-    assert!(near(ledger.balance() / unit, 7e5 + 400.0 + 30.0));
+    // Enthalpy held, carried off and taken out, less the heat gained.
+    assert!(near(ledger.balance() / unit, 7e5 + 400.0 - 1.5e5 + 30.0));
     let mut later = ledger;
     later.held += 0.01 * ledger.turnover;
     assert!(near(later.closure(&ledger), 0.01));
